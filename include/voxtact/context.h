@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/export.h"
+#include "voxtact/methods.h"
+#include "voxtact/result.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxtact {
+
+struct ContextImpl;
+
+/// `text` is valid during the call only. May be called from any thread that calls voxtact.
+using LogCallback = void (*)(void* user, const char* text);
+
+/// The caller's device. Valid when zero-initialised: check() then names everything that is missing. Nothing in it is
+/// kept but the handles, `getInstanceProcAddr`, the allocator and the log callback; those must outlive the Context.
+struct ContextDesc {
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr; ///< the caller's loader; never looked up by voxtact
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    std::uint32_t apiVersion = 0; ///< VkApplicationInfo::apiVersion of the instance; at least VK_API_VERSION_1_3
+    /// The chain that vkCreateDevice was given, or one that says the same: what was *enabled*, not what is supported.
+    /// Both VkPhysicalDeviceVulkan1xFeatures and the single-feature structs are read.
+    const VkPhysicalDeviceFeatures2* enabledFeatures = nullptr;
+    std::span<const char* const> enabledInstanceExtensions; ///< only VK_EXT_debug_utils is looked for: names and labels
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;         ///< optional; used, never destroyed
+    const VkAllocationCallbacks* allocator = nullptr;       ///< optional
+    LogCallback log = nullptr;                              ///< optional; warnings, a line each
+    void* logUser = nullptr;
+};
+
+/// A feature that voxtact uses, as data.
+struct Requirement {
+    const char* feature;   ///< member of `structure`, as Vulkan spells it
+    const char* structure; ///< e.g. "VkPhysicalDeviceVulkan13Features"
+    bool required;         ///< false: recommended
+    const char* without;   ///< what is lost without it
+};
+
+/// Everything that voxtact requires or recommends, in the order in which check() reports it.
+[[nodiscard]] VOXTACT_API std::span<const Requirement> requirements() noexcept;
+
+/// A feature chain for vkCreateDevice with every one of requirements() that `supported` offers, and nothing else.
+/// Add your own features to `features2.features`, `vulkan12` and `vulkan13`, or chain more structs behind `vulkan13`.
+class FeatureRequest {
+  public:
+    /// `supported`: the chain that vkGetPhysicalDeviceFeatures2 filled in. Null asks for the required features only.
+    VOXTACT_API explicit FeatureRequest(const VkPhysicalDeviceFeatures2* supported) noexcept;
+    FeatureRequest(const FeatureRequest&) = delete;
+    FeatureRequest& operator=(const FeatureRequest&) = delete;
+
+    VkPhysicalDeviceFeatures2 features2{};
+    VkPhysicalDeviceVulkan12Features vulkan12{};
+    VkPhysicalDeviceVulkan13Features vulkan13{};
+};
+
+/// Whether a counting method can be had.
+struct MethodSupport {
+    CountingMethod method;
+    bool available;
+    std::string reason; ///< when not: the missing feature
+};
+
+struct CheckReport {
+    bool usable = false;              ///< Context::create() would succeed
+    std::vector<std::string> missing; ///< a line for each thing: what, and what it costs
+    std::vector<MethodSupport> methods;
+};
+
+/// Looks at a description without making anything. Never fails: what is wrong is in the report.
+[[nodiscard]] VOXTACT_API CheckReport check(const ContextDesc& desc);
+
+/// A queue of the caller's for the blocking conveniences. lock and unlock, where given, bracket each vkQueueSubmit2
+/// so that the queue can be shared with the caller's own threads. The wait is on a fence, outside the lock.
+struct QueueAccess {
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t family = 0; ///< must support graphics
+    void (*lock)(void* user) = nullptr;
+    void (*unlock)(void* user) = nullptr;
+    void* user = nullptr;
+};
+
+/// voxtact on one device: a private function table, pipeline and descriptor layouts. No global state: any number of
+/// contexts on any number of devices live in one process.
+///
+/// Lifetime: everything made with a Context must be destroyed before it, and it before the device.
+/// Thread-safety: the const functions, and making objects with it, are safe from any thread.
+class Context {
+  public:
+    /// Fails with everything that is missing in one line.
+    [[nodiscard]] VOXTACT_API static Result<Context> create(const ContextDesc& desc);
+    VOXTACT_API Context(Context&&) noexcept;
+    VOXTACT_API Context& operator=(Context&&) noexcept;
+    VOXTACT_API ~Context();
+
+    [[nodiscard]] VOXTACT_API std::span<const MethodSupport> methods() const noexcept;
+    [[nodiscard]] VOXTACT_API bool supports(CountingMethod method) const noexcept;
+    /// The exact method that needs least: query, else atomic, else query-any.
+    [[nodiscard]] VOXTACT_API CountingMethod defaultMethod() const noexcept;
+    /// Largest viewport: {width, height}.
+    [[nodiscard]] VOXTACT_API VkExtent2D maxViewport() const noexcept;
+    /// True once any call has seen VK_ERROR_DEVICE_LOST; every later call fails with ErrorCode::DeviceLost.
+    [[nodiscard]] VOXTACT_API bool deviceLost() const noexcept;
+
+    /// For voxtact's own parts.
+    [[nodiscard]] ContextImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit Context(std::unique_ptr<ContextImpl> impl) noexcept;
+    std::unique_ptr<ContextImpl> impl_;
+};
+
+} // namespace voxtact

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/export.h"
+#include "voxtact/result.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// Plain host data: spaces, images, transfer functions, triangle meshes. No Vulkan here.
+///
+/// Spaces. *object*: the mesh's own coordinates. *world*: millimetres, LPS (+x left, +y posterior, +z superior).
+/// *index*: voxel numbers, voxel i's centre at i. *texture*: [0,1]^3 over the whole image, voxel i's centre at
+/// (i+0.5)/n. *clip*: Vulkan's (y down, depth 0..1). A matrix `b_from_a` takes points of space a to space b.
+namespace voxtact {
+
+using Vec3 = std::array<double, 3>;
+
+/// 4x4 matrix, column-major: element (row r, column c) is at [4*c + r]; vectors are columns.
+/// Double, because `texture_from_object` and `clip_from_object` are products that are rounded to float once.
+using Mat4 = std::array<double, 16>;
+
+[[nodiscard]] VOXTACT_API Mat4 identity() noexcept;
+[[nodiscard]] VOXTACT_API Mat4 translation(const Vec3& offset) noexcept;
+/// c_from_a = multiply(c_from_b, b_from_a)
+[[nodiscard]] VOXTACT_API Mat4 multiply(const Mat4& c_from_b, const Mat4& b_from_a) noexcept;
+/// Fails when the matrix is singular or not finite. Any 4x4 matrix, projective ones too.
+[[nodiscard]] VOXTACT_API Result<Mat4> inverse(const Mat4& b_from_a);
+/// The image of a point, divided by its w.
+[[nodiscard]] VOXTACT_API Vec3 transformPoint(const Mat4& b_from_a, const Vec3& point) noexcept;
+/// Widens a column-major float matrix, which is what most engines hold.
+[[nodiscard]] VOXTACT_API Mat4 fromFloats(const float (&columnMajor)[16]) noexcept;
+
+/// Where the voxels of an image are. `direction` holds three columns, the unit vectors (LPS) along the index axes:
+/// component r of axis c is at [3*c + r], as in ITK's direction matrix. It may be oblique; it must not be singular.
+struct Grid {
+    std::array<std::uint32_t, 3> size{}; ///< voxels along x, y, z; each at least 1
+    Vec3 spacing{1, 1, 1};               ///< mm; positive
+    Vec3 origin{};                       ///< mm; the *centre* of voxel (0,0,0)
+    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};
+};
+
+/// Refuses an empty grid, a spacing that is not positive and finite, a singular or non-finite direction.
+[[nodiscard]] VOXTACT_API Result<void> checkGrid(const Grid& grid);
+/// Both expect a grid that checkGrid() accepts.
+[[nodiscard]] VOXTACT_API Mat4 worldFromTexture(const Grid& grid) noexcept;
+[[nodiscard]] VOXTACT_API Mat4 worldFromIndex(const Grid& grid) noexcept;
+[[nodiscard]] VOXTACT_API Result<Mat4> textureFromWorld(const Grid& grid);
+[[nodiscard]] VOXTACT_API std::uint64_t voxelCount(const Grid& grid) noexcept;
+
+/// How a voxel is stored. The number is the image's own unit (HU for CT): there is no other scale behind it.
+enum class ScalarType : std::uint32_t { UInt8, Int16, UInt16, Float32 };
+
+[[nodiscard]] VOXTACT_API std::size_t bytesPerVoxel(ScalarType type) noexcept;
+[[nodiscard]] VOXTACT_API const char* toString(ScalarType type) noexcept;
+
+/// An image somebody else owns. `voxels` holds voxelCount(grid) scalars of `type`, x fastest, then y, then z, without
+/// padding, in the machine's byte order, aligned to their size.
+struct VolumeView {
+    Grid grid;
+    ScalarType type = ScalarType::UInt8;
+    std::span<const std::byte> voxels;
+};
+
+/// An image that owns its voxels.
+struct VolumeData {
+    Grid grid;
+    ScalarType type = ScalarType::UInt8;
+    std::vector<std::byte> voxels;
+    std::string name;               ///< the file's name, or the builtin's
+    std::vector<std::string> notes; ///< what the reader did that the user may want to know, a line each
+
+    [[nodiscard]] VolumeView view() const noexcept { return {grid, type, voxels}; }
+};
+
+/// A closed interval of scalars in the image's own units.
+struct ValueRange {
+    double lo = 0;
+    double hi = 0;
+};
+
+/// Refuses what checkGrid() refuses, a span of the wrong length, and NaN or infinite voxels (the first is named).
+/// Returns the smallest and largest voxel. O(voxels).
+[[nodiscard]] VOXTACT_API Result<ValueRange> checkVolume(const VolumeView& volume);
+
+/// A corner of the piecewise linear transfer function.
+struct ControlPoint {
+    double value = 0;   ///< in the image's own units
+    double opacity = 0; ///< 0..1
+};
+
+inline constexpr std::uint32_t kDefaultTableSize = 256;
+inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sample is opaque (paper, section 5)
+
+/// Scalar -> opacity, sampled into a table: entry i of `tableSize` holds the opacity at the normalised scalar
+/// s = (i+0.5)/tableSize, where s = (value - domain.lo) / (domain.hi - domain.lo). Between entries: linear. Outside
+/// the domain: the first and the last entry. The look-up coordinate is s itself.
+struct TransferFunctionDesc {
+    std::span<const ControlPoint> points; ///< ascending values; piecewise linear between, constant outside
+    ValueRange domain{0, 255};            ///< lo < hi
+    std::uint32_t tableSize = kDefaultTableSize;
+};
+
+/// Refuses no points, values that are not finite or not ascending (equal neighbours make a step and are allowed),
+/// opacities outside [0,1], an empty domain and a table of fewer than 2 entries. Returns the table.
+[[nodiscard]] VOXTACT_API Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc);
+
+/// A triangle mesh somebody else owns, in object space. Three floats a vertex, three indices a triangle.
+struct MeshView {
+    std::span<const float> positions;
+    std::span<const std::uint32_t> indices;
+};
+
+/// A triangle mesh that owns its arrays.
+struct MeshData {
+    std::vector<float> positions;       ///< x, y, z of each vertex, object space
+    std::vector<std::uint32_t> indices; ///< three a triangle
+    std::string name;
+    std::vector<std::string> notes;
+
+    [[nodiscard]] MeshView view() const noexcept { return {positions, indices}; }
+};
+
+/// An axis-aligned box.
+struct Box {
+    Vec3 lo{};
+    Vec3 hi{};
+};
+
+struct MeshFacts {
+    std::uint32_t vertices = 0;
+    std::uint32_t triangles = 0;
+    std::uint32_t degenerate = 0; ///< triangles whose area is zero in float: allowed, they give no fragment
+    Box bounds;                   ///< object space
+};
+
+/// Refuses a mesh with no triangle, arrays whose length is not a multiple of three, NaN or infinite vertices and
+/// indices out of range (the first is named). O(vertices + triangles).
+[[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
+
+/// The camera of the `view` projection.
+struct View {
+    Mat4 clip_from_world{};    ///< Vulkan clip space; orthographic or perspective; not singular
+    std::uint32_t width = 512; ///< pixels; at least 1, at most what the method can do: Context::maxViewport()
+    std::uint32_t height = 512;
+};
+
+/// An orthographic view along world -z (from above, anterior up: world x runs to the left, y down) whose square
+/// pixels frame the box of the volume, with a margin of 1 %.
+[[nodiscard]] VOXTACT_API Mat4 framingCamera(const Grid& grid, std::uint32_t width, std::uint32_t height) noexcept;
+
+/// Refuses NaN or infinite elements and a last row other than 0 0 0 1. `what` begins the error text ("pose 3").
+[[nodiscard]] VOXTACT_API Result<void> checkAffine(const Mat4& matrix, const std::string& what);
+
+} // namespace voxtact

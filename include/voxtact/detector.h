@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/answers.h"
+#include "voxtact/pair_result.h"
+#include "voxtact/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace voxtact {
+
+struct DetectorImpl;
+struct ResultsImpl;
+
+/// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines.
+struct DetectorDesc {
+    CountingMethod method = CountingMethod::Query;
+    Projection projection = Projection::View;
+    Filter filter = Filter::Hardware;
+    Boundary boundary = Boundary::Auto;
+};
+
+/// One mesh at some poses against one volume under one transfer function.
+struct BatchItem {
+    const Mesh* mesh = nullptr;
+    const Volume* volume = nullptr;
+    const TransferFunction* transferFunction = nullptr;
+    std::span<const Mat4> world_from_object; ///< a pose a pair; affine. Read while recording only
+};
+
+/// The pairs of one submission: the items in order, each with its poses in order.
+struct Batch {
+    std::span<const BatchItem> items;
+    View view;
+    double threshold = kDefaultThreshold; ///< 0..1
+};
+
+struct ResultsDesc {
+    std::uint32_t maxPairs = 1;
+    bool readBack = true;    ///< a host-visible copy is kept, for cmdReadBack() and read()
+    bool timestamps = false; ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
+    std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
+};
+
+/// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
+/// One cmdDetect() at a time: recording a second one before the first has completed on the device is a race, unless
+/// both are in the same queue with a barrier between them.
+/// Thread-safety: none; one thread at a time.
+class Results {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
+    VOXTACT_API Results(Results&&) noexcept;
+    VOXTACT_API Results& operator=(Results&&) noexcept;
+    VOXTACT_API ~Results();
+
+    [[nodiscard]] VOXTACT_API std::uint32_t maxPairs() const noexcept;
+    /// Pairs of the batch recorded last.
+    [[nodiscard]] VOXTACT_API std::uint32_t pairs() const noexcept;
+    /// maxPairs PairResults; usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST; for the next pass on the device.
+    [[nodiscard]] VOXTACT_API VkBuffer buffer() const noexcept;
+
+    /// Records a copy of the results to host memory. Call it after cmdDetect(), outside a render pass.
+    ///   expects  the results as cmdDetect() leaves them
+    ///   leaves   the host copy readable once the submission is complete
+    ///   queries  not affected; bound state: none is lost
+    VOXTACT_API Result<void> cmdReadBack(VkCommandBuffer commandBuffer);
+    /// The host copy. The caller knows that the submission with cmdReadBack() is complete (its fence or semaphore).
+    /// Valid until the next cmdReadBack() executes, or the Results end.
+    [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read();
+    /// Device time between the start and the end of cmdDetect()'s commands, when `timestamps` was asked for and the
+    /// submission is complete. NotReady otherwise.
+    [[nodiscard]] VOXTACT_API Result<double> gpuMilliseconds();
+
+    [[nodiscard]] ResultsImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    friend class BlockingDetector;
+    [[nodiscard]] static Result<Results> create(ContextImpl& context, const ResultsDesc& desc);
+    explicit Results(std::unique_ptr<ResultsImpl> impl) noexcept;
+    std::unique_ptr<ResultsImpl> impl_;
+};
+
+/// Results for frames in flight: frame n uses slot n modulo the number of frames, so that frame n is recorded while
+/// the ones before it are still on the device, and read when the caller knows that it has completed. Nothing waits.
+/// Thread-safety: none; one thread at a time.
+class ResultRing {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Context& context, std::uint32_t frames,
+                                                               const ResultsDesc& desc);
+
+    [[nodiscard]] std::uint32_t frames() const noexcept { return static_cast<std::uint32_t>(slots_.size()); }
+    /// Claims the slot of `frame` for recording. The caller knows that frame `frame - frames()` has completed.
+    /// Frames ascend; claiming one that is older than its slot's is refused.
+    [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
+    /// The results of a completed frame. NotReady when its slot was never used, or has been taken by a later frame.
+    [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read(std::uint64_t frame);
+
+  private:
+    struct Slot {
+        Results results;
+        std::uint64_t frame = 0;
+        bool used = false;
+    };
+    std::vector<Slot> slots_;
+};
+
+/// Decides which pairs collide. See the manual, "The method".
+/// Thread-safety: cmdDetect is const and safe from any thread with different command buffers and Results.
+class Detector {
+  public:
+    /// Unsupported, with the missing feature named, when the device cannot do the method.
+    [[nodiscard]] VOXTACT_API static Result<Detector> create(const Context& context, const DetectorDesc& desc);
+    VOXTACT_API Detector(Detector&&) noexcept;
+    VOXTACT_API Detector& operator=(Detector&&) noexcept;
+    VOXTACT_API ~Detector();
+
+    /// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. The poses
+    /// are recorded into the command buffer, so it may be submitted again without its Results being overwritten by
+    /// the host in between.
+    ///
+    ///   call it          outside a render pass, on a queue with graphics, in a primary command buffer
+    ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them, wrapped ones in the
+    ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER by the caller;
+    ///                    an earlier use of the same Results in this queue may be in flight: the reads that
+    ///                    cmdReadBack() and compute or fragment shaders make of buffer() are waited for
+    ///   leaves           Results::buffer() available and visible to TRANSFER read, and to shader reads in all stages
+    ///   queries          no occlusion query may be active
+    ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point, push constants, vertex
+    ///                    binding 0, index buffer, dynamic viewport and scissor
+    ///
+    /// On error nothing useful was recorded, and the command buffer must not be submitted.
+    VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
+
+    [[nodiscard]] VOXTACT_API const DetectorDesc& desc() const noexcept;
+    /// Which variant Boundary::Auto takes for an item at a threshold: Range or Clamp.
+    [[nodiscard]] VOXTACT_API Boundary boundaryFor(const BatchItem& item, double threshold) const noexcept;
+
+  private:
+    explicit Detector(std::unique_ptr<DetectorImpl> impl) noexcept;
+    std::unique_ptr<DetectorImpl> impl_;
+};
+
+/// The blocking convenience: records a batch, submits it on the caller's queue, waits, and reads the answers. Keeps
+/// its command buffer, fence and Results for the next call and makes larger ones when a batch needs them.
+/// Thread-safety: none; one thread at a time.
+class BlockingDetector {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<BlockingDetector> create(const Context& context, const DetectorDesc& desc,
+                                                                     const QueueAccess& queue);
+    VOXTACT_API BlockingDetector(BlockingDetector&&) noexcept;
+    VOXTACT_API BlockingDetector& operator=(BlockingDetector&&) noexcept;
+    VOXTACT_API ~BlockingDetector();
+
+    [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
+    [[nodiscard]] VOXTACT_API const Detector& detector() const noexcept;
+
+  private:
+    struct State;
+    explicit BlockingDetector(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
+/// What selfTest() found for one counting method.
+struct SelfTestVerdict {
+    CountingMethod method;
+    bool available = false;
+    bool trusted = false; ///< available, and every count was as it must be
+    std::string text;     ///< "1024 of 1024 fragments", or what is wrong
+};
+
+/// Renders a known number of fragments by each of `methods` (empty: all that the Context knows) on this driver: a full
+/// viewport in an opaque volume, in a transparent one, and in a half-opaque one. Blocks; some milliseconds, and the
+/// making of pipelines.
+[[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
+selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
+
+} // namespace voxtact

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/export.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace voxtact {
+
+/// How surviving fragments are counted. All count the same thing.
+enum class CountingMethod : std::uint32_t {
+    Query = 0,    ///< precise occlusion query, one a pair
+    QueryAny = 1, ///< occlusion query without the precise bit: zero or not zero
+    Atomic = 2,   ///< one atomicAdd a survivor into the pair's slot; a batch item is one draw
+    Subgroup = 3, ///< ballot, then one atomicAdd a subgroup
+    Compute = 4,  ///< no rasteriser: a compute shader covers the same pixels by the same rule
+    Cpu = 5,      ///< the host, no device (voxtact/cpu.h)
+};
+
+/// How a mesh is turned into fragments.
+enum class Projection : std::uint32_t {
+    View = 0, ///< the paper's: the caller's camera and viewport
+};
+
+/// How the image is sampled.
+enum class Filter : std::uint32_t {
+    Hardware = 0, ///< the device's sampler (8 fraction bits of weight on much hardware)
+    Exact = 1,    ///< fp32 in a written order (shaders/exact.h): the same bits on every device and on the host
+};
+
+/// What happens to fragments whose texture coordinate leaves [0,1]^3 (paper, section 5).
+enum class Boundary : std::uint32_t {
+    Auto = 0,  ///< Clamp where it provably gives the same count for this volume, transfer function and threshold
+    Range = 1, ///< a range test discards them
+    Clamp = 2, ///< no test: the coordinate is clamped. The caller vouches that the boundary voxels are transparent
+};
+
+/// What a count is worth.
+enum class Exactness : std::uint32_t {
+    Exact = 0,
+    LowerBound = 1, ///< a boolean query: not zero means at least one
+};
+
+[[nodiscard]] VOXTACT_API const char* toString(CountingMethod method) noexcept;
+[[nodiscard]] VOXTACT_API const char* toString(Projection projection) noexcept;
+[[nodiscard]] VOXTACT_API const char* toString(Filter filter) noexcept;
+[[nodiscard]] VOXTACT_API const char* toString(Boundary boundary) noexcept;
+[[nodiscard]] VOXTACT_API const char* toString(Exactness exactness) noexcept;
+
+/// The methods in the order of their numbers.
+[[nodiscard]] VOXTACT_API std::span<const CountingMethod> countingMethods() noexcept;
+/// The inverse of toString(): "query-any" -> QueryAny. Nothing for an unknown name.
+[[nodiscard]] VOXTACT_API std::optional<CountingMethod> countingMethodFromName(std::string_view name) noexcept;
+
+/// Exact for the methods that are the same on every device with it (compute, cpu), hardware for the others.
+[[nodiscard]] VOXTACT_API Filter defaultFilter(CountingMethod method) noexcept;
+[[nodiscard]] VOXTACT_API Exactness exactness(CountingMethod method) noexcept;
+
+} // namespace voxtact

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// One definition for C++ and GLSL: include it from a shader to read the results on the device.
+#ifndef VOXTACT_PAIR_RESULT_H
+#define VOXTACT_PAIR_RESULT_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+namespace voxtact {
+#define VOXTACT_UINT std::uint32_t
+#else
+#define VOXTACT_UINT uint
+#endif
+
+/// The answer for one pair, 24 bytes, the same layout for every counting method. In GLSL declare the buffer with
+/// std430. The pair collides when countLow or countHigh is not zero.
+struct PairResult {
+    VOXTACT_UINT countLow;  ///< survivors, low 32 bits. `query-any`: zero or not zero, the number means nothing
+    VOXTACT_UINT countHigh; ///< survivors, high 32 bits
+    VOXTACT_UINT pair;      ///< number of the pair in its batch
+    VOXTACT_UINT item;      ///< number of the BatchItem that the pair came from
+    VOXTACT_UINT pose;      ///< number of the pose within that item
+    VOXTACT_UINT how;       ///< VOXTACT_HOW_*: counting method, projection and exactness of the count
+};
+
+// PairResult.how = method | projection << 8 | exactness << 16, the numbers being those of CountingMethod, Projection
+// and Exactness in methods.h.
+#define VOXTACT_HOW_METHOD(how) ((how)&0xffu)
+#define VOXTACT_HOW_PROJECTION(how) (((how) >> 8) & 0xffu)
+#define VOXTACT_HOW_EXACTNESS(how) (((how) >> 16) & 0xffu)
+
+#ifdef __cplusplus
+#undef VOXTACT_UINT
+static_assert(sizeof(PairResult) == 24);
+static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countHigh) == 4,
+              "a 64-bit query result is copied over countLow and countHigh");
+} // namespace voxtact
+#endif
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/context.h"
+#include "voxtact/data.h"
+
+#include <optional>
+
+/// The scene on the device. Each object is either uploaded from host memory or wrapped around the caller's own Vulkan
+/// objects, which are then never freed, written or transitioned.
+///
+/// Uploading, without a surprise: create() makes the device object and fills a staging buffer; cmdUpload() records the
+/// copy into the caller's command buffer; releaseStaging() frees the staging buffer once that submission is complete.
+/// upload() does the three at once, on the caller's queue, and waits.
+///
+/// Every cmdUpload():
+///   call it             outside a render pass, on a queue with graphics (or with compute and transfer)
+///   expects             nothing; the object's former contents are discarded
+///   leaves              the object readable by vertex input and by any shader stage, in every later command
+///   queries             an active occlusion query is not affected
+///   bound state         none is lost
+///
+/// Lifetime: an object must outlive the command buffers that use it, and end before its Context.
+/// Thread-safety: const functions are safe from any thread; cmdUpload and releaseStaging need the caller's own lock.
+namespace voxtact {
+
+struct VolumeImpl;
+struct TransferFunctionImpl;
+struct MeshImpl;
+
+/// An image of the caller's.
+struct WrappedVolume {
+    VkImageView view = VK_NULL_HANDLE;     ///< 3D, one mip level, component r sampled
+    VkFormat format = VK_FORMAT_UNDEFINED; ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
+    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while voxtact's commands execute
+    Grid grid;
+    /// value = slope * stored + intercept, where stored is the integer behind a UNORM or SNORM texel, or the float.
+    double slope = 1;
+    double intercept = 0;
+    /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp.
+    std::optional<ValueRange> boundaryValues;
+};
+
+/// A 3D image on the device.
+class Volume {
+  public:
+    /// Refuses what checkVolume() refuses, and a volume beyond the device's limits (which limit, how large).
+    /// `name` appears on the Vulkan objects; may be null.
+    [[nodiscard]] VOXTACT_API static Result<Volume> create(const Context& context, const VolumeView& data,
+                                                           const char* name = nullptr);
+    [[nodiscard]] VOXTACT_API static Result<Volume> wrap(const Context& context, const WrappedVolume& wrapped);
+    [[nodiscard]] VOXTACT_API static Result<Volume> upload(const Context& context, const QueueAccess& queue,
+                                                           const VolumeView& data, const char* name = nullptr);
+    VOXTACT_API Volume(Volume&&) noexcept;
+    VOXTACT_API Volume& operator=(Volume&&) noexcept;
+    VOXTACT_API ~Volume();
+
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    VOXTACT_API void releaseStaging() noexcept;
+
+    [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
+    /// Smallest and largest voxel in the image's units; nothing for a wrapped volume.
+    [[nodiscard]] VOXTACT_API std::optional<ValueRange> valueRange() const noexcept;
+    [[nodiscard]] VOXTACT_API VkImageView view() const noexcept;
+    [[nodiscard]] VOXTACT_API VkFormat format() const noexcept;
+
+    [[nodiscard]] VolumeImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit Volume(std::unique_ptr<VolumeImpl> impl) noexcept;
+    std::unique_ptr<VolumeImpl> impl_;
+};
+
+/// A table of the caller's.
+struct WrappedTransferFunction {
+    VkImageView view = VK_NULL_HANDLE; ///< 1D, opacity in component r
+    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    ValueRange domain{0, 255};
+    /// The same table on the host, where the caller has it: lets Boundary::Auto prove that it may clamp.
+    std::span<const float> table;
+};
+
+/// Scalar -> opacity, on the device.
+class TransferFunction {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<TransferFunction>
+    create(const Context& context, const TransferFunctionDesc& desc, const char* name = nullptr);
+    [[nodiscard]] VOXTACT_API static Result<TransferFunction> wrap(const Context& context,
+                                                                   const WrappedTransferFunction& wrapped);
+    [[nodiscard]] VOXTACT_API static Result<TransferFunction> upload(const Context& context, const QueueAccess& queue,
+                                                                     const TransferFunctionDesc& desc,
+                                                                     const char* name = nullptr);
+    VOXTACT_API TransferFunction(TransferFunction&&) noexcept;
+    VOXTACT_API TransferFunction& operator=(TransferFunction&&) noexcept;
+    VOXTACT_API ~TransferFunction();
+
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    VOXTACT_API void releaseStaging() noexcept;
+
+    [[nodiscard]] VOXTACT_API ValueRange domain() const noexcept;
+    [[nodiscard]] VOXTACT_API std::uint32_t tableSize() const noexcept; ///< 0 for a wrapped one without a host table
+
+    [[nodiscard]] TransferFunctionImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit TransferFunction(std::unique_ptr<TransferFunctionImpl> impl) noexcept;
+    std::unique_ptr<TransferFunctionImpl> impl_;
+};
+
+/// Buffers of the caller's. Vertices are three floats each at the start of a stride.
+struct WrappedMesh {
+    VkBuffer vertices = VK_NULL_HANDLE; ///< usage VERTEX_BUFFER
+    VkDeviceSize vertexOffset = 0;      ///< bytes, of the first position; a multiple of 4
+    std::uint32_t vertexStride = 12;    ///< bytes; at least 12, a multiple of 4
+    std::uint32_t vertexCount = 0;
+    VkBuffer indices = VK_NULL_HANDLE;            ///< usage INDEX_BUFFER; null: every three vertices are a triangle
+    VkDeviceSize indexOffset = 0;                 ///< bytes
+    VkIndexType indexType = VK_INDEX_TYPE_UINT32; ///< UINT16 or UINT32
+    std::uint32_t triangleCount = 0;
+    /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` needs. 16-bit indices must then
+    /// be followed by two more bytes where they end in the middle of four.
+    bool storage = false;
+};
+
+/// A triangle mesh on the device.
+class Mesh {
+  public:
+    /// Refuses what checkMesh() refuses.
+    [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
+                                                         const char* name = nullptr);
+    [[nodiscard]] VOXTACT_API static Result<Mesh> wrap(const Context& context, const WrappedMesh& wrapped);
+    [[nodiscard]] VOXTACT_API static Result<Mesh> upload(const Context& context, const QueueAccess& queue,
+                                                         const MeshView& data, const char* name = nullptr);
+    VOXTACT_API Mesh(Mesh&&) noexcept;
+    VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
+    VOXTACT_API ~Mesh();
+
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    VOXTACT_API void releaseStaging() noexcept;
+
+    [[nodiscard]] VOXTACT_API std::uint32_t triangles() const noexcept;
+    /// Nothing for a wrapped mesh.
+    [[nodiscard]] VOXTACT_API std::optional<MeshFacts> facts() const noexcept;
+
+    [[nodiscard]] MeshImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit Mesh(std::unique_ptr<MeshImpl> impl) noexcept;
+    std::unique_ptr<MeshImpl> impl_;
+};
+
+} // namespace voxtact

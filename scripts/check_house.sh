@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The arrows between the parts of the source: what each folder of src/ may include of the others, and that public
+# headers include only the standard library, vulkan_core.h and each other.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+
+allowed() {
+    case "$1" in
+    core) echo "core" ;;
+    gpu) echo "core gpu" ;;
+    detect) echo "core gpu detect" ;;
+    render) echo "core gpu render" ;;
+    io) echo "core io" ;;
+    cpu) echo "core cpu" ;;
+    app) echo "core gpu detect render io cpu app" ;;
+    *) return 1 ;;
+    esac
+}
+
+parts="core gpu detect render io cpu app"
+wrong=0
+complain() {
+    printf '%s\n' "$1" >&2
+    wrong=1
+}
+
+for folder in src/*/; do
+    part=$(basename "$folder")
+    if ! may=$(allowed "$part"); then
+        complain "$folder: not a part of the house; add its arrows here and in the manual"
+        continue
+    fi
+    while IFS=: read -r file line text; do
+        target=$(sed -n 's/.*#include *"\(\.\.\/\)*\([a-z_]*\)\/.*/\2/p' <<<"$text")
+        case " $parts " in *" $target "*) ;; *) continue ;; esac
+        case " $may " in *" $target "*) ;; *) complain "$file:$line: $part must not include $target" ;; esac
+    done < <(grep -rnE '#include *"' "$folder" --include='*.h' --include='*.cpp')
+done
+
+# No Vulkan in the parts that promise to do without.
+while IFS= read -r hit; do
+    complain "$hit: no Vulkan here"
+done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu 2>/dev/null | cut -d: -f1,2)
+
+while IFS=: read -r file line text; do
+    case "$text" in
+    *'"voxtact/'* | *'<vulkan/vulkan_core.h>'*) ;;
+    *)
+        # Standard headers have neither a folder nor an ending.
+        grep -qE '#include *<[a-z_0-9]+>' <<<"$text" ||
+            complain "$file:$line: public headers include only the standard library, vulkan_core.h and each other"
+        ;;
+    esac
+done < <(grep -rnE '#include' include)
+
+exit "$wrong"

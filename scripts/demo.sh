@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Does a scalpel touch the visible part of a real MR head, and how much of it?
+# Usage: demo.sh PROGRAM (a path from the root of the checkout)
+# Exit status 3 when the two counting methods disagree.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+program=${1:?usage: demo.sh PROGRAM}
+volume=/usr/share/mricron/templates/ch2.nii.gz
+mesh=builtin:scalpel:3068
+poses=docs/demo/poses.txt
+
+[ -r "$volume" ] || {
+    printf '%s\n' "./run demo: $volume is not there; it comes with Debian's package mricron-data" >&2
+    exit 1
+}
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+detect=("$program" detect --volume "$volume" --mesh "$mesh" --poses "$poses" --transfer-function docs/demo/head.tf)
+for method in query atomic; do
+    "${detect[@]}" --count "$method" --timing --batch 1 --format csv --output "$out/$method.csv"
+done
+"${detect[@]}" --format json --output "$out/device.json"
+device=$(sed -n 's/^"device": "\(.*\)",$/\1/p' "$out/device.json")
+driver=$(sed -n 's/^"driver": "\(.*\)",$/\1/p' "$out/device.json")
+
+printf '\nDoes a scalpel (%s, 3068 triangles) touch the visible part of an MR head?\n' "$mesh"
+printf '  head    %s, visible where its opacity under docs/demo/head.tf reaches 0.1\n' "$volume"
+printf '  device  %s; driver %s\n\n' "$device" "$driver"
+
+# The poses' names, then query's rows, then atomic's: one table.
+awk '
+    BEGIN { poses = method = differ = 0 }
+    FILENAME ~ /poses.txt$/ {
+        if (/^# [a-z]+: /) { name = $2; sub(/:$/, "", name); text = $0; sub(/^# [a-z]+: /, "", text) }
+        else if (NF == 16 && $1 !~ /^#/) { names[poses] = name; texts[poses++] = text }
+        next
+    }
+    FNR == 1 { method++; split($0, header, ","); next }
+    /^#/ { next }
+    {
+        split($0, field, ",")
+        for (i in header) row[header[i]] = field[i]
+        p = row["pose"]; hit[p] = row["hit"]
+        count[method, p] = row["count"]; gpu[method, p] = row["gpu_ms"]; wall[method, p] = row["wall_ms"]
+    }
+    END {
+        cells = "%-9s %-4s %9s %9s  %-5s  %15s %15s"
+        printf cells "\n", "pose", "hit", "query", "atomic", "agree", "query ms", "atomic ms"
+        printf cells "\n", "", "", "fragments", "fragments", "", "GPU / wall", "GPU / wall"
+        for (p = 0; p < poses; p++) {
+            same = count[1, p] == count[2, p] && count[1, p] != ""
+            if (!same) differ = 1
+            printf cells "   %s\n", names[p], hit[p] ? "yes" : "no", count[1, p], count[2, p], same ? "yes" : "NO",
+                sprintf("%.2f / %.2f", gpu[1, p], wall[1, p]), sprintf("%.2f / %.2f", gpu[2, p], wall[2, p]), texts[p]
+        }
+        exit differ ? 3 : 0
+    }' "$poses" "$out/query.csv" "$out/atomic.csv" && status=0 || status=$?
+
+cat <<TEXT
+
+What it says:
+  hit        at least one fragment of the scalpel lies in an opaque sample of the head
+  fragments  how many do: pixels of a 512x512 view from above, counted by an occlusion query, and by atomicAdd
+  agree      the two ways to count give the same number; if not, this command ends with exit status 3
+  ms         time on the device, and from recording to the result on the host, each pose submitted alone. The first
+             has no warm-up: the driver may compile its shaders in it
+
+The command that was run, once for each method (other poses, volumes and meshes: $program detect --help):
+
+  ${detect[*]} \\
+      --count query --timing --batch 1
+TEXT
+[ "$status" -eq 0 ] || printf '\n%s\n' "query and atomic disagree" >&2
+exit "$status"

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// The counting method `compute`: covers the pixels that a rasteriser covers, in the exact arithmetic of exact.h. A
+// triangle with few pixels is one lane's; one with many is queued and shared by the whole group, so that a huge
+// triangle does not serialise.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared.h"
+#include "voxtact/pair_result.h"
+
+layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
+layout(constant_id = VOXTACT_CONSTANT_EXACT_FILTER) const bool kExactFilter = true;
+
+layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
+layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) readonly buffer Transforms {
+    PairTransform transforms[];
+};
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffer Results { PairResult results[]; };
+layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) readonly buffer Vertices { float vertices[]; };
+layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
+layout(push_constant) uniform Item { ComputeConstants constants; };
+
+// One addition a subgroup: a carry that is not needed costs nothing.
+const bool kCarry = true;
+
+#include "survives.glsl"
+#include "count.glsl"
+
+/// A piece is a triangle, or one triangle of the fan that clipping made of it: triangle * 8 + number in the fan.
+#define MOST_PIECES (EXACT_MAX_CORNERS - 2)
+const int kMostPixelsOfALane = 64;
+/// Texture coordinates are interpolated with errors far below this.
+const float kDomainMargin = 1e-3;
+
+shared uint queue[VOXTACT_COMPUTE_GROUP * MOST_PIECES];
+shared uint queued;
+
+uint vertexOf(uint corner) {
+    if (constants.indexBytes == 0) {
+        return corner;
+    }
+    const uint at = constants.indexOffset + corner * constants.indexBytes;
+    const uint word = indices[at >> 2];
+    return constants.indexBytes == 4 ? word : (word >> (8 * (at & 2))) & 0xffffu;
+}
+
+ExactCorner cornerOf(PairTransform transform, uint triangle, uint corner) {
+    const uint at = constants.vertexOffset + vertexOf(3 * triangle + corner) * constants.vertexStride;
+    return exactVertex(transform, vertices[at], vertices[at + 1], vertices[at + 2]);
+}
+
+bool beyond(float a, float b, float c) {
+    return (a < -kDomainMargin && b < -kDomainMargin && c < -kDomainMargin) ||
+           (a > 1.0 + kDomainMargin && b > 1.0 + kDomainMargin && c > 1.0 + kDomainMargin);
+}
+
+/// The pieces of a triangle: their number, the corners of the polygon being left in `corners`.
+int piecesOf(PairTransform transform, uint triangle, inout ExactCorner corners[EXACT_MAX_CORNERS]) {
+    for (uint corner = 0; corner < 3; ++corner) {
+        corners[corner] = cornerOf(transform, triangle, corner);
+    }
+    if (constants.rangeTest != 0 && (beyond(corners[0].tx, corners[1].tx, corners[2].tx) ||
+                       beyond(corners[0].ty, corners[1].ty, corners[2].ty) ||
+                       beyond(corners[0].tz, corners[1].tz, corners[2].tz))) {
+        return 0;
+    }
+    const float guardX = constants.guardX;
+    const float guardY = constants.guardY;
+    if (exactInside(corners[0], guardX, guardY) && exactInside(corners[1], guardX, guardY) &&
+        exactInside(corners[2], guardX, guardY)) {
+        return 1;
+    }
+    return max(exactClip(corners, 3, guardX, guardY) - 2, 0);
+}
+
+uint countPixel(ExactTriangle piece, int x, int y) {
+    vec3 coordinate;
+    const bool covered = exactFragment(piece, x, y, coordinate.x, coordinate.y, coordinate.z);
+    return covered && survives(coordinate, constants.item, constants.rangeTest != 0, kExactFilter) ? 1u : 0u;
+}
+
+/// Every step-th pixel of the piece's box, from `first` on.
+uint countPixels(ExactTriangle piece, int first, int step) {
+    const int columns = piece.maxX - piece.minX + 1;
+    const int pixels = columns * (piece.maxY - piece.minY + 1);
+    uint survivors = 0;
+    for (int pixel = first; pixel < pixels; pixel += step) {
+        survivors += countPixel(piece, piece.minX + pixel % columns, piece.minY + pixel / columns);
+    }
+    return survivors;
+}
+
+uint countTriangle(PairTransform transform, uint triangle) {
+    ExactCorner corners[EXACT_MAX_CORNERS];
+    const int pieces = piecesOf(transform, triangle, corners);
+    uint survivors = 0;
+    for (int number = 0; number < pieces; ++number) {
+        ExactTriangle piece;
+        if (exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
+            const int pixels = (piece.maxX - piece.minX + 1) * (piece.maxY - piece.minY + 1);
+            if (pixels <= kMostPixelsOfALane) {
+                survivors += countPixels(piece, 0, 1);
+            } else {
+                queue[atomicAdd(queued, 1u)] = triangle * 8 + uint(number);
+            }
+        }
+    }
+    return survivors;
+}
+
+/// A queued piece, set up again by every lane: cheaper than keeping it.
+uint countQueued(PairTransform transform, uint entry) {
+    ExactCorner corners[EXACT_MAX_CORNERS];
+    piecesOf(transform, entry / 8, corners);
+    const int number = int(entry % 8);
+    ExactTriangle piece;
+    if (!exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
+        return 0;
+    }
+    return countPixels(piece, int(gl_LocalInvocationIndex), VOXTACT_COMPUTE_GROUP);
+}
+
+void main() {
+    if (gl_LocalInvocationIndex == 0) {
+        queued = 0;
+    }
+    barrier();
+    const uint pair = constants.firstPair + gl_WorkGroupID.y;
+    const uint triangle = gl_GlobalInvocationID.x;
+    const PairTransform transform = transforms[pair];
+    uint survivors = triangle < constants.triangleCount ? countTriangle(transform, triangle) : 0;
+    barrier();
+    for (uint i = 0; i < queued; ++i) {
+        survivors += countQueued(transform, queue[i]);
+    }
+    const uint total = subgroupAdd(survivors);
+    if (subgroupElect() && total > 0) {
+        addSurvivors(pair, total);
+    }
+}

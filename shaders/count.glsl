@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Adds to the counter of a pair. Expects `results` and `kCarry`.
+#ifndef VOXTACT_COUNT_GLSL
+#define VOXTACT_COUNT_GLSL
+
+/// Exact to 64 bits: whoever makes the low word wrap carries one.
+void addSurvivors(uint pair, uint survivors) {
+    const uint before = atomicAdd(results[pair].countLow, survivors);
+    if (kCarry && before > 0xffffffffu - survivors) {
+        atomicAdd(results[pair].countHigh, 1u);
+    }
+}
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) readonly buffer Transforms {
+    PairTransform transforms[];
+};
+
+layout(location = 0) in vec3 position; // object space
+
+layout(location = 0) out vec3 textureCoordinate;
+layout(location = 1) flat out uint pair;
+
+void main() {
+    // The instance index counts from firstInstance: it is the number of the pair in the batch.
+    const PairTransform transform = transforms[gl_InstanceIndex];
+    const vec4 point = vec4(position, 1.0);
+    gl_Position = vec4(dot(transform.clip_from_object[0], point), dot(transform.clip_from_object[1], point),
+                       dot(transform.clip_from_object[2], point), dot(transform.clip_from_object[3], point));
+    textureCoordinate = vec3(dot(transform.texture_from_object[0], point), dot(transform.texture_from_object[1], point),
+                             dot(transform.texture_from_object[2], point));
+    pair = gl_InstanceIndex;
+}

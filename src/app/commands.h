@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/shared_options.h"
+
+/// One function a subcommand: adds it, with its options, to the program.
+namespace voxtact::app {
+
+[[nodiscard]] Command addDetect(CLI::App& program);
+[[nodiscard]] Command addDevices(CLI::App& program);
+/// `make` has commands of its own: mesh, volume, poses.
+[[nodiscard]] std::vector<Command> addMake(CLI::App& program);
+
+} // namespace voxtact::app

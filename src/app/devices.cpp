@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands.h"
+#include "app/session.h"
+#include "app/version.h"
+#include "voxtact/detector.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(One row a device and counting method; one row, without a method, for a device that cannot be used. Columns:
+  index,name,type,api,driver   the device; subgroup_size: invocations in a subgroup
+  default                      1: what a command takes without --device
+  method                       the counting method
+  available,trusted            the device can do it; and it counted a known number of fragments right (self-test)
+  verdict                      what the self-test counted, or why it cannot be used
+
+Example:
+  voxtact devices --format text)";
+
+const std::vector<std::string> kColumns{"index",   "name",   "type",      "api",     "driver", "subgroup_size",
+                                        "default", "method", "available", "trusted", "verdict"};
+
+struct DevicesOptions {
+    DeviceChoice device;
+    OutputOptions output;
+};
+
+struct DeviceRow {
+    PhysicalDevice device;
+    bool standard = false;
+    std::optional<SelfTestVerdict> verdict; ///< nothing: the device cannot be used
+    std::string reason;                     ///< why not
+};
+
+/// The verdict on each method.
+Result<std::vector<SelfTestVerdict>> judge(const VulkanInstance& instance, const PhysicalDevice& physical) {
+    const Result<VulkanDevice> device = VulkanDevice::create(instance, physical);
+    if (!device.ok()) {
+        return device.error();
+    }
+    const Result<Context> context = Context::create(device->contextDesc());
+    if (!context.ok()) {
+        return context.error();
+    }
+    return selfTest(*context, device->queueAccess());
+}
+
+Result<std::vector<DeviceRow>> listDevices(const VulkanInstance& instance, const DeviceChoice& choice) {
+    const Result<std::vector<PhysicalDevice>> devices = instance.devices();
+    if (!devices.ok()) {
+        return devices.error();
+    }
+    const Result<PhysicalDevice> standard = chooseDevice(*devices, "");
+    const Result<PhysicalDevice> chosen = chooseDevice(*devices, choice.wanted);
+    if (!chosen.ok()) {
+        return chosen.error();
+    }
+    std::vector<DeviceRow> rows;
+    for (const PhysicalDevice& device : *devices) {
+        if (!choice.wanted.empty() && device.index != chosen->index) {
+            continue;
+        }
+        const bool isStandard = device.index == standard->index;
+        const Result<std::vector<SelfTestVerdict>> verdicts = judge(instance, device);
+        if (!verdicts.ok()) {
+            rows.push_back({device, isStandard, std::nullopt, verdicts.error().text});
+            continue;
+        }
+        for (const SelfTestVerdict& verdict : *verdicts) {
+            rows.push_back({device, isStandard, verdict, {}});
+        }
+    }
+    return rows;
+}
+
+Cell cellOf(const DeviceRow& row, std::size_t column) {
+    const auto flag = [](bool on) { return std::uint64_t{on ? 1U : 0U}; };
+    switch (column) {
+    case 0:
+        return std::uint64_t{row.device.index};
+    case 1:
+        return row.device.name;
+    case 2:
+        return std::string(deviceTypeName(row.device.type));
+    case 3:
+        return apiVersionText(row.device.apiVersion);
+    case 4:
+        return row.device.driver;
+    case 5:
+        return std::uint64_t{row.device.subgroupSize};
+    case 6:
+        return flag(row.standard);
+    case 7:
+        return row.verdict ? Cell(std::string(toString(row.verdict->method))) : Cell();
+    case 8:
+        return flag(row.verdict && row.verdict->available);
+    case 9:
+        return flag(row.verdict && row.verdict->trusted);
+    default:
+        return row.verdict ? row.verdict->text : row.reason;
+    }
+}
+
+Outcome runDevices(const DevicesOptions& options) {
+    if (const Result<void> writable = checkOutput(options.output.path); !writable.ok()) {
+        return writable.error();
+    }
+    std::vector<DeviceRow> rows;
+    std::shared_ptr<const ValidationMessages> messages;
+    {
+        const Result<VulkanInstance> instance = VulkanInstance::create({.validate = options.device.validate});
+        if (!instance.ok()) {
+            return instance.error();
+        }
+        messages = instance->messages();
+        Result<std::vector<DeviceRow>> listed = listDevices(*instance, options.device);
+        if (!listed.ok()) {
+            return listed.error();
+        }
+        rows = std::move(*listed);
+    }
+    if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
+        return invalid;
+    }
+    Table table;
+    table.columns = kColumns;
+    table.rows = rows.size();
+    table.cell = [&](std::size_t row, std::size_t column) { return cellOf(rows[row], column); };
+    table.facts = {{"voxtact", programVersion()}};
+    const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
+        writeTable(out, options.output.format(), table);
+        return {};
+    });
+    return written.ok() ? Outcome() : Outcome(written.error());
+}
+
+} // namespace
+
+Command addDevices(CLI::App& program) {
+    auto options = std::make_shared<DevicesOptions>();
+    CLI::App* parser = program.add_subcommand("devices", "what devices there are and which methods each can do");
+    parser->footer(kFooter);
+    addDeviceOptions(*parser, options->device);
+    addOutputOptions(*parser, options->output);
+    return {parser, [options] { return runDevices(*options); }};
+}
+
+} // namespace voxtact::app

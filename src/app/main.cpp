@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands.h"
+#include "app/standard_streams.h"
+#include "app/version.h"
+
+#include <CLI/CLI.hpp>
+
+#include <new>
+
+namespace voxtact::app {
+
+namespace {
+
+/// The subcommand that the arguments lead to, as far as they were read.
+const CLI::App* deepest(const CLI::App& program) {
+    const CLI::App* app = &program;
+    while (!app->get_subcommands().empty()) {
+        app = app->get_subcommands().front();
+    }
+    return app;
+}
+
+/// "make mesh"
+std::string commandName(const CLI::App* app) {
+    std::string name;
+    for (; app->get_parent() != nullptr; app = app->get_parent()) {
+        name = app->get_name() + (name.empty() ? "" : " ") + name;
+    }
+    return name;
+}
+
+std::string parseErrorText(const CLI::App& program, const CLI::ParseError& error) {
+    const CLI::App* app = deepest(program);
+    const std::string name = commandName(app);
+    const std::string help = "; see voxtact " + name + (name.empty() ? "" : " ") + "--help";
+    const bool maybeUnknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                              dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (const auto unknown = program.remaining(true); maybeUnknown && !unknown.empty()) {
+        const bool command = !app->get_subcommands({}).empty() && unknown.front().front() != '-';
+        return (command ? "unknown command '" : "unknown argument '") + unknown.front() + "'" + help;
+    }
+    if (!app->get_subcommands({}).empty()) {
+        return "a command is needed" + help;
+    }
+    return error.what() + help;
+}
+
+int finish(const std::string& command, const Outcome& outcome) {
+    if (outcome.status != kExitDone) {
+        printError(command, outcome.text);
+    }
+    return outcome.status;
+}
+
+int printed(const Result<void>& written) {
+    return finish("", written ? Outcome() : Outcome(written.error()));
+}
+
+int run(int argc, char** argv) {
+    CLI::App program("Contact between triangle meshes and the visible part of volumes, on Vulkan.", "voxtact");
+    program.require_subcommand(1);
+    program.set_version_flag("--version", versionText());
+    program.footer("Example:\n  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel\n\n"
+                   "Exit status: 0 done, 1 failed at run time, 2 unusable arguments, 3 a verification failed.");
+    std::vector<Command> commands{addDetect(program), addDevices(program)};
+    for (Command& command : addMake(program)) {
+        commands.push_back(std::move(command));
+    }
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return printed(writeStandardOutput(program.help()));
+    } catch (const CLI::CallForVersion&) {
+        return printed(writeStandardOutput(versionText()));
+    } catch (const CLI::ParseError& error) {
+        return finish(commandName(deepest(program)), Outcome(kExitArguments, parseErrorText(program, error)));
+    }
+    for (const Command& command : commands) {
+        if (command.parser == deepest(program)) {
+            return finish(commandName(command.parser), command.run());
+        }
+    }
+    return finish("", Outcome(kExitArguments, "a command is needed; see voxtact --help"));
+}
+
+} // namespace
+
+} // namespace voxtact::app
+
+int main(int argc, char** argv) {
+    voxtact::app::claimStandardStreams();
+    try {
+        return voxtact::app::run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        voxtact::app::printError("", "out of memory");
+    } catch (const std::exception& exception) {
+        voxtact::app::printError("", exception.what());
+    }
+    return voxtact::app::kExitFailed;
+}

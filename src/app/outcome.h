@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/result.h"
+
+#include <string>
+
+namespace voxtact::app {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitFailed = 1;    ///< at run time: no device, a file that cannot be read
+inline constexpr int kExitArguments = 2; ///< unusable arguments
+inline constexpr int kExitVerify = 3;    ///< a verification that was asked for has failed
+
+/// How a command ends: its exit status and, unless that is 0, the line that says why.
+struct Outcome {
+    Outcome() = default;
+    Outcome(int exitStatus, std::string reason) : status(exitStatus), text(std::move(reason)) {}
+    Outcome(const Error& error)
+        : status(error.code == ErrorCode::InvalidArgument ? kExitArguments : kExitFailed), text(error.text) {}
+
+    int status = kExitDone;
+    std::string text;
+};
+
+/// The same error, blamed on an argument: exit status 2.
+[[nodiscard]] inline Error badArgument(std::string text) {
+    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
+}
+
+} // namespace voxtact::app

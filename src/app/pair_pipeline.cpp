@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "app/pair_pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace voxtact::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Some poses of one item, in a submission.
+struct Piece {
+    std::uint32_t item = 0;
+    std::uint32_t firstPose = 0;
+};
+
+/// Cuts a batch into submissions of at most so many pairs.
+class Cutter {
+  public:
+    Cutter(std::span<const BatchItem> items, std::uint32_t pairs) : items_(items), pairs_(pairs) {}
+
+    /// The next submission's items and where they come from; false when all are out.
+    bool next(std::vector<BatchItem>& part, std::vector<Piece>& pieces) {
+        part.clear();
+        pieces.clear();
+        std::size_t left = pairs_;
+        while (left > 0 && item_ < items_.size()) {
+            const std::span<const Mat4> poses = items_[item_].world_from_object.subspan(pose_);
+            const std::size_t taken = std::min(left, poses.size());
+            if (taken > 0) {
+                part.push_back(items_[item_]);
+                part.back().world_from_object = poses.first(taken);
+                pieces.push_back({static_cast<std::uint32_t>(item_), static_cast<std::uint32_t>(pose_)});
+            }
+            left -= taken;
+            pose_ += taken;
+            if (pose_ == items_[item_].world_from_object.size()) {
+                ++item_;
+                pose_ = 0;
+            }
+        }
+        return !part.empty();
+    }
+
+  private:
+    std::span<const BatchItem> items_;
+    std::size_t pairs_;
+    std::size_t item_ = 0;
+    std::size_t pose_ = 0;
+};
+
+/// One submission in flight.
+struct Flight {
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    Results* results = nullptr;
+    std::vector<Piece> pieces;
+    std::uint64_t frame = 0;
+    Clock::time_point begun;
+    bool pending = false;
+};
+
+} // namespace
+
+struct PairPipeline::State {
+    State(const VulkanDevice& owner, const Detector& what, const PipelineDesc& how, ResultRing ring)
+        : device(owner), detector(what), desc(how), results(std::move(ring)), flights(how.frames) {}
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();
+
+    Result<void> makeFlight(Flight& flight) const;
+    Result<void> launch(Flight& flight, const Batch& part);
+    Result<void> land(Flight& flight, const Sink& sink);
+    Result<void> run(const Batch& batch, const Sink& sink);
+    void drain() noexcept;
+
+    const VulkanDevice& device;
+    const Detector& detector;
+    PipelineDesc desc;
+    ResultRing results;
+    std::vector<Flight> flights;
+    std::uint64_t frame = 0;
+};
+
+PairPipeline::State::~State() {
+    const VolkDeviceTable& vk = device.table();
+    for (const Flight& flight : flights) {
+        vk.vkDestroyFence(device.handle(), flight.fence, nullptr);
+        vk.vkDestroyCommandPool(device.handle(), flight.pool, nullptr);
+    }
+}
+
+Result<void> PairPipeline::State::makeFlight(Flight& flight) const {
+    const VolkDeviceTable& vk = device.table();
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = device.queueAccess().family;
+    VkResult result = vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &flight.pool);
+    if (result == VK_SUCCESS) {
+        VkCommandBufferAllocateInfo commands{};
+        commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        commands.commandPool = flight.pool;
+        commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        commands.commandBufferCount = 1;
+        result = vk.vkAllocateCommandBuffers(device.handle(), &commands, &flight.commands);
+    }
+    if (result == VK_SUCCESS) {
+        VkFenceCreateInfo fence{};
+        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        result = vk.vkCreateFence(device.handle(), &fence, nullptr, &flight.fence);
+    }
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "making a command buffer failed");
+    }
+    return {};
+}
+
+Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
+    const VolkDeviceTable& vk = device.table();
+    flight.begun = Clock::now();
+    flight.frame = frame++;
+    const Result<Results*> slot = results.begin(flight.frame);
+    if (!slot.ok()) {
+        return slot.error();
+    }
+    flight.results = *slot;
+
+    VkResult result = vk.vkResetCommandPool(device.handle(), flight.pool, 0);
+    if (result == VK_SUCCESS) {
+        VkCommandBufferBeginInfo begin{};
+        begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        result = vk.vkBeginCommandBuffer(flight.commands, &begin);
+    }
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "recording the pairs failed");
+    }
+    if (Result<void> recorded = detector.cmdDetect(flight.commands, part, *flight.results); !recorded.ok()) {
+        return recorded;
+    }
+    if (Result<void> recorded = flight.results->cmdReadBack(flight.commands); !recorded.ok()) {
+        return recorded;
+    }
+    result = vk.vkEndCommandBuffer(flight.commands);
+    if (result == VK_SUCCESS) {
+        VkCommandBufferSubmitInfo commands{};
+        commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+        commands.commandBuffer = flight.commands;
+        VkSubmitInfo2 submit{};
+        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+        submit.commandBufferInfoCount = 1;
+        submit.pCommandBufferInfos = &commands;
+        result = vk.vkQueueSubmit2(device.queueAccess().queue, 1, &submit, flight.fence);
+    }
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "submitting the pairs failed");
+    }
+    flight.pending = true;
+    return {};
+}
+
+Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink) {
+    const VolkDeviceTable& vk = device.table();
+    VkResult result =
+        vk.vkWaitForFences(device.handle(), 1, &flight.fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    if (result == VK_SUCCESS) {
+        flight.pending = false;
+        result = vk.vkResetFences(device.handle(), 1, &flight.fence);
+    }
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "waiting for the pairs failed");
+    }
+    const Result<std::span<const PairResult>> read = results.read(flight.frame);
+    if (!read.ok()) {
+        return read.error();
+    }
+    const std::chrono::duration<double, std::milli> wall = Clock::now() - flight.begun;
+    const auto pairs = static_cast<double>(read->size());
+    TimedAnswer timed;
+    timed.wallMilliseconds = wall.count() / pairs;
+    if (desc.timestamps) {
+        const Result<double> gpu = flight.results->gpuMilliseconds();
+        if (!gpu.ok()) {
+            return gpu.error();
+        }
+        timed.gpuMilliseconds = *gpu / pairs;
+    }
+    for (const PairResult& pair : *read) {
+        timed.answer = unpack(pair);
+        timed.item = flight.pieces[timed.answer.item].item;
+        timed.pose = flight.pieces[timed.answer.item].firstPose + timed.answer.pose;
+        sink(timed);
+    }
+    return {};
+}
+
+Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink) {
+    Cutter cutter(batch.items, desc.pairsPerSubmission);
+    std::vector<BatchItem> items;
+    std::vector<Piece> pieces;
+    std::size_t next = 0; // the oldest flight, and the one to take next: they go round
+    bool more = true;
+    for (std::size_t landed = 0; more || landed < flights.size(); next = (next + 1) % flights.size()) {
+        Flight& flight = flights[next];
+        if (flight.pending) {
+            if (Result<void> done = land(flight, sink); !done.ok()) {
+                return done;
+            }
+        }
+        more = more && cutter.next(items, pieces);
+        if (!more) {
+            ++landed;
+            continue;
+        }
+        flight.pieces = pieces;
+        if (Result<void> done = launch(flight, {items, batch.view, batch.threshold}); !done.ok()) {
+            return done;
+        }
+    }
+    return {};
+}
+
+/// After an error: nothing that a submission uses may end before it does.
+void PairPipeline::State::drain() noexcept {
+    device.table().vkDeviceWaitIdle(device.handle());
+    for (Flight& flight : flights) {
+        flight.pending = false;
+    }
+}
+
+PairPipeline::PairPipeline(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+PairPipeline::PairPipeline(PairPipeline&&) noexcept = default;
+PairPipeline& PairPipeline::operator=(PairPipeline&&) noexcept = default;
+PairPipeline::~PairPipeline() = default;
+
+Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Context& context, const Detector& detector,
+                                          const PipelineDesc& desc) {
+    PipelineDesc how = desc;
+    how.timestamps = desc.timestamps && device.hasTimestamps();
+    const ResultsDesc results{.maxPairs = how.pairsPerSubmission,
+                              .readBack = true,
+                              .timestamps = how.timestamps,
+                              .queueFamily = device.queueAccess().family};
+    Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
+    if (!ring.ok()) {
+        return ring.error();
+    }
+    auto state = std::make_unique<State>(device, detector, how, std::move(*ring));
+    for (Flight& flight : state->flights) {
+        if (const Result<void> made = state->makeFlight(flight); !made.ok()) {
+            return made.error();
+        }
+    }
+    return PairPipeline(std::move(state));
+}
+
+Result<void> PairPipeline::run(const Batch& batch, const Sink& sink) {
+    Result<void> done = state_->run(batch, sink);
+    if (!done.ok()) {
+        state_->drain();
+    }
+    return done;
+}
+
+} // namespace voxtact::app

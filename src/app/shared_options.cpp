@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "app/shared_options.h"
+
+#include "app/standard_streams.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+
+namespace voxtact::app {
+
+namespace {
+
+/// All of `text` as a number; nothing when it is not one.
+template <class Number> std::optional<Number> parseNumber(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return number;
+}
+
+std::string quote(std::string_view text) {
+    return "'" + std::string(text) + "'";
+}
+
+[[noreturn]] void refuse(const char* option, const std::string& why) {
+    throw CLI::ValidationError(option, why);
+}
+
+std::string join(std::initializer_list<const char*> names) {
+    std::string text;
+    for (const char* name : names) {
+        text += (text.empty() ? "" : ", ") + std::string(name);
+    }
+    return text;
+}
+
+bool contains(std::initializer_list<const char*> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Refuses what is not in `available`; `planned` holds names that the contract knows and this version has not.
+void requireName(const char* option, const std::string& name, std::initializer_list<const char*> available,
+                 std::initializer_list<const char*> planned = {}) {
+    if (contains(available, name)) {
+        return;
+    }
+    const char* why = contains(planned, name) ? " is not in this version" : " is not known";
+    refuse(option, quote(name) + why + "; there are: " + join(available));
+}
+
+/// An option whose text `parse` reads; it calls refuse() for what it cannot use.
+CLI::Option* addParsed(CLI::App& parser, const char* option, const std::function<void(const std::string&)>& parse,
+                       const std::string& help, const char* type, const char* standard) {
+    return parser.add_option_function<std::string>(option, parse, help)->type_name(type)->default_str(standard);
+}
+
+CLI::Option* addNumber(CLI::App& parser, const char* option, double& value, const std::string& help,
+                       const std::function<bool(double)>& usable, const char* range, const char* standard) {
+    const auto parse = [option, &value, usable, range](const std::string& text) {
+        const auto number = parseNumber<double>(text);
+        if (!number || !std::isfinite(*number) || !usable(*number)) {
+            refuse(option, quote(text) + " is not a number " + range);
+        }
+        value = *number;
+    };
+    return addParsed(parser, option, parse, help, "NUMBER", standard);
+}
+
+/// A shell variable that is not set must not silently mean the default.
+std::string refuseEmpty(const std::string& text) {
+    return text.empty() ? "an empty value" : "";
+}
+
+VkExtent2D parseSize(const char* option, const std::string& text) {
+    const std::size_t cross = text.find('x');
+    if (cross != std::string::npos) {
+        const auto width = parseNumber<std::uint32_t>(std::string_view(text).substr(0, cross));
+        const auto height = parseNumber<std::uint32_t>(std::string_view(text).substr(cross + 1));
+        if (width && height && *width > 0 && *height > 0) {
+            return {*width, *height};
+        }
+    }
+    refuse(option, quote(text) + " is not WIDTHxHEIGHT in pixels, each at least 1");
+}
+
+ValueRange parseDomain(const char* option, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon != std::string::npos) {
+        const auto lo = parseNumber<double>(std::string_view(text).substr(0, colon));
+        const auto hi = parseNumber<double>(std::string_view(text).substr(colon + 1));
+        if (lo && hi && std::isfinite(*lo) && std::isfinite(*hi) && *lo < *hi) {
+            return {*lo, *hi};
+        }
+    }
+    refuse(option, quote(text) + " is not LO:HI, two numbers with LO below HI");
+}
+
+} // namespace
+
+void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
+                    const std::string& help) {
+    const auto parse = [option, &value, least](const std::string& text) {
+        const auto number = parseNumber<std::uint32_t>(text);
+        if (!number || *number < least) {
+            refuse(option, quote(text) + " is not a whole number from " + std::to_string(least) + " to 4294967295");
+        }
+        value = *number;
+    };
+    addParsed(parser, option, parse, help, "N", std::to_string(value).c_str());
+}
+
+void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help) {
+    parser.add_option(option, path, help)->type_name("PATH")->check(refuseEmpty);
+}
+
+void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
+    parser
+        .add_option(
+            "--volume", sources,
+            "NIfTI, NRRD, MetaImage, a DICOM folder, or builtin:NAME[:SIZE] with head, sphere, noise, ct, shells")
+        ->type_name("PATH")
+        ->check(refuseEmpty)
+        ->allow_extra_args(false)
+        ->required();
+}
+
+void addMeshOptions(CLI::App& parser, MeshOptions& options) {
+    parser
+        .add_option("--mesh", options.sources,
+                    "STL, OBJ, PLY, glTF/GLB, or builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES]")
+        ->type_name("PATH")
+        ->check(refuseEmpty)
+        ->allow_extra_args(false)
+        ->required();
+    addParsed(
+        parser, "--mesh-space",
+        [&options](const std::string& name) {
+            requireName("--mesh-space", name, {"lps", "ras"});
+            options.space = name;
+        },
+        "what the coordinates of mesh files mean: lps or ras", "SPACE", "lps");
+    addNumber(
+        parser, "--mesh-scale", options.scale, "millimetres in a unit of mesh files",
+        [](double scale) { return scale > 0; }, "above 0", "1");
+}
+
+void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options) {
+    addPath(parser, "--transfer-function", options.path,
+            "lines 'value opacity' in the image's units, or JSON with \"points\"; default: opacity rises from 0 to 1 "
+            "over the domain");
+    parser.add_option("--opacity", options.opacity, "the same as a list: \"v:a,v:a,...\"")
+        ->type_name("LIST")
+        ->excludes("--transfer-function");
+    addParsed(
+        parser, "--tf-domain",
+        [&options](const std::string& text) { options.domain = parseDomain("--tf-domain", text); },
+        "values that the table covers; default 0:255 for uint8, else the data's min and max", "LO:HI", "");
+    addWholeNumber(parser, "--tf-size", options.tableSize, 2, "entries of the table");
+    addNumber(
+        parser, "--threshold", options.threshold, "opacity from which a sample is opaque",
+        [](double threshold) { return threshold >= 0 && threshold <= 1; }, "from 0 to 1", "0.1");
+}
+
+void addViewOptions(CLI::App& parser, ViewOptions& options) {
+    addPath(parser, "--poses", options.poses,
+            "a world_from_object matrix a line: 16 numbers, row by row; default: the identity");
+    addPath(parser, "--camera", options.camera,
+            "a clip_from_world matrix: 16 numbers, row by row; default: along world -z, framing the volume");
+    addParsed(
+        parser, "--size", [&options](const std::string& text) { options.size = parseSize("--size", text); },
+        "viewport in pixels", "WxH", "512x512");
+}
+
+void addMethodOptions(CLI::App& parser, MethodOptions& options) {
+    addParsed(
+        parser, "--count",
+        [&options](const std::string& name) {
+            requireName("--count", name, {"query", "query-any", "atomic", "subgroup", "compute", "auto"}, {"cpu"});
+            options.count = countingMethodFromName(name);
+        },
+        "how fragments are counted: query, query-any, atomic, subgroup, compute, auto", "METHOD", "auto");
+    addParsed(
+        parser, "--projection",
+        [](const std::string& name) {
+            requireName("--projection", name, {"view"}, {"two-view", "dominant-axis", "conservative"});
+        },
+        "how a mesh becomes fragments: view", "P", "view");
+    addParsed(
+        parser, "--filter",
+        [&options](const std::string& name) {
+            requireName("--filter", name, {"hardware", "exact"});
+            options.filter = name == "exact" ? Filter::Exact : Filter::Hardware;
+        },
+        "how the image is sampled: hardware (the sampler), exact (fp32 in a fixed order); default: exact for compute, "
+        "else hardware",
+        "F", "");
+    addParsed(
+        parser, "--boundary",
+        [&options](const std::string& name) {
+            requireName("--boundary", name, {"auto", "range", "clamp"});
+            options.boundary = name == "range" ? Boundary::Range : name == "clamp" ? Boundary::Clamp : Boundary::Auto;
+        },
+        "outside the volume: range (tested), clamp (boundary voxels are transparent), auto", "B", "auto");
+}
+
+void addDeviceOptions(CLI::App& parser, DeviceChoice& options) {
+    parser
+        .add_option(
+            "--device", options.wanted,
+            "number or part of the name (see voxtact devices); default: the first discrete GPU, else what there is")
+        ->type_name("INDEX|NAME")
+        ->check(refuseEmpty);
+    parser.add_flag("--validate", options.validate,
+                    "validation and synchronization validation on; any message fails the run (exit 3)");
+}
+
+void addOutputOptions(CLI::App& parser, OutputOptions& options) {
+    addPath(parser, "--output", options.path, "default: standard output");
+    addParsed(
+        parser, "--format",
+        [&options](const std::string& name) {
+            requireName("--format", name, {"csv", "json", "text"});
+            options.formatName = name;
+        },
+        "csv, json or text; default: text on a terminal, else csv", "F", "");
+}
+
+void addProgressOption(CLI::App& parser, bool& shown) {
+    shown = errorIsTerminal();
+    addParsed(
+        parser, "--progress",
+        [&shown](const std::string& name) {
+            requireName("--progress", name, {"auto", "never"});
+            shown = name == "auto" && errorIsTerminal();
+        },
+        "auto (a bar on a terminal's standard error) or never", "WHEN", "auto");
+}
+
+} // namespace voxtact::app

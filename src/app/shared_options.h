@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/outcome.h"
+#include "app/output.h"
+#include "voxtact/data.h"
+#include "voxtact/methods.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+/// The options that several commands have, and what they mean: one function a group adds them to a command.
+namespace voxtact::app {
+
+/// A command of the program: what parses its options, and what runs once they are parsed.
+struct Command {
+    CLI::App* parser = nullptr;
+    std::function<Outcome()> run;
+};
+
+struct MeshOptions {
+    std::vector<std::string> sources; ///< paths, or builtin:NAME
+    std::string space = "lps";
+    double scale = 1;
+};
+
+struct TransferFunctionOptions {
+    std::filesystem::path path;
+    std::optional<std::string> opacity;
+    std::optional<ValueRange> domain;
+    std::uint32_t tableSize = kDefaultTableSize;
+    double threshold = kDefaultThreshold;
+};
+
+struct ViewOptions {
+    std::filesystem::path poses;
+    std::filesystem::path camera;
+    VkExtent2D size{512, 512};
+};
+
+struct MethodOptions {
+    std::optional<CountingMethod> count; ///< nothing: auto
+    Projection projection = Projection::View;
+    std::optional<Filter> filter; ///< nothing: defaultFilter()
+    Boundary boundary = Boundary::Auto;
+};
+
+struct DeviceChoice {
+    std::string wanted; ///< empty: the default device
+    bool validate = false;
+};
+
+/// A whole number from `least`, as an option.
+void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
+                    const std::string& help);
+/// A path, as an option. An empty one (a shell variable that is not set) is refused.
+void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help);
+void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources);
+void addMeshOptions(CLI::App& parser, MeshOptions& options);
+void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options);
+void addViewOptions(CLI::App& parser, ViewOptions& options);
+void addMethodOptions(CLI::App& parser, MethodOptions& options);
+void addDeviceOptions(CLI::App& parser, DeviceChoice& options);
+void addOutputOptions(CLI::App& parser, OutputOptions& options);
+void addProgressOption(CLI::App& parser, bool& shown);
+
+} // namespace voxtact::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/result.h"
+
+#include <string>
+#include <string_view>
+
+namespace voxtact::app {
+
+/// Call it first in main(). Standard streams that the caller closed are put on /dev/null, so that no file of ours
+/// takes their number, and a closed pipe becomes a failed write instead of a signal.
+void claimStandardStreams() noexcept;
+
+[[nodiscard]] bool outputIsTerminal() noexcept;
+[[nodiscard]] bool errorIsTerminal() noexcept;
+
+/// Writes all of `text`, or fails with the reason.
+[[nodiscard]] Result<void> writeStandardOutput(std::string_view text);
+
+/// Standard error, one line whatever `text` holds: "voxtact: note: text".
+void printNote(std::string_view text);
+/// "voxtact detect: text"; `command` may be empty.
+void printError(std::string_view command, std::string_view text);
+
+/// `text` with runs of white space and control characters as one space: what fits in a one-line message.
+[[nodiscard]] std::string oneLine(std::string_view text);
+
+} // namespace voxtact::app

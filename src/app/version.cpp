@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "app/version.h"
+
+#include "app/vulkan_device.h"
+
+#include "voxtact_version.h"
+
+namespace voxtact::app {
+
+const char* programVersion() noexcept {
+    return kVersion;
+}
+
+std::string versionText() {
+    return std::string("voxtact ") + kVersion + "\ngit revision " + kGitRevision + "\nVulkan headers " +
+           apiVersionText(VK_HEADER_VERSION_COMPLETE) + "\nglslang " + kGlslangVersion + "\n";
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace voxtact::app {
+
+[[nodiscard]] const char* programVersion() noexcept;
+/// Version, git revision, Vulkan headers, glslang: a line each.
+[[nodiscard]] std::string versionText();
+
+} // namespace voxtact::app

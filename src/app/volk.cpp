@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: MIT
+// volk's own code, compiled in this one place.
+#define VOLK_IMPLEMENTATION
+#include <volk.h>

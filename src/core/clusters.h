@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxtact {
+
+inline constexpr std::uint32_t kClusterTriangles = 64;
+
+/// Triangles that are near each other. Its triangles are consecutive in MeshClusters::triangles, its vertices in
+/// MeshClusters::vertices.
+struct MeshCluster {
+    std::uint32_t firstTriangle = 0;
+    std::uint32_t triangleCount = 0;
+    std::uint32_t firstVertex = 0;
+    std::uint32_t vertexCount = 0;
+    std::array<float, 3> lo{}; ///< bounds of its vertices, object space
+    std::array<float, 3> hi{};
+};
+
+/// Every triangle of a mesh in exactly one cluster of at most 64.
+struct MeshClusters {
+    std::vector<MeshCluster> clusters;
+    std::vector<std::uint32_t> triangles;             ///< numbers in the mesh, cluster by cluster
+    std::vector<std::array<std::uint8_t, 3>> corners; ///< of each of `triangles`: vertices of its cluster
+    std::vector<std::uint32_t> vertices;              ///< numbers in the mesh, cluster by cluster, each once a cluster
+};
+
+/// Splits at the median along the longest axis until at most kClusterTriangles are left. The same mesh gives the same
+/// clusters. Expects a mesh that checkMesh() accepts.
+[[nodiscard]] MeshClusters makeClusters(const MeshView& mesh);
+
+} // namespace voxtact

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxtact {
+
+/// Which scalars of a transfer function's table can look up an opacity of at least a threshold, on the safe side:
+/// mayBeOpaque() is false only where no sampler, whatever the precision of its weights, returns an opaque sample for
+/// any scalar of the range, certainlyOpaque() is true only where every sampler returns an opaque sample for all of them.
+/// Kept as prefix counts over the table's entries, so that a question costs two look-ups.
+class OpaqueRanges {
+  public:
+    /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque.
+    OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold);
+
+    /// Whether a scalar of the closed range (in the image's own units) may be opaque.
+    [[nodiscard]] bool mayBeOpaque(const ValueRange& range) const noexcept;
+    /// Whether every scalar of the closed range is opaque.
+    [[nodiscard]] bool certainlyOpaque(const ValueRange& range) const noexcept;
+    /// Whether no scalar at all is opaque: nothing is visible.
+    [[nodiscard]] bool nothingOpaque() const noexcept { return opaqueBefore_.back() == 0; }
+
+  private:
+    /// The entries that the scalars of a range can look up.
+    struct Entries {
+        std::size_t first = 0;
+        std::size_t last = 0;
+    };
+    [[nodiscard]] double entry(double value) const noexcept;
+    [[nodiscard]] Entries entries(const ValueRange& range) const noexcept;
+
+    ValueRange domain_;
+    std::vector<std::uint32_t> opaqueBefore_;  ///< [i]: opaque entries below i; one more element than entries
+    std::vector<std::uint32_t> certainBefore_; ///< the same of entries that are opaque beyond doubt
+};
+
+} // namespace voxtact

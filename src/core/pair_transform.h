@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared.h"
+#include "voxtact/data.h"
+
+namespace voxtact {
+
+/// What every counting method starts from. The products are made in double and rounded to float once, so that device
+/// and host see the same numbers.
+[[nodiscard]] shader::PairTransform pairTransform(const Mat4& clip_from_world, const Mat4& world_from_object,
+                                                  const Mat4& texture_from_world) noexcept;
+
+/// Stored value -> normalised scalar, and the threshold. value = valueSlope * stored + valueIntercept, where stored is
+/// what the sampler returns (a texel in [0,1]) or, for exact filtering, the integer behind it. storedUnit is 0.
+[[nodiscard]] shader::ItemConstants itemConstants(double valueSlope, double valueIntercept, const ValueRange& domain,
+                                                  double threshold) noexcept;
+
+} // namespace voxtact

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "core/opaque_ranges.h"
+#include "detect/batch.h"
+#include "detect/compute.h"
+#include "detect/recording.h"
+#include "detect/view.h"
+#include "gpu/debug.h"
+#include "gpu/scene_impl.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace voxtact {
+
+struct DetectorImpl {
+    ContextImpl& context;
+    DetectorDesc desc;
+    std::variant<ViewPass, ComputePass> pass;
+};
+
+namespace {
+
+std::string labelOf(const DetectorDesc& desc, std::uint32_t pairs) {
+    return std::string("voxtact detect ") + toString(desc.projection) + "/" + toString(desc.method) + ", " +
+           std::to_string(pairs) + " pairs";
+}
+
+Result<void> checkMethod(const Context& context, CountingMethod method) {
+    for (const MethodSupport& entry : context.methods()) {
+        if (entry.method == method) {
+            if (entry.available) {
+                return {};
+            }
+            return Error{ErrorCode::Unsupported, 0,
+                         std::string("the counting method ") + toString(method) +
+                             " cannot be used on this device: " + entry.reason};
+        }
+    }
+    if (method == CountingMethod::Cpu) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "the counting method cpu is the host engine's (voxtact/cpu.h), not a device's"};
+    }
+    return Error{ErrorCode::InvalidArgument, 0,
+                 "there is no counting method number " + std::to_string(static_cast<std::uint32_t>(method))};
+}
+
+template <class Pass>
+Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const DetectorDesc& desc, Result<Pass> pass) {
+    if (!pass.ok()) {
+        return pass.error();
+    }
+    return std::make_unique<DetectorImpl>(DetectorImpl{context, desc, std::move(*pass)});
+}
+
+} // namespace
+
+Detector::Detector(std::unique_ptr<DetectorImpl> impl) noexcept : impl_(std::move(impl)) {}
+Detector::Detector(Detector&&) noexcept = default;
+Detector& Detector::operator=(Detector&&) noexcept = default;
+Detector::~Detector() = default;
+
+Result<Detector> Detector::create(const Context& context, const DetectorDesc& desc) {
+    return guard([&]() -> Result<Detector> {
+        ContextImpl& c = context.impl();
+        if (Result<void> alive = c.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        if (Result<void> method = checkMethod(context, desc.method); !method.ok()) {
+            return method.error();
+        }
+        Result<std::unique_ptr<DetectorImpl>> impl =
+            desc.method == CountingMethod::Compute ? withPass(c, desc, ComputePass::create(c, desc.filter))
+                                                   : withPass(c, desc, ViewPass::create(c, desc.method, desc.filter));
+        if (!impl.ok()) {
+            return impl.error();
+        }
+        return Detector(std::move(*impl));
+    });
+}
+
+Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const {
+    return guard([&]() -> Result<void> {
+        ContextImpl& context = impl_->context;
+        ResultsImpl& slot = results.impl();
+        if (Result<void> alive = context.alive(); !alive.ok()) {
+            return alive;
+        }
+        if (&slot.context != &context) {
+            return Error{ErrorCode::InvalidArgument, 0, "the Results belong to another Context"};
+        }
+        const Result<std::uint32_t> pairs = checkBatch(context, batch);
+        if (!pairs.ok()) {
+            return pairs.error();
+        }
+        if (*pairs > slot.maxPairs) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
+                             std::to_string(slot.maxPairs)};
+        }
+        if (const auto* compute = std::get_if<ComputePass>(&impl_->pass)) {
+            if (Result<void> checked = compute->check(batch); !checked.ok()) {
+                return checked;
+            }
+        }
+        slot.pairs = *pairs;
+        slot.readBackRecorded = false;
+        const Label label(context, commandBuffer, labelOf(impl_->desc, *pairs).c_str());
+        if (*pairs == 0) {
+            return {};
+        }
+        prepareResults(context, commandBuffer, batch, slot, impl_->desc);
+        std::visit(
+            [&](const auto& pass) {
+                pass.record(commandBuffer, batch, slot,
+                            [&](const BatchItem& item) { return boundaryFor(item, batch.threshold); });
+            },
+            impl_->pass);
+        publishResults(context, commandBuffer, slot, impl_->desc);
+        return {};
+    });
+}
+
+const DetectorDesc& Detector::desc() const noexcept {
+    return impl_->desc;
+}
+
+Boundary Detector::boundaryFor(const BatchItem& item, double threshold) const noexcept {
+    if (impl_->desc.boundary != Boundary::Auto) {
+        return impl_->desc.boundary;
+    }
+    const VolumeImpl& volume = item.volume->impl();
+    const TransferFunctionImpl& function = item.transferFunction->impl();
+    if (!volume.boundary || function.table.empty()) {
+        return Boundary::Range;
+    }
+    try {
+        const OpaqueRanges opaque(function.table, function.domain, threshold);
+        const bool anyOpaque =
+            std::ranges::any_of(*volume.boundary, [&](const ValueRange& range) { return opaque.mayBeOpaque(range); });
+        return anyOpaque ? Boundary::Range : Boundary::Clamp;
+    } catch (const std::bad_alloc&) {
+        return Boundary::Range;
+    }
+}
+
+} // namespace voxtact

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "detect/results_impl.h"
+#include "voxtact/detector.h"
+
+namespace voxtact {
+
+/// What every pass needs before it: the transforms of a checked batch, and results of zero that say which pair they
+/// are. Waits for whatever still uses an earlier batch of the same Results. Leaves them ready for shaders, and the
+/// queries reset where the method counts by query.
+void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
+                    const ResultsImpl& results, const DetectorDesc& desc);
+
+/// What every pass needs after it: queries are copied over the counts, and the results made visible to what follows.
+void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
+                    const DetectorDesc& desc);
+
+} // namespace voxtact

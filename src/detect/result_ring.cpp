@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "voxtact/detector.h"
+
+namespace voxtact {
+
+Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t frames, const ResultsDesc& desc) {
+    return guard([&]() -> Result<ResultRing> {
+        if (frames == 0) {
+            return Error{ErrorCode::InvalidArgument, 0, "a ring needs at least one frame"};
+        }
+        ResultRing out;
+        for (std::uint32_t i = 0; i < frames; ++i) {
+            Result<Results> results = Results::create(context, desc);
+            if (!results.ok()) {
+                return results.error();
+            }
+            out.slots_.push_back({std::move(*results)});
+        }
+        return out;
+    });
+}
+
+Result<Results*> ResultRing::begin(std::uint64_t frame) {
+    return guard([&]() -> Result<Results*> {
+        Slot& slot = slots_[frame % slots_.size()];
+        if (slot.used && frame < slot.frame) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "frame " + std::to_string(frame) + " comes after frame " + std::to_string(slot.frame) +
+                             " in the same slot: frames ascend"};
+        }
+        slot.used = true;
+        slot.frame = frame;
+        return &slot.results;
+    });
+}
+
+Result<std::span<const PairResult>> ResultRing::read(std::uint64_t frame) {
+    return guard([&]() -> Result<std::span<const PairResult>> {
+        Slot& slot = slots_[frame % slots_.size()];
+        if (!slot.used || slot.frame < frame) {
+            return Error{ErrorCode::NotReady, 0, "frame " + std::to_string(frame) + " was never begun"};
+        }
+        if (slot.frame != frame) {
+            return Error{ErrorCode::NotReady, 0,
+                         "the slot of frame " + std::to_string(frame) + " was taken by frame " +
+                             std::to_string(slot.frame) + ": a ring of " + std::to_string(slots_.size()) +
+                             " keeps that many frames"};
+        }
+        return slot.results.read();
+    });
+}
+
+} // namespace voxtact

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "detect/results_impl.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "shared.h"
+
+#include <array>
+#include <cstring>
+
+namespace voxtact {
+
+namespace {
+
+Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type, std::uint32_t count,
+                                         const char* name) {
+    VkQueryPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    info.queryType = type;
+    info.queryCount = count;
+    VkQueryPool handle = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateQueryPool(context.device, &info, context.allocator, &handle);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a query pool");
+    }
+    nameObject(context, VK_OBJECT_TYPE_QUERY_POOL, handle, name);
+    return Owned<VkQueryPool>(
+        context, handle, [](ContextImpl& c, VkQueryPool pool) { c.vk.DestroyQueryPool(c.device, pool, c.allocator); });
+}
+
+Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
+    if (desc.maxPairs == 0) {
+        return Error{ErrorCode::InvalidArgument, 0, "ResultsDesc::maxPairs is 0"};
+    }
+    const std::uint64_t bytes = std::uint64_t{desc.maxPairs} * sizeof(shader::PairTransform);
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     std::to_string(desc.maxPairs) + " pairs need a buffer of " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    if (desc.timestamps && context.timestampBits(desc.queueFamily) == 0) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "queue family " + std::to_string(desc.queueFamily) + " has no timestamps"};
+    }
+    return {};
+}
+
+/// The four buffers of a Results, each with what it is for.
+Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
+    const VkDeviceSize resultBytes = VkDeviceSize{out.maxPairs} * sizeof(PairResult);
+    struct Wanted {
+        Buffer& buffer;
+        VkDeviceSize size;
+        VkBufferUsageFlags usage;
+        MemoryUse use;
+        const char* name;
+    };
+    constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const Wanted wanted[] = {
+        {out.transforms, VkDeviceSize{out.maxPairs} * sizeof(shader::PairTransform), kTo, MemoryUse::Device,
+         "pair transforms"},
+        {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
+        {out.readBack, resultBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "pair results on the host"},
+    };
+    for (const Wanted& each : wanted) {
+        if (each.use == MemoryUse::ReadBack && !readBack) {
+            continue;
+        }
+        Result<Buffer> made = makeBuffer(out.context, each.size, each.usage, each.use, each.name);
+        if (!made.ok()) {
+            return made.error();
+        }
+        each.buffer = std::move(*made);
+    }
+    return {};
+}
+
+Result<void> makeQueries(ResultsImpl& out) {
+    Result<Owned<VkQueryPool>> occlusion =
+        makeQueryPool(out.context, VK_QUERY_TYPE_OCCLUSION, out.maxPairs, "occlusion queries");
+    if (!occlusion.ok()) {
+        return occlusion.error();
+    }
+    out.occlusion = std::move(*occlusion);
+    if (out.timestampBits > 0) {
+        Result<Owned<VkQueryPool>> timestamps =
+            makeQueryPool(out.context, VK_QUERY_TYPE_TIMESTAMP, 2, "batch timestamps");
+        if (!timestamps.ok()) {
+            return timestamps.error();
+        }
+        out.timestamps = std::move(*timestamps);
+    }
+    return {};
+}
+
+Result<void> makeDescriptors(ResultsImpl& out) {
+    ContextImpl& context = out.context;
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_PAIRS], {&size, 1}, "pairs");
+    if (!set.ok()) {
+        return set.error();
+    }
+    out.descriptors = std::move(*set);
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, out.transforms.get());
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, out.results.get());
+    return {};
+}
+
+Error notReady(const char* text) {
+    return {ErrorCode::NotReady, 0, text};
+}
+
+} // namespace
+
+Results::Results(std::unique_ptr<ResultsImpl> impl) noexcept : impl_(std::move(impl)) {}
+Results::Results(Results&&) noexcept = default;
+Results& Results::operator=(Results&&) noexcept = default;
+Results::~Results() = default;
+
+Result<Results> Results::create(const Context& context, const ResultsDesc& desc) {
+    return create(context.impl(), desc);
+}
+
+Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
+    return guard([&]() -> Result<Results> {
+        if (Result<void> alive = c.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        if (Result<void> checked = checkDesc(c, desc); !checked.ok()) {
+            return checked.error();
+        }
+        auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = c, .maxPairs = desc.maxPairs});
+        impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
+        if (Result<void> made = makeBuffers(*impl, desc.readBack); !made.ok()) {
+            return made.error();
+        }
+        for (const auto make : {makeQueries, makeDescriptors}) {
+            if (Result<void> made = make(*impl); !made.ok()) {
+                return made.error();
+            }
+        }
+        return Results(std::move(impl));
+    });
+}
+
+std::uint32_t Results::maxPairs() const noexcept {
+    return impl_->maxPairs;
+}
+
+std::uint32_t Results::pairs() const noexcept {
+    return impl_->pairs;
+}
+
+VkBuffer Results::buffer() const noexcept {
+    return impl_->results.get();
+}
+
+Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
+    return guard([&]() -> Result<void> {
+        ResultsImpl& r = *impl_;
+        if (!r.readBack.buffer) {
+            return Error{ErrorCode::InvalidArgument, 0, "the Results were made without readBack"};
+        }
+        r.readBackRecorded = true;
+        if (r.pairs == 0) {
+            return {};
+        }
+        const Label label(r.context, commandBuffer, "voxtact read back");
+        // An earlier copy into the same memory must be done first.
+        barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        const VkBufferCopy region{0, 0, VkDeviceSize{r.pairs} * sizeof(PairResult)};
+        r.context.vk.CmdCopyBuffer(commandBuffer, r.results.get(), r.readBack.get(), 1, &region);
+        barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+        return {};
+    });
+}
+
+Result<std::span<const PairResult>> Results::read() {
+    return guard([&]() -> Result<std::span<const PairResult>> {
+        const ResultsImpl& r = *impl_;
+        if (Result<void> alive = r.context.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        if (!r.readBackRecorded) {
+            return notReady("cmdReadBack() was not recorded after the last cmdDetect()");
+        }
+        if (Result<void> visible = invalidate(r.context, r.readBack); !visible.ok()) {
+            return visible.error();
+        }
+        return std::span(static_cast<const PairResult*>(r.readBack.mapped), r.pairs);
+    });
+}
+
+Result<double> Results::gpuMilliseconds() {
+    return guard([&]() -> Result<double> {
+        const ResultsImpl& r = *impl_;
+        if (!r.timestamps) {
+            return notReady("the Results were made without timestamps");
+        }
+        if (r.pairs == 0) {
+            return 0.0;
+        }
+        std::array<std::uint64_t, 2> ticks{};
+        const VkResult result =
+            r.context.vk.GetQueryPoolResults(r.context.device, r.timestamps.get(), 0, 2, sizeof ticks, ticks.data(),
+                                             sizeof ticks[0], VK_QUERY_RESULT_64_BIT);
+        if (result == VK_NOT_READY) {
+            return notReady("the submission has not completed");
+        }
+        if (result != VK_SUCCESS) {
+            return r.context.failure(result, "reading timestamps");
+        }
+        // The counter has fewer than 64 bits on some queues and wraps.
+        const std::uint64_t mask =
+            r.timestampBits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << r.timestampBits) - 1;
+        const auto elapsed = static_cast<double>((ticks[1] - ticks[0]) & mask);
+        return elapsed * static_cast<double>(r.context.limits.timestampPeriod) * 1e-6;
+    });
+}
+
+} // namespace voxtact

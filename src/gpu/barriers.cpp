@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/barriers.h"
+
+namespace voxtact {
+
+void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
+                  VkExtent3D extent) {
+    VkImageMemoryBarrier2 transition{};
+    transition.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+    // Earlier readers must be done before the contents go.
+    transition.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    transition.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+    transition.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    transition.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    transition.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    transition.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    transition.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    transition.image = image;
+    transition.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &transition;
+    context.vk.CmdPipelineBarrier2(commandBuffer, &info);
+
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = extent;
+    context.vk.CmdCopyBufferToImage(commandBuffer, staging, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+
+    transition.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+    transition.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    transition.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    transition.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    transition.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    transition.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    context.vk.CmdPipelineBarrier2(commandBuffer, &info);
+}
+
+} // namespace voxtact

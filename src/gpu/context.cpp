@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "gpu/context_impl.h"
+#include "gpu/debug.h"
+#include "shared.h"
+
+#include <algorithm>
+
+namespace voxtact {
+
+namespace {
+
+Error refusal(const CheckReport& report) {
+    std::string text = "the device cannot be used: ";
+    for (std::size_t i = 0; i < report.missing.size(); ++i) {
+        text += (i == 0 ? "" : "; ") + report.missing[i];
+    }
+    return {ErrorCode::Unsupported, 0, std::move(text)};
+}
+
+void readProperties(ContextImpl& context) {
+    VkPhysicalDeviceMaintenance3Properties maintenance3{};
+    maintenance3.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    maintenance3.pNext = &driver;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &maintenance3;
+    context.vk.GetPhysicalDeviceProperties2(context.physicalDevice, &properties);
+    context.limits = properties.properties.limits;
+    context.maxAllocation = maintenance3.maxMemoryAllocationSize;
+    context.flushAfterQuery = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+    context.vk.GetPhysicalDeviceMemoryProperties(context.physicalDevice, &context.memory);
+}
+
+Result<void> makeSampler(ContextImpl& context) {
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = VK_FILTER_LINEAR;
+    info.minFilter = VK_FILTER_LINEAR;
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    if (const VkResult result = context.vk.CreateSampler(context.device, &info, context.allocator, &context.sampler);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a sampler");
+    }
+    nameObject(context, VK_OBJECT_TYPE_SAMPLER, context.sampler, "linear sampler");
+    return {};
+}
+
+Result<void> makeSetLayout(ContextImpl& context, SetIndex index, std::span<const VkDescriptorSetLayoutBinding> bindings,
+                           const char* name) {
+    VkDescriptorSetLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout& layout = context.setLayouts[static_cast<std::size_t>(index)];
+    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &layout);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a descriptor set layout");
+    }
+    nameObject(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
+    return {};
+}
+
+Result<void> makeSetLayouts(ContextImpl& context) {
+    static_assert(static_cast<int>(SetIndex::Volume) == VOXTACT_SET_VOLUME);
+    static_assert(static_cast<int>(SetIndex::TransferFunction) == VOXTACT_SET_TRANSFER_FUNCTION);
+    static_assert(static_cast<int>(SetIndex::Pairs) == VOXTACT_SET_PAIRS);
+    static_assert(static_cast<int>(SetIndex::Mesh) == VOXTACT_SET_MESH);
+    constexpr VkShaderStageFlags kStages =
+        VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+    const VkDescriptorSetLayoutBinding image{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, kStages, nullptr};
+    // Storage buffers in the vertex stage are written nowhere, so that no feature is needed for them.
+    const VkDescriptorSetLayoutBinding pairs[] = {
+        {VOXTACT_BINDING_TRANSFORMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
+        {VOXTACT_BINDING_RESULTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
+    };
+    if (Result<void> made = makeSetLayout(context, SetIndex::Volume, {&image, 1}, "volume set layout"); !made.ok()) {
+        return made;
+    }
+    if (Result<void> made =
+            makeSetLayout(context, SetIndex::TransferFunction, {&image, 1}, "transfer function set layout");
+        !made.ok()) {
+        return made;
+    }
+    if (Result<void> made = makeSetLayout(context, SetIndex::Pairs, pairs, "pairs set layout"); !made.ok()) {
+        return made;
+    }
+    const VkDescriptorSetLayoutBinding mesh[] = {
+        {VOXTACT_BINDING_VERTICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+        {VOXTACT_BINDING_INDICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+    };
+    return makeSetLayout(context, SetIndex::Mesh, mesh, "mesh set layout");
+}
+
+Result<void> makeLayout(ContextImpl& context, std::uint32_t sets, const VkPushConstantRange& constants,
+                        VkPipelineLayout& layout, const char* name) {
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = sets;
+    info.pSetLayouts = context.setLayouts.data();
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &constants;
+    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a pipeline layout");
+    }
+    nameObject(context, VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, name);
+    return {};
+}
+
+Result<void> makeLayouts(ContextImpl& context) {
+    if (Result<void> made =
+            makeLayout(context, VOXTACT_SET_PAIRS + 1, {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
+                       context.rasterLayout, "raster pipeline layout");
+        !made.ok()) {
+        return made;
+    }
+    return makeLayout(context, VOXTACT_SET_MESH + 1, {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::ComputeConstants)},
+                      context.computeLayout, "compute pipeline layout");
+}
+
+} // namespace
+
+ContextImpl::~ContextImpl() {
+    for (const VkPipelineLayout layout : {rasterLayout, computeLayout}) {
+        if (layout != VK_NULL_HANDLE) {
+            vk.DestroyPipelineLayout(device, layout, allocator);
+        }
+    }
+    for (const VkDescriptorSetLayout layout : setLayouts) {
+        if (layout != VK_NULL_HANDLE) {
+            vk.DestroyDescriptorSetLayout(device, layout, allocator);
+        }
+    }
+    if (sampler != VK_NULL_HANDLE) {
+        vk.DestroySampler(device, sampler, allocator);
+    }
+}
+
+Error ContextImpl::failure(VkResult result, const char* what) noexcept {
+    const auto code = static_cast<std::int32_t>(result);
+    switch (result) {
+    case VK_ERROR_DEVICE_LOST:
+        lost.store(true);
+        return {ErrorCode::DeviceLost, code, std::string("the device was lost while ") + what};
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return {ErrorCode::OutOfMemory, code, std::string("out of device memory while ") + what};
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return {ErrorCode::OutOfMemory, code, std::string("out of host memory while ") + what};
+    default:
+        return {ErrorCode::Vulkan, code, std::string(what) + " failed with VkResult " + std::to_string(code)};
+    }
+}
+
+Result<void> ContextImpl::alive() const {
+    if (lost.load()) {
+        return Error{ErrorCode::DeviceLost, VK_ERROR_DEVICE_LOST, "the device was lost earlier"};
+    }
+    return {};
+}
+
+void ContextImpl::log(const std::string& text) const noexcept {
+    if (logCallback != nullptr) {
+        logCallback(logUser, text.c_str());
+    }
+}
+
+std::uint32_t ContextImpl::timestampBits(std::uint32_t family) const {
+    std::uint32_t count = 0;
+    vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
+    return family < count ? families[family].timestampValidBits : 0;
+}
+
+Context::Context(std::unique_ptr<ContextImpl> impl) noexcept : impl_(std::move(impl)) {}
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+Result<Context> Context::create(const ContextDesc& desc) {
+    return guard([&]() -> Result<Context> {
+        CheckReport report = check(desc);
+        if (!report.usable) {
+            return refusal(report);
+        }
+        auto impl = std::make_unique<ContextImpl>();
+        impl->instance = desc.instance;
+        impl->physicalDevice = desc.physicalDevice;
+        impl->device = desc.device;
+        impl->pipelineCache = desc.pipelineCache;
+        impl->allocator = desc.allocator;
+        impl->logCallback = desc.log;
+        impl->logUser = desc.logUser;
+        impl->features = readFeatures(desc.enabledFeatures);
+        impl->methods = std::move(report.methods);
+        impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
+        readProperties(*impl);
+        for (const auto make : {makeSampler, makeSetLayouts, makeLayouts}) {
+            if (Result<void> made = make(*impl); !made.ok()) {
+                return made.error();
+            }
+        }
+        for (const std::string& line : report.missing) {
+            impl->log(line);
+        }
+        return Context(std::move(impl));
+    });
+}
+
+std::span<const MethodSupport> Context::methods() const noexcept {
+    return impl_->methods;
+}
+
+bool Context::supports(CountingMethod method) const noexcept {
+    return std::ranges::any_of(impl_->methods,
+                               [&](const MethodSupport& entry) { return entry.method == method && entry.available; });
+}
+
+CountingMethod Context::defaultMethod() const noexcept {
+    for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic}) {
+        if (supports(method)) {
+            return method;
+        }
+    }
+    return CountingMethod::QueryAny;
+}
+
+VkExtent2D Context::maxViewport() const noexcept {
+    const VkPhysicalDeviceLimits& limits = impl_->limits;
+    return {std::min(limits.maxViewportDimensions[0], limits.maxFramebufferWidth),
+            std::min(limits.maxViewportDimensions[1], limits.maxFramebufferHeight)};
+}
+
+bool Context::deviceLost() const noexcept {
+    return impl_->lost.load();
+}
+
+} // namespace voxtact

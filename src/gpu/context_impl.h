@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "gpu/device_functions.h"
+#include "gpu/memory.h"
+#include "gpu/requirements.h"
+
+#include <array>
+#include <atomic>
+
+namespace voxtact {
+
+/// The descriptor sets of every pass: each object of the scene owns its own set, so that recording allocates nothing.
+enum class SetIndex : std::uint32_t { Volume = 0, TransferFunction = 1, Pairs = 2, Mesh = 3 };
+
+struct ContextImpl {
+    DeviceFunctions vk;
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    const VkAllocationCallbacks* allocator = nullptr;
+    LogCallback logCallback = nullptr;
+    void* logUser = nullptr;
+
+    EnabledFeatures features;
+    VkPhysicalDeviceLimits limits{};
+    VkDeviceSize maxAllocation = 0;
+    /// llvmpipe (seen in Mesa 22.3) counts too much when the memory of its scene runs out while the end of a query is
+    /// being put into the tiles: some tiles then end the query twice. A scene that is flushed after each query does
+    /// not fill up.
+    bool flushAfterQuery = false;
+    VkPhysicalDeviceMemoryProperties memory{};
+    std::vector<MethodSupport> methods;
+
+    VkSampler sampler = VK_NULL_HANDLE; ///< linear, clamped to the edge; of volumes and transfer functions alike
+    std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex
+    VkPipelineLayout rasterLayout = VK_NULL_HANDLE;    ///< sets 0 to 2, and ItemConstants for the fragment stage
+    VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets, and ComputeConstants
+
+    std::atomic<bool> lost{false};
+
+    ContextImpl() = default;
+    ContextImpl(const ContextImpl&) = delete;
+    ContextImpl& operator=(const ContextImpl&) = delete;
+    ~ContextImpl();
+
+    /// An Error for a VkResult that is not a success, with `what` it was that failed. Remembers a lost device.
+    [[nodiscard]] Error failure(VkResult result, const char* what) noexcept;
+    /// Success, or the sticky error of a lost device.
+    [[nodiscard]] Result<void> alive() const;
+    void log(const std::string& text) const noexcept;
+    /// The family's timestamps have this many valid bits; 0: it has none.
+    [[nodiscard]] std::uint32_t timestampBits(std::uint32_t family) const;
+};
+
+} // namespace voxtact

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "gpu/scene_impl.h"
+#include "gpu/submit.h"
+#include "shared.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace voxtact {
+
+namespace {
+
+constexpr VkDeviceSize kPositionBytes = 3 * sizeof(float);
+
+Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const char* name) {
+    ContextImpl& context = mesh.context;
+    const VkDeviceSize positions = data.positions.size_bytes();
+    const VkDeviceSize total = positions + data.indices.size_bytes();
+    Result<Buffer> buffer = makeBuffer(context, total,
+                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                       MemoryUse::Device, name);
+    if (!buffer.ok()) {
+        return buffer.error();
+    }
+    mesh.buffer = std::move(*buffer);
+    mesh.vertices = mesh.buffer.get();
+    mesh.indices = mesh.buffer.get();
+    mesh.indexOffset = positions;
+    Result<Buffer> staging =
+        makeBuffer(context, total, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "mesh staging");
+    if (!staging.ok()) {
+        return staging.error();
+    }
+    mesh.staging = std::move(*staging);
+    auto* to = static_cast<std::byte*>(mesh.staging.mapped);
+    std::memcpy(to, data.positions.data(), data.positions.size_bytes());
+    std::memcpy(to + positions, data.indices.data(), data.indices.size_bytes());
+    return flush(context, mesh.staging);
+}
+
+std::uint32_t indexBytes(const MeshImpl& mesh) {
+    if (mesh.indices == VK_NULL_HANDLE) {
+        return 0;
+    }
+    return mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
+}
+
+/// The descriptor set of the compute path, over what a triangle can reach of the two buffers.
+Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* name) {
+    ContextImpl& context = mesh.context;
+    constexpr VkDeviceSize kWord = 4;
+    const VkDeviceSize vertexEnd =
+        mesh.vertexOffset + mesh.vertexStride * (VkDeviceSize{vertexCount} - 1) + kPositionBytes;
+    const VkDeviceSize indexEnd =
+        mesh.indexOffset + VkDeviceSize{3} * mesh.triangleCount * indexBytes(mesh) + kWord - 1;
+    const VkDeviceSize indexRange = mesh.indices == VK_NULL_HANDLE ? vertexEnd : indexEnd / kWord * kWord;
+    const VkDeviceSize most = context.limits.maxStorageBufferRange;
+    if (vertexEnd > most || indexRange > most) {
+        mesh.noCompute = "the mesh needs " + std::to_string(std::max(vertexEnd, indexRange)) +
+                         " bytes of a buffer, the device's maxStorageBufferRange is " + std::to_string(most);
+        return {};
+    }
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_MESH], {&size, 1}, name);
+    if (!set.ok()) {
+        return set.error();
+    }
+    mesh.descriptors = std::move(*set);
+    writeBuffer(context, mesh.descriptors.set, VOXTACT_BINDING_VERTICES, mesh.vertices, vertexEnd);
+    writeBuffer(context, mesh.descriptors.set, VOXTACT_BINDING_INDICES,
+                mesh.indices == VK_NULL_HANDLE ? mesh.vertices : mesh.indices, indexRange);
+    return {};
+}
+
+Error refuse(const char* text) {
+    return {ErrorCode::InvalidArgument, 0, text};
+}
+
+Result<void> checkWrapped(const WrappedMesh& wrapped) {
+    if (wrapped.vertices == VK_NULL_HANDLE) {
+        return refuse("WrappedMesh::vertices is null");
+    }
+    if (wrapped.triangleCount == 0) {
+        return refuse("the mesh has no triangles: WrappedMesh::triangleCount is 0");
+    }
+    if (wrapped.vertexCount == 0) {
+        return refuse("WrappedMesh::vertexCount is 0");
+    }
+    if (wrapped.triangleCount > UINT32_MAX / 3) {
+        return refuse("WrappedMesh::triangleCount is beyond what a draw can index");
+    }
+    if (wrapped.vertexStride < kPositionBytes || wrapped.vertexStride % 4 != 0 || wrapped.vertexOffset % 4 != 0) {
+        return refuse("WrappedMesh::vertexStride must be at least 12, and it and vertexOffset multiples of 4");
+    }
+    if (wrapped.indices == VK_NULL_HANDLE && wrapped.vertexCount < 3 * std::uint64_t{wrapped.triangleCount}) {
+        return refuse("WrappedMesh has no indices and fewer than three vertices a triangle");
+    }
+    if (wrapped.indices == VK_NULL_HANDLE) {
+        return {};
+    }
+    if (wrapped.indexType != VK_INDEX_TYPE_UINT16 && wrapped.indexType != VK_INDEX_TYPE_UINT32) {
+        return refuse("WrappedMesh::indexType is neither UINT16 nor UINT32");
+    }
+    if (wrapped.indexOffset % (wrapped.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4) != 0) {
+        return refuse("WrappedMesh::indexOffset is not a multiple of the index size");
+    }
+    return {};
+}
+
+} // namespace
+
+Mesh::Mesh(std::unique_ptr<MeshImpl> impl) noexcept : impl_(std::move(impl)) {}
+Mesh::Mesh(Mesh&&) noexcept = default;
+Mesh& Mesh::operator=(Mesh&&) noexcept = default;
+Mesh::~Mesh() = default;
+
+Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const char* name) {
+    return guard([&]() -> Result<Mesh> {
+        ContextImpl& c = context.impl();
+        if (Result<void> alive = c.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        const Result<MeshFacts> facts = checkMesh(data);
+        if (!facts.ok()) {
+            return facts.error();
+        }
+        auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = c});
+        impl->triangleCount = facts->triangles;
+        impl->facts = *facts;
+        if (Result<void> filled = fillBuffers(*impl, data, name == nullptr ? "mesh" : name); !filled.ok()) {
+            return filled.error();
+        }
+        if (Result<void> described = describe(*impl, facts->vertices, "mesh"); !described.ok()) {
+            return described.error();
+        }
+        if (facts->degenerate > 0) {
+            c.log("the mesh has " + std::to_string(facts->degenerate) + " degenerate triangles of " +
+                  std::to_string(facts->triangles) + "; they give no fragment");
+        }
+        return Mesh(std::move(impl));
+    });
+}
+
+Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
+    return guard([&]() -> Result<Mesh> {
+        if (Result<void> checked = checkWrapped(wrapped); !checked.ok()) {
+            return checked.error();
+        }
+        auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = context.impl()});
+        impl->vertices = wrapped.vertices;
+        impl->vertexOffset = wrapped.vertexOffset;
+        impl->vertexStride = wrapped.vertexStride;
+        impl->indices = wrapped.indices;
+        impl->indexOffset = wrapped.indexOffset;
+        impl->indexType = wrapped.indexType;
+        impl->triangleCount = wrapped.triangleCount;
+        if (!wrapped.storage) {
+            impl->noCompute = "WrappedMesh::storage is false: its buffers cannot be read by a compute shader";
+        } else if (Result<void> described = describe(*impl, wrapped.vertexCount, "wrapped mesh"); !described.ok()) {
+            return described.error();
+        }
+        return Mesh(std::move(impl));
+    });
+}
+
+Result<Mesh> Mesh::upload(const Context& context, const QueueAccess& queue, const MeshView& data, const char* name) {
+    return guard([&] { return uploaded(context.impl(), queue, create(context, data, name)); });
+}
+
+Result<void> Mesh::cmdUpload(VkCommandBuffer commandBuffer) {
+    return guard([&]() -> Result<void> {
+        if (!impl_->staging.buffer) {
+            return notUploadable("mesh");
+        }
+        ContextImpl& context = impl_->context;
+        const Label label(context, commandBuffer, "voxtact mesh upload");
+        // Earlier readers must be done before the contents go.
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        const VkBufferCopy whole{0, 0, impl_->buffer.size};
+        context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->buffer.get(), 1, &whole);
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        return {};
+    });
+}
+
+void Mesh::releaseStaging() noexcept {
+    impl_->staging = {};
+}
+
+std::uint32_t Mesh::triangles() const noexcept {
+    return impl_->triangleCount;
+}
+
+std::optional<MeshFacts> Mesh::facts() const noexcept {
+    return impl_->facts;
+}
+
+} // namespace voxtact

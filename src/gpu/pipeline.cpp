@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/pipeline.h"
+#include "gpu/debug.h"
+
+#include <array>
+#include <vector>
+
+namespace voxtact {
+
+namespace {
+
+Result<Owned<VkShaderModule>> makeModule(ContextImpl& context, std::span<const std::uint32_t> spirv) {
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = spirv.size_bytes();
+    info.pCode = spirv.data();
+    VkShaderModule handle = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateShaderModule(context.device, &info, context.allocator, &handle);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a shader module");
+    }
+    return Owned<VkShaderModule>(context, handle, [](ContextImpl& c, VkShaderModule module) {
+        c.vk.DestroyShaderModule(c.device, module, c.allocator);
+    });
+}
+
+VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule module) {
+    VkPipelineShaderStageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage = bit;
+    info.module = module;
+    info.pName = "main";
+    return info;
+}
+
+/// Constants as Vulkan wants them. Refers to the span that it was made from.
+struct Specialization {
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info{};
+
+    explicit Specialization(std::span<const ShaderConstant> constants) {
+        for (const ShaderConstant& constant : constants) {
+            const auto offset =
+                static_cast<std::uint32_t>(entries.size() * sizeof(ShaderConstant) + offsetof(ShaderConstant, value));
+            entries.push_back({constant.id, offset, sizeof constant.value});
+        }
+        info = {static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(), constants.data()};
+    }
+    Specialization(const Specialization&) = delete;
+    Specialization& operator=(const Specialization&) = delete;
+};
+
+Owned<VkPipeline> own(ContextImpl& context, VkPipeline handle, const char* name) {
+    nameObject(context, VK_OBJECT_TYPE_PIPELINE, handle, name);
+    return {context, handle,
+            [](ContextImpl& c, VkPipeline pipeline) { c.vk.DestroyPipeline(c.device, pipeline, c.allocator); }};
+}
+
+/// The fixed-function state, which is the same for every raster pass.
+struct FixedState {
+    VkVertexInputBindingDescription binding{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
+    VkVertexInputAttributeDescription attribute{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    std::array<VkDynamicState, 3> dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                                VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE};
+    VkPipelineVertexInputStateCreateInfo vertexInput{};
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    VkPipelineViewportStateCreateInfo viewport{};
+    VkPipelineRasterizationStateCreateInfo raster{};
+    VkPipelineMultisampleStateCreateInfo multisample{};
+    VkPipelineDynamicStateCreateInfo dynamic{};
+    VkPipelineRenderingCreateInfo rendering{};
+
+    FixedState() {
+        vertexInput.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+        vertexInput.vertexBindingDescriptionCount = 1;
+        vertexInput.pVertexBindingDescriptions = &binding;
+        vertexInput.vertexAttributeDescriptionCount = 1;
+        vertexInput.pVertexAttributeDescriptions = &attribute;
+        assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+        viewport.viewportCount = 1;
+        viewport.scissorCount = 1;
+        raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+        raster.polygonMode = VK_POLYGON_MODE_FILL;
+        raster.cullMode = VK_CULL_MODE_NONE;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+        raster.lineWidth = 1.0F;
+        multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+        multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+        dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+        dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamicStates.size());
+        dynamic.pDynamicStates = dynamicStates.data();
+        rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    }
+    FixedState(const FixedState&) = delete;
+    FixedState& operator=(const FixedState&) = delete;
+};
+
+} // namespace
+
+Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc) {
+    Result<Owned<VkShaderModule>> vertex = makeModule(context, desc.vertexSpirv);
+    if (!vertex.ok()) {
+        return vertex.error();
+    }
+    Result<Owned<VkShaderModule>> fragment = makeModule(context, desc.fragmentSpirv);
+    if (!fragment.ok()) {
+        return fragment.error();
+    }
+    const Specialization constants(desc.fragmentConstants);
+    VkPipelineShaderStageCreateInfo stages[] = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex->get()),
+                                                stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment->get())};
+    stages[1].pSpecializationInfo = &constants.info;
+
+    const FixedState fixed;
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.pNext = &fixed.rendering;
+    info.stageCount = 2;
+    info.pStages = stages;
+    info.pVertexInputState = &fixed.vertexInput;
+    info.pInputAssemblyState = &fixed.assembly;
+    info.pViewportState = &fixed.viewport;
+    info.pRasterizationState = &fixed.raster;
+    info.pMultisampleState = &fixed.multisample;
+    info.pDynamicState = &fixed.dynamic;
+    info.layout = desc.layout;
+    VkPipeline handle = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateGraphicsPipelines(context.device, context.pipelineCache, 1, &info,
+                                                                   context.allocator, &handle);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a pipeline");
+    }
+    return own(context, handle, desc.name);
+}
+
+Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
+                                              std::span<const ShaderConstant> constants, const char* name) {
+    Result<Owned<VkShaderModule>> module = makeModule(context, spirv);
+    if (!module.ok()) {
+        return module.error();
+    }
+    const Specialization specialization(constants);
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, module->get());
+    info.stage.pSpecializationInfo = &specialization.info;
+    info.layout = context.computeLayout;
+    VkPipeline handle = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateComputePipelines(context.device, context.pipelineCache, 1, &info,
+                                                                  context.allocator, &handle);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a compute pipeline");
+    }
+    return own(context, handle, name);
+}
+
+} // namespace voxtact

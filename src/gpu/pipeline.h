@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "gpu/memory.h"
+
+#include <cstdint>
+#include <span>
+
+namespace voxtact {
+
+/// A 32-bit specialization constant.
+struct ShaderConstant {
+    std::uint32_t id;
+    std::uint32_t value;
+};
+
+struct RasterPipelineDesc {
+    std::span<const std::uint32_t> vertexSpirv;
+    std::span<const std::uint32_t> fragmentSpirv;
+    std::span<const ShaderConstant> fragmentConstants;
+    VkPipelineLayout layout = VK_NULL_HANDLE; ///< ContextImpl::rasterLayout, or one that extends it
+    const char* name = "";
+};
+
+/// A pipeline that rasterises triangles into no attachment at all: what counts is which fragments survive. Vertices
+/// are float3 at binding 0, whose stride is dynamic, as are viewport and scissor. Nothing is culled; the near and far
+/// planes clip.
+[[nodiscard]] Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc);
+
+/// A compute pipeline. Layout: ContextImpl::computeLayout.
+[[nodiscard]] Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
+                                                            std::span<const ShaderConstant> constants,
+                                                            const char* name);
+
+} // namespace voxtact

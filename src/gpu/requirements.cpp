@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/requirements.h"
+#include "core/guard.h"
+
+#include <array>
+#include <cstring>
+#include <initializer_list>
+
+namespace voxtact {
+
+namespace {
+
+constexpr const char* kCore = "VkPhysicalDeviceFeatures";
+constexpr const char* kVulkan13 = "VkPhysicalDeviceVulkan13Features";
+
+constexpr std::array kRequirements{
+    Requirement{"dynamicRendering", kVulkan13, true, "nothing works: every pass is a dynamic rendering"},
+    Requirement{"synchronization2", kVulkan13, true, "nothing works: every barrier is a VkDependencyInfo"},
+    Requirement{"occlusionQueryPrecise", kCore, false, "no counting method query"},
+    Requirement{"fragmentStoresAndAtomics", kCore, false, "no counting methods atomic and subgroup"},
+    Requirement{"geometryShader", kCore, false, "no list of surviving fragments (gl_PrimitiveID needs it)"},
+    Requirement{"shaderInt64", kCore, false, "no counting method compute"},
+};
+
+/// Walks a pNext chain of feature structs.
+template <class Visitor> void forEachStruct(const VkPhysicalDeviceFeatures2* features, Visitor&& visitor) {
+    for (const auto* next = static_cast<const VkBaseInStructure*>(features->pNext); next != nullptr;
+         next = next->pNext) {
+        visitor(next);
+    }
+}
+
+bool on(VkBool32 flag) {
+    return flag == VK_TRUE;
+}
+
+void checkHandles(const ContextDesc& desc, CheckReport& report) {
+    const auto need = [&](bool there, const char* what) {
+        if (!there) {
+            report.missing.emplace_back(std::string(what) + " is null");
+        }
+    };
+    need(desc.getInstanceProcAddr != nullptr, "ContextDesc::getInstanceProcAddr");
+    need(desc.instance != VK_NULL_HANDLE, "ContextDesc::instance");
+    need(desc.physicalDevice != VK_NULL_HANDLE, "ContextDesc::physicalDevice");
+    need(desc.device != VK_NULL_HANDLE, "ContextDesc::device");
+    if (desc.enabledFeatures == nullptr) {
+        report.missing.emplace_back("ContextDesc::enabledFeatures is null: no feature counts as enabled");
+    }
+    if (desc.apiVersion < VK_API_VERSION_1_3) {
+        report.missing.emplace_back("ContextDesc::apiVersion is " +
+                                    std::to_string(VK_API_VERSION_MAJOR(desc.apiVersion)) + "." +
+                                    std::to_string(VK_API_VERSION_MINOR(desc.apiVersion)) + ", Vulkan 1.3 is needed");
+    }
+}
+
+/// What only the loader and the device can say; needs all handles.
+SubgroupSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
+    DeviceFunctions functions;
+    const char* absent = functions.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
+    if (absent != nullptr) {
+        report.missing.emplace_back(std::string("the loader does not give ") + absent);
+    }
+    if (functions.GetPhysicalDeviceProperties2 == nullptr) {
+        return {};
+    }
+    VkPhysicalDeviceSubgroupProperties subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &subgroup;
+    functions.GetPhysicalDeviceProperties2(desc.physicalDevice, &properties);
+    if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
+        report.missing.emplace_back(std::string("the device ") + properties.properties.deviceName + " has Vulkan " +
+                                    std::to_string(VK_API_VERSION_MAJOR(properties.properties.apiVersion)) + "." +
+                                    std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) +
+                                    ", 1.3 is needed");
+    }
+    const auto has = [&](VkShaderStageFlags stage, VkSubgroupFeatureFlags operations) {
+        return (subgroup.supportedStages & stage) != 0 && (subgroup.supportedOperations & operations) == operations;
+    };
+    return {has(VK_SHADER_STAGE_FRAGMENT_BIT,
+                VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
+            has(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)};
+}
+
+/// One thing that a method needs, and what to say when it is not there.
+struct Need {
+    bool there;
+    const char* otherwise;
+};
+
+MethodSupport support(CountingMethod method, std::initializer_list<Need> needs) {
+    MethodSupport out{method, true, {}};
+    for (const Need& need : needs) {
+        if (!need.there) {
+            out.available = false;
+            out.reason += (out.reason.empty() ? "" : ", ") + std::string(need.otherwise);
+        }
+    }
+    return out;
+}
+
+std::vector<MethodSupport> methodSupport(const EnabledFeatures& enabled, const SubgroupSupport& subgroup) {
+    const Need stores{enabled.fragmentStoresAndAtomics, "fragmentStoresAndAtomics is not enabled"};
+    return {
+        support(CountingMethod::Query, {{enabled.occlusionQueryPrecise, "occlusionQueryPrecise is not enabled"}}),
+        support(CountingMethod::QueryAny, {}),
+        support(CountingMethod::Atomic, {stores}),
+        support(CountingMethod::Subgroup,
+                {stores, {subgroup.fragmentBallotAndShuffle, "the fragment stage has no subgroup ballot and shuffle"}}),
+        support(CountingMethod::Compute,
+                {{enabled.shaderInt64, "shaderInt64 is not enabled"},
+                 {subgroup.computeArithmetic, "the compute stage has no subgroup arithmetic"}}),
+    };
+}
+
+} // namespace
+
+std::span<const Requirement> requirements() noexcept {
+    return kRequirements;
+}
+
+EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept {
+    EnabledFeatures out;
+    if (features == nullptr) {
+        return out;
+    }
+    out.occlusionQueryPrecise = on(features->features.occlusionQueryPrecise);
+    out.fragmentStoresAndAtomics = on(features->features.fragmentStoresAndAtomics);
+    out.geometryShader = on(features->features.geometryShader);
+    out.shaderInt64 = on(features->features.shaderInt64);
+    forEachStruct(features, [&](const VkBaseInStructure* next) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
+            const auto* all = reinterpret_cast<const VkPhysicalDeviceVulkan13Features*>(next);
+            out.dynamicRendering = out.dynamicRendering || on(all->dynamicRendering);
+            out.synchronization2 = out.synchronization2 || on(all->synchronization2);
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES) {
+            const auto* one = reinterpret_cast<const VkPhysicalDeviceDynamicRenderingFeatures*>(next);
+            out.dynamicRendering = out.dynamicRendering || on(one->dynamicRendering);
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES) {
+            const auto* one = reinterpret_cast<const VkPhysicalDeviceSynchronization2Features*>(next);
+            out.synchronization2 = out.synchronization2 || on(one->synchronization2);
+        }
+    });
+    return out;
+}
+
+bool debugUtilsEnabled(const ContextDesc& desc) noexcept {
+    for (const char* extension : desc.enabledInstanceExtensions) {
+        if (extension != nullptr && std::strcmp(extension, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+FeatureRequest::FeatureRequest(const VkPhysicalDeviceFeatures2* supported) noexcept {
+    const EnabledFeatures has = readFeatures(supported);
+    features2.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features2.pNext = &vulkan12;
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    vulkan12.pNext = &vulkan13;
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    // Required ones are asked for even where they are not supported: vkCreateDevice then says so.
+    vulkan13.dynamicRendering = VK_TRUE;
+    vulkan13.synchronization2 = VK_TRUE;
+    features2.features.occlusionQueryPrecise = has.occlusionQueryPrecise ? VK_TRUE : VK_FALSE;
+    features2.features.fragmentStoresAndAtomics = has.fragmentStoresAndAtomics ? VK_TRUE : VK_FALSE;
+    features2.features.geometryShader = has.geometryShader ? VK_TRUE : VK_FALSE;
+    features2.features.shaderInt64 = has.shaderInt64 ? VK_TRUE : VK_FALSE;
+}
+
+CheckReport check(const ContextDesc& desc) {
+    CheckReport report;
+    checkHandles(desc, report);
+    const EnabledFeatures enabled = readFeatures(desc.enabledFeatures);
+    const bool has[] = {enabled.dynamicRendering,         enabled.synchronization2, enabled.occlusionQueryPrecise,
+                        enabled.fragmentStoresAndAtomics, enabled.geometryShader,   enabled.shaderInt64};
+    static_assert(std::size(has) == kRequirements.size());
+    SubgroupSupport subgroup;
+    if (desc.getInstanceProcAddr != nullptr && desc.instance != VK_NULL_HANDLE && desc.device != VK_NULL_HANDLE &&
+        desc.physicalDevice != VK_NULL_HANDLE) {
+        subgroup = checkDevice(desc, report);
+    }
+    for (std::size_t i = 0; i < kRequirements.size(); ++i) {
+        const Requirement& requirement = kRequirements[i];
+        if (requirement.required && !has[i]) {
+            report.missing.emplace_back(std::string(requirement.structure) + "::" + requirement.feature +
+                                        " is not enabled");
+        }
+    }
+    report.usable = report.missing.empty();
+    for (std::size_t i = 0; i < kRequirements.size(); ++i) {
+        const Requirement& requirement = kRequirements[i];
+        if (!requirement.required && !has[i]) {
+            report.missing.emplace_back(std::string(requirement.structure) + "::" + requirement.feature +
+                                        " is not enabled: " + requirement.without);
+        }
+    }
+    report.methods = methodSupport(enabled, subgroup);
+    return report;
+}
+
+} // namespace voxtact

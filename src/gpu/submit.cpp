@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/submit.h"
+#include "gpu/debug.h"
+
+namespace voxtact {
+
+Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& queue) {
+    if (Result<void> alive = context.alive(); !alive.ok()) {
+        return alive.error();
+    }
+    if (queue.queue == VK_NULL_HANDLE) {
+        return Error{ErrorCode::InvalidArgument, 0, "QueueAccess::queue is null"};
+    }
+    if ((queue.lock == nullptr) != (queue.unlock == nullptr)) {
+        return Error{ErrorCode::InvalidArgument, 0, "QueueAccess has only one of lock and unlock"};
+    }
+    Submitter out(context, queue);
+    VkCommandPoolCreateInfo poolInfo{};
+    poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    poolInfo.queueFamilyIndex = queue.family;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateCommandPool(context.device, &poolInfo, context.allocator, &pool);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a command pool");
+    }
+    out.pool_ = Owned<VkCommandPool>(context, pool, [](ContextImpl& c, VkCommandPool handle) {
+        c.vk.DestroyCommandPool(c.device, handle, c.allocator);
+    });
+    VkCommandBufferAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    info.commandPool = pool;
+    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    info.commandBufferCount = 1;
+    if (const VkResult result = context.vk.AllocateCommandBuffers(context.device, &info, &out.commandBuffer_);
+        result != VK_SUCCESS) {
+        return context.failure(result, "allocating a command buffer");
+    }
+    VkFenceCreateInfo fenceInfo{};
+    fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    VkFence fence = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateFence(context.device, &fenceInfo, context.allocator, &fence);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a fence");
+    }
+    out.fence_ = Owned<VkFence>(
+        context, fence, [](ContextImpl& c, VkFence handle) { c.vk.DestroyFence(c.device, handle, c.allocator); });
+    nameObject(context, VK_OBJECT_TYPE_COMMAND_POOL, pool, "blocking command pool");
+    nameObject(context, VK_OBJECT_TYPE_COMMAND_BUFFER, out.commandBuffer_, "blocking command buffer");
+    nameObject(context, VK_OBJECT_TYPE_FENCE, fence, "blocking fence");
+    return out;
+}
+
+Result<VkCommandBuffer> Submitter::begin() {
+    if (Result<void> alive = context_->alive(); !alive.ok()) {
+        return alive.error();
+    }
+    if (const VkResult result = context_->vk.ResetCommandPool(context_->device, pool_.get(), 0); result != VK_SUCCESS) {
+        return context_->failure(result, "resetting a command pool");
+    }
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    if (const VkResult result = context_->vk.BeginCommandBuffer(commandBuffer_, &info); result != VK_SUCCESS) {
+        return context_->failure(result, "beginning a command buffer");
+    }
+    return commandBuffer_;
+}
+
+Result<void> Submitter::submitAndWait() {
+    if (const VkResult result = context_->vk.EndCommandBuffer(commandBuffer_); result != VK_SUCCESS) {
+        return context_->failure(result, "ending a command buffer");
+    }
+    VkCommandBufferSubmitInfo commands{};
+    commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+    commands.commandBuffer = commandBuffer_;
+    VkSubmitInfo2 info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &commands;
+    if (queue_.lock != nullptr) {
+        queue_.lock(queue_.user);
+    }
+    const VkResult submitted = context_->vk.QueueSubmit2(queue_.queue, 1, &info, fence_.get());
+    if (queue_.unlock != nullptr) {
+        queue_.unlock(queue_.user);
+    }
+    if (submitted != VK_SUCCESS) {
+        return context_->failure(submitted, "submitting to the queue");
+    }
+    const VkFence fence = fence_.get();
+    if (const VkResult result = context_->vk.WaitForFences(context_->device, 1, &fence, VK_TRUE, UINT64_MAX);
+        result != VK_SUCCESS) {
+        return context_->failure(result, "waiting for the device");
+    }
+    if (const VkResult result = context_->vk.ResetFences(context_->device, 1, &fence); result != VK_SUCCESS) {
+        return context_->failure(result, "resetting a fence");
+    }
+    return {};
+}
+
+} // namespace voxtact

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "io/errors.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+namespace voxtact::io {
+
+namespace {
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+} // namespace
+
+Error cannotRead(const std::filesystem::path& path, std::string_view reason, ErrorCode code) {
+    return Error{code, 0, "cannot read '" + path.string() + "': " + std::string(reason)};
+}
+
+Error cannotWrite(const std::filesystem::path& path, std::string_view reason, ErrorCode code) {
+    return Error{code, 0, "cannot write '" + path.string() + "': " + std::string(reason)};
+}
+
+Error badLine(const std::filesystem::path& path, std::uint64_t line, std::string_view reason) {
+    return Error{ErrorCode::Format, 0, path.string() + " line " + std::to_string(line) + ": " + std::string(reason)};
+}
+
+std::string oneLine(std::string_view text) {
+    std::string line;
+    for (const char c : text) {
+        const bool blank = c == ' ' || (c >= '\t' && c <= '\r');
+        if (!blank) {
+            line += c;
+        } else if (!line.empty() && line.back() != ' ') {
+            line += ' ';
+        }
+    }
+    while (!line.empty() && (line.back() == ' ' || line.back() == '.')) {
+        line.pop_back();
+    }
+    return line;
+}
+
+Result<std::uint64_t> readableFile(const std::filesystem::path& path) {
+    std::error_code problem;
+    const std::filesystem::file_status status = std::filesystem::status(path, problem);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        return cannotRead(path, "there is no such file", ErrorCode::File);
+    }
+    if (status.type() == std::filesystem::file_type::directory) {
+        return cannotRead(path, "it is a folder, not a file", ErrorCode::File);
+    }
+    errno = 0;
+    const std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        return cannotRead(path, errno != 0 ? std::generic_category().message(errno) : "it cannot be opened",
+                          ErrorCode::File);
+    }
+    const std::uint64_t size = std::filesystem::file_size(path, problem);
+    return problem ? 0 : size;
+}
+
+Result<std::string> readWholeFile(const std::filesystem::path& path) {
+    const Result<std::uint64_t> size = readableFile(path);
+    if (!size.ok()) {
+        return size.error();
+    }
+    std::string content(*size, '\0');
+    std::ifstream file(path, std::ios::binary);
+    if (!file.read(content.data(), static_cast<std::streamsize>(content.size()))) {
+        return cannotRead(path, "reading stopped before its end", ErrorCode::File);
+    }
+    return content;
+}
+
+std::string lowerEnding(const std::filesystem::path& path) {
+    const auto lowered = [](std::string text) {
+        std::transform(text.begin(), text.end(), text.begin(), lower);
+        return text;
+    };
+    const std::string last = lowered(path.extension().string());
+    return last == ".gz" ? lowered(path.stem().extension().string()) + last : last;
+}
+
+} // namespace voxtact::io

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace voxtact::io {
+
+/// "cannot read 'PATH': REASON"
+[[nodiscard]] Error cannotRead(const std::filesystem::path& path, std::string_view reason,
+                               ErrorCode code = ErrorCode::Format);
+/// "cannot write 'PATH': REASON"
+[[nodiscard]] Error cannotWrite(const std::filesystem::path& path, std::string_view reason,
+                                ErrorCode code = ErrorCode::File);
+/// "PATH line 7: REASON"
+[[nodiscard]] Error badLine(const std::filesystem::path& path, std::uint64_t line, std::string_view reason);
+
+/// What libraries say, in one line: line breaks and runs of blanks become one blank.
+[[nodiscard]] std::string oneLine(std::string_view text);
+
+/// The length of a file; refuses what is not there, folders, and files that cannot be opened.
+[[nodiscard]] Result<std::uint64_t> readableFile(const std::filesystem::path& path);
+/// The whole file.
+[[nodiscard]] Result<std::string> readWholeFile(const std::filesystem::path& path);
+
+/// The end of the file's name in lower case: ".stl"; of "a.nii.gz" it is ".nii.gz".
+[[nodiscard]] std::string lowerEnding(const std::filesystem::path& path);
+
+} // namespace voxtact::io

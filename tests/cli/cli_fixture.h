@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace voxtact::test {
+
+using Arguments = std::vector<std::string>;
+
+struct RunOptions {
+    std::map<std::string, std::string> environment{}; ///< set beside the tests' own
+    std::string output{};                             ///< a file for standard output: /dev/full. Empty: captured
+    bool closedPipe = false;                          ///< standard output is a pipe that nobody reads
+};
+
+struct Ran {
+    int status = -1; ///< exit status; -1 when a signal ended it
+    std::string out;
+    std::string err;
+};
+
+/// Runs the built program and waits for it.
+Ran run(const Arguments& arguments, const RunOptions& options = {});
+
+std::vector<std::string> linesOf(const std::string& text);
+/// Fields without quotes only.
+std::vector<std::string> fieldsOf(const std::string& line);
+std::string readText(const std::filesystem::path& path);
+void writeText(const std::filesystem::path& path, const std::string& text);
+
+/// A NIfTI-1 file, written by hand: sizes as in its header, `type` and `bits` as the standard numbers them, and so
+/// many bytes of voxels, all `value`.
+struct HandNifti {
+    std::array<std::int16_t, 8> sizes{3, 8, 8, 8, 1, 1, 1, 1};
+    std::int16_t type = 2; ///< uint8
+    std::int16_t bits = 8;
+    std::size_t bytes = 512;
+    char value = 0;
+};
+void writeNifti(const std::filesystem::path& path, const HandNifti& nifti);
+
+/// A folder of its own for each test, removed afterwards.
+class CliTest : public testing::Test {
+  protected:
+    CliTest();
+    ~CliTest() override;
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    [[nodiscard]] std::size_t filesInFolder() const;
+
+    /// The refusal that the contract asks for: the status, nothing on standard output, one line on standard error
+    /// that begins with "voxtact COMMAND: ". Returns that line.
+    static std::string refused(int status, const Arguments& arguments, const RunOptions& options = {});
+    /// A good run: status 0, and nothing on standard error. Returns standard output.
+    static std::string output(const Arguments& arguments, const RunOptions& options = {});
+
+  private:
+    std::filesystem::path folder_;
+};
+
+/// Tests that need a device: without one they fail, or are skipped where the build says that none is required.
+class CliDeviceTest : public CliTest {
+  protected:
+    void SetUp() override;
+
+    /// detect on a small head with a scalpel, and what is added.
+    static Arguments detect(const Arguments& more = {});
+    /// `count` poses in a file.
+    [[nodiscard]] std::string poses(int count) const;
+};
+
+} // namespace voxtact::test

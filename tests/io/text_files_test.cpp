@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "io_test_support.h"
+
+#include <clocale>
+#include <limits>
+
+namespace voxtact::test {
+namespace {
+
+const std::string kIdentity = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n";
+
+TEST(Poses, RowsBecomeColumns) {
+    const TemporaryFolder folder;
+    const auto path =
+        folder.write("poses.txt", "\xEF\xBB\xBF# two poses\r\n\r\n1 2 3 4\t5 6 7 8 9 +10 1.1e1 12 0 0 0 1 # last\r\n"
+                                  "-1e-3 .5 5. 0 0 1 0 0 0 0 1 0 0 0 0 1");
+    const auto poses = io::readPoses(path);
+    ASSERT_TRUE(isOk(poses));
+    ASSERT_EQ(poses->size(), 2U);
+    EXPECT_EQ((*poses)[0], (Mat4{1, 5, 9, 0, 2, 6, 10, 0, 3, 7, 11, 0, 4, 8, 12, 1}));
+    EXPECT_EQ((*poses)[1][0], -1e-3);
+    EXPECT_EQ((*poses)[1][4], 0.5);
+    EXPECT_EQ((*poses)[1][8], 5);
+}
+
+TEST(Poses, RoundTripIsExact) {
+    const TemporaryFolder folder;
+    const Mat4 pose{0.1, 1.0 / 3, -1e-300, 0, 2e17, 5e-324, 1, 0, 7, 8, 9, 0, -0.0, 1e308, 3, 1};
+    ASSERT_TRUE(isOk(io::writePoses(folder / "p.txt", std::array<Mat4, 2>{pose, identity()})));
+    const auto poses = io::readPoses(folder / "p.txt");
+    ASSERT_TRUE(isOk(poses));
+    EXPECT_THAT(*poses, testing::ElementsAre(pose, identity()));
+}
+
+TEST(Poses, LocaleDoesNotMatter) {
+    const TemporaryFolder folder;
+    const std::string before = std::setlocale(LC_ALL, nullptr);
+    // Where no such locale is installed the test is weaker, not wrong.
+    std::setlocale(LC_ALL, "de_DE.UTF-8");
+    const auto poses = io::readPoses(folder.write("p.txt", "1.5 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"));
+    std::setlocale(LC_ALL, before.c_str());
+    ASSERT_TRUE(isOk(poses));
+    EXPECT_EQ((*poses)[0][0], 1.5);
+}
+
+TEST(Poses, RefusalsNameTheLine) {
+    const TemporaryFolder folder;
+    struct Case {
+        std::string line;
+        const char* reason;
+    };
+    for (const Case& bad :
+         {Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 1", "line 3: 15 numbers, a pose has 16 (row by row)"},
+          Case{"1", "line 3: 1 number, a pose has 16 (row by row)"},
+          Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 2", "line 3: 17 numbers, a pose has 16"},
+          Case{"1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: 'x' is not a number"},
+          Case{"1,5 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: '1,5' is not a number"},
+          Case{"+-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: '+-1' is not a number"},
+          Case{"+ 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: '+' is not a number"},
+          Case{"0x1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: '0x1' is not a number"},
+          Case{"nan 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: 'nan' is not a finite number"},
+          Case{"1 inf 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: 'inf' is not a finite number"},
+          Case{"1e999 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: '1e999' is outside what a double holds"},
+          Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.5 1", "line 3"},
+          Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 trailing", "line 3: 'trailing' is not a number"}}) {
+        const auto path = folder.write("poses.txt", "# comment\n" + kIdentity + bad.line + "\n");
+        expectRefused(io::readPoses(path), bad.reason, path);
+    }
+    const auto empty = folder.write("empty.txt", "# nothing\n\n");
+    expectRefused(io::readPoses(empty), "it holds no pose", empty);
+    expectRefused(io::readPoses(folder.write("nothing.txt", "")), "it holds no pose");
+    expectRefused(io::readPoses(folder / "absent.txt"), "absent.txt': there is no such file");
+    expectRefused(io::readPoses(folder.path()), "it is a folder, not a file");
+}
+
+TEST(Poses, OnlyAffineOnesAreWritten) {
+    const TemporaryFolder folder;
+    Mat4 bad = identity();
+    bad[3] = 1;
+    expectRefused(io::writePoses(folder / "p.txt", std::array<Mat4, 2>{identity(), bad}), "pose 1");
+    EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Camera, AnyNumberOfLines) {
+    const TemporaryFolder folder;
+    const auto camera = io::readCamera(folder.write("c.txt", "1 0 0 0 # x\n0 2 0 0\n0 0 3 4\n0 0 1 0\n"));
+    ASSERT_TRUE(isOk(camera));
+    EXPECT_EQ(*camera, (Mat4{1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 1, 0, 0, 4, 0}));
+}
+
+TEST(Camera, Refusals) {
+    const TemporaryFolder folder;
+    expectRefused(io::readCamera(folder.write("a", "1 2 3\n")), "3 numbers, a camera has 16 (row by row)",
+                  folder / "a");
+    expectRefused(io::readCamera(folder.write("b", kIdentity + "0")), "line 2: more than 16 numbers", folder / "b");
+    expectRefused(io::readCamera(folder.write("c", "1 0 0 0\n0 1 0 y")), "line 2: 'y' is not a number", folder / "c");
+    expectRefused(io::readCamera(folder.write("d", "1 0 0 0 0 1 0 0 0 0 0 0 0 0 0 1")), "the matrix is singular",
+                  folder / "d");
+    expectRefused(io::readCamera(folder.write("e", "")), "0 numbers", folder / "e");
+}
+
+std::vector<std::pair<double, double>> pairs(const std::vector<ControlPoint>& points) {
+    std::vector<std::pair<double, double>> list;
+    for (const ControlPoint& point : points) {
+        list.emplace_back(point.value, point.opacity);
+    }
+    return list;
+}
+
+TEST(TransferFunction, TextAndJson) {
+    const TemporaryFolder folder;
+    const auto expected = testing::ElementsAre(std::pair(-1000.0, 0.0), std::pair(0.5, 0.25), std::pair(0.5, 1.0));
+    for (const char* text :
+         {"# HU\r\n-1000 0\r\n\r\n.5 0.25 # step\n+0.5 1", R"({"points": [[-1000, 0], [0.5, 0.25], [0.5, 1]], "x": 1})",
+          R"( {"points": [{"value": -1e3, "opacity": 0, "color": [1, 2, 3]}, [0.5, 0.25], [0.5, 1]]})"}) {
+        const auto points = io::readTransferFunction(folder.write("tf", text));
+        ASSERT_TRUE(isOk(points)) << text;
+        EXPECT_THAT(pairs(*points), expected) << text;
+    }
+}
+
+TEST(TransferFunction, Refusals) {
+    const TemporaryFolder folder;
+    struct Case {
+        const char* text;
+        const char* reason;
+    };
+    for (const Case& bad :
+         {Case{"0 0\n1", "line 2: 1 number, a point has 2 (value opacity)"}, Case{"0 0\n1 1 1", "line 2: 3 numbers"},
+          Case{"0 0\n1 1.5", "line 2: the opacity 1.5 is outside 0..1"}, Case{"0 -0.1", "line 1: the opacity -0.1"},
+          Case{"1 0\n\n0 1", "line 3: the value 0 is below the one before it (1)"},
+          Case{"0 zero", "line 1: 'zero' is not a number"}, Case{"", "it holds no point"},
+          Case{"{\n\"points\": [[0, 0],\n", "line 3"}, Case{"{}", "it has no 'points'"},
+          Case{"[]", "it has no 'points'"}, Case{R"({"points": []})", "it has no 'points'"},
+          Case{R"({"points": [[0, 0], [1]]})", "points[1]: expected [value, opacity]"},
+          Case{R"({"points": [["0", 0]]})", "points[0]: expected"},
+          Case{R"({"points": [[0, 2]]})", "points[0]: the opacity 2 is outside 0..1"},
+          Case{R"({"points": [[1, 0], {"value": 0, "opacity": 1}]})", "points[1]: the value 0 is below"},
+          Case{R"({"points": [[1e999, 0]]})", "number overflow"}}) {
+        const auto path = folder.write("tf.txt", bad.text);
+        expectRefused(io::readTransferFunction(path), bad.reason, path);
+    }
+}
+
+TEST(Opacity, Parses) {
+    const auto points = io::parseOpacity("-1000:0, -2.5e2:0.1 ,+3E+2:1");
+    ASSERT_TRUE(isOk(points));
+    EXPECT_THAT(pairs(*points),
+                testing::ElementsAre(std::pair(-1000.0, 0.0), std::pair(-250.0, 0.1), std::pair(300.0, 1.0)));
+}
+
+TEST(Opacity, Refusals) {
+    expectRefused(io::parseOpacity(""), "opacity '': point 1: expected value:opacity");
+    expectRefused(io::parseOpacity("1:0,"), "opacity '1:0,': point 2: expected value:opacity");
+    expectRefused(io::parseOpacity("1:0,2"), "point 2: expected value:opacity");
+    expectRefused(io::parseOpacity("1:0:2"), "point 1: '0:2' is not a number");
+    expectRefused(io::parseOpacity("a:0"), "point 1: 'a' is not a number");
+    expectRefused(io::parseOpacity(":0"), "point 1: '' is not a number");
+    expectRefused(io::parseOpacity("0:nan"), "point 1: 'nan' is not a finite number");
+    expectRefused(io::parseOpacity("0:1,5:2"), "point 2: the opacity 2 is outside 0..1");
+    expectRefused(io::parseOpacity("5:0,1:1"), "point 2: the value 1 is below the one before it (5)");
+}
+
+} // namespace
+} // namespace voxtact::test

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "io_test_support.h"
+
+#include <fstream>
+#include <stdexcept>
+
+namespace voxtact::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> writeNew(std::ostream& stream) {
+    stream << "new " << 1234567 << ' ' << 0.5;
+    return {};
+}
+
+TEST(WriteFile, ReplacesAndLeavesNothingBehind) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.csv", "old");
+    ASSERT_TRUE(isOk(io::writeFile(path, writeNew)));
+    EXPECT_EQ(contentOf(path), "new 1234567 0.5");
+    EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(WriteFile, FailureLeavesTheOldFile) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.csv", "old");
+    expectRefused(io::writeFile(path,
+                                [](std::ostream& stream) -> Result<void> {
+                                    stream << "half";
+                                    return Error{ErrorCode::File, 0, "changed my mind"};
+                                }),
+                  "changed my mind");
+    const auto thrown = io::writeFile(path, [](std::ostream&) -> Result<void> { throw std::runtime_error("thrown"); });
+    expectRefused(thrown, "thrown");
+    EXPECT_EQ(contentOf(path), "old");
+    EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(WriteFile, NamesWhatIsWrongWithTheFolder) {
+    const TemporaryFolder folder;
+    const auto path = folder / "absent" / "y.csv";
+    const auto result = io::writeFile(path, writeNew);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().text,
+              "cannot write '" + path.string() + "': the folder '" + path.parent_path().string() + "' does not exist");
+    EXPECT_EQ(result.error().code, ErrorCode::File);
+    folder.write("file", "");
+    expectRefused(io::writeFile(folder / "file" / "y.csv", writeNew), "is not a folder");
+    expectRefused(io::writeFile(folder.path(), writeNew), "it is a folder, not a file");
+    expectRefused(io::writeFile(folder.path() / "", writeNew), "it is a folder, not a file");
+}
+
+TEST(WriteFile, FollowsLinksAndKeepsPermissions) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.csv", "old");
+    fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+    const fs::perms before = fs::status(path).permissions();
+    fs::create_symlink(path, folder / "link.csv");
+    ASSERT_TRUE(isOk(io::writeFile(folder / "link.csv", writeNew)));
+    EXPECT_TRUE(fs::is_symlink(folder / "link.csv"));
+    EXPECT_EQ(contentOf(path), "new 1234567 0.5");
+    EXPECT_EQ(fs::status(path).permissions(), before);
+}
+
+TEST(WriteFile, LongNames) {
+    const TemporaryFolder folder;
+    const auto path = folder / (std::string(251, 'a') + ".csv");
+    ASSERT_TRUE(isOk(io::writeFile(path, writeNew)));
+    EXPECT_EQ(contentOf(path), "new 1234567 0.5");
+}
+
+TEST(WriteFile, DevicesAreWrittenToAndNotReplaced) {
+    if (!fs::is_character_file("/dev/full")) {
+        GTEST_SKIP() << "no /dev/full";
+    }
+    expectRefused(io::writeFile("/dev/full", writeNew), "cannot write '/dev/full': No space left on device");
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+    expectRefused(io::writeFileAt("/dev/full", [](const fs::path&) { return Result<void>(); }),
+                  "it is not an ordinary file");
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(WriteFileAt, TemporaryHasTheEnding) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(isOk(io::writeFileAt(folder / "a.nii.gz", [&](const fs::path& temporary) -> Result<void> {
+        EXPECT_TRUE(temporary.string().ends_with("a.nii.gz"));
+        EXPECT_EQ(temporary.parent_path(), folder.path());
+        EXPECT_NE(temporary, folder / "a.nii.gz");
+        std::ofstream(temporary) << "x";
+        return {};
+    })));
+    EXPECT_EQ(contentOf(folder / "a.nii.gz"), "x");
+    EXPECT_EQ(folder.entries(), 1U);
+}
+
+} // namespace
+} // namespace voxtact::test

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+# BUILD: a build tree; COMPONENT: install components, with commas between them; STAGE: the prefix, emptied first.
+cmake_minimum_required(VERSION 3.22)
+include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
+file(REMOVE_RECURSE "${STAGE}")
+string(REPLACE "," ";" components "${COMPONENT}")
+foreach(component ${components})
+  step("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${STAGE}" --component ${component})
+endforeach()
+# Nothing of this project may be left in what is installed: an install tree can be moved.
+file(GLOB_RECURSE files "${STAGE}/*.cmake")
+if(NOT files)
+  message(FATAL_ERROR "no package file was installed in ${STAGE}")
+endif()
+foreach(file ${files})
+  file(READ "${file}" text)
+  foreach(path "${BUILD}" "${STAGE}")
+    string(FIND "${text}" "${path}" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "${file} names ${path}")
+    endif()
+  endforeach()
+endforeach()

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# Configures, builds and runs consumer/ with voxtact as a subdirectory of it.
+# CONSUMER, EMBED_SOURCE, SOURCE, BUILD (kept), SHARED, BUILD_TYPE, CXX, CXX_FLAGS, GENERATOR, REQUIRE_DEVICE.
+cmake_minimum_required(VERSION 3.22)
+include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
+set(configure
+    "${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${BUILD}" -G "${GENERATOR}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}"
+    "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" "-DEMBED_SOURCE=${EMBED_SOURCE}"
+    "-DVOXTACT_SOURCE=${SOURCE}" "-DBUILD_SHARED_LIBS=${SHARED}")
+
+# Not at the top level, everything beside the library is off.
+file(REMOVE "${BUILD}/CMakeCache.txt")
+step(${configure})
+file(STRINGS "${BUILD}/CMakeCache.txt" options REGEX "^VOXTACT_[A-Z_]+:BOOL=")
+foreach(option VOXTACT_BUILD_IO VOXTACT_INSTALL VOXTACT_WARNINGS_AS_ERRORS)
+  if(NOT "${option}:BOOL=OFF" IN_LIST options)
+    message(FATAL_ERROR "${option} is not off by default in a subdirectory: ${options}")
+  endif()
+endforeach()
+if(options MATCHES "VOXTACT_BUILD_(APP|TESTS):BOOL=ON")
+  message(FATAL_ERROR "the program or the tests are on by default in a subdirectory: ${options}")
+endif()
+
+# The consumer's -Werror is not for voxtact, and a shared voxtact may leave no symbol open. The install rules are for
+# the tests that come after.
+step(${configure} -DVOXTACT_INSTALL=ON -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)
+step("${CMAKE_COMMAND}" --build "${BUILD}")
+run_consumers("${BUILD}")

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+# NM, KIND (static or shared), STAGE: an install tree. No vk* symbol is defined or needed by the library, and a shared
+# one exports nothing but voxtact's own names.
+cmake_minimum_required(VERSION 3.22)
+include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
+set(pattern "libvoxtact.a")
+if(KIND STREQUAL "shared")
+  set(pattern "libvoxtact.so")
+endif()
+file(GLOB_RECURSE library "${STAGE}/${pattern}")
+list(LENGTH library count)
+if(NOT count EQUAL 1)
+  message(FATAL_ERROR "there is not one ${pattern} in ${STAGE}: ${library}")
+endif()
+
+step("${NM}" "${library}")
+if(KIND STREQUAL "shared")
+  set(whole "${step_output}")
+  step("${NM}" -D "${library}")
+  string(APPEND step_output "${whole}")
+endif()
+# A public function is there, so this does look at symbols.
+if(NOT step_output MATCHES "_ZN7voxtact7Context6create")
+  message(FATAL_ERROR "voxtact::Context::create is not in ${library}")
+endif()
+string(REGEX MATCHALL " [A-Za-z] vk[A-Za-z0-9]+" vulkan "${step_output}")
+if(vulkan)
+  message(FATAL_ERROR "${library} has Vulkan's names: ${vulkan}")
+endif()
+
+if(KIND STREQUAL "shared")
+  step("${NM}" -D --defined-only "${library}")
+  string(REGEX MATCHALL "[^\n]+" exported "${step_output}")
+  foreach(line ${exported})
+    # _ZN, _ZNK: functions and variables in namespace voxtact; _ZT.N: their vtables and type information.
+    if(NOT line MATCHES " [A-Za-z] (_ZNK?|_ZT[VIS]N)7voxtact")
+      message(SEND_ERROR "exported, and not voxtact's: ${line}")
+    endif()
+  endforeach()
+endif()

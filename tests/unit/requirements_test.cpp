@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// check() and requirements(), with a loader that needs no driver.
+#include "voxtact/context.h"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+namespace voxtact::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::uint32_t fakeDeviceVersion = VK_API_VERSION_1_3;
+const char* fakeAbsent = nullptr;
+constexpr VkShaderStageFlags kBothStages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+VkShaderStageFlags fakeSubgroupStages = kBothStages;
+
+void VKAPI_PTR doNothing() {}
+
+void VKAPI_PTR fakeProperties(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
+    properties->properties.apiVersion = fakeDeviceVersion;
+    std::strcpy(properties->properties.deviceName, "fake");
+    auto* subgroup = static_cast<VkPhysicalDeviceSubgroupProperties*>(properties->pNext);
+    if (subgroup != nullptr && subgroup->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
+        subgroup->supportedStages = fakeSubgroupStages;
+        subgroup->supportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
+                                        VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    }
+}
+
+PFN_vkVoidFunction VKAPI_PTR fakeDeviceLoader(VkDevice, const char* name) {
+    if (fakeAbsent != nullptr && std::strcmp(name, fakeAbsent) == 0) {
+        return nullptr;
+    }
+    return &doNothing;
+}
+
+PFN_vkVoidFunction VKAPI_PTR fakeLoader(VkInstance, const char* name) {
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(&fakeDeviceLoader);
+    }
+    if (std::strcmp(name, "vkGetPhysicalDeviceProperties2") == 0) {
+        return reinterpret_cast<PFN_vkVoidFunction>(&fakeProperties);
+    }
+    return &doNothing;
+}
+
+class RequirementsTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        fakeDeviceVersion = VK_API_VERSION_1_3;
+        fakeAbsent = nullptr;
+        fakeSubgroupStages = kBothStages;
+        desc_.getInstanceProcAddr = &fakeLoader;
+        // Never dereferenced: the fake loader's functions take no notice of them.
+        desc_.instance = reinterpret_cast<VkInstance>(std::uintptr_t{1});
+        desc_.physicalDevice = reinterpret_cast<VkPhysicalDevice>(std::uintptr_t{2});
+        desc_.device = reinterpret_cast<VkDevice>(std::uintptr_t{3});
+        desc_.apiVersion = VK_API_VERSION_1_3;
+        VkPhysicalDeviceFeatures2 all{};
+        all.features.occlusionQueryPrecise = VK_TRUE;
+        all.features.fragmentStoresAndAtomics = VK_TRUE;
+        all.features.geometryShader = VK_TRUE;
+        all.features.shaderInt64 = VK_TRUE;
+        request_.emplace(&all);
+        desc_.enabledFeatures = &request_->features2;
+    }
+
+    ContextDesc desc_;
+    std::optional<FeatureRequest> request_;
+};
+
+TEST_F(RequirementsTest, EverythingThere) {
+    const CheckReport report = check(desc_);
+    EXPECT_TRUE(report.usable);
+    EXPECT_THAT(report.missing, IsEmpty());
+    for (const MethodSupport& method : report.methods) {
+        EXPECT_TRUE(method.available) << toString(method.method);
+    }
+}
+
+TEST_F(RequirementsTest, AZeroDescriptionNamesEverything) {
+    const CheckReport report = check({});
+    EXPECT_FALSE(report.usable);
+    for (const char* what :
+         {"getInstanceProcAddr", "instance", "physicalDevice", "device", "enabledFeatures", "apiVersion",
+          "dynamicRendering", "synchronization2", "occlusionQueryPrecise", "fragmentStoresAndAtomics"}) {
+        EXPECT_THAT(report.missing, Contains(HasSubstr(what)));
+    }
+    const Result<Context> context = Context::create({});
+    ASSERT_FALSE(context.ok());
+    EXPECT_EQ(context.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(context.error().text, HasSubstr("ContextDesc::device is null"));
+}
+
+TEST_F(RequirementsTest, RecommendedFeaturesCostMethods) {
+    request_->features2.features.occlusionQueryPrecise = VK_FALSE;
+    const CheckReport report = check(desc_);
+    EXPECT_TRUE(report.usable);
+    EXPECT_THAT(report.missing, Contains(HasSubstr("no counting method query")));
+    for (const MethodSupport& method : report.methods) {
+        EXPECT_EQ(method.available, method.method != CountingMethod::Query);
+    }
+}
+
+TEST_F(RequirementsTest, SubgroupOperationsCostMethods) {
+    fakeSubgroupStages = VK_SHADER_STAGE_COMPUTE_BIT;
+    for (const MethodSupport& method : check(desc_).methods) {
+        EXPECT_EQ(method.available, method.method != CountingMethod::Subgroup) << method.reason;
+    }
+    fakeSubgroupStages = 0;
+    EXPECT_THAT(check(desc_).methods.back().reason, HasSubstr("the compute stage has no subgroup arithmetic"));
+}
+
+TEST_F(RequirementsTest, SingleFeatureStructsAreRead) {
+    VkPhysicalDeviceSynchronization2Features synchronization{};
+    synchronization.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES;
+    synchronization.synchronization2 = VK_TRUE;
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES;
+    rendering.pNext = &synchronization;
+    rendering.dynamicRendering = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &rendering;
+    desc_.enabledFeatures = &features;
+    EXPECT_TRUE(check(desc_).usable);
+    rendering.pNext = nullptr;
+    EXPECT_THAT(check(desc_).missing, Contains(HasSubstr("synchronization2")));
+}
+
+TEST_F(RequirementsTest, OldVersionsAndAbsentFunctionsAreNamed) {
+    desc_.apiVersion = VK_API_VERSION_1_1;
+    EXPECT_THAT(check(desc_).missing, Contains(HasSubstr("1.1")));
+    desc_.apiVersion = VK_API_VERSION_1_3;
+    fakeDeviceVersion = VK_API_VERSION_1_2;
+    EXPECT_THAT(check(desc_).missing, Contains(HasSubstr("the device fake has Vulkan 1.2")));
+    fakeDeviceVersion = VK_API_VERSION_1_3;
+    fakeAbsent = "vkCmdBeginQuery";
+    EXPECT_THAT(check(desc_).missing, Contains(HasSubstr("vkCmdBeginQuery")));
+    EXPECT_FALSE(check(desc_).usable);
+}
+
+TEST_F(RequirementsTest, TheRequestAsksForWhatIsSupported) {
+    const FeatureRequest none(nullptr);
+    EXPECT_EQ(none.features2.features.occlusionQueryPrecise, VK_FALSE);
+    EXPECT_EQ(none.vulkan13.dynamicRendering, VK_TRUE);
+    EXPECT_EQ(request_->features2.features.occlusionQueryPrecise, VK_TRUE);
+    for (const Requirement& requirement : requirements()) {
+        EXPECT_NE(std::strlen(requirement.without), 0U);
+    }
+}
+
+} // namespace
+} // namespace voxtact::test

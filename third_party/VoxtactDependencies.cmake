@@ -1,0 +1,33 @@
+# How each dependency is found. Everything comes from the system; debian-packages.txt beside this file lists the
+# packages of Debian 12. Nothing is downloaded and nothing is copied.
+
+# voxtact::voxtact: Vulkan headers, and at build time glm, glslang and SPIRV-Tools.
+find_package(VulkanHeaders CONFIG QUIET)
+if(NOT TARGET Vulkan::Headers)
+  find_path(VOXTACT_VULKAN_INCLUDE_DIR vulkan/vulkan_core.h REQUIRED)
+  add_library(Vulkan::Headers INTERFACE IMPORTED)
+  set_target_properties(Vulkan::Headers PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${VOXTACT_VULKAN_INCLUDE_DIR}")
+endif()
+find_package(glm CONFIG REQUIRED)
+find_program(VOXTACT_GLSLANG glslangValidator REQUIRED)
+find_program(VOXTACT_SPIRV_VAL spirv-val REQUIRED)
+
+# voxtact::io
+if(VOXTACT_BUILD_IO)
+  enable_language(C) # ITK's look for HDF5 compiles a C file
+  find_package(ITK 5.2 CONFIG REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGDCM)
+  find_package(assimp CONFIG REQUIRED)
+  find_package(nlohmann_json 3.10 CONFIG REQUIRED)
+  find_package(GDCM CONFIG REQUIRED) # behind ITK's DICOM reader; only to silence it
+  find_package(ZLIB REQUIRED)
+endif()
+
+# the program: volk is a header and a source file that the program compiles
+if(VOXTACT_BUILD_APP)
+  find_package(CLI11 CONFIG REQUIRED)
+  find_path(VOXTACT_VOLK_INCLUDE_DIR volk.h REQUIRED)
+endif()
+
+if(VOXTACT_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()
