@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# find_package(voxtact) from an install tree. Two export sets, so that voxtact::voxtact can be found where the packages
-# behind voxtact::io are not there. The program installs itself, in src/app.
+# find_package(voxtact) from an install tree. An export set a target, so that voxtact::voxtact can be found where the
+# packages behind voxtact::cpu and voxtact::io are not there. The program installs itself, in src/app.
 #
-# Install components: `voxtact` (the library, its headers and the package files) and `voxtact_io`.
+# Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu` and
+# `voxtact_io`.
 include(CMakePackageConfigHelpers)
 set(voxtact_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/voxtact")
 set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
@@ -10,7 +11,8 @@ set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
 # Every public header belongs to the library, but for those of the other targets.
 file(GLOB voxtact_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/voxtact/*.h")
 set(voxtact_io_headers "${PROJECT_SOURCE_DIR}/include/voxtact/io.h")
-list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} "${PROJECT_SOURCE_DIR}/include/voxtact/cpu.h")
+set(voxtact_cpu_headers "${PROJECT_SOURCE_DIR}/include/voxtact/cpu.h")
+list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers})
 
 # voxtact_install(TARGET EXPORT_SET HEADER...): installs under the component TARGET.
 function(voxtact_install target export_set)
@@ -25,6 +27,9 @@ function(voxtact_install target export_set)
 endfunction()
 
 voxtact_install(voxtact voxtact-targets ${voxtact_headers})
+if(VOXTACT_BUILD_CPU)
+  voxtact_install(voxtact_cpu voxtact-cpu-targets ${voxtact_cpu_headers})
+endif()
 if(VOXTACT_BUILD_IO)
   voxtact_install(voxtact_io voxtact-io-targets ${voxtact_io_headers})
 endif()

@@ -31,8 +31,7 @@ float exactStored(vec3 coordinate, float unit) {
 }
 
 float exactOpacity(vec3 coordinate, ItemConstants item) {
-    const vec3 inside = vec3(min(max(coordinate.x, 0.0), 1.0), min(max(coordinate.y, 0.0), 1.0),
-                             min(max(coordinate.z, 0.0), 1.0));
+    const vec3 inside = vec3(exactClamp(coordinate.x), exactClamp(coordinate.y), exactClamp(coordinate.z));
     const ExactCell entry = exactEntry(exactStored(inside, item.storedUnit), item.scalarScale, item.scalarBias,
                                        textureSize(transferFunction, 0));
     return exactLerp(texelFetch(transferFunction, entry.below, 0).r, texelFetch(transferFunction, entry.above, 0).r,
@@ -47,7 +46,8 @@ float hardwareOpacity(vec3 coordinate, ItemConstants item) {
 
 /// Whether the paper's fragment program lets a fragment live. Comparisons are such that a NaN dies.
 bool survives(vec3 coordinate, ItemConstants item, bool rangeTest, bool exact) {
-    if (rangeTest && !(all(greaterThanEqual(coordinate, vec3(0.0))) && all(lessThanEqual(coordinate, vec3(1.0))))) {
+    if (rangeTest &&
+        !(exactInDomain(coordinate.x) && exactInDomain(coordinate.y) && exactInDomain(coordinate.z))) {
         return false;
     }
     const float opacity = exact ? exactOpacity(coordinate, item) : hardwareOpacity(coordinate, item);

@@ -12,6 +12,12 @@ find_package(glm CONFIG REQUIRED)
 find_program(VOXTACT_GLSLANG glslangValidator REQUIRED)
 find_program(VOXTACT_SPIRV_VAL spirv-val REQUIRED)
 
+# voxtact::cpu
+if(VOXTACT_BUILD_CPU)
+  find_package(hwy 1.0.3 CONFIG REQUIRED)
+  find_package(Threads REQUIRED)
+endif()
+
 # voxtact::io
 if(VOXTACT_BUILD_IO)
   enable_language(C) # ITK's look for HDF5 compiles a C file
@@ -22,8 +28,11 @@ if(VOXTACT_BUILD_IO)
   find_package(ZLIB REQUIRED)
 endif()
 
-# the program: volk is a header and a source file that the program compiles
+# the program: volk is a header and a source file that the program compiles. Chart.js draws the charts of
+# `compare --report`, which says so where it is missing; it becomes part of the program, and its licence with it.
 if(VOXTACT_BUILD_APP)
+  find_file(VOXTACT_CHART_LIBRARY chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH)
+  find_file(VOXTACT_CHART_LICENCE copyright PATHS /usr/share/doc/libjs-chart.js NO_DEFAULT_PATH)
   find_package(CLI11 CONFIG REQUIRED)
   find_path(VOXTACT_VOLK_INCLUDE_DIR volk.h REQUIRED)
 endif()

@@ -5,7 +5,9 @@
 #include "voxtact/pair_result.h"
 #include "voxtact/scene.h"
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace voxtact {
@@ -171,8 +173,43 @@ struct SelfTestVerdict {
 
 /// Renders a known number of fragments by each of `methods` (empty: all that the Context knows) on this driver: a full
 /// viewport in an opaque volume, in a transparent one, and in a half-opaque one. Blocks; some milliseconds, and the
-/// making of pipelines.
+/// making of pipelines. A method that the driver fails is not trusted, with the error as its text; only a lost device
+/// fails the call.
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
+
+/// A scene in host memory for measuring with: one mesh at some poses against one volume.
+struct MeasureScene {
+    VolumeData volume{};
+    MeshData mesh{};
+    std::vector<ControlPoint> points{};
+    ValueRange domain{};
+    std::vector<Mat4> world_from_object{};
+    View view{};
+    double threshold = kDefaultThreshold;
+};
+
+/// The builtin scalpel at 32 poses, from just outside to deep inside the builtin head of 64^3 voxels, 256x256 pixels:
+/// the same on every machine.
+[[nodiscard]] VOXTACT_API Result<MeasureScene> makeMeasureScene();
+
+struct MeasureDesc {
+    const MeasureScene* scene = nullptr;          ///< null: makeMeasureScene()
+    std::span<const CountingMethod> methods = {}; ///< empty: all that the Context knows
+    std::optional<Filter> filter = std::nullopt;  ///< nothing: defaultFilter() of each
+    std::uint32_t repetitions = 5;                ///< at most; fewer for a method that takes long
+};
+
+/// How fast one counting method is.
+struct MethodSpeed {
+    SelfTestVerdict verdict;   ///< only trusted methods are measured
+    double pairsPerSecond = 0; ///< wall clock, median of the repetitions; 0 where it was not measured
+};
+
+/// Runs selfTest(), and then the scene by each method that it trusts, all poses in one submission that is waited for.
+/// What the numbers are good for is choosing between the methods on this device; the choice is the caller's. Blocks:
+/// the making of pipelines, and at most about 0.2 s a method unless one batch takes longer.
+[[nodiscard]] VOXTACT_API Result<std::vector<MethodSpeed>>
+measureMethods(const Context& context, const QueueAccess& queue, const MeasureDesc& desc = {});
 
 } // namespace voxtact

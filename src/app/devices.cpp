@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "app/auto_method.h"
 #include "app/commands.h"
 #include "app/session.h"
 #include "app/version.h"
@@ -6,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace voxtact::app {
@@ -13,18 +16,22 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kFooter =
-    R"(One row a device and counting method; one row, without a method, for a device that cannot be used. Columns:
+    R"(One row a device and counting method, cpu (the host) among them; one row, without a method, for a device that
+cannot be used. Columns:
   index,name,type,api,driver   the device; subgroup_size: invocations in a subgroup
   default                      1: what a command takes without --device
   method                       the counting method
   available,trusted            the device can do it; and it counted a known number of fragments right (self-test)
   verdict                      what the self-test counted, or why it cannot be used
+  pairs_per_s                  on a small scene; measured once and remembered, see --cache
+  auto                         1: what --count auto takes on this device
 
 Example:
   voxtact devices --format text)";
 
-const std::vector<std::string> kColumns{"index",   "name",   "type",      "api",     "driver", "subgroup_size",
-                                        "default", "method", "available", "trusted", "verdict"};
+const std::vector<std::string> kColumns{"index",         "name",        "type",   "api",       "driver",
+                                        "subgroup_size", "default",     "method", "available", "trusted",
+                                        "verdict",       "pairs_per_s", "auto"};
 
 struct DevicesOptions {
     DeviceChoice device;
@@ -34,21 +41,40 @@ struct DevicesOptions {
 struct DeviceRow {
     PhysicalDevice device;
     bool standard = false;
-    std::optional<SelfTestVerdict> verdict; ///< nothing: the device cannot be used
-    std::string reason;                     ///< why not
+    std::optional<MethodSpeed> speed; ///< nothing: the device cannot be used
+    std::string reason;               ///< why not
+    bool chosen = false;
 };
 
-/// The verdict on each method.
-Result<std::vector<SelfTestVerdict>> judge(const VulkanInstance& instance, const PhysicalDevice& physical) {
-    const Result<VulkanDevice> device = VulkanDevice::create(instance, physical);
-    if (!device.ok()) {
-        return device.error();
+/// What is known of each method, and which one --count auto takes.
+struct Judgement {
+    std::vector<MethodSpeed> speeds;
+    std::optional<CountingMethod> chosen;
+};
+
+/// The self-test is run each time, since it is what this command is asked for; speeds are remembered.
+Result<Judgement> judge(const VulkanInstance& instance, const PhysicalDevice& physical, const DeviceChoice& choice) {
+    const Result<Session> session = openSessionOn(instance, physical, choice, nullptr);
+    if (!session.ok()) {
+        return session.error();
     }
-    const Result<Context> context = Context::create(device->contextDesc());
-    if (!context.ok()) {
-        return context.error();
+    Result<MeasuredMethods> measured = measuredMethods(*session, std::nullopt, !choice.validate);
+    if (!measured.ok()) {
+        return measured.error();
     }
-    return selfTest(*context, device->queueAccess());
+    if (!measured->fresh) {
+        const Result<std::vector<SelfTestVerdict>> verdicts = selfTest(session->context, session->device.queueAccess());
+        if (!verdicts.ok()) {
+            return verdicts.error();
+        }
+        // The device's methods come first, in the order of its verdicts.
+        std::transform(verdicts->begin(), verdicts->end(), measured->speeds.begin(), measured->speeds.begin(),
+                       [](const SelfTestVerdict& verdict, const MethodSpeed& speed) {
+                           return MethodSpeed{verdict, speed.pairsPerSecond};
+                       });
+    }
+    const auto chosen = fastest(measured->speeds, {}, session->context.maxViewport());
+    return Judgement{std::move(measured->speeds), chosen};
 }
 
 Result<std::vector<DeviceRow>> listDevices(const VulkanInstance& instance, const DeviceChoice& choice) {
@@ -67,13 +93,13 @@ Result<std::vector<DeviceRow>> listDevices(const VulkanInstance& instance, const
             continue;
         }
         const bool isStandard = device.index == standard->index;
-        const Result<std::vector<SelfTestVerdict>> verdicts = judge(instance, device);
-        if (!verdicts.ok()) {
-            rows.push_back({device, isStandard, std::nullopt, verdicts.error().text});
+        const Result<Judgement> judgement = judge(instance, device, choice);
+        if (!judgement.ok()) {
+            rows.push_back({device, isStandard, std::nullopt, judgement.error().text, false});
             continue;
         }
-        for (const SelfTestVerdict& verdict : *verdicts) {
-            rows.push_back({device, isStandard, verdict, {}});
+        for (const MethodSpeed& speed : judgement->speeds) {
+            rows.push_back({device, isStandard, speed, {}, speed.verdict.method == judgement->chosen});
         }
     }
     return rows;
@@ -97,13 +123,17 @@ Cell cellOf(const DeviceRow& row, std::size_t column) {
     case 6:
         return flag(row.standard);
     case 7:
-        return row.verdict ? Cell(std::string(toString(row.verdict->method))) : Cell();
+        return row.speed ? Cell(std::string(toString(row.speed->verdict.method))) : Cell();
     case 8:
-        return flag(row.verdict && row.verdict->available);
+        return flag(row.speed && row.speed->verdict.available);
     case 9:
-        return flag(row.verdict && row.verdict->trusted);
+        return flag(row.speed && row.speed->verdict.trusted);
+    case 10:
+        return row.speed ? row.speed->verdict.text : row.reason;
+    case 11:
+        return row.speed && row.speed->pairsPerSecond > 0 ? Cell(std::round(row.speed->pairsPerSecond)) : Cell();
     default:
-        return row.verdict ? row.verdict->text : row.reason;
+        return flag(row.chosen);
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/pair_pipeline.h"
 
-#include <algorithm>
+#include "app/batch_cutter.h"
+
 #include <chrono>
 #include <limits>
 
@@ -10,47 +11,6 @@ namespace voxtact::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Some poses of one item, in a submission.
-struct Piece {
-    std::uint32_t item = 0;
-    std::uint32_t firstPose = 0;
-};
-
-/// Cuts a batch into submissions of at most so many pairs.
-class Cutter {
-  public:
-    Cutter(std::span<const BatchItem> items, std::uint32_t pairs) : items_(items), pairs_(pairs) {}
-
-    /// The next submission's items and where they come from; false when all are out.
-    bool next(std::vector<BatchItem>& part, std::vector<Piece>& pieces) {
-        part.clear();
-        pieces.clear();
-        std::size_t left = pairs_;
-        while (left > 0 && item_ < items_.size()) {
-            const std::span<const Mat4> poses = items_[item_].world_from_object.subspan(pose_);
-            const std::size_t taken = std::min(left, poses.size());
-            if (taken > 0) {
-                part.push_back(items_[item_]);
-                part.back().world_from_object = poses.first(taken);
-                pieces.push_back({static_cast<std::uint32_t>(item_), static_cast<std::uint32_t>(pose_)});
-            }
-            left -= taken;
-            pose_ += taken;
-            if (pose_ == items_[item_].world_from_object.size()) {
-                ++item_;
-                pose_ = 0;
-            }
-        }
-        return !part.empty();
-    }
-
-  private:
-    std::span<const BatchItem> items_;
-    std::size_t pairs_;
-    std::size_t item_ = 0;
-    std::size_t pose_ = 0;
-};
 
 /// One submission in flight.
 struct Flight {
@@ -201,7 +161,7 @@ Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink) {
 }
 
 Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink) {
-    Cutter cutter(batch.items, desc.pairsPerSubmission);
+    BatchCutter<BatchItem> cutter(batch.items, desc.pairsPerSubmission);
     std::vector<BatchItem> items;
     std::vector<Piece> pieces;
     std::size_t next = 0; // the oldest flight, and the one to take next: they go round

@@ -18,17 +18,25 @@ Result<Session> openSession(const DeviceChoice& choice) {
     if (!chosen.ok()) {
         return chosen.error();
     }
-    Result<VulkanDevice> device = VulkanDevice::create(*instance, *chosen);
+    return openSessionOn(*instance, *chosen, choice, [](void*, const char* text) { printNote(text); });
+}
+
+Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevice& physical,
+                              const DeviceChoice& choice, LogCallback log) {
+    Result<VulkanDevice> device = VulkanDevice::create(instance, physical);
     if (!device.ok()) {
         return device.error();
     }
+    const CacheFolder cache(choice.cache);
+    PipelineCache pipelines(*device, cache);
     ContextDesc desc = device->contextDesc();
-    desc.log = [](void*, const char* text) { printNote(text); };
+    desc.pipelineCache = pipelines.handle();
+    desc.log = log;
     Result<Context> context = Context::create(desc);
     if (!context.ok()) {
         return context.error();
     }
-    return Session{std::move(*instance), std::move(*device), std::move(*context)};
+    return Session{instance, std::move(*device), cache, std::move(pipelines), std::move(*context)};
 }
 
 Outcome validationOutcome(const ValidationMessages& messages) {

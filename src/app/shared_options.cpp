@@ -181,10 +181,12 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
     addParsed(
         parser, "--count",
         [&options](const std::string& name) {
-            requireName("--count", name, {"query", "query-any", "atomic", "subgroup", "compute", "auto"}, {"cpu"});
+            requireName("--count", name, {"query", "query-any", "atomic", "subgroup", "compute", "cpu", "auto"});
             options.count = countingMethodFromName(name);
         },
-        "how fragments are counted: query, query-any, atomic, subgroup, compute, auto", "METHOD", "auto");
+        "how fragments are counted: query, query-any, atomic, subgroup, compute, cpu (the host, no Vulkan), auto (the "
+        "fastest here, measured once)",
+        "METHOD", "auto");
     addParsed(
         parser, "--projection",
         [](const std::string& name) {
@@ -197,8 +199,8 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
             requireName("--filter", name, {"hardware", "exact"});
             options.filter = name == "exact" ? Filter::Exact : Filter::Hardware;
         },
-        "how the image is sampled: hardware (the sampler), exact (fp32 in a fixed order); default: exact for compute, "
-        "else hardware",
+        "how the image is sampled: hardware (the sampler), exact (fp32 in a fixed order); default: exact for compute "
+        "and cpu, else hardware",
         "F", "");
     addParsed(
         parser, "--boundary",
@@ -218,6 +220,12 @@ void addDeviceOptions(CLI::App& parser, DeviceChoice& options) {
         ->check(refuseEmpty);
     parser.add_flag("--validate", options.validate,
                     "validation and synchronization validation on; any message fails the run (exit 3)");
+    parser
+        .add_option("--cache", options.cache,
+                    "folder for measured speeds and made pipelines, or off; default: $XDG_CACHE_HOME/voxtact, else "
+                    "~/.cache/voxtact")
+        ->type_name("DIR|off")
+        ->check(refuseEmpty);
 }
 
 void addOutputOptions(CLI::App& parser, OutputOptions& options) {

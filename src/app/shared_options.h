@@ -58,6 +58,7 @@ struct MethodOptions {
 struct DeviceChoice {
     std::string wanted; ///< empty: the default device
     bool validate = false;
+    std::string cache; ///< a folder, "off", or empty: the user's cache folder
 };
 
 /// A whole number from `least`, as an option.

@@ -11,6 +11,10 @@ const char* programVersion() noexcept {
     return kVersion;
 }
 
+const char* gitRevision() noexcept {
+    return kGitRevision;
+}
+
 std::string versionText() {
     return std::string("voxtact ") + kVersion + "\ngit revision " + kGitRevision + "\nVulkan headers " +
            apiVersionText(VK_HEADER_VERSION_COMPLETE) + "\nglslang " + kGlslangVersion + "\n";

@@ -6,6 +6,7 @@
 namespace voxtact::app {
 
 [[nodiscard]] const char* programVersion() noexcept;
+[[nodiscard]] const char* gitRevision() noexcept;
 /// Version, git revision, Vulkan headers, glslang: a line each.
 [[nodiscard]] std::string versionText();
 

@@ -5,6 +5,7 @@
 
 #include <volk.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -45,6 +46,10 @@ struct PhysicalDevice {
     std::uint32_t apiVersion = 0;
     std::string driver; ///< name and version as the driver gives them: "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
     std::uint32_t subgroupSize = 0;
+    std::uint32_t vendor = 0;
+    std::uint32_t deviceId = 0;
+    std::uint32_t driverVersion = 0;
+    std::array<std::uint8_t, VK_UUID_SIZE> pipelineCacheUuid{};
 };
 
 /// "discrete", "integrated", "virtual", "cpu" or "other".

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/vulkan_instance.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -141,7 +142,11 @@ PhysicalDevice describe(const InstanceFunctions& functions, VkPhysicalDevice han
                           .name = properties.deviceName,
                           .type = properties.deviceType,
                           .apiVersion = properties.apiVersion,
-                          .driver = apiVersionText(properties.driverVersion)};
+                          .driver = apiVersionText(properties.driverVersion),
+                          .vendor = properties.vendorID,
+                          .deviceId = properties.deviceID,
+                          .driverVersion = properties.driverVersion};
+    std::copy_n(properties.pipelineCacheUUID, VK_UUID_SIZE, device.pipelineCacheUuid.begin());
     if (properties.apiVersion < VK_API_VERSION_1_2) {
         return device; // the structs below came with 1.2
     }

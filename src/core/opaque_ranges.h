@@ -11,8 +11,8 @@ namespace voxtact {
 
 /// Which scalars of a transfer function's table can look up an opacity of at least a threshold, on the safe side:
 /// mayBeOpaque() is false only where no sampler, whatever the precision of its weights, returns an opaque sample for
-/// any scalar of the range, certainlyOpaque() is true only where every sampler returns an opaque sample for all of them.
-/// Kept as prefix counts over the table's entries, so that a question costs two look-ups.
+/// any scalar of the range, certainlyOpaque() is true only where every sampler returns an opaque sample for all of
+/// them. Kept as prefix counts over the table's entries, so that a question costs two look-ups.
 class OpaqueRanges {
   public:
     /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque.

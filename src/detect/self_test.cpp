@@ -132,10 +132,11 @@ Result<std::vector<SelfTestVerdict>> selfTest(const Context& context, const Queu
                 continue;
             }
             Result<SelfTestVerdict> verdict = judge(context, queue, *scene, support.method);
-            if (!verdict.ok()) {
+            if (!verdict.ok() && verdict.error().code == ErrorCode::DeviceLost) {
                 return verdict.error();
             }
-            verdicts.push_back(std::move(*verdict));
+            verdicts.push_back(verdict.ok() ? std::move(*verdict)
+                                            : SelfTestVerdict{support.method, true, false, verdict.error().text});
         }
         return verdicts;
     });

@@ -25,7 +25,7 @@ class BadFilesTest : public CliTest {
 class BadVolumesTest : public CliDeviceTest {
   protected:
     [[nodiscard]] std::string bad(const std::string& name) const {
-        const std::string text = refused(
+        std::string text = refused(
             1, {"detect", "--volume", path(name), "--mesh", "builtin:scalpel:500", "--output", path("out.csv")});
         EXPECT_THAT(text, HasSubstr(path(name)));
         EXPECT_FALSE(std::filesystem::exists(path("out.csv")));

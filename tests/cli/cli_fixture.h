@@ -71,7 +71,7 @@ class CliDeviceTest : public CliTest {
   protected:
     void SetUp() override;
 
-    /// detect on a small head with a scalpel, and what is added.
+    /// detect on a small head with a scalpel, and what is added; by query unless that says otherwise.
     static Arguments detect(const Arguments& more = {});
     /// `count` poses in a file.
     [[nodiscard]] std::string poses(int count) const;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 
 namespace voxtact::test {
@@ -37,14 +38,28 @@ TEST_F(DevicesTest, EveryMethodOfEveryDeviceHasAVerdict) {
         }
     }
     ASSERT_EQ(defaults.size(), 1U);
-    for (const char* method : {"query", "query-any", "atomic"}) {
+    for (const char* method : {"query", "query-any", "atomic", "cpu"}) {
         EXPECT_EQ(methods.count({*defaults.begin(), method}), 1U) << method;
+    }
+}
+
+TEST_F(DevicesTest, SpeedsAndTheChoiceOfAuto) {
+    std::map<int, int> chosen;
+    for (const Json& row : Json::parse(output({"devices", "--format", "json"})).at("rows")) {
+        const bool trusted = row.at("trusted") == 1;
+        EXPECT_EQ(row.at("pairs_per_s").is_null(), !trusted);
+        chosen[row.at("index")] += row.at("auto").get<int>();
+        EXPECT_TRUE(trusted || row.at("auto") == 0);
+        EXPECT_FALSE(jsonMethod(row) == "query-any" && row.at("auto") == 1);
+    }
+    for (const auto& [index, count] : chosen) {
+        EXPECT_LE(count, 1) << index;
     }
 }
 
 TEST_F(DevicesTest, CsvHeader) {
     EXPECT_EQ(linesOf(output({"devices", "--format", "csv"})).at(0),
-              "index,name,type,api,driver,subgroup_size,default,method,available,trusted,verdict");
+              "index,name,type,api,driver,subgroup_size,default,method,available,trusted,verdict,pairs_per_s,auto");
 }
 
 TEST_F(DevicesTest, OneDevice) {

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
+
 namespace voxtact::test {
 namespace {
 
@@ -78,6 +81,61 @@ TEST_F(MethodsTest, RequiredFeaturesAreNamedWhenMissing) {
     ASSERT_FALSE(context.ok());
     EXPECT_EQ(context.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(context.error().text, HasSubstr("dynamicRendering"));
+}
+
+TEST_F(MethodsTest, MeasuresWhatItTrusts) {
+    const MeasureScene scene = take(makeMeasureScene());
+    const auto speeds = take(measureMethods(context(), queue(), {.scene = &scene, .repetitions = 1}));
+    ASSERT_EQ(speeds.size(), context().methods().size());
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+        EXPECT_EQ(speeds[i].verdict.method, context().methods()[i].method);
+        EXPECT_TRUE(speeds[i].verdict.trusted) << speeds[i].verdict.text;
+        EXPECT_GT(speeds[i].pairsPerSecond, 1) << toString(speeds[i].verdict.method);
+        EXPECT_LT(speeds[i].pairsPerSecond, 1e9) << toString(speeds[i].verdict.method);
+    }
+}
+
+TEST_F(MethodsTest, MeasuresTheChosenMethodsByTheChosenFilter) {
+    constexpr std::array kMethods{CountingMethod::Atomic, CountingMethod::Query};
+    const auto speeds =
+        take(measureMethods(context(), queue(), {.methods = kMethods, .filter = Filter::Exact, .repetitions = 0}));
+    ASSERT_EQ(speeds.size(), 2U);
+    EXPECT_EQ(speeds[0].verdict.method, CountingMethod::Query);
+    EXPECT_EQ(speeds[1].verdict.method, CountingMethod::Atomic);
+    EXPECT_GT(speeds[0].pairsPerSecond * speeds[1].pairsPerSecond, 0);
+}
+
+TEST_F(MethodsTest, MeasuresNothingThatIsNotThere) {
+    const app::VulkanDevice device =
+        deviceWithout([](FeatureRequest& request) { request.features2.features.fragmentStoresAndAtomics = VK_FALSE; });
+    const Context context = take(Context::create(device.contextDesc()));
+    constexpr std::array kMethods{CountingMethod::Query, CountingMethod::Atomic};
+    const auto speeds = take(measureMethods(context, device.queueAccess(), {.methods = kMethods, .repetitions = 1}));
+    ASSERT_EQ(speeds.size(), 2U);
+    EXPECT_GT(speeds[0].pairsPerSecond, 0);
+    EXPECT_FALSE(speeds[1].verdict.available);
+    EXPECT_EQ(speeds[1].pairsPerSecond, 0);
+    EXPECT_THAT(speeds[1].verdict.text, HasSubstr("fragmentStoresAndAtomics"));
+
+    MeasureScene empty = take(makeMeasureScene());
+    empty.world_from_object.clear();
+    const auto refused = measureMethods(context, device.queueAccess(), {.scene = &empty});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+}
+
+TEST_F(MethodsTest, TheMeasuredSceneHasHitsAndMisses) {
+    const MeasureScene scene = take(makeMeasureScene());
+    const Volume volume = upload(scene.volume);
+    const Mesh mesh = upload(scene.mesh);
+    const TransferFunction function = upload(scene.points, scene.domain);
+    BlockingDetector query = detector({.method = CountingMethod::Query});
+    const BatchItem item{&mesh, &volume, &function, scene.world_from_object};
+    const BatchAnswer answer = take(query.detect({{&item, 1}, scene.view, scene.threshold}));
+    ASSERT_EQ(answer.pairs.size(), 32U);
+    const auto hits = std::ranges::count_if(answer.pairs, [](const PairAnswer& pair) { return pair.hit; });
+    EXPECT_GE(hits, 16);
+    EXPECT_LT(hits, 32);
 }
 
 } // namespace

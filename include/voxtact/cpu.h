@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/answers.h"
+#include "voxtact/data.h"
+
+#include <memory>
+#include <span>
+
+/// The host engine (target voxtact::cpu): the same questions answered without a device, by the same pixels and the
+/// same arithmetic as the counting method `compute` with `exact` filtering (shaders/exact.h). Nothing here needs
+/// Vulkan. Everything that is skipped (clusters of triangles, triangles, spans) is skipped only where it provably has
+/// no survivor, so that skipping never changes a count.
+///
+/// Lifetime: an object must outlive the calls that use it; nothing of what it was made from is kept.
+/// Thread-safety: const functions are safe from any thread.
+namespace voxtact::cpu {
+
+struct VolumeImpl;
+struct TransferFunctionImpl;
+struct MeshImpl;
+struct DetectorImpl;
+
+/// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
+class Volume {
+  public:
+    /// Refuses what checkVolume() refuses. Copies the voxels.
+    [[nodiscard]] VOXTACT_API static Result<Volume> create(const VolumeView& data);
+    VOXTACT_API Volume(Volume&&) noexcept;
+    VOXTACT_API Volume& operator=(Volume&&) noexcept;
+    VOXTACT_API ~Volume();
+    [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
+    [[nodiscard]] const VolumeImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit Volume(std::unique_ptr<VolumeImpl> impl) noexcept;
+    std::unique_ptr<VolumeImpl> impl_;
+};
+
+/// Scalar -> opacity.
+class TransferFunction {
+  public:
+    /// Refuses what sampleTable() refuses.
+    [[nodiscard]] VOXTACT_API static Result<TransferFunction> create(const TransferFunctionDesc& desc);
+    VOXTACT_API TransferFunction(TransferFunction&&) noexcept;
+    VOXTACT_API TransferFunction& operator=(TransferFunction&&) noexcept;
+    VOXTACT_API ~TransferFunction();
+    [[nodiscard]] const TransferFunctionImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit TransferFunction(std::unique_ptr<TransferFunctionImpl> impl) noexcept;
+    std::unique_ptr<TransferFunctionImpl> impl_;
+};
+
+/// A triangle mesh, with its triangles in clusters. Triangles keep their numbers.
+class Mesh {
+  public:
+    /// Refuses what checkMesh() refuses.
+    [[nodiscard]] VOXTACT_API static Result<Mesh> create(const MeshView& data);
+    VOXTACT_API Mesh(Mesh&&) noexcept;
+    VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
+    VOXTACT_API ~Mesh();
+    [[nodiscard]] VOXTACT_API const MeshFacts& facts() const noexcept;
+    [[nodiscard]] const MeshImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit Mesh(std::unique_ptr<MeshImpl> impl) noexcept;
+    std::unique_ptr<MeshImpl> impl_;
+};
+
+/// One mesh at some poses against one volume under one transfer function.
+struct BatchItem {
+    const Mesh* mesh = nullptr;
+    const Volume* volume = nullptr;
+    const TransferFunction* transferFunction = nullptr;
+    std::span<const Mat4> world_from_object; ///< affine
+};
+
+/// The pairs of one call: the items in order, each with its poses in order.
+struct Batch {
+    std::span<const BatchItem> items;
+    View view;                            ///< at most kMaxViewport pixels a side
+    double threshold = kDefaultThreshold; ///< 0..1
+};
+
+inline constexpr std::uint32_t kMaxViewport = 16384;
+
+struct DetectorDesc {
+    std::uint32_t threads = 0;          ///< 0: one for each processor
+    Boundary boundary = Boundary::Auto; ///< Auto is the range test: the host has nothing to gain from clamping
+    bool stopAtFirst = false;           ///< the count is then 0 or 1, and its exactness LowerBound
+};
+
+/// Keeps its threads from call to call. Thread-safety: one detect() at a time.
+class Detector {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<Detector> create(const DetectorDesc& desc = {});
+    VOXTACT_API Detector(Detector&&) noexcept;
+    VOXTACT_API Detector& operator=(Detector&&) noexcept;
+    VOXTACT_API ~Detector();
+
+    /// Answers for every pair, with CountingMethod::Cpu. gpuMilliseconds is 0. Refuses what the Vulkan detector
+    /// refuses: null objects, bad poses, a singular camera, a viewport of 0 or beyond kMaxViewport, a threshold
+    /// outside [0,1].
+    [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
+    [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
+
+  private:
+    explicit Detector(std::unique_ptr<DetectorImpl> impl) noexcept;
+    std::unique_ptr<DetectorImpl> impl_;
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "app/compare_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace voxtact::app {
+
+namespace {
+
+std::vector<std::string> partsOf(const std::string& list) {
+    std::vector<std::string> parts;
+    std::istringstream stream(list);
+    for (std::string part; std::getline(stream, part, ',');) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+std::string methodNames() {
+    std::string names;
+    for (const CountingMethod method : countingMethods()) {
+        names += (names.empty() ? "" : ", ") + std::string(toString(method));
+    }
+    return names;
+}
+
+void readMethods(const std::string& list, std::vector<CountingMethod>& methods) {
+    methods.clear();
+    for (const std::string& name : partsOf(list)) {
+        const std::optional<CountingMethod> method = countingMethodFromName(name);
+        if (!method) {
+            throw CLI::ValidationError("--methods", "'" + name + "' is not known; there are: " + methodNames());
+        }
+        methods.push_back(*method);
+    }
+    if (methods.empty()) {
+        throw CLI::ValidationError("--methods", "no method; there are: " + methodNames());
+    }
+}
+
+void readSweep(const std::string& name, CompareOptions& options) {
+    options.sweepsGiven = true;
+    if (name == "none") {
+        options.sweeps = {};
+    } else if (name == "all") {
+        options.sweeps = {Sweep::Batch, Sweep::Triangles, Sweep::Fragments};
+    } else if (name == "batch" || name == "triangles" || name == "fragments") {
+        options.sweeps = {name == "batch" ? Sweep::Batch : name == "triangles" ? Sweep::Triangles : Sweep::Fragments};
+    } else {
+        throw CLI::ValidationError("--sweep",
+                                   "'" + name + "' is not known; there are: batch, triangles, fragments, all, none");
+    }
+}
+
+std::string quoted(const std::string& word) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view("_-./:=,+@%").find(static_cast<char>(c)) != std::string::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) {
+        return word;
+    }
+    std::string out = "'";
+    for (const char c : word) {
+        out += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return out + "'";
+}
+
+void addPoseOptions(CLI::App& parser, CompareOptions& options) {
+    parser.get_option("--poses")->description(
+        "a world_from_object matrix a line: 16 numbers, row by row; default: random ones, as make poses gives");
+    addWholeNumber(parser, "--count", options.count, 1, "how many random poses");
+    parser.add_option("--seed", options.seed, "of the random poses, from 0 to 2^64-1")
+        ->type_name("S")
+        ->capture_default_str();
+    parser.get_option("--count")->excludes("--poses");
+    parser.get_option("--seed")->excludes("--poses");
+    parser.add_option("--only-pose", options.onlyPose, "this pose alone, by its number from 0")->type_name("K");
+}
+
+} // namespace
+
+const char* toString(Sweep sweep) noexcept {
+    switch (sweep) {
+    case Sweep::Batch:
+        return "batch";
+    case Sweep::Triangles:
+        return "triangles";
+    case Sweep::Fragments:
+        return "fragments";
+    }
+    return "unknown";
+}
+
+bool CompareOptions::wants(CountingMethod method) const {
+    return methods.empty() || std::find(methods.begin(), methods.end(), method) != methods.end();
+}
+
+void addCompareOptions(CLI::App& parser, CompareOptions& options) {
+    addVolumeOption(parser, options.volumes);
+    addMeshOptions(parser, options.meshes);
+    addTransferFunctionOptions(parser, options.transferFunction);
+    addViewOptions(parser, options.view);
+    addPoseOptions(parser, options);
+    options.sweeps = {Sweep::Batch};
+    parser
+        .add_option_function<std::string>(
+            "--methods", [&options](const std::string& list) { readMethods(list, options.methods); },
+            "which, as a list: " + methodNames() + "; default: all that the device can do, and cpu")
+        ->type_name("LIST");
+    addWholeNumber(parser, "--oracle", options.oraclePoses, 0,
+                   "poses, spread evenly, that are checked fragment by fragment against the oracle; 0: none");
+    parser
+        .add_option_function<std::string>(
+            "--sweep", [&options](const std::string& name) { readSweep(name, options); },
+            "what is timed: batch, triangles, fragments, all, none; default: batch, and all with --report")
+        ->type_name("NAME");
+    addWholeNumber(parser, "--repeats", options.repeats, 1, "samples of each time, after a warm-up");
+    parser
+        .add_option("--time-limit", options.timeLimit,
+                    "seconds for the samples of a sweep: fewer than --repeats are taken where they do not fit")
+        ->type_name("SECONDS")
+        ->capture_default_str()
+        ->check(
+            [](const std::string& text) { return std::strtod(text.c_str(), nullptr) > 0 ? "" : "it is not above 0"; });
+    parser.add_flag("--keep-going", options.keepGoing,
+                    "when methods disagree, time them and write the outputs all the same; the exit status stays 3");
+    addPath(parser, "--report", options.report, "an HTML page with charts, in one file, for reading without a network");
+    addDeviceOptions(parser, options.device);
+    addOutputOptions(parser, options.output);
+    addProgressOption(parser, options.progress);
+}
+
+std::string commandLine(const CLI::App& parser, const std::vector<std::string>& without) {
+    std::string line = "voxtact " + parser.get_name();
+    for (const CLI::Option* option : parser.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || std::find(without.begin(), without.end(), name) != without.end()) {
+            continue;
+        }
+        if (option->get_items_expected_max() == 0) {
+            line += " " + name;
+            continue;
+        }
+        for (const std::string& value : option->results()) {
+            line += " " + name + " " + quoted(value);
+        }
+    }
+    return line;
+}
+
+} // namespace voxtact::app

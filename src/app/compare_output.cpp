@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include "app/compare_output.h"
+
+#include "app/version.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <ostream>
+
+namespace voxtact::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Six significant digits: more would be noise.
+double rounded(double value) {
+    if (value == 0 || !std::isfinite(value)) {
+        return 0;
+    }
+    const double parts = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+    return std::round(value * parts) / parts;
+}
+
+Json machineJson(const Machine& machine) {
+    return {{"device", machine.device},
+            {"device_type", machine.deviceType},
+            {"driver", machine.driver},
+            {"driver_version", machine.driverVersion},
+            {"api", machine.api},
+            {"cpu", machine.cpu},
+            {"cpu_threads", machine.cpuThreads},
+            {"voxtact", programVersion()},
+            {"git_revision", gitRevision()},
+            {"hardware_filter", machine.filter}};
+}
+
+Json spreadJson(const std::vector<double>& samples) {
+    if (samples.empty()) {
+        return nullptr;
+    }
+    const Spread spread = spreadOf(samples);
+    Json json{{"median", rounded(spread.median)}, {"min", rounded(spread.min)}, {"max", rounded(spread.max)},
+              {"p10", rounded(spread.p10)},       {"p90", rounded(spread.p90)}, {"samples", Json::array()}};
+    for (const double sample : samples) {
+        json["samples"].push_back(rounded(sample));
+    }
+    return json;
+}
+
+Json seriesJson(const Series& series, const Machine& machine) {
+    const std::optional<double> fragments = series.fragmentsPerSecond();
+    return {{"sweep", toString(series.sweep)},
+            {"method", series.method},
+            {"mode", toString(series.mode)},
+            {"batch", series.batch},
+            {"width", series.width},
+            {"height", series.height},
+            {"triangles", series.triangles},
+            {"pairs_a_sample", series.pairs},
+            {"fragments_a_pair", series.fragments ? Json(rounded(*series.fragments)) : Json()},
+            {"wall_ms", spreadJson(series.wall)},
+            {"gpu_ms", spreadJson(series.gpu)},
+            {"pairs_per_s", rounded(series.pairsPerSecond())},
+            {"fragments_per_s", fragments ? Json(rounded(*fragments)) : Json()},
+            {"machine", machineJson(machine)}};
+}
+
+Json verdictJson(const Verdict& verdict) {
+    Json json{{"rule", verdict.rule},
+              {"required", verdict.required},
+              {"checked", verdict.unchecked.empty()},
+              {"agrees", !verdict.failed()},
+              {"unit", verdict.unit},
+              {"compared", verdict.compared},
+              {"differing", verdict.differing},
+              {"largest_difference", verdict.largest},
+              {"detail", verdict.detail}};
+    if (!verdict.unchecked.empty()) {
+        json["why_not"] = verdict.unchecked;
+    }
+    if (verdict.first) {
+        json["pose"] = verdict.first->pose;
+        json["text"] = verdict.first->text;
+    }
+    return json;
+}
+
+Json fragmentJson(const DifferingFragment& fragment) {
+    // What is far away is infinite, and JSON has no word for it.
+    const auto real = [](double value) { return std::isfinite(value) ? Json(rounded(value)) : Json(); };
+    return {{"pose", fragment.pose},
+            {"triangle", fragment.triangle},
+            {"x", fragment.x},
+            {"y", fragment.y},
+            {"on", fragment.onDevice ? "device" : "oracle"},
+            {"reason", fragment.reason},
+            {"edge_distance_px", real(fragment.edgeDistance)},
+            {"domain_distance", real(fragment.domainDistance)},
+            {"opacity", real(fragment.opacity)},
+            {"opacity_low", real(fragment.opacityLow)},
+            {"opacity_high", real(fragment.opacityHigh)}};
+}
+
+Json oracleJson(const CompareResult& result) {
+    const std::array<std::uint64_t, 4> reasons = countReasons(result.fragmentChecks);
+    Json json{{"poses", result.fragmentChecks.size()},
+              {"ms_a_pose", result.oracleMilliseconds ? Json(rounded(*result.oracleMilliseconds)) : Json()},
+              {"by_reason", Json::object()},
+              {"checks", Json::array()},
+              {"differing", Json::array()}};
+    for (std::size_t i = 0; i < reasons.size(); ++i) {
+        json["by_reason"][kReasons.at(i)] = reasons.at(i);
+    }
+    for (const FragmentCheck& check : result.fragmentChecks) {
+        json["checks"].push_back({{"pose", check.pose},
+                                  {"device", check.onDevice},
+                                  {"oracle", check.byOracle},
+                                  {"differing", check.differing.size()}});
+        for (const DifferingFragment& fragment : check.differing) {
+            json["differing"].push_back(fragmentJson(fragment));
+        }
+    }
+    return json;
+}
+
+Json sceneJson(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
+    return {{"volume", options.volumes.front()},
+            {"voxels", data.volume.grid.size},
+            {"voxel_type", toString(data.volume.type)},
+            {"mesh", options.meshes.sources.front()},
+            {"triangles", result.triangles},
+            {"poses", data.poses.size()},
+            {"poses_from",
+             options.view.poses.empty() ? "random, seed " + std::to_string(options.seed) : options.view.poses.string()},
+            {"width", data.view.width},
+            {"height", data.view.height},
+            {"threshold", options.transferFunction.threshold}};
+}
+
+Cell cellOf(const Series& series, std::size_t column) {
+    const auto spread = [](const std::vector<double>& samples, double Spread::*part) {
+        return samples.empty() ? Cell() : Cell(rounded(spreadOf(samples).*part));
+    };
+    const auto maybe = [](const std::optional<double>& value) { return value ? Cell(rounded(*value)) : Cell(); };
+    switch (column) {
+    case 0:
+        return std::string(toString(series.sweep));
+    case 1:
+        return series.method;
+    case 2:
+        return std::string(toString(series.mode));
+    case 3:
+        return std::uint64_t{series.batch};
+    case 4:
+        return std::uint64_t{series.width};
+    case 5:
+        return std::uint64_t{series.height};
+    case 6:
+        return std::uint64_t{series.triangles};
+    case 7:
+        return maybe(series.fragments);
+    case 8:
+        return std::uint64_t{series.wall.size()};
+    case 9:
+        return spread(series.wall, &Spread::median);
+    case 10:
+        return spread(series.wall, &Spread::p10);
+    case 11:
+        return spread(series.wall, &Spread::p90);
+    case 12:
+        return spread(series.gpu, &Spread::median);
+    case 13:
+        return rounded(series.pairsPerSecond());
+    default:
+        return maybe(series.fragmentsPerSecond());
+    }
+}
+
+} // namespace
+
+Json compareJson(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
+    Json json{{"voxtact", programVersion()}, {"git_revision", gitRevision()}, {"command", options.command}};
+    json["machine"] = machineJson(result.machine);
+    json["scene"] = sceneJson(options, data, result);
+    json["summary"] = summarize(result);
+    json["agrees"] = result.firstFailure() == nullptr;
+    json["methods"] = Json::array();
+    for (const MethodEntry& method : result.methods) {
+        json["methods"].push_back({{"method", method.name},
+                                   {"available", method.available},
+                                   {"reason", method.reason},
+                                   {"filter", method.filter},
+                                   {"exact", method.exact}});
+    }
+    json["agreement"] = Json::array();
+    for (const Verdict& verdict : result.verdicts) {
+        json["agreement"].push_back(verdictJson(verdict));
+    }
+    json["oracle"] = oracleJson(result);
+    json["poses"] = result.poseNumbers;
+    json["counts"] = Json::object();
+    for (const NamedCounts& counts : result.counts) {
+        json["counts"][counts.method] = counts.counts;
+    }
+    json["series"] = Json::array();
+    for (const Series& series : result.series) {
+        json["series"].push_back(seriesJson(series, result.machine));
+    }
+    json["notes"] = result.machine.notes;
+    for (const std::string& note : result.notes) {
+        json["notes"].push_back(note);
+    }
+    return json;
+}
+
+void writeCompare(std::ostream& out, const CompareOptions& options, const CompareData& data,
+                  const CompareResult& result) {
+    const Format format = options.output.format();
+    if (format == Format::Json) {
+        out << compareJson(options, data, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+        return;
+    }
+    Table table;
+    table.columns = {"sweep",       "method",      "mode",          "batch",       "width",
+                     "height",      "triangles",   "fragments",     "samples",     "wall_ms_median",
+                     "wall_ms_p10", "wall_ms_p90", "gpu_ms_median", "pairs_per_s", "fragments_per_s"};
+    table.rows = result.series.size();
+    table.cell = [&](std::size_t row, std::size_t column) { return cellOf(result.series[row], column); };
+    writeTable(out, format, table);
+    for (const std::string& sentence : summarize(result)) {
+        out << "# " << sentence << '\n';
+    }
+    out << "# device " << result.machine.device << ", driver " << result.machine.driver << " "
+        << result.machine.driverVersion << ", cpu " << result.machine.cpu << ", " << result.machine.cpuThreads
+        << " threads\n";
+    out << "# " << result.machine.filter << '\n';
+    for (const std::vector<std::string>* notes : {&result.machine.notes, &result.notes}) {
+        for (const std::string& note : *notes) {
+            out << "# " << note << '\n';
+        }
+    }
+}
+
+} // namespace voxtact::app

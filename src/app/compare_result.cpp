@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "app/compare_result.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::app {
+
+namespace {
+
+double quantile(const std::vector<double>& sorted, double part) {
+    const double at = part * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(std::floor(at));
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (sorted[above] - sorted[below]) * (at - std::floor(at));
+}
+
+} // namespace
+
+Spread spreadOf(std::vector<double> samples) {
+    std::sort(samples.begin(), samples.end());
+    return {.median = quantile(samples, 0.5),
+            .min = samples.front(),
+            .max = samples.back(),
+            .p10 = quantile(samples, 0.1),
+            .p90 = quantile(samples, 0.9)};
+}
+
+const char* toString(Mode mode) noexcept {
+    return mode == Mode::Sync ? "sync" : "pipelined";
+}
+
+double Series::pairsPerSecond() const {
+    const double median = wall.empty() ? 0 : spreadOf(wall).median;
+    return median > 0 ? 1000.0 * batch / median : 0;
+}
+
+std::optional<double> Series::fragmentsPerSecond() const {
+    return fragments ? std::optional(pairsPerSecond() * *fragments) : std::nullopt;
+}
+
+const Verdict* CompareResult::firstFailure() const {
+    const auto found = std::find_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.failed(); });
+    return found == verdicts.end() ? nullptr : &*found;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "app/compare_scene.h"
+
+#include "app/inputs.h"
+#include "app/random_poses.h"
+#include "voxtact/io.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace voxtact::app {
+
+namespace {
+
+Result<void> choosePoses(const CompareOptions& options, CompareData& data) {
+    if (options.view.poses.empty()) {
+        data.poses = randomPoses(data.volume.grid, data.mesh.view(), options.count, options.seed);
+    } else {
+        Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);
+        if (!poses.ok()) {
+            return poses.error();
+        }
+        data.poses = std::move(*poses);
+    }
+    for (std::uint32_t i = 0; i < data.poses.size(); ++i) {
+        data.poseNumbers.push_back(i);
+    }
+    if (!options.onlyPose) {
+        return {};
+    }
+    const std::uint32_t only = *options.onlyPose;
+    if (only >= data.poses.size()) {
+        return badArgument("--only-pose: there is no pose " + std::to_string(only) + ", the last is " +
+                           std::to_string(data.poses.size() - 1));
+    }
+    data.poses = {data.poses[only]};
+    data.poseNumbers = {only};
+    return {};
+}
+
+Result<void> chooseCamera(const CompareOptions& options, CompareData& data) {
+    const VkExtent2D size = options.view.size;
+    data.view = {framingCamera(data.volume.grid, size.width, size.height), size.width, size.height};
+    if (options.view.camera.empty()) {
+        return {};
+    }
+    const Result<Mat4> camera = io::readCamera(options.view.camera);
+    if (!camera.ok()) {
+        return camera.error();
+    }
+    data.view.clip_from_world = *camera;
+    return {};
+}
+
+std::string cpuName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
+            return line.substr(line.find(": ") + 2);
+        }
+    }
+    return "unknown";
+}
+
+void describeDriver(const Session& session, Machine& machine) {
+    // The function that an instance gives for a name is the one of that name.
+    const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+        session.instance.getInstanceProcAddr()(session.instance.handle(), "vkGetPhysicalDeviceProperties2"));
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    getProperties(session.device.physical().handle, &properties);
+    machine.driver = driver.driverName;
+    machine.driverVersion = driver.driverInfo;
+    machine.llvmpipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+}
+
+bool floatFilterForced() {
+    const char* const tuning = std::getenv("GALLIVM_PERF");
+    return tuning != nullptr && std::string_view(tuning).find("no_aos_sampling") != std::string_view::npos;
+}
+
+bool isHopper(const std::string& name) {
+    return name.find("H100") != std::string::npos || name.find("H200") != std::string::npos;
+}
+
+} // namespace
+
+Result<CompareData> readCompareData(const CompareOptions& options) {
+    if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
+        return badArgument("one --volume and one --mesh are needed, not several");
+    }
+    CompareData data;
+    Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
+    if (!points.ok()) {
+        return points.error();
+    }
+    Result<VolumeData> volume = loadVolume(options.volumes.front());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const Result<ValueRange> range = checkVolume(volume->view());
+    if (!range.ok()) {
+        return range.error();
+    }
+    Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
+    if (!mesh.ok()) {
+        return mesh.error();
+    }
+    data.domain = tableDomain(options.transferFunction, volume->type, *range);
+    data.points = points->empty() ? defaultRamp(data.domain) : std::move(*points);
+    data.volume = std::move(*volume);
+    data.mesh = std::move(*mesh);
+    if (Result<void> camera = chooseCamera(options, data); !camera.ok()) {
+        return camera.error();
+    }
+    if (Result<void> poses = choosePoses(options, data); !poses.ok()) {
+        return poses.error();
+    }
+    return data;
+}
+
+Machine describeMachine(const Session& session, ScalarType type) {
+    const PhysicalDevice& physical = session.device.physical();
+    Machine machine;
+    machine.device = physical.name;
+    machine.deviceType = deviceTypeName(physical.type);
+    machine.api = apiVersionText(physical.apiVersion);
+    machine.cpu = cpuName();
+    machine.cpuThreads = std::max(1U, std::thread::hardware_concurrency());
+    describeDriver(session, machine);
+    machine.eightBitFilter = machine.llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
+    machine.filter =
+        machine.eightBitFilter
+            ? "llvmpipe filters a uint8 volume in 8-bit arithmetic (GALLIVM_PERF=no_aos_sampling: in float)"
+        : machine.llvmpipe ? "llvmpipe filters this volume in float"
+                           : "the device's sampler; its weights may have as few as 8 fraction bits";
+    if (machine.llvmpipe) {
+        machine.notes.emplace_back("llvmpipe is a rasteriser on the CPU: the methods of the device and cpu share the "
+                                   "same cores");
+        machine.notes.emplace_back("a query counts one draw, so query and query-any split a batch into a draw a pair; "
+                                   "atomic and subgroup draw a batch at once");
+    }
+    if (isHopper(physical.name)) {
+        machine.notes.emplace_back("on this card only two TPCs (4 of 132 multiprocessors) run vertex and fragment "
+                                   "shaders: every time of query, query-any, atomic and subgroup is of a small part of "
+                                   "it, and compute is not held back");
+    }
+    if (!session.device.hasTimestamps()) {
+        machine.notes.emplace_back("the queue has no timestamps: there is no GPU time");
+    }
+    return machine;
+}
+
+Result<Subject> makeSubject(const Session& session, MeshData data) {
+    Result<Mesh> device = Mesh::upload(session.context, session.device.queueAccess(), data.view(), data.name.c_str());
+    if (!device.ok()) {
+        return device.error();
+    }
+    Result<cpu::Mesh> host = cpu::Mesh::create(data.view());
+    if (!host.ok()) {
+        return host.error();
+    }
+    return Subject{std::move(data), std::move(*device), std::move(*host)};
+}
+
+Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options, const CompareData& data) {
+    const QueueAccess queue = session.device.queueAccess();
+    const TransferFunctionDesc desc = data.transferFunction(options);
+    Result<Volume> volume = Volume::upload(session.context, queue, data.volume.view());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    Result<TransferFunction> table = TransferFunction::upload(session.context, queue, desc);
+    if (!table.ok()) {
+        return table.error().code == ErrorCode::LimitExceeded ? badArgument("--tf-size: " + table.error().text)
+                                                              : table.error();
+    }
+    Result<cpu::Volume> hostVolume = cpu::Volume::create(data.volume.view());
+    if (!hostVolume.ok()) {
+        return hostVolume.error();
+    }
+    Result<cpu::TransferFunction> hostTable = cpu::TransferFunction::create(desc);
+    if (!hostTable.ok()) {
+        return hostTable.error();
+    }
+    return Surroundings{std::move(*volume), std::move(*table), std::move(*hostVolume), std::move(*hostTable)};
+}
+
+} // namespace voxtact::app

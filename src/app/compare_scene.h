@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/compare_options.h"
+#include "app/session.h"
+#include "voxtact/cpu.h"
+#include "voxtact/detector.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxtact::app {
+
+/// What is compared, in host memory.
+struct CompareData {
+    VolumeData volume;
+    MeshData mesh;
+    std::vector<ControlPoint> points;
+    ValueRange domain;
+    std::vector<Mat4> poses;
+    std::vector<std::uint32_t> poseNumbers; ///< of each pose, in the whole list
+    View view;
+
+    [[nodiscard]] TransferFunctionDesc transferFunction(const CompareOptions& options) const {
+        return {points, domain, options.transferFunction.tableSize};
+    }
+};
+
+[[nodiscard]] Result<CompareData> readCompareData(const CompareOptions& options);
+
+/// What the numbers were measured on.
+struct Machine {
+    std::string device;
+    std::string deviceType;
+    std::string driver;
+    std::string driverVersion;
+    std::string api;
+    std::string cpu;
+    std::uint32_t cpuThreads = 0;
+    bool llvmpipe = false;
+    bool eightBitFilter = false;    ///< the sampler filters this volume in 8-bit arithmetic
+    std::string filter;             ///< the arithmetic of the hardware filter, in words
+    std::vector<std::string> notes; ///< what to know when reading the times
+};
+
+[[nodiscard]] Machine describeMachine(const Session& session, ScalarType type);
+
+/// A mesh on both sides.
+struct Subject {
+    MeshData data;
+    Mesh device;
+    cpu::Mesh host;
+};
+
+[[nodiscard]] Result<Subject> makeSubject(const Session& session, MeshData data);
+
+/// Volume and transfer function on both sides.
+struct Surroundings {
+    Volume volume;
+    TransferFunction transferFunction;
+    cpu::Volume hostVolume;
+    cpu::TransferFunction hostTransferFunction;
+};
+
+[[nodiscard]] Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options,
+                                                    const CompareData& data);
+
+/// Pairs to count or to time.
+struct Work {
+    const Subject* subject = nullptr;
+    std::span<const Mat4> poses;
+    View view;
+};
+
+/// One method on one scene.
+/// Thread-safety: none; one thread at a time.
+class MethodRunner {
+  public:
+    /// Of all the pairs of a work.
+    struct Pass {
+        double wallMilliseconds = 0;
+        std::optional<double> gpuMilliseconds;
+        std::vector<std::uint64_t> counts;
+    };
+
+    MethodRunner(CountingMethod method, Filter filter) : method_(method), filter_(filter) {}
+    MethodRunner(const MethodRunner&) = delete;
+    MethodRunner& operator=(const MethodRunner&) = delete;
+    virtual ~MethodRunner() = default;
+
+    [[nodiscard]] CountingMethod method() const noexcept { return method_; }
+    [[nodiscard]] Filter filter() const noexcept { return filter_; }
+    [[nodiscard]] std::string name() const { return toString(method_); }
+    /// `frames` submissions of `batch` pairs in flight; one frame waits for each submission.
+    [[nodiscard]] virtual Result<Pass> run(const Work& work, std::uint32_t batch, std::uint32_t frames) = 0;
+
+  private:
+    CountingMethod method_;
+    Filter filter_;
+};
+
+/// A method of the device, or of the host. What they are given must outlive them.
+[[nodiscard]] Result<std::unique_ptr<MethodRunner>>
+makeDeviceRunner(const Session& session, const Surroundings& surroundings, CountingMethod method, double threshold);
+[[nodiscard]] Result<std::unique_ptr<MethodRunner>> makeHostRunner(const Surroundings& surroundings, double threshold);
+
+} // namespace voxtact::app

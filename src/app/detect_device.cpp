@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect_run.h"
+#include "app/inputs.h"
+#include "app/progress.h"
+#include "voxtact/detector.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace voxtact::app {
+
+namespace {
+
+/// Enough to keep a device busy while the host records; more only costs memory.
+constexpr std::uint32_t kSubmissionsInFlight = 3;
+
+/// A size that the user chose and the device has not is an unusable argument.
+Error blameTable(Error error) {
+    if (error.code == ErrorCode::LimitExceeded) {
+        return badArgument("--tf-size: " + error.text);
+    }
+    return error;
+}
+
+/// What stays the same while the volumes come and go.
+struct DetectTools {
+    const DetectOptions& options;
+    const DetectInputs& inputs;
+    const Session& session;
+    const std::vector<Mesh>& meshes;
+    PairPipeline& pipeline;
+    Progress& progress;
+};
+
+/// All meshes and poses against one volume.
+Result<void> detectVolume(const DetectTools& tools, std::uint32_t index, DetectRun& run) {
+    const DetectOptions& options = tools.options;
+    const std::string& source = options.volumes[index];
+    const Result<VolumeData> data = loadVolume(source);
+    if (!data.ok()) {
+        return data.error();
+    }
+    const QueueAccess queue = tools.session.device.queueAccess();
+    const Result<Volume> volume = Volume::upload(tools.session.context, queue, data->view(), source.c_str());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const VolumeSettings settings =
+        settingsFor(options, tools.inputs, index, *data, volume->valueRange().value_or(ValueRange{}));
+    const Result<TransferFunction> transferFunction = TransferFunction::upload(
+        tools.session.context, queue, {settings.points, settings.domain, options.transferFunction.tableSize});
+    if (!transferFunction.ok()) {
+        return blameTable(transferFunction.error());
+    }
+    std::vector<BatchItem> items;
+    for (const Mesh& mesh : tools.meshes) {
+        items.push_back({&mesh, &*volume, &*transferFunction, tools.inputs.poses});
+    }
+    const auto begun = std::chrono::steady_clock::now();
+    Result<void> done =
+        tools.pipeline.run({items, settings.view, options.transferFunction.threshold}, [&](const TimedAnswer& timed) {
+            run.rows.push_back({index, timed});
+            tools.progress.update(run.rows.size());
+        });
+    run.wallMilliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+    return done;
+}
+
+} // namespace
+
+Result<void> detectOnDevice(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
+                            CountingMethod method, DetectRun& run) {
+    const PhysicalDevice& physical = session.device.physical();
+    if (Result<void> fits = checkViewport(options.view.size, session.context.maxViewport(), "'" + physical.name + "'");
+        !fits.ok()) {
+        return fits;
+    }
+    run.device = physical.name;
+    run.driver = physical.driver;
+    const Result<Detector> detector = Detector::create(
+        session.context, {method, options.method.projection, options.method.filter.value_or(defaultFilter(method)),
+                          options.method.boundary});
+    if (!detector.ok()) {
+        return detector.error();
+    }
+    std::vector<Mesh> meshes;
+    for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
+        Result<Mesh> mesh = Mesh::upload(session.context, session.device.queueAccess(), inputs.meshes[i].view(),
+                                         options.meshes.sources[i].c_str());
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        meshes.push_back(std::move(*mesh));
+    }
+    const std::uint64_t pairsOfVolume = static_cast<std::uint64_t>(meshes.size()) * inputs.poses.size();
+    const auto perSubmission = static_cast<std::uint32_t>(std::min<std::uint64_t>(options.batch, pairsOfVolume));
+    Result<PairPipeline> pipeline = PairPipeline::create(session.device, session.context, *detector,
+                                                         {.frames = options.batch == 1 ? 1 : kSubmissionsInFlight,
+                                                          .pairsPerSubmission = perSubmission,
+                                                          .timestamps = options.timing});
+    if (!pipeline.ok()) {
+        return pipeline.error();
+    }
+    Progress progress(options.progress, "voxtact detect: pairs", pairsOfVolume * options.volumes.size());
+    const DetectTools tools{options, inputs, session, meshes, *pipeline, progress};
+    for (std::uint32_t index = 0; index < options.volumes.size(); ++index) {
+        if (Result<void> done = detectVolume(tools, index, run); !done.ok()) {
+            return done;
+        }
+    }
+    return {};
+}
+
+} // namespace voxtact::app

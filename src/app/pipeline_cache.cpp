@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "app/pipeline_cache.h"
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <utility>
+
+namespace voxtact::app {
+
+bool pipelineBlobFits(std::string_view blob, const PhysicalDevice& device) {
+    VkPipelineCacheHeaderVersionOne header{};
+    if (blob.size() < sizeof header) {
+        return false;
+    }
+    std::memcpy(&header, blob.data(), sizeof header);
+    return header.headerSize >= sizeof header && header.headerSize <= blob.size() &&
+           header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == device.vendor &&
+           header.deviceID == device.deviceId &&
+           std::memcmp(header.pipelineCacheUUID, device.pipelineCacheUuid.data(), VK_UUID_SIZE) == 0;
+}
+
+PipelineCache::PipelineCache(const VulkanDevice& device, const CacheFolder& folder)
+    : device_(device), folder_(folder), name_("pipelines-" + cacheKey(device.physical())) {
+    if (!folder_.on()) {
+        return;
+    }
+    std::string blob = folder_.read(name_).value_or("");
+    if (!pipelineBlobFits(blob, device.physical())) {
+        blob.clear();
+    }
+    VkPipelineCacheCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+    info.initialDataSize = blob.size();
+    info.pInitialData = blob.data();
+    VkResult result = device_.table().vkCreatePipelineCache(device_.handle(), &info, nullptr, &handle_);
+    if (result != VK_SUCCESS && !blob.empty()) {
+        blob.clear();
+        info.initialDataSize = 0;
+        result = device_.table().vkCreatePipelineCache(device_.handle(), &info, nullptr, &handle_);
+    }
+    if (result != VK_SUCCESS) {
+        handle_ = VK_NULL_HANDLE;
+    }
+    // A header alone, which is all that lavapipe gives, is not worth a file.
+    bytes_ = std::max(blob.size(), sizeof(VkPipelineCacheHeaderVersionOne));
+}
+
+PipelineCache::PipelineCache(PipelineCache&& other) noexcept
+    : device_(std::move(other.device_)), folder_(std::move(other.folder_)), name_(std::move(other.name_)),
+      bytes_(other.bytes_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+
+PipelineCache::~PipelineCache() {
+    if (handle_ == VK_NULL_HANDLE) {
+        return;
+    }
+    try {
+        save();
+    } catch (const std::exception&) {
+        // Out of memory, at the very end: the next run makes its pipelines anew.
+        bytes_ = 0;
+    }
+    device_.table().vkDestroyPipelineCache(device_.handle(), handle_, nullptr);
+}
+
+void PipelineCache::save() const {
+    const VolkDeviceTable& vk = device_.table();
+    std::size_t size = 0;
+    if (vk.vkGetPipelineCacheData(device_.handle(), handle_, &size, nullptr) != VK_SUCCESS || size <= bytes_) {
+        return;
+    }
+    std::string blob(size, '\0');
+    if (vk.vkGetPipelineCacheData(device_.handle(), handle_, &size, blob.data()) != VK_SUCCESS) {
+        return;
+    }
+    blob.resize(size);
+    if (pipelineBlobFits(blob, device_.physical())) {
+        folder_.write(name_, blob);
+    }
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+/// Files that are part of the program (embed_text.cmake). The chart library is the installed package's, and both its
+/// texts are empty where that was not there at configuration.
+namespace voxtact::app {
+
+extern const std::string_view kReportPage;
+extern const std::string_view kReportStyle;
+extern const std::string_view kReportScript;
+extern const std::string_view kChartLibrary;
+extern const std::string_view kChartLicence;
+
+} // namespace voxtact::app

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/cpu.h"
+
+namespace voxtact::cpu {
+
+/// Refuses null objects, poses and cameras that are not finite or not affine, a singular camera, a viewport of 0 or
+/// beyond kMaxViewport, a threshold outside [0,1]. Returns the number of pairs.
+[[nodiscard]] Result<std::uint32_t> checkBatch(const Batch& batch);
+
+} // namespace voxtact::cpu

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/row_spans.h"
+#include "cpu/scratch.h"
+#include "exact.h"
+
+#include <cstddef>
+
+namespace voxtact::cpu {
+
+/// A triangle through exactVertex(), exactClip() and exactSetUp(); returns how many triangles came of it.
+[[nodiscard]] std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone,
+                                    shader::ExactTriangle (&out)[EXACT_MAX_CORNERS]);
+
+/// What the fragments of a triangle meet: certain to be opaque (and in the image, where that is tested), clear, or
+/// not known.
+[[nodiscard]] BrickClass triangleClass(const PairJob& job, const shader::ExactTriangle& triangle) noexcept;
+
+} // namespace voxtact::cpu

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/occupancy.h"
+#include "core/pair_transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+constexpr std::size_t kSlack = 4;
+/// Beyond that many comparisons the table is the shorter way.
+constexpr std::size_t kMostIntervals = 8;
+/// Interpolation of larger voxels may overflow.
+constexpr float kLargestVoxel = 1e37F;
+
+/// Seven interpolations may leave the range of their corners by their rounding: less than 21 units of 2^-24 of the
+/// largest corner.
+float interpolationError(float lo, float hi) {
+    return std::max(std::abs(lo), std::abs(hi)) * 0x1p-19F;
+}
+
+} // namespace
+
+Occupancy::Occupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold)
+    : count_(volume.bricks.count), constants_(itemConstants(1, volume.storedIntercept, function.domain, threshold)),
+      table_(function.table), set_(table_, constants_) {
+    classify(volume.bricks);
+    sum();
+}
+
+void Occupancy::classify(const BrickRanges& ranges) {
+    classes_.assign(ranges.lo.size() + kSlack, kMixedBrick);
+    const bool bounded = *std::min_element(ranges.lo.begin(), ranges.lo.end()) >= -kLargestVoxel &&
+                         *std::max_element(ranges.hi.begin(), ranges.hi.end()) <= kLargestVoxel;
+    if (!set_.valid() || !bounded) {
+        return;
+    }
+    useIntervals_ = set_.intervals().size() <= kMostIntervals;
+    for (std::size_t brick = 0; brick < ranges.lo.size(); ++brick) {
+        const float error = interpolationError(ranges.lo[brick], ranges.hi[brick]);
+        const float lo = ranges.lo[brick] - error;
+        const float hi = ranges.hi[brick] + error;
+        if (!set_.meets(lo, hi)) {
+            classes_[brick] = kClearBrick;
+        } else if (set_.contains(lo, hi)) {
+            classes_[brick] = kOpaqueBrick;
+        }
+    }
+}
+
+void Occupancy::sum() {
+    const auto nx = static_cast<std::size_t>(count_[0]) + 1;
+    const auto ny = static_cast<std::size_t>(count_[1]) + 1;
+    const auto nz = static_cast<std::size_t>(count_[2]) + 1;
+    sums_.assign(nx * ny * nz, 0);
+    const std::uint8_t* brick = classes_.data();
+    for (std::size_t z = 1; z < nz; ++z) {
+        for (std::size_t y = 1; y < ny; ++y) {
+            std::uint64_t row = 0;
+            for (std::size_t x = 1; x < nx; ++x, ++brick) {
+                row += (*brick & 1U) + (std::uint64_t{*brick & 2U} << 31U);
+                const std::size_t at = (z * ny + y) * nx + x;
+                sums_[at] = row + sums_[at - nx] + sums_[at - nx * ny] - sums_[at - nx * ny - nx];
+            }
+        }
+    }
+}
+
+BrickClass Occupancy::within(const BrickBox& box) const noexcept {
+    const std::size_t nx = static_cast<std::size_t>(count_[0]) + 1;
+    const std::size_t ny = static_cast<std::size_t>(count_[1]) + 1;
+    const auto corner = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+        return sums_[(static_cast<std::size_t>(z) * ny + static_cast<std::size_t>(y)) * nx +
+                     static_cast<std::size_t>(x)];
+    };
+    const auto layer = [&](std::int32_t z) {
+        return corner(box.hi[0] + 1, box.hi[1] + 1, z) - corner(box.lo[0], box.hi[1] + 1, z) -
+               corner(box.hi[0] + 1, box.lo[1], z) + corner(box.lo[0], box.lo[1], z);
+    };
+    // The halves do not disturb each other: both final numbers are between 0 and the number of bricks.
+    const std::uint64_t found = layer(box.hi[2] + 1) - layer(box.lo[2]);
+    if ((found & 0xffffffffU) == 0) {
+        return kClearBrick;
+    }
+    const std::uint64_t bricks = static_cast<std::uint64_t>(box.hi[0] - box.lo[0] + 1) *
+                                 static_cast<std::uint64_t>(box.hi[1] - box.lo[1] + 1) *
+                                 static_cast<std::uint64_t>(box.hi[2] - box.lo[2] + 1);
+    return found >> 32U == bricks ? kOpaqueBrick : kMixedBrick;
+}
+
+bool Occupancy::nothingOpaque() const noexcept {
+    return (sums_.back() & 0xffffffffU) == 0;
+}
+
+} // namespace voxtact::cpu

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/occupancy.h"
+#include "cpu/stored_image.h"
+
+namespace voxtact::cpu {
+
+/// Whether the bytes of an image can be reached with 32-bit offsets.
+[[nodiscard]] bool fitsOffsets(const StoredImage& image) noexcept;
+
+/// The verdict on one coordinate within [0,1]^3, for images of any size.
+[[nodiscard]] bool sampleIsOpaque(const StoredImage& image, const Occupancy& occupancy, float x, float y,
+                                  float z) noexcept;
+
+} // namespace voxtact::cpu

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/thread_pool.h"
+
+#include <algorithm>
+
+namespace voxtact::cpu {
+
+ThreadPool::ThreadPool(std::uint32_t threads) {
+    try {
+        for (std::uint32_t thread = 1; thread < threads; ++thread) {
+            workers_.emplace_back([this, thread] { work(thread); });
+        }
+    } catch (...) {
+        stop();
+        throw;
+    }
+}
+
+ThreadPool::~ThreadPool() {
+    stop();
+}
+
+void ThreadPool::stop() noexcept {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    start_.notify_all();
+    for (std::thread& worker : workers_) {
+        worker.join();
+    }
+}
+
+void ThreadPool::run(std::uint32_t threads, const std::function<void(std::uint32_t)>& body) {
+    const std::uint32_t others = std::min<std::uint32_t>(threads, this->threads()) - 1;
+    if (others > 0) {
+        {
+            const std::lock_guard lock(mutex_);
+            body_ = &body;
+            wanted_ = others;
+            running_ = others;
+            ++round_;
+        }
+        start_.notify_all();
+    }
+    body(0);
+    if (others > 0) {
+        std::unique_lock lock(mutex_);
+        finished_.wait(lock, [this] { return running_ == 0; });
+    }
+}
+
+void ThreadPool::work(std::uint32_t thread) {
+    std::uint64_t seen = 0;
+    std::unique_lock lock(mutex_);
+    while (true) {
+        start_.wait(lock, [&] { return stopping_ || (round_ != seen && thread <= wanted_); });
+        if (stopping_) {
+            return;
+        }
+        seen = round_;
+        const std::function<void(std::uint32_t)>& body = *body_;
+        lock.unlock();
+        body(thread);
+        lock.lock();
+        if (--running_ == 0) {
+            finished_.notify_one();
+        }
+    }
+}
+
+} // namespace voxtact::cpu

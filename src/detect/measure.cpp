@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "voxtact/builtin.h"
+#include "voxtact/detector.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace voxtact {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t kPoses = 32;
+constexpr std::uint32_t kSide = 256;
+/// After so long no further repetition begins.
+constexpr std::chrono::milliseconds kBudget{150};
+
+/// The tip on a spiral over the head, from `radius` mm off the world's origin, the handle pointing outwards.
+Mat4 poseOnSpiral(std::uint32_t index) {
+    constexpr double kGoldenAngle = 2.399963229728653;
+    constexpr double kOutside = 95; // mm from the head's centre: off the skin
+    constexpr double kInside = 35;
+    const double part = (index + 0.5) / kPoses;
+    const double z = 1 - 2 * part;
+    const double ring = std::sqrt(1 - z * z);
+    const double angle = kGoldenAngle * index;
+    const Vec3 out{ring * std::cos(angle), ring * std::sin(angle), z};
+    const Vec3 across{-std::sin(angle), std::cos(angle), 0};
+    const Vec3 third{out[1] * across[2] - out[2] * across[1], out[2] * across[0] - out[0] * across[2],
+                     out[0] * across[1] - out[1] * across[0]};
+    // A step of 13 through the 32 radii, so that depth does not go with direction.
+    const double radius = kInside + (kOutside - kInside) * (index * 13 % kPoses) / (kPoses - 1);
+    Mat4 world_from_object = identity();
+    for (std::size_t row = 0; row < 3; ++row) {
+        world_from_object[row] = across[row];
+        world_from_object[4 + row] = third[row];
+        world_from_object[8 + row] = out[row];
+        world_from_object[12 + row] = radius * out[row];
+    }
+    return world_from_object;
+}
+
+/// The scene on the device.
+struct DeviceScene {
+    Volume volume;
+    Mesh mesh;
+    TransferFunction transferFunction;
+};
+
+Result<DeviceScene> uploadScene(const Context& context, const QueueAccess& queue, const MeasureScene& scene) {
+    Result<Volume> volume = Volume::upload(context, queue, scene.volume.view(), "measured volume");
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    Result<Mesh> mesh = Mesh::upload(context, queue, scene.mesh.view(), "measured mesh");
+    if (!mesh.ok()) {
+        return mesh.error();
+    }
+    Result<TransferFunction> function = TransferFunction::upload(
+        context, queue, {.points = scene.points, .domain = scene.domain}, "measured transfer function");
+    if (!function.ok()) {
+        return function.error();
+    }
+    return DeviceScene{std::move(*volume), std::move(*mesh), std::move(*function)};
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+Result<double> pairsPerSecond(BlockingDetector& detector, const MeasureScene& scene, const DeviceScene& onDevice,
+                              std::uint32_t repetitions) {
+    BatchItem item{&onDevice.mesh, &onDevice.volume, &onDevice.transferFunction,
+                   std::span(scene.world_from_object).first(1)};
+    const Batch batch{{&item, 1}, scene.view, scene.threshold};
+    // One pair to begin with: drivers put off some of the compiling until a pipeline is used.
+    if (const Result<BatchAnswer> first = detector.detect(batch); !first.ok()) {
+        return first.error();
+    }
+    item.world_from_object = scene.world_from_object;
+    const auto begun = Clock::now();
+    std::vector<double> seconds;
+    for (std::uint32_t i = 0; i < std::max(repetitions, 1U) && (i == 0 || Clock::now() - begun < kBudget); ++i) {
+        const Result<BatchAnswer> answer = detector.detect(batch);
+        if (!answer.ok()) {
+            return answer.error();
+        }
+        seconds.push_back(answer->wallMilliseconds / 1000);
+    }
+    return static_cast<double>(scene.world_from_object.size()) / std::max(median(std::move(seconds)), 1e-9);
+}
+
+Result<double> measure(const Context& context, const QueueAccess& queue, const MeasureDesc& desc,
+                       const MeasureScene& scene, const DeviceScene& onDevice, CountingMethod method) {
+    Result<BlockingDetector> detector = BlockingDetector::create(
+        context, {.method = method, .filter = desc.filter.value_or(defaultFilter(method))}, queue);
+    if (!detector.ok()) {
+        return detector.error();
+    }
+    return pairsPerSecond(*detector, scene, onDevice, desc.repetitions);
+}
+
+Result<std::vector<MethodSpeed>> measureOn(const Context& context, const QueueAccess& queue, const MeasureDesc& desc,
+                                           const MeasureScene& scene) {
+    if (scene.world_from_object.empty()) {
+        return Error{ErrorCode::InvalidArgument, 0, "MeasureDesc::scene has no pose"};
+    }
+    Result<std::vector<SelfTestVerdict>> verdicts = selfTest(context, queue, desc.methods);
+    if (!verdicts.ok()) {
+        return verdicts.error();
+    }
+    const Result<DeviceScene> onDevice = uploadScene(context, queue, scene);
+    if (!onDevice.ok()) {
+        return onDevice.error();
+    }
+    std::vector<MethodSpeed> speeds;
+    for (SelfTestVerdict& verdict : *verdicts) {
+        MethodSpeed speed{std::move(verdict)};
+        if (speed.verdict.trusted) {
+            const Result<double> rate = measure(context, queue, desc, scene, *onDevice, speed.verdict.method);
+            if (!rate.ok() && rate.error().code == ErrorCode::DeviceLost) {
+                return rate.error();
+            }
+            speed.pairsPerSecond = rate.ok() ? *rate : 0;
+            if (!rate.ok()) {
+                speed.verdict.trusted = false;
+                speed.verdict.text = rate.error().text;
+            }
+        }
+        speeds.push_back(std::move(speed));
+    }
+    return speeds;
+}
+
+} // namespace
+
+Result<MeasureScene> makeMeasureScene() {
+    return guard([&]() -> Result<MeasureScene> {
+        Result<VolumeData> volume = makeBuiltinVolume("head:64");
+        if (!volume.ok()) {
+            return volume.error();
+        }
+        Result<MeshData> mesh = makeScalpel();
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        MeasureScene scene;
+        scene.volume = std::move(*volume);
+        scene.mesh = std::move(*mesh);
+        scene.points = {{0, 0}, {255, 1}};
+        scene.domain = {0, 255};
+        for (std::uint32_t i = 0; i < kPoses; ++i) {
+            scene.world_from_object.push_back(poseOnSpiral(i));
+        }
+        scene.view = {framingCamera(scene.volume.grid, kSide, kSide), kSide, kSide};
+        return scene;
+    });
+}
+
+Result<std::vector<MethodSpeed>> measureMethods(const Context& context, const QueueAccess& queue,
+                                                const MeasureDesc& desc) {
+    return guard([&]() -> Result<std::vector<MethodSpeed>> {
+        if (desc.scene != nullptr) {
+            return measureOn(context, queue, desc, *desc.scene);
+        }
+        const Result<MeasureScene> scene = makeMeasureScene();
+        return scene.ok() ? measureOn(context, queue, desc, *scene) : scene.error();
+    });
+}
+
+} // namespace voxtact

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// voxtact compare: the same pairs by every method, verified and timed.
+#include "cli_fixture.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace voxtact::test {
+namespace {
+
+using testing::AllOf;
+using testing::Each;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+class CompareTest : public CliDeviceTest {
+  protected:
+    /// A scene that takes a moment, and what is added.
+    static Arguments compare(const Arguments& more = {}) {
+        Arguments all{"compare",
+                      "--volume",
+                      "builtin:head:32",
+                      "--mesh",
+                      "builtin:scalpel:500",
+                      "--size",
+                      "128x128",
+                      "--count",
+                      "12",
+                      "--oracle",
+                      "4",
+                      "--repeats",
+                      "2",
+                      "--cache",
+                      "off",
+                      "--time-limit",
+                      "2"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    static Json json(const Arguments& more = {}) {
+        Arguments all = compare(more);
+        all.insert(all.end(), {"--format", "json"});
+        return Json::parse(output(all));
+    }
+    /// The series of a method, in order.
+    static std::vector<Json> seriesOf(const Json& result, const std::string& method, const std::string& mode) {
+        std::vector<Json> found;
+        for (const Json& series : result["series"]) {
+            if (series["method"] == method && series["mode"] == mode) {
+                found.push_back(series);
+            }
+        }
+        return found;
+    }
+};
+
+TEST_F(CompareTest, MethodsAgreeAndTheJsonSaysHow) {
+    const Json result = json({"--sweep", "none"});
+    EXPECT_TRUE(result["agrees"]);
+    EXPECT_EQ(result["scene"]["poses"], 12);
+    EXPECT_EQ(result["scene"]["triangles"], 500);
+    EXPECT_EQ(result["poses"].size(), 12U);
+    EXPECT_EQ(result["oracle"]["poses"], 4);
+    EXPECT_EQ(result["oracle"]["by_reason"]["none"], 0);
+    EXPECT_TRUE(result["series"].empty());
+    for (const Json& rule : result["agreement"]) {
+        EXPECT_TRUE(rule["agrees"]) << rule;
+        EXPECT_TRUE(rule["checked"]) << rule;
+        EXPECT_GT(rule["compared"].get<int>(), 0) << rule;
+    }
+    EXPECT_EQ(result["counts"]["query"], result["counts"]["atomic"]);
+    EXPECT_EQ(result["counts"]["compute"], result["counts"]["cpu"]);
+    EXPECT_GT(result["counts"]["cpu"].get<std::vector<int>>(), std::vector<int>(12, 0));
+}
+
+TEST_F(CompareTest, EverySeriesSaysWhatItWasMeasuredOn) {
+    const Json result = json();
+    for (const char* method : {"query", "atomic", "cpu"}) {
+        const std::vector<Json> sync = seriesOf(result, method, "sync");
+        const std::vector<Json> pipelined = seriesOf(result, method, "pipelined");
+        ASSERT_EQ(sync.size(), 4U) << method;
+        ASSERT_EQ(pipelined.size(), 4U) << method;
+        EXPECT_EQ(pipelined[3]["batch"], 1024);
+        EXPECT_EQ(sync[0]["batch"], 1);
+    }
+    for (const Json& series : result["series"]) {
+        const Json& wall = series["wall_ms"];
+        EXPECT_GE(wall["samples"].size(), 1U);
+        EXPECT_LE(wall["samples"].size(), 2U);
+        EXPECT_LE(wall["min"], wall["median"]);
+        EXPECT_LE(wall["median"], wall["max"]);
+        EXPECT_GT(series["pairs_per_s"].get<double>(), 0);
+        EXPECT_EQ(series["gpu_ms"].is_null(), series["method"] == "cpu" || series["method"] == "oracle");
+        for (const char* fact : {"device", "driver", "driver_version", "cpu", "cpu_threads", "voxtact", "git_revision",
+                                 "hardware_filter"}) {
+            EXPECT_TRUE(series["machine"].contains(fact)) << fact;
+        }
+    }
+}
+
+TEST_F(CompareTest, CsvHasOneHeaderAndSaysWhatAgrees) {
+    const auto lines = linesOf(output(compare({"--methods", "query,cpu"})));
+    EXPECT_EQ(lines.front(),
+              "sweep,method,mode,batch,width,height,triangles,fragments,samples,wall_ms_median,wall_ms_p10,wall_ms_p90,"
+              "gpu_ms_median,pairs_per_s,fragments_per_s");
+    std::size_t rows = 0;
+    for (std::size_t i = 1; i < lines.size() && !lines[i].starts_with("#"); ++i, ++rows) {
+        EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), ','), 14) << lines[i];
+    }
+    EXPECT_EQ(rows, 2U * 8U + 1U) << "two methods, two modes, four batches; and the oracle";
+    const std::vector<std::string> comments(lines.begin() + static_cast<std::ptrdiff_t>(rows) + 1, lines.end());
+    EXPECT_THAT(comments, Each(StartsWith("# ")));
+    EXPECT_THAT(comments, testing::Contains(HasSubstr("fastest for 1 pair")));
+}
+
+TEST_F(CompareTest, OnePoseAloneKeepsItsNumber) {
+    const Json all = json({"--sweep", "none"});
+    const Json one = json({"--sweep", "none", "--only-pose", "7"});
+    EXPECT_EQ(one["poses"], Json::array({7}));
+    EXPECT_EQ(one["counts"]["query"][0], all["counts"]["query"][7]);
+    EXPECT_THAT(refused(2, compare({"--only-pose", "12"})), HasSubstr("--only-pose: there is no pose 12"));
+}
+
+TEST_F(CompareTest, PosesAreThoseOfMakePoses) {
+    const Json made = json({"--sweep", "none", "--seed", "7"});
+    const std::string file = poses(12);
+    Arguments given = compare({"--sweep", "none", "--poses", file, "--format", "json"});
+    const auto count = std::find(given.begin(), given.end(), "--count");
+    given.erase(count, count + 2);
+    EXPECT_EQ(Json::parse(output(given))["counts"], made["counts"]);
+}
+
+TEST_F(CompareTest, SweepsOfTrianglesAndFragments) {
+    const Json result = json({"--sweep", "triangles", "--methods", "query,cpu"});
+    std::vector<int> triangles;
+    for (const Json& series : seriesOf(result, "cpu", "pipelined")) {
+        triangles.push_back(series["triangles"]);
+    }
+    ASSERT_GE(triangles.size(), 5U);
+    EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
+    EXPECT_EQ(triangles.back(), 200000);
+    const Json more = json({"--sweep", "fragments", "--methods", "query,cpu"});
+    std::vector<double> fragments;
+    for (const Json& series : seriesOf(more, "query", "pipelined")) {
+        fragments.push_back(series["fragments_a_pair"]);
+    }
+    ASSERT_GE(fragments.size(), 5U);
+    EXPECT_TRUE(std::is_sorted(fragments.begin(), fragments.end()));
+    output({"make", "mesh", "builtin:scalpel:500", path("own.stl")});
+    const Arguments own{"compare",  "--volume", "builtin:head:32", "--mesh",    path("own.stl"),
+                        "--count",  "4",        "--oracle",        "0",         "--size",
+                        "64x64",    "--sweep",  "triangles",       "--methods", "query,cpu",
+                        "--format", "text",     "--cache",         "off"};
+    EXPECT_THAT(output(own), HasSubstr("no sweep of triangles"));
+}
+
+TEST_F(CompareTest, TheReportIsOneFile) {
+    if (VOXTACT_HAS_CHARTS == 0) {
+        EXPECT_THAT(refused(1, compare({"--report", path("report.html")})), HasSubstr("libjs-chart.js"));
+        return;
+    }
+    output(compare({"--report", path("report.html"), "--output", path("out.csv"), "--sweep", "batch"}));
+    const std::string page = readText(path("report.html"));
+    EXPECT_THAT(page, StartsWith("<!DOCTYPE html>"));
+    EXPECT_THAT(page, AllOf(HasSubstr("The same pairs by every method"), HasSubstr("Chart.js v"),
+                            HasSubstr("Permission is hereby granted"), HasSubstr("voxtact compare --volume")));
+    EXPECT_THAT(page, AllOf(Not(HasSubstr("{{")), Not(HasSubstr("<link")), Not(HasSubstr(" src=")),
+                            Not(HasSubstr("@import")), Not(HasSubstr("url(http"))));
+    EXPECT_EQ(filesInFolder(), 2U);
+}
+
+TEST_F(CompareTest, WhatCannotBeDoneIsOneLine) {
+    EXPECT_THAT(refused(2, compare({"--methods", "query,magic"})),
+                AllOf(HasSubstr("--methods"), HasSubstr("'magic' is not known"), HasSubstr("subgroup")));
+    EXPECT_THAT(refused(2, compare({"--sweep", "sideways"})), HasSubstr("'sideways' is not known"));
+    EXPECT_THAT(refused(2, compare({"--mesh", "builtin:ellipsoid"})), HasSubstr("one --volume and one --mesh"));
+    EXPECT_THAT(refused(2, compare({"--time-limit", "0"})), HasSubstr("--time-limit"));
+    EXPECT_THAT(refused(2, compare({"--poses", "poses.txt"})), HasSubstr("--count"));
+    EXPECT_THAT(refused(1, compare({"--report", path("none/report.html")})), HasSubstr("does not exist"));
+    EXPECT_EQ(filesInFolder(), 0U);
+}
+
+} // namespace
+} // namespace voxtact::test

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// voxtact detect --count cpu, and the host standing in for a device. No Vulkan driver is there.
+#include "cli_fixture.h"
+
+#include <nlohmann/json.hpp>
+
+namespace voxtact::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+class HostTest : public CliTest {
+  protected:
+    static Arguments detect(const Arguments& more) {
+        Arguments all{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    [[nodiscard]] std::string poses(int count) const {
+        std::string file = path("poses.txt");
+        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count",
+                std::to_string(count), "--seed", "7", "--output", file});
+        return file;
+    }
+
+    const RunOptions noDriver_{
+        .environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
+};
+
+TEST_F(HostTest, CountsWithoutADriver) {
+    const auto lines = linesOf(output(detect({"--count", "cpu"}), noDriver_));
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0], "pose,mesh,volume,hit,count,exact,method,projection");
+    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:32,1,[1-9][0-9]*,1,cpu,view"));
+}
+
+TEST_F(HostTest, CountsWithoutALoader) {
+    const std::string withDriver = output(detect({"--count", "cpu"}));
+    writeText(path("libvulkan.so.1"), "");
+    writeText(path("libvulkan.so"), "");
+    const RunOptions noLoader{.environment = {{"LD_LIBRARY_PATH", path("")}}};
+    EXPECT_EQ(output(detect({"--count", "cpu"}), noLoader), withDriver);
+    const Ran ran = run(detect({}), noLoader);
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_EQ(ran.out, withDriver);
+    EXPECT_THAT(ran.err, AllOf(HasSubstr("libvulkan1"), HasSubstr("mesa-vulkan-drivers")));
+}
+
+TEST_F(HostTest, BatchesOfAnySizeGiveTheSameRows) {
+    const Arguments arguments = detect(
+        {"--count", "cpu", "--mesh", "builtin:ellipsoid:500", "--volume", "builtin:ct:32", "--poses", poses(50)});
+    const std::string all = output(arguments, noDriver_);
+    EXPECT_EQ(linesOf(all).size(), 201U);
+    EXPECT_THAT(linesOf(all).back(), StartsWith("49,builtin:ellipsoid:500,builtin:ct:32,"));
+    for (const char* batch : {"1", "7", "50", "51", "4294967295"}) {
+        Arguments cut = arguments;
+        cut.insert(cut.end(), {"--batch", batch});
+        EXPECT_EQ(output(cut, noDriver_), all) << batch;
+    }
+}
+
+TEST_F(HostTest, TimingHasNoDeviceTime) {
+    const auto lines = linesOf(output(detect({"--count", "cpu", "--poses", poses(20), "--timing"}), noDriver_));
+    ASSERT_EQ(lines.size(), 22U);
+    EXPECT_EQ(lines.front(), "pose,mesh,volume,hit,count,exact,method,projection,gpu_ms,wall_ms");
+    for (std::size_t i = 1; i + 1 < lines.size(); ++i) {
+        const auto fields = fieldsOf(lines[i]);
+        EXPECT_EQ(fields.at(8), "0");
+        EXPECT_GT(std::stod(fields.at(9)), 0);
+    }
+    EXPECT_THAT(lines.back(), MatchesRegex("# pairs=20 wall_ms=[0-9.e-]+ pairs_per_s=[0-9.e+]+"));
+}
+
+TEST_F(HostTest, JsonNamesTheHost) {
+    const auto json = nlohmann::json::parse(output(detect({"--count", "cpu", "--format", "json"}), noDriver_));
+    EXPECT_EQ(json.at("device"), "host");
+    EXPECT_THAT(json.at("driver").get<std::string>(), StartsWith("cpu, "));
+}
+
+TEST_F(HostTest, WhatItCannotDo) {
+    const auto bad = [&](const Arguments& more) {
+        Arguments all = detect({"--count", "cpu"});
+        all.insert(all.end(), more.begin(), more.end());
+        return refused(2, all, noDriver_);
+    };
+    EXPECT_THAT(bad({"--filter", "hardware"}), HasSubstr("--filter hardware: the counting method cpu"));
+    EXPECT_THAT(bad({"--validate"}), HasSubstr("--validate: the counting method cpu"));
+    EXPECT_THAT(bad({"--size", "99999x5"}), AllOf(HasSubstr("--size: 99999x5"), HasSubstr("16384x16384")));
+    EXPECT_THAT(bad({"--tf-size", "4000000000"}), HasSubstr("--tf-size"));
+    EXPECT_EQ(output(detect({"--count", "cpu", "--filter", "exact"}), noDriver_),
+              output(detect({"--count", "cpu"}), noDriver_));
+}
+
+TEST_F(HostTest, ADeviceIsNotLookedFor) {
+    const Ran ran = run(detect({"--count", "cpu", "--device", "4711"}), noDriver_);
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_THAT(ran.err, HasSubstr("note: --device 4711 is not used"));
+    EXPECT_THAT(linesOf(ran.out).at(1), HasSubstr(",cpu,"));
+}
+
+TEST_F(HostTest, AutoTakesTheHostWhereThereIsNoDevice) {
+    const Ran ran = run(detect({}), noDriver_);
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_THAT(ran.err, AllOf(StartsWith("voxtact: note: auto chose cpu"), HasSubstr("no Vulkan device"),
+                               HasSubstr("mesa-vulkan-drivers")));
+    EXPECT_EQ(linesOf(ran.err).size(), 1U);
+    EXPECT_EQ(ran.out, output(detect({"--count", "cpu"}), noDriver_));
+    EXPECT_EQ(run(detect({"--filter", "exact"}), noDriver_).out, ran.out);
+}
+
+TEST_F(HostTest, WhoNeedsADeviceIsToldThatThereIsNone) {
+    for (const Arguments& more :
+         {Arguments{"--count", "query"}, Arguments{"--count", "compute"}, Arguments{"--device", "0"},
+          Arguments{"--filter", "hardware"}, Arguments{"--count", "auto", "--filter", "hardware"}}) {
+        EXPECT_THAT(refused(1, detect(more), noDriver_), HasSubstr("mesa-vulkan-drivers"));
+    }
+    EXPECT_EQ(run(detect({"--validate"}), noDriver_).status, 1);
+}
+
+} // namespace
+} // namespace voxtact::test

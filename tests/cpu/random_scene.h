@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/reference.h"
+#include "voxtact/cpu.h"
+
+#include <random>
+
+namespace voxtact::test {
+
+/// A volume, a transfer function, a mesh, a camera and poses, with everything that is rare in practice made likely.
+struct RandomScene {
+    VolumeData volume;
+    std::vector<ControlPoint> points;
+    ValueRange domain;
+    std::uint32_t tableSize = kDefaultTableSize;
+    MeshData mesh;
+    View view;
+    std::vector<Mat4> poses;
+    double threshold = kDefaultThreshold;
+    bool rangeTest = true;
+
+    [[nodiscard]] TransferFunctionDesc transferFunction() const { return {points, domain, tableSize}; }
+    [[nodiscard]] std::vector<cpu::ReferenceCounts> reference() const;
+};
+
+[[nodiscard]] RandomScene makeRandomScene(std::mt19937_64& random, std::size_t poses);
+
+[[nodiscard]] VolumeData randomVolume(std::mt19937_64& random);
+[[nodiscard]] MeshData randomMesh(std::mt19937_64& random, const Grid& grid);
+[[nodiscard]] View randomView(std::mt19937_64& random, const Grid& grid);
+
+/// Below `end`.
+[[nodiscard]] std::size_t below(std::mt19937_64& random, std::size_t end);
+[[nodiscard]] bool chance(std::mt19937_64& random, double probability);
+
+} // namespace voxtact::test

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The device against the host: compute against the host engine bit for bit, the rasteriser against the oracle fragment
+// by fragment.
+#include "gpu_fixture.h"
+
+#include "cpu/oracle.h"
+#include "cpu/random_scene.h"
+#include "detect/trace.h"
+#include "support/scenes.h"
+#include "voxtact/builtin.h"
+#include "voxtact/cpu.h"
+#include "voxtact/io.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <iterator>
+#include <map>
+
+namespace voxtact::test {
+namespace {
+
+constexpr std::size_t kScenes = 700;
+constexpr std::size_t kPosesOfAScene = 15; // 10,500 poses in all
+
+/// A sampler may take the difference of two voxels, which must not overflow.
+constexpr double kWidestDomain = 1e37;
+
+/// A RandomScene on the device and on the host engine.
+struct BothSides {
+    Volume volume;
+    TransferFunction function;
+    Mesh mesh;
+    cpu::Volume hostVolume;
+    cpu::TransferFunction hostFunction;
+    cpu::Mesh hostMesh;
+
+    BothSides(const Context& context, const QueueAccess& queue, const RandomScene& scene)
+        : volume(take(Volume::upload(context, queue, scene.volume.view()))),
+          function(take(TransferFunction::upload(context, queue, scene.transferFunction()))),
+          mesh(take(Mesh::upload(context, queue, scene.mesh.view()))),
+          hostVolume(take(cpu::Volume::create(scene.volume.view()))),
+          hostFunction(take(cpu::TransferFunction::create(scene.transferFunction()))),
+          hostMesh(take(cpu::Mesh::create(scene.mesh.view()))) {}
+};
+
+std::vector<std::uint64_t> countsOf(const BatchAnswer& answer) {
+    std::vector<std::uint64_t> counts;
+    std::ranges::transform(answer.pairs, std::back_inserter(counts), &PairAnswer::count);
+    return counts;
+}
+
+class HostAgreementTest : public GpuTest {
+  protected:
+    /// The detectors of one way to treat the boundary, made once: a compute pipeline takes its time on lavapipe.
+    struct Detectors {
+        std::vector<BlockingDetector> raster; ///< query, atomic, subgroup
+        BlockingDetector compute;
+        cpu::Detector host;
+    };
+
+    [[nodiscard]] Detectors makeDetectors(Boundary boundary) const {
+        std::vector<BlockingDetector> raster;
+        for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Subgroup}) {
+            raster.push_back(detector({.method = method, .boundary = boundary}));
+        }
+        return {std::move(raster),
+                detector({.method = CountingMethod::Compute, .filter = Filter::Exact, .boundary = boundary}),
+                take(cpu::Detector::create({.boundary = boundary}))};
+    }
+
+    /// All five on every pose. Returns the survivors in all.
+    std::uint64_t expectAgreement(Detectors& detectors, const RandomScene& scene, const std::string& which) {
+        const BothSides sides(context(), queue(), scene);
+        const BatchItem item{&sides.mesh, &sides.volume, &sides.function, scene.poses};
+        const Batch batch{std::span(&item, 1), scene.view, scene.threshold};
+        const cpu::BatchItem hostItem{&sides.hostMesh, &sides.hostVolume, &sides.hostFunction, scene.poses};
+        const auto host = countsOf(take(detectors.host.detect({std::span(&hostItem, 1), scene.view, scene.threshold})));
+        EXPECT_EQ(countsOf(take(detectors.compute.detect(batch))), host) << which << ": compute against cpu";
+        const auto query = countsOf(take(detectors.raster[0].detect(batch)));
+        EXPECT_EQ(countsOf(take(detectors.raster[1].detect(batch))), query) << which << ": atomic against query";
+        EXPECT_EQ(countsOf(take(detectors.raster[2].detect(batch))), query) << which << ": subgroup against query";
+        std::uint64_t survivors = 0;
+        for (const std::uint64_t count : host) {
+            survivors += count;
+        }
+        return survivors;
+    }
+
+    /// Traces a pair and holds each fragment that differs from the oracle's against its doubts.
+    void expectEveryDifferenceHasAReason(FragmentTrace& trace, const RandomScene& scene, std::size_t pose,
+                                         const std::string& which) {
+        const BothSides sides(context(), queue(), scene);
+        const BatchItem item{&sides.mesh, &sides.volume, &sides.function, std::span(&scene.poses[pose], 1)};
+        std::vector<cpu::OracleFragment> device;
+        for (const shader::TracedFragment& fragment :
+             take(trace.survivors({std::span(&item, 1), scene.view, scene.threshold}))) {
+            device.push_back({fragment.triangle, fragment.x, fragment.y});
+        }
+        std::ranges::sort(device);
+        const cpu::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
+                                   scene.view,        scene.poses[pose],   scene.threshold};
+        const std::vector<cpu::OracleFragment> oracle = take(cpu::oracleSurvivors(pair));
+        // What a clipped triangle covers twice differs too: the second of two equal fragments has no partner.
+        std::vector<cpu::OracleFragment> differing;
+        std::ranges::set_symmetric_difference(device, oracle, std::back_inserter(differing));
+        cpu::Tolerance tolerance;
+        // 8-bit images may be filtered in 8 bits: three interpolations, each off by less than one.
+        tolerance.value = scene.volume.type == ScalarType::UInt8 ? 3 : 0;
+        const std::vector<cpu::Evidence> evidence = take(cpu::oracleEvidence(pair, differing, tolerance));
+        for (std::size_t i = 0; i < differing.size(); ++i) {
+            ++reasons_[evidence[i].doubt];
+            const bool oracles = std::ranges::binary_search(oracle, differing[i]);
+            EXPECT_NE(evidence[i].doubt, cpu::Doubt::None)
+                << which << ": triangle " << differing[i].triangle << " at (" << differing[i].x << ", "
+                << differing[i].y << "), only " << (oracles ? "the oracle's" : "the device's") << "; edge "
+                << evidence[i].edgeDistance << " px, domain " << evidence[i].domainDistance << ", opacity "
+                << evidence[i].opacity << " in [" << evidence[i].opacityLow << ", " << evidence[i].opacityHigh
+                << "], threshold " << scene.threshold;
+        }
+        compared_ += oracle.size();
+    }
+
+    void report() const {
+        std::cout << "survivors of the oracle: " << compared_;
+        for (const auto& [doubt, count] : reasons_) {
+            std::cout << ", differ by " << cpu::toString(doubt) << ": " << count;
+        }
+        std::cout << "\n";
+    }
+
+    std::map<cpu::Doubt, std::uint64_t> reasons_;
+    std::uint64_t compared_ = 0;
+};
+
+TEST_F(HostAgreementTest, AllMethodsOnTenThousandPoses) {
+    std::mt19937_64 random(testSeed());
+    Detectors range = makeDetectors(Boundary::Range);
+    Detectors clamp = makeDetectors(Boundary::Clamp);
+    std::uint64_t survivors = 0;
+    for (std::size_t i = 0; i < kScenes && !HasFailure(); ++i) {
+        const RandomScene scene = makeRandomScene(random, kPosesOfAScene);
+        survivors += expectAgreement(scene.rangeTest ? range : clamp, scene, "scene " + std::to_string(i));
+    }
+    EXPECT_GT(survivors, kScenes * kPosesOfAScene);
+}
+
+TEST_F(HostAgreementTest, AllMethodsOnTheRealHead) {
+    std::mt19937_64 random(testSeed());
+    RandomScene scene;
+    scene.volume = take(io::readVolume("/usr/share/mricron/templates/ch2.nii.gz"));
+    scene.points = {{40, 0}, {80, 1}};
+    scene.domain = {0, 255};
+    scene.mesh = take(makeScalpel());
+    scene.view = {framingCamera(scene.volume.grid, 512, 512), 512, 512};
+    scene.poses = randomPoses(scene.volume.grid, 1000, 1.4, random);
+    Detectors detectors = makeDetectors(Boundary::Range);
+    EXPECT_GT(expectAgreement(detectors, scene, "the head"), 100000U);
+}
+
+TEST_F(HostAgreementTest, EveryDifferingFragmentHasAReason) {
+    std::mt19937_64 random(testSeed());
+    FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
+    for (std::size_t i = 0; i < kScenes && !HasFailure(); ++i) {
+        const RandomScene scene = makeRandomScene(random, 2);
+        if (scene.domain.hi - scene.domain.lo > kWidestDomain) {
+            continue;
+        }
+        expectEveryDifferenceHasAReason(trace, scene, 0, "scene " + std::to_string(i));
+    }
+    report();
+    EXPECT_GT(compared_, 10000U);
+}
+
+TEST_F(HostAgreementTest, EveryDifferingFragmentOnTheRealHeadHasAReason) {
+    std::mt19937_64 random(testSeed());
+    RandomScene scene;
+    scene.volume = take(io::readVolume("/usr/share/mricron/templates/ch2.nii.gz"));
+    scene.points = {{40, 0}, {80, 1}};
+    scene.domain = {0, 255};
+    scene.mesh = take(makeScalpel());
+    scene.view = {framingCamera(scene.volume.grid, 512, 512), 512, 512};
+    scene.poses = randomPoses(scene.volume.grid, 25, 1.0, random);
+    FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
+    for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
+        expectEveryDifferenceHasAReason(trace, scene, pose, "pose " + std::to_string(pose));
+    }
+    report();
+    EXPECT_GT(compared_, 10000U);
+}
+
+} // namespace
+} // namespace voxtact::test
