@@ -218,6 +218,32 @@ void collect(std::vector<Point>& points, CompareResult& result) {
     }
 }
 
+/// The poses of the sweeps of triangles and fragments, and their numbers.
+struct SweepPoses {
+    std::vector<Mat4> poses;
+    std::vector<std::uint32_t> numbers;
+};
+
+SweepPoses sweepPoses(const CompareData& data) {
+    SweepPoses out;
+    for (const std::uint32_t index : spreadEvenly(kSweepPairs, static_cast<std::uint32_t>(data.poses.size()))) {
+        out.poses.push_back(data.poses[index]);
+        out.numbers.push_back(data.poseNumbers[index]);
+    }
+    return out;
+}
+
+/// Times points whose counts were verified; nothing where one failed and the run is not to go on.
+Result<void> measureVerified(std::vector<Point>& points, const CompareOptions& options, CompareResult& result,
+                             const std::function<void()>& step) {
+    if (result.firstFailure() != nullptr && !options.keepGoing) {
+        return {};
+    }
+    Result<void> done = measure(points, options, result, step);
+    collect(points, result);
+    return done;
+}
+
 } // namespace
 
 std::uint64_t stepsOf(Sweep /*sweep*/, std::uint32_t repeats) noexcept {
@@ -262,13 +288,7 @@ Result<void> timeTriangles(const Session& session, const CompareOptions& options
         result.notes.push_back("no sweep of triangles: the mesh is not a builtin one, which can be had in any size");
         return {};
     }
-    const std::vector<std::uint32_t> sample = spreadEvenly(kSweepPairs, static_cast<std::uint32_t>(data.poses.size()));
-    std::vector<Mat4> poses;
-    std::vector<std::uint32_t> numbers;
-    for (const std::uint32_t index : sample) {
-        poses.push_back(data.poses[index]);
-        numbers.push_back(data.poseNumbers[index]);
-    }
+    const auto [poses, numbers] = sweepPoses(data);
     std::vector<std::unique_ptr<Subject>> subjects;
     std::vector<Point> points;
     for (const std::uint32_t triangles : kTriangles) {
@@ -290,25 +310,14 @@ Result<void> timeTriangles(const Session& session, const CompareOptions& options
         }
         addPoints(Sweep::Triangles, runners, work, points);
     }
-    if (result.firstFailure() != nullptr && !options.keepGoing) {
-        return {};
-    }
-    Result<void> done = measure(points, options, result, step);
-    collect(points, result);
-    return done;
+    return measureVerified(points, options, result, step);
 }
 
 Result<void> timeFragments(const Session& session, const CompareOptions& options, const CompareData& data,
                            const Subject& subject, const Runners& runners, CompareResult& result,
                            const std::function<void()>& step) {
     const VkExtent2D most = session.context.maxViewport();
-    const std::vector<std::uint32_t> sample = spreadEvenly(kSweepPairs, static_cast<std::uint32_t>(data.poses.size()));
-    std::vector<Mat4> poses;
-    std::vector<std::uint32_t> numbers;
-    for (const std::uint32_t index : sample) {
-        poses.push_back(data.poses[index]);
-        numbers.push_back(data.poseNumbers[index]);
-    }
+    const auto [poses, numbers] = sweepPoses(data);
     std::vector<Point> points;
     for (const std::uint32_t side : kSides) {
         // The same camera on more pixels; a viewport that is not square keeps its shape.
@@ -327,12 +336,7 @@ Result<void> timeFragments(const Session& session, const CompareOptions& options
         }
         addPoints(Sweep::Fragments, runners, work, points);
     }
-    if (result.firstFailure() != nullptr && !options.keepGoing) {
-        return {};
-    }
-    Result<void> done = measure(points, options, result, step);
-    collect(points, result);
-    return done;
+    return measureVerified(points, options, result, step);
 }
 
 } // namespace voxtact::app

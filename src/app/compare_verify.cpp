@@ -54,7 +54,7 @@ class FragmentChecker {
                     const Surroundings& surroundings, const Subject& subject, bool eightBit)
         : trace_(std::move(trace)), data_(data), surroundings_(surroundings), subject_(subject),
           threshold_(options.transferFunction.threshold), desc_(data.transferFunction(options)) {
-        tolerance_.value = eightBit ? 1 : 0;
+        tolerance_.value = eightBit ? cpu::kEightBitFilterError : 0;
     }
 
     Result<FragmentCheck> check(std::uint32_t index);

@@ -11,14 +11,18 @@ namespace {
 /// Covers a table kept as 16-bit floats (11 bits of mantissa) and the rounding of the device's interpolation.
 constexpr double kOpacityMargin = 1e-3;
 
-/// A scalar looks up the two entries around it; one more on each side covers weights of 8 fraction bits and the
-/// rounding of the scalar's own normalisation.
+/// A scalar looks up the two entries around it; one more on each side covers weights of 8 fraction bits.
 constexpr double kEntryMargin = 2.0;
+
+/// Of the normalisation, relative to its largest term: a product, a sum, and the filter before them.
+constexpr double kNormalisationError = 8.0 / (1 << 24);
 
 } // namespace
 
-OpaqueRanges::OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold)
-    : domain_(domain), opaqueBefore_(table.size() + 1, 0), certainBefore_(table.size() + 1, 0) {
+OpaqueRanges::OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largestTerm)
+    : domain_(domain), entryMargin_(kEntryMargin + kNormalisationError * static_cast<double>(table.size()) *
+                                                       largestTerm / (domain.hi - domain.lo)),
+      opaqueBefore_(table.size() + 1, 0), certainBefore_(table.size() + 1, 0) {
     const double safe = threshold - kOpacityMargin;
     const double certain = threshold > 0 ? threshold + kOpacityMargin : 0;
     for (std::size_t i = 0; i < table.size(); ++i) {
@@ -35,8 +39,8 @@ double OpaqueRanges::entry(double value) const noexcept {
 
 OpaqueRanges::Entries OpaqueRanges::entries(const ValueRange& range) const noexcept {
     const auto last = static_cast<double>(opaqueBefore_.size() - 2);
-    const double lo = std::clamp(std::floor(entry(range.lo) - kEntryMargin), 0.0, last);
-    const double hi = std::clamp(std::ceil(entry(range.hi) + kEntryMargin), 0.0, last);
+    const double lo = std::clamp(std::floor(entry(range.lo) - entryMargin_), 0.0, last);
+    const double hi = std::clamp(std::ceil(entry(range.hi) + entryMargin_), 0.0, last);
     return {static_cast<std::size_t>(lo), static_cast<std::size_t>(hi)};
 }
 

@@ -15,8 +15,10 @@ namespace voxtact {
 /// them. Kept as prefix counts over the table's entries, so that a question costs two look-ups.
 class OpaqueRanges {
   public:
-    /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque.
-    OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold);
+    /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque. `largestTerm`
+    /// is the largest magnitude, in the image's units, of what a device adds in single precision to get from a texel to
+    /// the normalised scalar: with a domain that is narrow beside it, the scalar is off by more than an entry.
+    OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largestTerm = 0);
 
     /// Whether a scalar of the closed range (in the image's own units) may be opaque.
     [[nodiscard]] bool mayBeOpaque(const ValueRange& range) const noexcept;
@@ -35,6 +37,7 @@ class OpaqueRanges {
     [[nodiscard]] Entries entries(const ValueRange& range) const noexcept;
 
     ValueRange domain_;
+    double entryMargin_;                       ///< entries to each side that a scalar may look up by rounding
     std::vector<std::uint32_t> opaqueBefore_;  ///< [i]: opaque entries below i; one more element than entries
     std::vector<std::uint32_t> certainBefore_; ///< the same of entries that are opaque beyond doubt
 };

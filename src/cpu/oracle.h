@@ -27,7 +27,8 @@ struct OracleFragment {
     std::uint32_t triangle = 0;
     std::uint32_t x = 0;
     std::uint32_t y = 0;
-    auto operator<=>(const OracleFragment&) const = default;
+    // clang-tidy 14 takes the 0 that the compiler writes for a null pointer.
+    auto operator<=>(const OracleFragment&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// Why two honest rasterisers may disagree on a fragment. A fragment that fails one of the three tests beyond doubt has
@@ -57,6 +58,9 @@ struct Evidence {
     Doubt doubt = Doubt::None; ///< the first that applies, in the order of the enumeration
 };
 
+/// In stored units: a filter in 8-bit arithmetic makes three interpolations, each off by less than one.
+inline constexpr double kEightBitFilterError = 3;
+
 /// How far another rasteriser may be from the oracle. Rounding in single precision, from the products of the matrices
 /// to the look-up, comes on top and need not be counted in. Defaults: both snap corners to the nearest 1/256 pixel,
 /// which is less than 1.5/256 pixel together; filters have weights with 8 fraction bits
@@ -64,7 +68,7 @@ struct Evidence {
 struct Tolerance {
     double pixels = 1.5 / 256; ///< of a corner on the screen, and so of the place where the triangle is sampled
     double weight = 1.0 / 256; ///< of a voxel, along each axis; and of an entry of the table
-    double value = 0;          ///< in stored units: 1 for 8-bit images that are filtered in 8-bit arithmetic
+    double value = 0; ///< in stored units: kEightBitFilterError for images that are filtered in 8-bit arithmetic
 };
 
 /// Every surviving fragment in double precision, sorted. Refuses what the engine refuses.

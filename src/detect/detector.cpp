@@ -9,6 +9,7 @@
 #include "gpu/scene_impl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace voxtact {
@@ -24,6 +25,18 @@ namespace {
 std::string labelOf(const DetectorDesc& desc, std::uint32_t pairs) {
     return std::string("voxtact detect ") + toString(desc.projection) + "/" + toString(desc.method) + ", " +
            std::to_string(pairs) + " pairs";
+}
+
+/// What normalising a sample adds in single precision, at most, in the image's units.
+double largestTerm(const VolumeImpl& volume, const ValueRange& domain) {
+    double largest = std::max({std::abs(volume.valueIntercept), std::abs(domain.lo), std::abs(domain.hi)});
+    if (volume.storedUnit > 0) {
+        return std::max(largest, std::abs(volume.valueSlope)); // of a normalised texel
+    }
+    for (const ValueRange& range : *volume.boundary) {
+        largest = std::max({largest, std::abs(range.lo), std::abs(range.hi)});
+    }
+    return largest;
 }
 
 Result<void> checkMethod(const Context& context, CountingMethod method) {
@@ -135,7 +148,7 @@ Boundary Detector::boundaryFor(const BatchItem& item, double threshold) const no
         return Boundary::Range;
     }
     try {
-        const OpaqueRanges opaque(function.table, function.domain, threshold);
+        const OpaqueRanges opaque(function.table, function.domain, threshold, largestTerm(volume, function.domain));
         const bool anyOpaque =
             std::ranges::any_of(*volume.boundary, [&](const ValueRange& range) { return opaque.mayBeOpaque(range); });
         return anyOpaque ? Boundary::Range : Boundary::Clamp;

@@ -139,7 +139,8 @@ TEST_F(CacheTest, OffAndFoldersThatCannotBe) {
         EXPECT_FALSE(methodOf(ran).empty());
         EXPECT_THAT(ran.err, StartsWith(kNote));
     }
-    const RunOptions nowhere{.environment = {{"HOME", ""}, {"XDG_CACHE_HOME", "relative"}, {"MESA_SHADER_CACHE_DISABLE", "true"}}};
+    const RunOptions nowhere{
+        .environment = {{"HOME", ""}, {"XDG_CACHE_HOME", "relative"}, {"MESA_SHADER_CACHE_DISABLE", "true"}}};
     const RunOptions none{.environment = {{"MESA_SHADER_CACHE_DIR", VOXTACT_TEST_CACHE}}};
     for (const Ran& ran : {run(automatic(), nowhere), run(automatic({"--cache", "/proc/no/such"}), none),
                            run(automatic({"--cache", path("file")}), none)}) {

@@ -190,6 +190,29 @@ TEST(OpaqueRangesTest, NeverCallsAnOpaqueScalarTransparent) {
     EXPECT_GT(proven, 100U) << "a test that proves nothing cannot fail";
 }
 
+TEST(OpaqueRangesTest, ANarrowDomainIsRoundedByMoreThanAnEntry) {
+    // uint16 values around 60,000 in a domain 20 wide with 16,384 entries: an entry is 0.0012 wide, and normalising
+    // 60,000 in single precision is off by more than that.
+    constexpr ValueRange kDomain{59990, 60010};
+    std::vector<float> table(16384, 0.0F);
+    table[8192] = 1;
+    const double width = (kDomain.hi - kDomain.lo) / static_cast<double>(table.size());
+    const double value = kDomain.lo + (8192.5 + 4) * width;
+    const auto scale = static_cast<float>(65535 / (kDomain.hi - kDomain.lo));
+    const auto bias = static_cast<float>(-kDomain.lo / (kDomain.hi - kDomain.lo));
+    double worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double exact = value + i * width;
+        const float scalar = static_cast<float>(exact / 65535) * scale + bias;
+        const double ideal = (exact - kDomain.lo) / (kDomain.hi - kDomain.lo);
+        worst = std::max(worst, std::abs(static_cast<double>(scalar) - ideal) * static_cast<double>(table.size()));
+    }
+    EXPECT_GT(worst, 3) << "no reason for a wider margin";
+    EXPECT_FALSE(OpaqueRanges(table, kDomain, 0.5).mayBeOpaque({value, value}));
+    EXPECT_TRUE(OpaqueRanges(table, kDomain, 0.5, 65535).mayBeOpaque({value, value}));
+    EXPECT_FALSE(OpaqueRanges(table, kDomain, 0.5, 65535).mayBeOpaque({kDomain.lo, kDomain.lo + 1}));
+}
+
 TEST(OpaqueRangesTest, KnownRanges) {
     std::vector<float> table(256, 0.0F);
     table[100] = 1;
