@@ -36,12 +36,16 @@ Form combined(const Form& a, const Form& b, float sign) {
 
 } // namespace
 
+namespace {
+constexpr int kHalfPixel = EXACT_SUBPIXEL / 2;
+} // namespace
+
 ViewFacts::ViewFacts(const View& view, bool withRangeTest)
     : width(static_cast<int>(view.width)), height(static_cast<int>(view.height)),
       guardX(EXACT_GUARD_PIXELS / (0.5F * static_cast<float>(view.width))),
       guardY(EXACT_GUARD_PIXELS / (0.5F * static_cast<float>(view.height))),
-      scaleX(static_cast<float>(width * (EXACT_SUBPIXEL / 2))),
-      scaleY(static_cast<float>(height * (EXACT_SUBPIXEL / 2))), rangeTest(withRangeTest) {}
+      scaleX(static_cast<float>(width * kHalfPixel)), scaleY(static_cast<float>(height * kHalfPixel)),
+      rangeTest(withRangeTest) {}
 
 CullForms::CullForms(const MeshImpl& mesh, const shader::PairTransform& transform) {
     const std::array<float, 3> reach = reachOf(mesh);

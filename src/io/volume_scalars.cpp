@@ -27,7 +27,7 @@ template <class To, class From> std::vector<std::byte> converted(const std::vect
 
 /// A float has 24 significant bits.
 template <std::integral Integer> bool isExactFloat(Integer value) {
-    auto magnitude = static_cast<std::uint64_t>(value);
+    auto magnitude = static_cast<std::uint64_t>(+value); // promoted first: a narrow type keeps its sign
     if (std::cmp_less(value, 0)) {
         magnitude = 0 - magnitude;
     }

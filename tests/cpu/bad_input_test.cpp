@@ -24,7 +24,7 @@ class CpuBadInput : public testing::Test {
         const Result<BatchAnswer> answer = detector_.detect(batch);
         EXPECT_FALSE(answer.ok());
         EXPECT_EQ(take(detector_.detect({std::span(&good, 1), flatView(0, 1, 16, 16), 0.5})).pairs[0].count, 256U);
-        const Error error = answer.ok() ? Error{} : answer.error();
+        Error error = answer.ok() ? Error{} : answer.error();
         EXPECT_THAT(error.text, Not(HasSubstr("\n")));
         return error;
     }
