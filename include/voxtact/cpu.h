@@ -24,7 +24,8 @@ struct DetectorImpl;
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
   public:
-    /// Refuses what checkVolume() refuses. Copies the voxels.
+    /// Refuses what checkVolume() refuses, and more than 2^23 voxels a side, which floats cannot address
+    /// (LimitExceeded). Copies the voxels.
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const VolumeView& data);
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;

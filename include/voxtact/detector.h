@@ -121,15 +121,18 @@ class Detector {
     /// are recorded into the command buffer, so it may be submitted again without its Results being overwritten by
     /// the host in between.
     ///
-    ///   call it          outside a render pass, on a queue with graphics, in a primary command buffer
+    ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics (and compute,
+    ///                    for the method compute)
     ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them, wrapped ones in the
-    ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER by the caller;
-    ///                    an earlier use of the same Results in this queue may be in flight: the reads that
-    ///                    cmdReadBack() and compute or fragment shaders make of buffer() are waited for
+    ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER (for the method
+    ///                    compute: to COMPUTE_SHADER) by the caller; an earlier use of the same Results in this queue
+    ///                    may be in flight: the reads that cmdReadBack() and compute or fragment shaders make of
+    ///                    buffer() are waited for
     ///   leaves           Results::buffer() available and visible to TRANSFER read, and to shader reads in all stages
     ///   queries          no occlusion query may be active
     ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point, push constants, vertex
-    ///                    binding 0, index buffer, dynamic viewport and scissor
+    ///                    binding 0, index buffer, dynamic viewport and scissor; for the method compute instead:
+    ///                    compute pipeline, descriptor sets 0..3 of the compute bind point, push constants
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
