@@ -34,16 +34,13 @@ Form combined(const Form& a, const Form& b, float sign) {
     return {a.x + sign * b.x, a.y + sign * b.y, a.z + sign * b.z, a.constant + sign * b.constant, a.margin + b.margin};
 }
 
-} // namespace
-
-namespace {
 constexpr int kHalfPixel = EXACT_SUBPIXEL / 2;
+
 } // namespace
 
 ViewFacts::ViewFacts(const View& view, bool withRangeTest)
     : width(static_cast<int>(view.width)), height(static_cast<int>(view.height)),
-      guardX(EXACT_GUARD_PIXELS / (0.5F * static_cast<float>(view.width))),
-      guardY(EXACT_GUARD_PIXELS / (0.5F * static_cast<float>(view.height))),
+      guardX(shader::exactGuard(view.width)), guardY(shader::exactGuard(view.height)),
       scaleX(static_cast<float>(width * kHalfPixel)), scaleY(static_cast<float>(height * kHalfPixel)),
       rangeTest(withRangeTest) {}
 

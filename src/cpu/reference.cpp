@@ -29,8 +29,8 @@ Scene makeScene(const ReferencePair& pair) {
     scene.transform =
         pairTransform(pair.view.clip_from_world, pair.world_from_object, textureFromWorld(pair.volume.grid).value());
     scene.constants = itemConstants(1, storedIntercept(pair.volume.type), pair.transferFunction.domain, pair.threshold);
-    scene.guardX = EXACT_GUARD_PIXELS / (0.5F * static_cast<float>(pair.view.width));
-    scene.guardY = EXACT_GUARD_PIXELS / (0.5F * static_cast<float>(pair.view.height));
+    scene.guardX = exactGuard(pair.view.width);
+    scene.guardY = exactGuard(pair.view.height);
     scene.width = static_cast<int>(pair.view.width);
     scene.height = static_cast<int>(pair.view.height);
     return scene;
