@@ -3,6 +3,7 @@
 
 #include "voxtact/answers.h"
 #include "voxtact/data.h"
+#include "voxtact/labels.h"
 
 #include <memory>
 #include <span>
@@ -75,12 +76,13 @@ struct BatchItem {
     const Volume* volume = nullptr;
     const TransferFunction* transferFunction = nullptr;
     std::span<const Mat4> world_from_object; ///< affine
+    const LabelData* labels = nullptr;       ///< for the outputs contacts (optional) and labels
 };
 
 /// The pairs of one call: the items in order, each with its poses in order.
 struct Batch {
     std::span<const BatchItem> items;
-    View view;                            ///< at most kMaxViewport pixels a side
+    View view;                            ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
 
@@ -90,6 +92,11 @@ struct DetectorDesc {
     std::uint32_t threads = 0;          ///< 0: one for each processor
     Boundary boundary = Boundary::Auto; ///< Auto is the range test: the host has nothing to gain from clamping
     bool stopAtFirst = false;           ///< the count is then 0 or 1, and its exactness LowerBound
+    Projection projection = Projection::View;
+    Outputs outputs{};                                       ///< with stopAtFirst: refused
+    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
+    double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
+    std::uint32_t mostContacts = 1U << 20U;                  ///< a list of contacts is cut beyond that many
 };
 
 /// Keeps its threads from call to call. Thread-safety: one detect() at a time.

@@ -20,7 +20,12 @@ struct DetectorDesc {
     CountingMethod method = CountingMethod::Query;
     Projection projection = Projection::View;
     Filter filter = Filter::Hardware;
-    Boundary boundary = Boundary::Auto;
+    Boundary boundary = Boundary::Auto;                      ///< the projection conservative always tests the range
+    Outputs outputs{};                                       ///< beside the counts; the Results need room for them
+    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
+    double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
+    /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization.
+    bool overestimate = false;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -29,12 +34,13 @@ struct BatchItem {
     const Volume* volume = nullptr;
     const TransferFunction* transferFunction = nullptr;
     std::span<const Mat4> world_from_object; ///< a pose a pair; affine. Read while recording only
+    const LabelMap* labels = nullptr;        ///< for the outputs contacts (optional) and labels
 };
 
 /// The pairs of one submission: the items in order, each with its poses in order.
 struct Batch {
     std::span<const BatchItem> items;
-    View view;
+    View view;                            ///< not looked at by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
 

@@ -22,8 +22,20 @@ enum class CountingMethod : std::uint32_t {
 
 /// How a mesh is turned into fragments.
 enum class Projection : std::uint32_t {
-    View = 0, ///< the paper's: the caller's camera and viewport
+    View = 0,    ///< the paper's: the caller's camera and viewport
+    TwoView = 1, ///< the paper's workaround for triangles seen edge-on: the view, and its view volume seen along its x
+    /// Each triangle along its own dominant axis in voxel space, onto a grid of the voxels' size or finer: no camera
+    DominantAxis = 2,
+    /// Every voxel cell that a triangle passes through, decided with bounds: a contact is never missed. No camera
+    Conservative = 3,
 };
+
+/// Samples along a voxel's side in the projection DominantAxis.
+inline constexpr std::uint32_t kDefaultSamplesPerVoxel = 1;
+/// The projection Conservative stops dividing pieces of a triangle that are no longer than this many voxels.
+inline constexpr double kDefaultResolution = 1.0 / 64;
+/// How far a contact's penetration is followed, in millimetres.
+inline constexpr double kDefaultMaxDepth = 10;
 
 /// How the image is sampled.
 enum class Filter : std::uint32_t {
@@ -41,7 +53,7 @@ enum class Boundary : std::uint32_t {
 /// What a count is worth.
 enum class Exactness : std::uint32_t {
     Exact = 0,
-    LowerBound = 1, ///< a boolean query: not zero means at least one
+    LowerBound = 1, ///< at least that many: a boolean query, an early exit, or fragments that could not be decided
 };
 
 [[nodiscard]] VOXTACT_API const char* toString(CountingMethod method) noexcept;
@@ -54,6 +66,13 @@ enum class Exactness : std::uint32_t {
 [[nodiscard]] VOXTACT_API std::span<const CountingMethod> countingMethods() noexcept;
 /// The inverse of toString(): "query-any" -> QueryAny. Nothing for an unknown name.
 [[nodiscard]] VOXTACT_API std::optional<CountingMethod> countingMethodFromName(std::string_view name) noexcept;
+
+/// The projections in the order of their numbers.
+[[nodiscard]] VOXTACT_API std::span<const Projection> projections() noexcept;
+/// The inverse of toString(): "two-view" -> TwoView. Nothing for an unknown name.
+[[nodiscard]] VOXTACT_API std::optional<Projection> projectionFromName(std::string_view name) noexcept;
+/// Whether the projection looks through the batch's View.
+[[nodiscard]] VOXTACT_API bool usesView(Projection projection) noexcept;
 
 /// Exact for the methods that are the same on every device with it (compute, cpu), hardware for the others.
 [[nodiscard]] VOXTACT_API Filter defaultFilter(CountingMethod method) noexcept;

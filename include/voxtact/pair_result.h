@@ -13,7 +13,9 @@ namespace voxtact {
 #endif
 
 /// The answer for one pair, 24 bytes, the same layout for every counting method. In GLSL declare the buffer with
-/// std430. The pair collides when countLow or countHigh is not zero.
+/// std430. The pair collides when countLow or countHigh is not zero. In the projection `conservative` a survivor is a
+/// triangle that certainly has an opaque point in a voxel cell, counted once for each of its cells; a pair whose count
+/// is zero may still touch when VOXTACT_HOW_UNDECIDED(how) is not zero.
 struct PairResult {
     VOXTACT_UINT countLow;  ///< survivors, low 32 bits. `query-any`: zero or not zero, the number means nothing
     VOXTACT_UINT countHigh; ///< survivors, high 32 bits
@@ -28,6 +30,9 @@ struct PairResult {
 #define VOXTACT_HOW_METHOD(how) ((how)&0xffu)
 #define VOXTACT_HOW_PROJECTION(how) (((how) >> 8) & 0xffu)
 #define VOXTACT_HOW_EXACTNESS(how) (((how) >> 16) & 0xffu)
+/// Not zero: some fragment of the projection `conservative` could be neither proven nor excluded.
+#define VOXTACT_HOW_UNDECIDED(how) (((how) >> 24) & 1u)
+#define VOXTACT_HOW_UNDECIDED_BIT 0x1000000u
 
 #ifdef __cplusplus
 #undef VOXTACT_UINT

@@ -27,6 +27,7 @@ namespace voxtact {
 struct VolumeImpl;
 struct TransferFunctionImpl;
 struct MeshImpl;
+class LabelMap;
 
 /// An image of the caller's.
 struct WrappedVolume {

@@ -16,6 +16,10 @@ PairAnswer unpack(const PairResult& result) noexcept {
     if (out.exactness == Exactness::LowerBound && out.hit) {
         out.count = 1;
     }
+    if (VOXTACT_HOW_UNDECIDED(result.how) != 0) {
+        out.possible = !out.hit;
+        out.exactness = Exactness::LowerBound;
+    }
     return out;
 }
 

@@ -23,6 +23,20 @@ constexpr std::array<MethodName, kMethods.size()> kMethodNames{{
     {CountingMethod::Cpu, "cpu"},
 }};
 
+struct ProjectionName {
+    Projection projection;
+    const char* name;
+};
+
+constexpr std::array kProjections{Projection::View, Projection::TwoView, Projection::DominantAxis,
+                                  Projection::Conservative};
+constexpr std::array<ProjectionName, kProjections.size()> kProjectionNames{{
+    {Projection::View, "view"},
+    {Projection::TwoView, "two-view"},
+    {Projection::DominantAxis, "dominant-axis"},
+    {Projection::Conservative, "conservative"},
+}};
+
 } // namespace
 
 const char* toString(CountingMethod method) noexcept {
@@ -34,8 +48,13 @@ const char* toString(CountingMethod method) noexcept {
     return "unknown";
 }
 
-const char* toString(Projection) noexcept {
-    return "view";
+const char* toString(Projection projection) noexcept {
+    for (const ProjectionName& entry : kProjectionNames) {
+        if (entry.projection == projection) {
+            return entry.name;
+        }
+    }
+    return "unknown";
 }
 
 const char* toString(Filter filter) noexcept {
@@ -69,6 +88,23 @@ std::optional<CountingMethod> countingMethodFromName(std::string_view name) noex
         }
     }
     return std::nullopt;
+}
+
+std::span<const Projection> projections() noexcept {
+    return kProjections;
+}
+
+std::optional<Projection> projectionFromName(std::string_view name) noexcept {
+    for (const ProjectionName& entry : kProjectionNames) {
+        if (name == entry.name) {
+            return entry.projection;
+        }
+    }
+    return std::nullopt;
+}
+
+bool usesView(Projection projection) noexcept {
+    return projection == Projection::View || projection == Projection::TwoView;
 }
 
 Filter defaultFilter(CountingMethod method) noexcept {

@@ -151,6 +151,9 @@ Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
+        if (desc.projection != Projection::View || desc.outputs.any()) {
+            return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
+        }
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
         return Detector(std::make_unique<DetectorImpl>(desc, desc.threads == 0 ? processors : desc.threads));
     });

@@ -79,6 +79,9 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         if (Result<void> alive = c.alive(); !alive.ok()) {
             return alive.error();
         }
+        if (desc.projection != Projection::View || desc.outputs.any()) {
+            return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
+        }
         if (Result<void> method = checkMethod(context, desc.method); !method.ok()) {
             return method.error();
         }

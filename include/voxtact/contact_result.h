@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// One definition for C++ and GLSL: include it from a shader to read the contacts on the device.
+#ifndef VOXTACT_CONTACT_RESULT_H
+#define VOXTACT_CONTACT_RESULT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace voxtact {
+#define VOXTACT_UINT std::uint32_t
+#else
+#define VOXTACT_UINT uint
+#endif
+
+/// A contact on the device, 48 bytes; std430. See Contact in outputs.h for what the members mean.
+struct ContactResult {
+    float x; ///< world, mm
+    float y;
+    float z;
+    float nx; ///< unit vector, or zero
+    float ny;
+    float nz;
+    float depth; ///< mm
+    float value;
+    float opacity;
+    VOXTACT_UINT pair; ///< number of the pair in its batch
+    VOXTACT_UINT triangle;
+    VOXTACT_UINT label; ///< number of the label in LabelData::values; 0 without a label map
+};
+
+#ifdef __cplusplus
+#undef VOXTACT_UINT
+static_assert(sizeof(ContactResult) == 48);
+} // namespace voxtact
+#endif
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/contact_result.h"
+#include "voxtact/data.h"
+#include "voxtact/methods.h"
+
+#include <cstdint>
+
+/// What a detector can say beside the count of a pair. Everything is off by default, and what is off costs nothing.
+namespace voxtact {
+
+struct Outputs {
+    bool triangles = false; ///< which triangles have survivors, and how many
+    bool contacts = false;  ///< a Contact for each survivor, as many as there is room for
+    bool bounds = false;    ///< the world box of the survivors of each pair
+    bool labels = false;    ///< survivors by the label of the place where they are; the items need label maps
+    /// How far a contact's penetration is followed, mm; positive. Contacts only.
+    double maxDepth = kDefaultMaxDepth;
+
+    [[nodiscard]] bool any() const noexcept { return triangles || contacts || bounds || labels; }
+};
+
+/// A triangle with at least one survivor.
+struct TouchedTriangle {
+    std::uint32_t pair = 0;
+    std::uint32_t triangle = 0; ///< number in the mesh
+    std::uint32_t count = 0;    ///< its survivors
+};
+
+/// One survivor and its place.
+struct Contact {
+    std::uint32_t pair = 0;
+    std::uint32_t triangle = 0; ///< number in the mesh
+    Vec3 position{};            ///< world, mm: on the triangle, in an opaque sample
+    /// Unit vector in world space, against the gradient of opacity: out of what is opaque. Zero where the opacity is
+    /// the same in all directions as far as maxDepth.
+    Vec3 normal{};
+    /// mm along the normal from the position to where the opacity falls below the threshold: maxDepth where it does
+    /// not up to there, or where there is no normal.
+    double depth = 0;
+    double value = 0;       ///< of the image, in its own units
+    double opacity = 0;     ///< of that value
+    std::int32_t label = 0; ///< of the nearest voxel of the label map; 0 without a map, and outside of it
+};
+
+/// Survivors of a pair at one label.
+struct LabelCount {
+    std::uint32_t pair = 0;
+    std::int32_t label = 0;
+    std::uint64_t count = 0; ///< at least 1
+};
+
+} // namespace voxtact
