@@ -49,6 +49,28 @@ struct TracedFragment {
     uint y;
 };
 
+/// What the projection `conservative` needs of one pair; element `pair` of a std430 buffer.
+struct CertifiedPair {
+    vec4 voxel_from_object[3]; // the first three rows: affine. Voxel i's centre is at i
+    vec4 error; // of a transformed vertex (x, y, z), in voxels along each axis: error * (|x|, |y|, |z|, 1)
+};
+
+/// What it needs of one batch item. The entry coordinate of a stored value (see opacity_ranges.h) is
+/// entryScale * (stored - storedReference) + entryBias.
+struct CertifiedItem {
+    float entryScale;
+    float entryBias;
+    float storedReference; // near the middle of the transfer function's domain
+    float storedUnit;      // the integer behind 1.0 of a normalised texel; 0 for float texels
+    float threshold;
+    float resolution; // voxels
+    int tableSize;
+    int tableLevels;
+    int sizeX; // voxels
+    int sizeY;
+    int sizeZ;
+};
+
 // Descriptor sets.
 #define VOXTACT_SET_VOLUME 0
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
@@ -73,6 +95,8 @@ struct TracedFragment {
 static_assert(sizeof(PairTransform) == 112 && offsetof(PairTransform, texture_from_object) == 64);
 static_assert(sizeof(ItemConstants) == 16);
 static_assert(sizeof(ComputeConstants) == 60);
+static_assert(sizeof(CertifiedPair) == 64);
+static_assert(sizeof(CertifiedItem) == 44);
 } // namespace voxtact::shader
 #endif
 

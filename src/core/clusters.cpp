@@ -48,22 +48,40 @@ class Splitter {
 
     void split(std::span<std::uint32_t> triangles) {
         if (triangles.size() <= kClusterTriangles) {
+            sortRuns(triangles);
             emit(triangles);
             return;
         }
-        const std::size_t axis = longestAxis(triangles);
-        // Whole clusters on the left, so that only the last one is not full.
-        const std::size_t clusters = (triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
-        const std::size_t left = clusters / 2 * kClusterTriangles;
-        const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(left);
-        std::nth_element(triangles.begin(), middle, triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return centroids_[a][axis] != centroids_[b][axis] ? centroids_[a][axis] < centroids_[b][axis] : a < b;
-        });
+        const std::size_t left = halve(triangles, kClusterTriangles);
         split(triangles.first(left));
         split(triangles.subspan(left));
     }
 
   private:
+    /// The smaller centroids along the longest axis come to the left, in whole groups of `group`, so that only the last
+    /// group is not full. Returns how many they are.
+    std::size_t halve(std::span<std::uint32_t> triangles, std::size_t group) const {
+        const std::size_t axis = longestAxis(triangles);
+        const std::size_t groups = (triangles.size() + group - 1) / group;
+        const std::size_t left = groups / 2 * group;
+        const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(left);
+        std::nth_element(triangles.begin(), middle, triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return centroids_[a][axis] != centroids_[b][axis] ? centroids_[a][axis] < centroids_[b][axis] : a < b;
+        });
+        return left;
+    }
+
+    /// Ascending numbers within each run.
+    void sortRuns(std::span<std::uint32_t> triangles) const {
+        if (triangles.size() <= kRunTriangles) {
+            std::sort(triangles.begin(), triangles.end());
+            return;
+        }
+        const std::size_t left = halve(triangles, kRunTriangles);
+        sortRuns(triangles.first(left));
+        sortRuns(triangles.subspan(left));
+    }
+
     [[nodiscard]] std::size_t longestAxis(std::span<const std::uint32_t> triangles) const {
         const Bounds bounds = boundsOf(triangles, [&](std::uint32_t triangle) { return centroids_[triangle]; });
         std::size_t longest = 0;
@@ -76,7 +94,6 @@ class Splitter {
     }
 
     void emit(std::span<std::uint32_t> triangles) {
-        std::sort(triangles.begin(), triangles.end());
         std::vector<std::uint32_t> vertices;
         for (const std::uint32_t triangle : triangles) {
             const auto first = mesh_.indices.begin() + 3 * static_cast<std::ptrdiff_t>(triangle);

@@ -10,6 +10,8 @@
 namespace voxtact {
 
 inline constexpr std::uint32_t kClusterTriangles = 64;
+/// Each run of this many triangles of a cluster, from its first on, is near each other, too.
+inline constexpr std::uint32_t kRunTriangles = 16;
 
 /// Triangles that are near each other. Its triangles are consecutive in MeshClusters::triangles, its vertices in
 /// MeshClusters::vertices.
@@ -30,7 +32,8 @@ struct MeshClusters {
     std::vector<std::uint32_t> vertices;              ///< numbers in the mesh, cluster by cluster, each once a cluster
 };
 
-/// Splits at the median along the longest axis until at most kClusterTriangles are left. The same mesh gives the same
+/// Splits at the median along the longest axis until at most kClusterTriangles are left; all clusters but the last are
+/// full. The same mesh gives the same
 /// clusters. Expects a mesh that checkMesh() accepts.
 [[nodiscard]] MeshClusters makeClusters(const MeshView& mesh);
 

@@ -45,12 +45,14 @@ Result<void> checkItem(const BatchItem& item, std::size_t number) {
 
 } // namespace
 
-Result<std::uint32_t> checkBatch(const Batch& batch) {
+Result<std::uint32_t> checkBatch(const Batch& batch, Projection projection) {
     if (!(batch.threshold >= 0 && batch.threshold <= 1)) {
         return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
     }
-    if (Result<void> view = checkView(batch.view); !view.ok()) {
-        return view.error();
+    if (usesView(projection)) {
+        if (Result<void> view = checkView(batch.view); !view.ok()) {
+            return view.error();
+        }
     }
     std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {

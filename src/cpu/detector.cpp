@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "core/certified_constants.h"
 #include "core/guard.h"
 #include "core/pair_transform.h"
 #include "cpu/batch_check.h"
+#include "cpu/certified_run.h"
 #include "cpu/kernel.h"
+#include "cpu/occupancy.h"
 #include "cpu/occupancy_cache.h"
 #include "cpu/thread_pool.h"
 
@@ -23,7 +26,8 @@ struct DetectorImpl {
     DetectorDesc desc;
     ThreadPool pool;
     std::vector<ScratchPointer> scratches;
-    OccupancyCache occupancies;
+    OccupancyCache<Occupancy, 1> occupancies;
+    CertifiedOccupancies certified;
 };
 
 namespace {
@@ -151,7 +155,11 @@ Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
-        if (desc.projection != Projection::View || desc.outputs.any()) {
+        if (Result<void> resolution = checkResolution(desc.resolution); !resolution.ok()) {
+            return resolution.error();
+        }
+        if ((desc.projection != Projection::View && desc.projection != Projection::Conservative) ||
+            desc.outputs.any()) {
             return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
         }
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
@@ -162,14 +170,18 @@ Result<Detector> Detector::create(const DetectorDesc& desc) {
 Result<BatchAnswer> Detector::detect(const Batch& batch) {
     return guard([&]() -> Result<BatchAnswer> {
         const auto start = std::chrono::steady_clock::now();
-        const Result<std::uint32_t> pairs = checkBatch(batch);
+        const Result<std::uint32_t> pairs = checkBatch(batch, impl_->desc.projection);
         if (!pairs.ok()) {
             return pairs.error();
         }
-        Run run(batch, *impl_, *pairs);
-        run.count();
         BatchAnswer answer;
-        answer.pairs = run.answers();
+        if (impl_->desc.projection == Projection::Conservative) {
+            answer = runCertified(batch, *pairs, impl_->desc, impl_->pool, impl_->certified);
+        } else {
+            Run run(batch, *impl_, *pairs);
+            run.count();
+            answer.pairs = run.answers();
+        }
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

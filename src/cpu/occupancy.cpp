@@ -27,7 +27,9 @@ Occupancy::Occupancy(const VolumeImpl& volume, const TransferFunctionImpl& funct
     : count_(volume.bricks.count), constants_(itemConstants(1, volume.storedIntercept, function.domain, threshold)),
       table_(function.table), set_(table_, constants_) {
     classify(volume.bricks);
-    sum();
+    sums_ = BrickSums<std::uint64_t>(count_, [this](std::size_t brick) {
+        return (classes_[brick] & 1U) + (std::uint64_t{classes_[brick] & 2U} << 31U);
+    });
 }
 
 void Occupancy::classify(const BrickRanges& ranges) {
@@ -50,37 +52,9 @@ void Occupancy::classify(const BrickRanges& ranges) {
     }
 }
 
-void Occupancy::sum() {
-    const auto nx = static_cast<std::size_t>(count_[0]) + 1;
-    const auto ny = static_cast<std::size_t>(count_[1]) + 1;
-    const auto nz = static_cast<std::size_t>(count_[2]) + 1;
-    sums_.assign(nx * ny * nz, 0);
-    const std::uint8_t* brick = classes_.data();
-    for (std::size_t z = 1; z < nz; ++z) {
-        for (std::size_t y = 1; y < ny; ++y) {
-            std::uint64_t row = 0;
-            for (std::size_t x = 1; x < nx; ++x, ++brick) {
-                row += (*brick & 1U) + (std::uint64_t{*brick & 2U} << 31U);
-                const std::size_t at = (z * ny + y) * nx + x;
-                sums_[at] = row + sums_[at - nx] + sums_[at - nx * ny] - sums_[at - nx * ny - nx];
-            }
-        }
-    }
-}
-
 BrickClass Occupancy::within(const BrickBox& box) const noexcept {
-    const std::size_t nx = static_cast<std::size_t>(count_[0]) + 1;
-    const std::size_t ny = static_cast<std::size_t>(count_[1]) + 1;
-    const auto corner = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-        return sums_[(static_cast<std::size_t>(z) * ny + static_cast<std::size_t>(y)) * nx +
-                     static_cast<std::size_t>(x)];
-    };
-    const auto layer = [&](std::int32_t z) {
-        return corner(box.hi[0] + 1, box.hi[1] + 1, z) - corner(box.lo[0], box.hi[1] + 1, z) -
-               corner(box.hi[0] + 1, box.lo[1], z) + corner(box.lo[0], box.lo[1], z);
-    };
     // The halves do not disturb each other: both final numbers are between 0 and the number of bricks.
-    const std::uint64_t found = layer(box.hi[2] + 1) - layer(box.lo[2]);
+    const std::uint64_t found = sums_.within(box);
     if ((found & 0xffffffffU) == 0) {
         return kClearBrick;
     }
@@ -91,7 +65,7 @@ BrickClass Occupancy::within(const BrickBox& box) const noexcept {
 }
 
 bool Occupancy::nothingOpaque() const noexcept {
-    return (sums_.back() & 0xffffffffU) == 0;
+    return (sums_.all() & 0xffffffffU) == 0;
 }
 
 } // namespace voxtact::cpu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/brick_sums.h"
 #include "cpu/opaque_set.h"
 #include "cpu/scene_impl.h"
 
@@ -12,12 +13,6 @@ namespace voxtact::cpu {
 
 /// What a brick holds: bit 0, it may have an opaque sample; bit 1, all of its samples are opaque.
 enum BrickClass : std::uint8_t { kClearBrick = 0, kMixedBrick = 1, kOpaqueBrick = 3 };
-
-/// A box of bricks, both ends inclusive.
-struct BrickBox {
-    std::array<std::int32_t, 3> lo{};
-    std::array<std::int32_t, 3> hi{};
-};
 
 /// One volume under one transfer function and threshold.
 class Occupancy {
@@ -38,7 +33,6 @@ class Occupancy {
 
   private:
     void classify(const BrickRanges& ranges);
-    void sum();
 
     std::array<std::int32_t, 3> count_;
     shader::ItemConstants constants_;
@@ -46,8 +40,7 @@ class Occupancy {
     OpaqueSet set_;
     bool useIntervals_ = false;
     std::vector<std::uint8_t> classes_;
-    /// Summed-area table: bricks that may have an opaque sample in the low half, certain ones in the high half.
-    std::vector<std::uint64_t> sums_;
+    BrickSums<std::uint64_t> sums_; ///< bricks that may have an opaque sample in the low half, certain ones in the high
 };
 
 } // namespace voxtact::cpu

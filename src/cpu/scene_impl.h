@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/clusters.h"
+#include "cpu/cluster_tree.h"
 #include "cpu/stored_image.h"
 #include "voxtact/cpu.h"
 
@@ -33,6 +34,8 @@ struct TransferFunctionImpl {
 /// can be loaded whole.
 inline constexpr std::uint32_t kMeshAlignment = 16;
 
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
+
 /// Where a cluster's vertices and triangles are in MeshImpl's arrays, padding included.
 struct ClusterPlace {
     std::uint32_t firstVertex = 0;
@@ -48,8 +51,10 @@ struct MeshImpl {
     std::vector<ClusterPlace> clusters;
     std::vector<float> x, y, z;                          ///< vertices, cluster by cluster; the padding repeats the last
     std::vector<std::uint8_t> corner0, corner1, corner2; ///< of triangles: vertices of the cluster; padding: all 0
+    std::vector<std::uint32_t> numbers; ///< of triangles in the mesh; of the padding: kNoTriangle
     /// Centres and half sides of the clusters' boxes, padded to kMeshAlignment. Rounded outward.
     std::vector<float> centreX, centreY, centreZ, halfX, halfY, halfZ;
+    ClusterTree tree;
 };
 
 } // namespace voxtact::cpu

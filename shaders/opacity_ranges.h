@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// What opacities a range of entry coordinates has: one text for GLSL and C++. The entry coordinate of a scalar is
+// x = s * N - 0.5, s being the normalised scalar and N the entries of the transfer function's table: entry i is at
+// x = i. Everything errs to the side that is named: "may" is never false for what is, "certainly" never true for what
+// is not.
+#ifndef VOXTACT_OPACITY_RANGES_H
+#define VOXTACT_OPACITY_RANGES_H
+
+#include "exact.h"
+
+#ifdef __cplusplus
+#define EXACT inline
+#define PRECISE
+namespace voxtact::shader {
+#else
+#define EXACT
+#define PRECISE precise
+#endif
+
+/// More than the rounding of one interpolation between two opacities.
+#define OPACITY_ERROR 4.76837158203125e-7f
+
+/// The table's extremes (core/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that name.
+struct OpacityTable {
+    int size;
+    int levels;
+    float threshold;
+#ifdef __cplusplus
+    const float* extremes;
+#endif
+};
+
+EXACT float opacityExtreme(OpacityTable table, int index) {
+#ifdef __cplusplus
+    return table.extremes[index];
+#else
+    return extremes[index];
+#endif
+}
+
+/// The largest opacity of the entries from `first` to `last`, which are in the table.
+EXACT float opacityMaximum(OpacityTable table, int first, int last) {
+#ifdef __cplusplus
+    const int level = static_cast<int>(std::bit_width(static_cast<unsigned>(last - first + 1))) - 1;
+#else
+    const int level = findMSB(last - first + 1);
+#endif
+    const float head = opacityExtreme(table, level * table.size + first);
+    const float tail = opacityExtreme(table, level * table.size + last + 1 - (1 << level));
+    return head > tail ? head : tail;
+}
+
+/// The smallest.
+EXACT float opacityMinimum(OpacityTable table, int first, int last) {
+#ifdef __cplusplus
+    const int level = static_cast<int>(std::bit_width(static_cast<unsigned>(last - first + 1))) - 1;
+#else
+    const int level = findMSB(last - first + 1);
+#endif
+    const int plane = (table.levels + level) * table.size;
+    const float head = opacityExtreme(table, plane + first);
+    const float tail = opacityExtreme(table, plane + last + 1 - (1 << level));
+    return head < tail ? head : tail;
+}
+
+/// A coordinate as the table is looked up: clamped to its ends. `instead` for NaN.
+EXACT float opacityEntry(OpacityTable table, float x, float instead) {
+    const float last = float(table.size - 1);
+    return x >= 0.0f ? (x <= last ? x : last) : (x < 0.0f ? 0.0f : instead);
+}
+
+/// The opacity at a coordinate of [0, N-1], within OPACITY_ERROR.
+EXACT float opacityAt(OpacityTable table, float x) {
+    PRECISE float below = floor(x);
+    PRECISE float weight = x - below;
+    const int first = int(below);
+    const int second = first + 1 < table.size ? first + 1 : first;
+    return exactLerp(opacityExtreme(table, first), opacityExtreme(table, second), weight);
+}
+
+/// Whether some coordinate of [lo, hi] may be opaque. NaN may be anything.
+EXACT bool mayBeOpaque(OpacityTable table, float lo, float hi) {
+    const float from = opacityEntry(table, lo, 0.0f);
+    const float to = opacityEntry(table, hi, float(table.size - 1));
+    const int first = int(floor(from));
+    const int last = -int(floor(-to));
+    if (!(opacityMaximum(table, first, last) >= table.threshold)) {
+        return false;
+    }
+    const int inner = -int(floor(-from));
+    const int outer = int(floor(to));
+    if (inner <= outer && opacityMaximum(table, inner, outer) >= table.threshold) {
+        return true;
+    }
+    PRECISE float safe = table.threshold - OPACITY_ERROR;
+    return opacityAt(table, from) >= safe || opacityAt(table, to) >= safe;
+}
+
+/// Whether all coordinates of [lo, hi] are certainly opaque. False with NaN.
+EXACT bool certainlyAllOpaque(OpacityTable table, float lo, float hi) {
+    if (!(lo <= hi)) {
+        return false;
+    }
+    const float from = opacityEntry(table, lo, 0.0f);
+    const float to = opacityEntry(table, hi, 0.0f);
+    const int first = int(floor(from));
+    const int last = -int(floor(-to));
+    if (opacityMinimum(table, first, last) >= table.threshold) {
+        return true;
+    }
+    const int inner = -int(floor(-from));
+    const int outer = int(floor(to));
+    if (inner <= outer && !(opacityMinimum(table, inner, outer) >= table.threshold)) {
+        return false;
+    }
+    PRECISE float safe = table.threshold + OPACITY_ERROR;
+    return opacityAt(table, from) >= safe && opacityAt(table, to) >= safe;
+}
+
+/// Whether some coordinate of [lo, hi] is certainly opaque: false for an empty range, and with NaN.
+EXACT bool certainlySomeOpaque(OpacityTable table, float lo, float hi) {
+    if (!(lo <= hi)) {
+        return false;
+    }
+    const float from = opacityEntry(table, lo, 0.0f);
+    const float to = opacityEntry(table, hi, 0.0f);
+    const int inner = -int(floor(-from));
+    const int outer = int(floor(to));
+    if (inner <= outer && opacityMaximum(table, inner, outer) >= table.threshold) {
+        return true;
+    }
+    PRECISE float safe = table.threshold + OPACITY_ERROR;
+    return opacityAt(table, from) >= safe || opacityAt(table, to) >= safe;
+}
+
+#ifdef __cplusplus
+#undef EXACT
+#undef PRECISE
+} // namespace voxtact::shader
+#endif
+
+#endif

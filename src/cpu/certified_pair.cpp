@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/certified_pair.h"
+#include "core/clusters.h"
+#include "cpu/stored_voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using shader::CertifiedTriangle;
+using shader::CertifiedVertex;
+using shader::VoxelPoint;
+
+/// The most vertices that a cluster has, padding included.
+constexpr std::size_t kMostVertices = 3 * std::size_t{kClusterTriangles} + kMeshAlignment;
+
+/// Vertices of a cluster in voxel space.
+struct Vertices {
+    float x[kMostVertices];
+    float y[kMostVertices];
+    float z[kMostVertices];
+    float error[kMostVertices];
+
+    [[nodiscard]] CertifiedVertex at(std::size_t i) const { return {{x[i], y[i], z[i]}, error[i]}; }
+};
+
+template <class Kept> class Decider {
+  public:
+    Decider(const CertifiedJob& job, const Kept* voxels, const CertifiedSink& sink)
+        : job_(job), voxels_(voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()) {}
+
+    CertifiedTally run() {
+        job_.mesh.tree.descend(
+            job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); },
+            [this](std::uint32_t run) {
+                decideRun(run);
+                return !done();
+            });
+        return tally_;
+    }
+
+  private:
+    [[nodiscard]] bool done() const { return job_.stopAtFirst && tally_.certain > 0; }
+
+    /// Whether the triangles in a box of object space may pass through a brick that may have an opaque point.
+    [[nodiscard]] bool mayTouch(const RunBox& box) const {
+        std::array<float, 3> centre{};
+        std::array<float, 3> radius{};
+        std::array<float, 3> farthest{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            centre[axis] = box.lo[axis] / 2 + box.hi[axis] / 2;
+            radius[axis] = std::max(box.hi[axis] - centre[axis], centre[axis] - box.lo[axis]);
+            farthest[axis] = std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis]));
+        }
+        const CertifiedVertex middle = shader::certifiedVertex(job_.transform, centre[0], centre[1], centre[2]);
+        // The centre's rounding and the radius's, with what a triangle in the box adds to it at most.
+        const float error = 4 * shader::exactDot(job_.transform.error, farthest[0], farthest[1], farthest[2]);
+        std::array<float, 3> extent{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const shader::vec4& row = job_.transform.voxel_from_object[axis];
+            extent[axis] = std::abs(row[0]) * radius[0] + std::abs(row[1]) * radius[1] + std::abs(row[2]) * radius[2];
+        }
+        const float longest = std::max({extent[0], extent[1], extent[2]});
+        const float delta = error + (4 * longest + 4) * CERTIFIED_CLIP_ERROR;
+        if (!(delta <= CERTIFIED_FARTHEST)) {
+            return true;
+        }
+        CellBox cells{};
+        const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float at = voxelAlong(middle.point, static_cast<int>(axis));
+            shader::certifiedCells(at - extent[axis], at + extent[axis], delta, size[axis], cells.lo[axis],
+                                   cells.hi[axis]);
+        }
+        return !cells.empty() && job_.occupancy.mayBeOpaque(job_.volume, cells);
+    }
+
+    void decideRun(std::uint32_t run) {
+        const MeshImpl& mesh = job_.mesh;
+        const std::uint32_t cluster = run / ClusterTree::kRunsOfCluster;
+        const ClusterPlace& place = mesh.clusters[cluster];
+        if (cluster != transformed_) {
+            transform(place);
+            transformed_ = cluster;
+        }
+        const std::size_t first = place.firstTriangle + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+        for (std::size_t at = first; at < first + kRunTriangles && !done(); ++at) {
+            if (mesh.numbers[at] == kNoTriangle) {
+                return;
+            }
+            number_ = mesh.numbers[at];
+            decideTriangle(vertices_.at(mesh.corner0[at]), vertices_.at(mesh.corner1[at]),
+                           vertices_.at(mesh.corner2[at]));
+        }
+    }
+
+    void transform(const ClusterPlace& place) {
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = place.firstVertex;
+        for (std::size_t i = 0; i < place.vertexCount; ++i) {
+            const CertifiedVertex vertex =
+                shader::certifiedVertex(job_.transform, mesh.x[first + i], mesh.y[first + i], mesh.z[first + i]);
+            vertices_.x[i] = vertex.point.x;
+            vertices_.y[i] = vertex.point.y;
+            vertices_.z[i] = vertex.point.z;
+            vertices_.error[i] = vertex.error;
+        }
+    }
+
+    void decideTriangle(const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
+        const shader::CertifiedBounds bounds = shader::certifiedBounds(item_, a, b, c);
+        const CellBox cells{{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
+        if (cells.empty()) {
+            return;
+        }
+        const BrickBox bricks = cells.bricks();
+        const bool several = bricks.lo != bricks.hi;
+        if (several && !job_.occupancy.mayBeOpaque(bricks)) {
+            return;
+        }
+        const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
+        for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
+            for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {
+                for (std::int32_t x = bricks.lo[0]; x <= bricks.hi[0] && !done(); ++x) {
+                    if (job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber({x, y, z}))) {
+                        if (!bounds.usable) {
+                            tally_.undecided = true;
+                            return;
+                        }
+                        decideBrick(triangle, cells, {x, y, z}, several);
+                    }
+                }
+            }
+        }
+    }
+
+    void decideBrick(const CertifiedTriangle& triangle, const CellBox& cells, const std::array<std::int32_t, 3>& brick,
+                     bool several) {
+        constexpr float kRadius = kBrickSide / 2;
+        const CellBox within = cells.within(brick);
+        const BrickCells& known = job_.occupancy.cells(job_.volume, brick);
+        if (!known.any(within)) {
+            return;
+        }
+        if (several) {
+            const VoxelPoint centre{static_cast<float>((brick[0] << kBrickShift) - 1) + kRadius,
+                                    static_cast<float>((brick[1] << kBrickShift) - 1) + kRadius,
+                                    static_cast<float>((brick[2] << kBrickShift) - 1) + kRadius};
+            if (shader::certifiedPlaneMisses(triangle, centre, kRadius)) {
+                return;
+            }
+        }
+        decideCells(triangle, within, known, brick, cells.single());
+    }
+
+    /// `within` is numbered within the brick.
+    void decideCells(const CertifiedTriangle& triangle, const CellBox& within, const BrickCells& known,
+                     const std::array<std::int32_t, 3>& brick, bool single) {
+        const auto cell = [&](std::int32_t number, std::size_t axis) {
+            return (brick[axis] << kBrickShift) - 1 + number;
+        };
+        for (std::int32_t z = within.lo[2]; z <= within.hi[2]; ++z) {
+            for (std::int32_t y = within.lo[1]; y <= within.hi[1]; ++y) {
+                for (unsigned row = known.row(within, y, z); row != 0; row &= row - 1) {
+                    const std::int32_t x = std::countr_zero(row);
+                    const VoxelPoint centre{static_cast<float>(cell(x, 0)) + 0.5F,
+                                            static_cast<float>(cell(y, 1)) + 0.5F,
+                                            static_cast<float>(cell(z, 2)) + 0.5F};
+                    if (single || !shader::certifiedPlaneMisses(triangle, centre, 0.5F)) {
+                        decideCell(triangle, cell(x, 0), cell(y, 1), cell(z, 2), known);
+                        if (done()) {
+                            return;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
+                    const BrickCells& known) {
+        const auto& stride = job_.volume.image.stride;
+        const Kept* at = voxels_ + (x + 1) + (y + 1) * stride[1] + (z + 1) * stride[2];
+        const auto stored = [&](std::int64_t offset) { return storedValue(at[offset]); };
+        const shader::CertifiedCorners corners{stored(0),
+                                               stored(1),
+                                               stored(stride[1]),
+                                               stored(stride[1] + 1),
+                                               stored(stride[2]),
+                                               stored(stride[2] + 1),
+                                               stored(stride[2] + stride[1]),
+                                               stored(stride[2] + stride[1] + 1),
+                                               known.wideLo,
+                                               known.wideHi};
+        VoxelPoint witness{};
+        const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
+        const int verdict = shader::certifiedFragment(table_, item_, triangle, cell, x, y, z, witness);
+        if (verdict == CERTIFIED_CERTAIN) {
+            ++tally_.certain;
+            if (sink_) {
+                sink_(number_, witness);
+            }
+        } else if (verdict == CERTIFIED_UNDECIDED) {
+            tally_.undecided = true;
+        }
+    }
+
+    const CertifiedJob& job_;
+    const Kept* voxels_;
+    const CertifiedSink& sink_;
+    shader::CertifiedItem item_;
+    shader::OpacityTable table_;
+    CertifiedTally tally_;
+    std::uint32_t number_ = 0; ///< of the triangle at hand
+    Vertices vertices_;        ///< of cluster `transformed_`
+    std::uint32_t transformed_ = 0xffffffffU;
+};
+
+} // namespace
+
+CertifiedTally decide(const CertifiedJob& job, const CertifiedSink& sink) {
+    if (job.occupancy.nothingOpaque()) {
+        return {};
+    }
+    return job.volume.image.visit([&](const auto* voxels) { return Decider(job, voxels, sink).run(); });
+}
+
+} // namespace voxtact::cpu
