@@ -3,6 +3,7 @@
 
 #include "voxtact/context.h"
 #include "voxtact/data.h"
+#include "voxtact/edit.h"
 
 #include <optional>
 
@@ -40,24 +41,44 @@ struct WrappedVolume {
     double intercept = 0;
     /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp.
     std::optional<ValueRange> boundaryValues;
+    /// As in VolumeOptions. They are not filled before the first Volume::cmdUpdateBricks(), of the whole grid.
+    bool bricks = false;
+};
+
+/// What a volume is made with beside its voxels.
+struct VolumeOptions {
+    const char* name = nullptr; ///< appears on the Vulkan objects; may be null
+    /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent
+    /// need. 16 bytes a brick; refused where they are more than the device's maxStorageBufferRange.
+    bool bricks = false;
 };
 
 /// A 3D image on the device.
 class Volume {
   public:
     /// Refuses what checkVolume() refuses, and a volume beyond the device's limits (which limit, how large).
-    /// `name` appears on the Vulkan objects; may be null.
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const Context& context, const VolumeView& data,
-                                                           const char* name = nullptr);
+                                                           const VolumeOptions& options = {});
     [[nodiscard]] VOXTACT_API static Result<Volume> wrap(const Context& context, const WrappedVolume& wrapped);
     [[nodiscard]] VOXTACT_API static Result<Volume> upload(const Context& context, const QueueAccess& queue,
-                                                           const VolumeView& data, const char* name = nullptr);
+                                                           const VolumeView& data, const VolumeOptions& options = {});
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
     VOXTACT_API ~Volume();
 
+    /// With VolumeOptions::bricks also fills the bricks: the queue needs compute, and the bound state that is lost is
+    /// that of cmdUpdateBricks().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     VOXTACT_API void releaseStaging() noexcept;
+
+    /// Brings the bricks up to date after the caller changed voxels of a wrapped image; `changed` holds all of them.
+    /// Refuses a box that leaves the grid, and a volume without bricks.
+    ///   call it             outside a render pass, on a queue with compute
+    ///   expects             the image in the wrapped layout; earlier commands that wrote it are waited for
+    ///   leaves              the bricks readable by every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         lost: compute pipeline, descriptor sets of the compute bind point, push constants
+    VOXTACT_API Result<void> cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed);
 
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
     /// Smallest and largest voxel in the image's units; nothing for a wrapped volume.

@@ -19,7 +19,9 @@ struct VolumeImpl {
     Image image{};                                     ///< empty when wrapped
     Buffer staging{};
     VkImageView view = VK_NULL_HANDLE;
-    DescriptorSet descriptors{};
+    Buffer bricks{}; ///< vec4(lo, hi, wideLo, wideHi) of stored values for each brick, x fastest; empty without
+    std::array<std::int32_t, 3> brickCount{}; ///< zero without bricks
+    DescriptorSet descriptors{};              ///< VOXTACT_SET_VOLUME: the image, the bricks
 };
 
 struct TransferFunctionImpl {

@@ -2,6 +2,7 @@
 #include "core/boundary.h"
 #include "core/guard.h"
 #include "gpu/barriers.h"
+#include "gpu/bricks.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
@@ -118,18 +119,24 @@ VkExtent3D extentOf(const Grid& grid) {
 }
 
 Result<void> describe(VolumeImpl& volume, VkImageLayout layout, const char* name) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
-    Result<DescriptorSet> set =
-        makeDescriptorSet(volume.context, volume.context.setLayouts[VOXTACT_SET_VOLUME], {&size, 1}, name);
+    ContextImpl& context = volume.context;
+    const Result<VkBuffer> bricks = volume.bricks.buffer ? Result<VkBuffer>(volume.bricks.get()) : emptyBuffer(context);
+    if (!bricks.ok()) {
+        return bricks.error();
+    }
+    constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_VOLUME], kSizes, name);
     if (!set.ok()) {
         return set.error();
     }
     volume.descriptors = std::move(*set);
-    writeImage(volume.context, volume.descriptors.set, volume.view, layout);
+    writeImage(context, volume.descriptors.set, volume.view, layout);
+    writeBuffer(context, volume.descriptors.set, VOXTACT_BINDING_BRICKS, *bricks);
     return {};
 }
 
-Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const char* name) {
+Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const VolumeOptions& options, const char* name) {
     ContextImpl& context = volume.context;
     const TexelFormat texel = texelFormat(data.type);
     volume.format = texel.format;
@@ -155,6 +162,11 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const char* 
     if (Result<void> flushed = flush(context, volume.staging); !flushed.ok()) {
         return flushed;
     }
+    if (options.bricks) {
+        if (Result<void> made = makeBricks(volume, name); !made.ok()) {
+            return made;
+        }
+    }
     return describe(volume, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, name);
 }
 
@@ -174,6 +186,15 @@ Result<void> checkWrapped(const WrappedVolume& wrapped) {
     return checkGrid(wrapped.grid);
 }
 
+Result<void> checkBox(const VoxelBox& box, const Grid& grid) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (box.first[axis] > grid.size[axis] || box.size[axis] > grid.size[axis] - box.first[axis]) {
+            return Error{ErrorCode::InvalidArgument, 0, "the box leaves the volume's grid"};
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 Volume::Volume(std::unique_ptr<VolumeImpl> impl) noexcept : impl_(std::move(impl)) {}
@@ -181,7 +202,7 @@ Volume::Volume(Volume&&) noexcept = default;
 Volume& Volume::operator=(Volume&&) noexcept = default;
 Volume::~Volume() = default;
 
-Result<Volume> Volume::create(const Context& context, const VolumeView& data, const char* name) {
+Result<Volume> Volume::create(const Context& context, const VolumeView& data, const VolumeOptions& options) {
     return guard([&]() -> Result<Volume> {
         ContextImpl& c = context.impl();
         if (Result<void> alive = c.alive(); !alive.ok()) {
@@ -206,7 +227,8 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         impl->texture_from_world = *texture_from_world;
         impl->valueRange = *range;
         impl->boundary = boundaryRanges(data);
-        if (Result<void> filled = fillVolume(*impl, data, name == nullptr ? "volume" : name); !filled.ok()) {
+        const char* name = options.name == nullptr ? "volume" : options.name;
+        if (Result<void> filled = fillVolume(*impl, data, options, name); !filled.ok()) {
             return filled.error();
         }
         return Volume(std::move(impl));
@@ -232,6 +254,11 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
             impl->boundary = {*wrapped.boundaryValues};
         }
         impl->view = wrapped.view;
+        if (wrapped.bricks) {
+            if (Result<void> made = makeBricks(*impl, "wrapped volume"); !made.ok()) {
+                return made.error();
+            }
+        }
         if (Result<void> described = describe(*impl, wrapped.layout, "wrapped volume"); !described.ok()) {
             return described.error();
         }
@@ -240,8 +267,8 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
 }
 
 Result<Volume> Volume::upload(const Context& context, const QueueAccess& queue, const VolumeView& data,
-                              const char* name) {
-    return guard([&] { return uploaded(context.impl(), queue, create(context, data, name)); });
+                              const VolumeOptions& options) {
+    return guard([&] { return uploaded(context.impl(), queue, create(context, data, options)); });
 }
 
 Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
@@ -252,6 +279,24 @@ Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
         const Label label(impl_->context, commandBuffer, "voxtact volume upload");
         cmdFillImage(impl_->context, commandBuffer, impl_->staging.get(), impl_->image.image.get(),
                      extentOf(impl_->grid));
+        if (impl_->bricks.buffer) {
+            cmdBricks(*impl_, commandBuffer, wholeBox(impl_->grid));
+        }
+        return {};
+    });
+}
+
+Result<void> Volume::cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed) {
+    return guard([&]() -> Result<void> {
+        if (!impl_->bricks.buffer) {
+            return Error{ErrorCode::InvalidArgument, 0, "the volume has no bricks"};
+        }
+        if (Result<void> checked = checkBox(changed, impl_->grid); !checked.ok()) {
+            return checked;
+        }
+        if (std::ranges::find(changed.size, 0U) == changed.size.end()) {
+            cmdBricks(*impl_, commandBuffer, changed);
+        }
         return {};
     });
 }
