@@ -63,6 +63,8 @@ struct TracedFragment {
 #define VOXTACT_SET_MESH 3
 // Bindings of VOXTACT_SET_VOLUME, beside the image at 0.
 #define VOXTACT_BINDING_BRICKS 1
+// Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/table_extremes.h.
+#define VOXTACT_BINDING_EXTREMES 1
 // Bindings of VOXTACT_SET_PAIRS.
 #define VOXTACT_BINDING_TRANSFORMS 0
 #define VOXTACT_BINDING_RESULTS 1

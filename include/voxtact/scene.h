@@ -119,6 +119,19 @@ class TransferFunction {
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     VOXTACT_API void releaseStaging() noexcept;
 
+    /// Records a new table, of the same size, for the same or another domain. It takes effect in command-buffer order;
+    /// no device memory is allocated. Refuses what sampleTable() refuses, another size, and a wrapped table.
+    ///
+    /// domain() changes at once. What is recorded later counts with the new domain, what was recorded before with the
+    /// old one: record in the order in which the commands will be executed, and record anew whatever was recorded
+    /// before this and is to be submitted after it. Needs the caller's own lock, as cmdUpload() does.
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer
+    ///   expects             a table that was uploaded; earlier commands that read it are waited for
+    ///   leaves              the table readable by any shader stage, in every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         none is lost
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc);
+
     [[nodiscard]] VOXTACT_API ValueRange domain() const noexcept;
     [[nodiscard]] VOXTACT_API std::uint32_t tableSize() const noexcept; ///< 0 for a wrapped one without a host table
 

@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/barriers.h"
 
+#include <algorithm>
+
 namespace voxtact {
+
+void cmdUpdateBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer buffer, VkDeviceSize offset,
+                     std::span<const std::byte> data) {
+    constexpr std::size_t kMost = 65536; // of one vkCmdUpdateBuffer
+    for (std::size_t done = 0; done < data.size(); done += kMost) {
+        const std::span<const std::byte> part = data.subspan(done, std::min(kMost, data.size() - done));
+        context.vk.CmdUpdateBuffer(commandBuffer, buffer, offset + done, part.size(), part.data());
+    }
+}
 
 void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
                   VkExtent3D extent) {

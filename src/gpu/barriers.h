@@ -21,6 +21,11 @@ inline void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, V
     context.vk.CmdPipelineBarrier2(commandBuffer, &info);
 }
 
+/// Writes host data into a buffer, inline in the command buffer, in as many commands as it takes. `offset` and the
+/// number of bytes are multiples of 4.
+void cmdUpdateBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer buffer, VkDeviceSize offset,
+                     std::span<const std::byte> data);
+
 /// Copies a staging buffer over a whole image, whatever it held, and leaves it readable by every shader stage.
 void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
                   VkExtent3D extent);

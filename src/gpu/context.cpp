@@ -78,6 +78,10 @@ Result<void> makeSetLayouts(ContextImpl& context) {
         image,
         {VOXTACT_BINDING_BRICKS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
     };
+    const VkDescriptorSetLayoutBinding function[] = {
+        image,
+        {VOXTACT_BINDING_EXTREMES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+    };
     // Storage buffers in the vertex stage are written nowhere, so that no feature is needed for them.
     const VkDescriptorSetLayoutBinding pairs[] = {
         {VOXTACT_BINDING_TRANSFORMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
@@ -87,7 +91,7 @@ Result<void> makeSetLayouts(ContextImpl& context) {
         return made;
     }
     if (Result<void> made =
-            makeSetLayout(context, SetIndex::TransferFunction, {&image, 1}, "transfer function set layout");
+            makeSetLayout(context, SetIndex::TransferFunction, function, "transfer function set layout");
         !made.ok()) {
         return made;
     }

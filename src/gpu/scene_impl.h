@@ -27,10 +27,13 @@ struct VolumeImpl {
 struct TransferFunctionImpl {
     ContextImpl& context;
     ValueRange domain{};
-    std::vector<float> table{}; ///< the host's copy; empty for a wrapped one without
-    Image image{};
-    Buffer staging{};
-    DescriptorSet descriptors{};
+    std::vector<float> table{};  ///< the host's copy; empty for a wrapped one without
+    Image image{};               ///< empty when wrapped
+    Buffer extremes{};           ///< TableExtremes::values(), which begin with the table; empty without a host's table
+    Buffer staging{};            ///< the same
+    DescriptorSet descriptors{}; ///< VOXTACT_SET_TRANSFER_FUNCTION: the table, its extremes
+
+    [[nodiscard]] bool hasExtremes() const noexcept { return static_cast<bool>(extremes.buffer); }
 };
 
 struct MeshImpl {
