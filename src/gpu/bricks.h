@@ -15,6 +15,10 @@ namespace voxtact {
 /// descriptor sets of the compute bind point and the push constants.
 void cmdBricks(const VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& changed);
 
+[[nodiscard]] inline bool isEmpty(const VoxelBox& box) {
+    return box.size[0] == 0 || box.size[1] == 0 || box.size[2] == 0;
+}
+
 /// All voxels.
 [[nodiscard]] inline VoxelBox wholeBox(const Grid& grid) {
     return {{}, grid.size};

@@ -10,6 +10,7 @@ struct VolumeImpl {
     ContextImpl& context;
     Grid grid{};
     Mat4 texture_from_world{};
+    ScalarType type = ScalarType::UInt8; ///< of what was uploaded
     VkFormat format = VK_FORMAT_UNDEFINED;
     double valueSlope = 1; ///< value = valueSlope * texel + valueIntercept, texel being what the sampler returns
     double valueIntercept = 0;
@@ -18,6 +19,7 @@ struct VolumeImpl {
     std::optional<std::vector<ValueRange>> boundary{}; ///< boundaryRanges(); nothing when not known
     Image image{};                                     ///< empty when wrapped
     Buffer staging{};
+    Buffer editScratch{}; ///< the texels of one slice; empty when not editable
     VkImageView view = VK_NULL_HANDLE;
     Buffer bricks{}; ///< vec4(lo, hi, wideLo, wideHi) of stored values for each brick, x fastest; empty without
     std::array<std::int32_t, 3> brickCount{}; ///< zero without bricks
