@@ -110,7 +110,7 @@ class Volume {
                                      VkDeviceSize offset);
 
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
-    /// Smallest and largest voxel in the image's units; after edits, a range that holds both. Nothing for a wrapped
+    /// Smallest and largest voxel in the image's units; after edits, a range that holds all. Nothing for a wrapped
     /// volume, and after cmdCopy().
     [[nodiscard]] VOXTACT_API std::optional<ValueRange> valueRange() const noexcept;
     [[nodiscard]] VOXTACT_API VkImageView view() const noexcept;
