@@ -42,6 +42,13 @@ struct ComputeConstants {
     uint rangeTest;    // 0: clamp
 };
 
+/// Push constants of the brick pass.
+struct BrickConstants {
+    int firstX, firstY, firstZ; // the brick of work group (0, 0, 0)
+    int countX, countY;         // of all bricks along x and y
+    float storedUnit;           // as in ItemConstants
+};
+
 /// One surviving fragment of a pair.
 struct TracedFragment {
     uint triangle;
@@ -76,6 +83,10 @@ struct CertifiedItem {
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
 #define VOXTACT_SET_PAIRS 2
 #define VOXTACT_SET_MESH 3
+// Bindings of VOXTACT_SET_VOLUME, beside the image at 0.
+#define VOXTACT_BINDING_BRICKS 1
+// Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/table_extremes.h.
+#define VOXTACT_BINDING_EXTREMES 1
 // Bindings of VOXTACT_SET_PAIRS.
 #define VOXTACT_BINDING_TRANSFORMS 0
 #define VOXTACT_BINDING_RESULTS 1
@@ -90,6 +101,10 @@ struct CertifiedItem {
 #define VOXTACT_CONSTANT_EXACT_FILTER 2
 // Lanes of a work group of the compute path.
 #define VOXTACT_COMPUTE_GROUP 64
+// Those of the brick pass.
+#define VOXTACT_BRICK_GROUP 64
+// A brick is 2^VOXTACT_BRICK_SHIFT cells a side: src/core/bricks.h.
+#define VOXTACT_BRICK_SHIFT 3
 
 #ifdef __cplusplus
 static_assert(sizeof(PairTransform) == 112 && offsetof(PairTransform, texture_from_object) == 64);
@@ -97,6 +112,7 @@ static_assert(sizeof(ItemConstants) == 16);
 static_assert(sizeof(ComputeConstants) == 60);
 static_assert(sizeof(CertifiedPair) == 64);
 static_assert(sizeof(CertifiedItem) == 44);
+static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif
 

@@ -4,14 +4,7 @@
 #define VOXTACT_SURVIVES_GLSL
 
 #include "exact.h"
-
-/// The integer behind a UNORM or SNORM texel, or the float. `unit` is the integer behind 1.0; 0 for floats.
-float storedVoxel(ivec3 voxel, float unit) {
-    precise float texel = texelFetch(volume, voxel, 0).r;
-    precise float scaled = texel * unit;
-    precise float rounded = scaled + 0.5;
-    return unit > 0.0 ? floor(rounded) : texel;
-}
+#include "stored.glsl"
 
 /// Trilinear in fp32: along x, then y, then z. `coordinate` in [0,1]^3.
 float exactStored(vec3 coordinate, float unit) {

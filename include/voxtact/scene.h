@@ -3,6 +3,7 @@
 
 #include "voxtact/context.h"
 #include "voxtact/data.h"
+#include "voxtact/edit.h"
 
 #include <optional>
 
@@ -21,7 +22,7 @@
 ///   bound state         none is lost
 ///
 /// Lifetime: an object must outlive the command buffers that use it, and end before its Context.
-/// Thread-safety: const functions are safe from any thread; cmdUpload and releaseStaging need the caller's own lock.
+/// Thread-safety: const functions are safe from any thread; all others need the caller's own lock.
 namespace voxtact {
 
 struct VolumeImpl;
@@ -40,27 +41,77 @@ struct WrappedVolume {
     double intercept = 0;
     /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp.
     std::optional<ValueRange> boundaryValues;
+    /// As in VolumeOptions. They are not filled before the first Volume::cmdUpdateBricks(), of the whole grid.
+    bool bricks = false;
+};
+
+/// What a volume is made with beside its voxels.
+struct VolumeOptions {
+    const char* name = nullptr; ///< appears on the Vulkan objects; may be null
+    /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent
+    /// need. 16 bytes a brick; refused where they are more than the device's maxStorageBufferRange.
+    bool bricks = false;
+    /// Allows cmdSet(), cmdWrite() and cmdCopy(); keeps room for the texels of one slice on the device.
+    bool editable = false;
 };
 
 /// A 3D image on the device.
 class Volume {
   public:
     /// Refuses what checkVolume() refuses, and a volume beyond the device's limits (which limit, how large).
-    /// `name` appears on the Vulkan objects; may be null.
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const Context& context, const VolumeView& data,
-                                                           const char* name = nullptr);
+                                                           const VolumeOptions& options = {});
     [[nodiscard]] VOXTACT_API static Result<Volume> wrap(const Context& context, const WrappedVolume& wrapped);
     [[nodiscard]] VOXTACT_API static Result<Volume> upload(const Context& context, const QueueAccess& queue,
-                                                           const VolumeView& data, const char* name = nullptr);
+                                                           const VolumeView& data, const VolumeOptions& options = {});
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
     VOXTACT_API ~Volume();
 
+    /// With VolumeOptions::bricks also fills the bricks: the queue needs compute, and the bound state that is lost is
+    /// that of cmdUpdateBricks().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     VOXTACT_API void releaseStaging() noexcept;
 
+    /// Brings the bricks up to date after the caller changed voxels of a wrapped image; `changed` holds all of them.
+    /// Refuses a box that leaves the grid, and a volume without bricks.
+    ///   call it             outside a render pass, on a queue with compute
+    ///   expects             the image in the wrapped layout; earlier commands that wrote it are waited for
+    ///   leaves              the bricks readable by every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         lost: compute pipeline, descriptor sets of the compute bind point, push constants
+    VOXTACT_API Result<void> cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed);
+
+    /// Edits in place, of a volume with VolumeOptions::editable. Each takes effect in command-buffer order: what is
+    /// recorded before it counts the old voxels, what is recorded after it the new ones. The bricks follow. No device
+    /// memory is allocated.
+    ///
+    /// What the host knows of the volume changes at once, to the safe side: valueRange() also holds the new values, or
+    /// is nothing after cmdCopy(); and after an edit that reaches the image's faces Boundary::Auto takes the range test
+    /// from then on. Record in the order in which the commands will be executed, and record anew whatever was recorded
+    /// before such an edit and is to be submitted after it.
+    ///   call it             outside a render pass, on a queue with graphics or compute; with bricks: with compute
+    ///   expects             a volume that was uploaded; earlier commands that use it are waited for
+    ///   leaves              the volume readable by any shader stage, in every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         with bricks lost as by cmdUpdateBricks(), otherwise none
+    ///
+    /// Gives all voxels of a region one value, in the image's units; what of a Ball is beyond the faces is left out.
+    /// Refuses a value that the volume's type cannot hold exactly, and what voxelBounds() refuses.
+    VOXTACT_API Result<void> cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value);
+    /// Writes the voxels of a box: scalars of the volume's type, as in VolumeView. They are kept in the command buffer
+    /// itself, which is for small edits; a large one is a cmdCopy(). Refuses what checkVolume() refuses.
+    VOXTACT_API Result<void> cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box,
+                                      std::span<const std::byte> voxels);
+    /// Copies the voxels of a box from a buffer of the caller's with usage TRANSFER_SRC, in the order of VolumeView, as
+    /// format() has them: int16 with its sign bit flipped, as uint16. Nothing looks at the values: floats must be
+    /// finite. `offset` is in bytes, a multiple of 4. Earlier commands that wrote the buffer are waited for.
+    VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box, VkBuffer source,
+                                     VkDeviceSize offset);
+
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
-    /// Smallest and largest voxel in the image's units; nothing for a wrapped volume.
+    /// Smallest and largest voxel in the image's units; after edits, a range that holds all. Nothing for a wrapped
+    /// volume, and after cmdCopy().
     [[nodiscard]] VOXTACT_API std::optional<ValueRange> valueRange() const noexcept;
     [[nodiscard]] VOXTACT_API VkImageView view() const noexcept;
     [[nodiscard]] VOXTACT_API VkFormat format() const noexcept;
@@ -97,6 +148,19 @@ class TransferFunction {
 
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     VOXTACT_API void releaseStaging() noexcept;
+
+    /// Records a new table, of the same size, for the same or another domain. It takes effect in command-buffer order;
+    /// no device memory is allocated. Refuses what sampleTable() refuses, another size, and a wrapped table.
+    ///
+    /// domain() changes at once. What is recorded later counts with the new domain, what was recorded before with the
+    /// old one: record in the order in which the commands will be executed, and record anew whatever was recorded
+    /// before this and is to be submitted after it.
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer
+    ///   expects             a table that was uploaded; earlier commands that read it are waited for
+    ///   leaves              the table readable by any shader stage, in every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         none is lost
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc);
 
     [[nodiscard]] VOXTACT_API ValueRange domain() const noexcept;
     [[nodiscard]] VOXTACT_API std::uint32_t tableSize() const noexcept; ///< 0 for a wrapped one without a host table

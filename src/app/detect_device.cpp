@@ -41,7 +41,7 @@ Result<void> detectVolume(const DetectTools& tools, std::uint32_t index, DetectR
         return data.error();
     }
     const QueueAccess queue = tools.session.device.queueAccess();
-    const Result<Volume> volume = Volume::upload(tools.session.context, queue, data->view(), source.c_str());
+    const Result<Volume> volume = Volume::upload(tools.session.context, queue, data->view(), {.name = source.c_str()});
     if (!volume.ok()) {
         return volume.error();
     }

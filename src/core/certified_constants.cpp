@@ -88,7 +88,7 @@ shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double inter
     item.threshold = static_cast<float>(threshold);
     item.resolution = static_cast<float>(resolution);
     item.tableSize = static_cast<int>(tableSize);
-    item.tableLevels = static_cast<int>(tableLevels(tableSize));
+    item.tableLevels = static_cast<int>(TableExtremes::levelsOf(tableSize));
     item.sizeX = static_cast<int>(grid.size[0]);
     item.sizeY = static_cast<int>(grid.size[1]);
     item.sizeZ = static_cast<int>(grid.size[2]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified_occupancy.h"
 #include "core/certified_constants.h"
-#include "core/table_extremes.h"
 
 namespace voxtact::cpu {
 
@@ -14,7 +13,7 @@ CertifiedOccupancy::CertifiedOccupancy(const VolumeImpl& volume, const TransferF
                                        double resolution)
     : item_(certifiedItem(volume.grid, 1, volume.storedIntercept, function.domain, function.table.size(), threshold,
                           resolution)),
-      extremes_(tableExtremes(function.table)), count_(volume.bricks.count) {
+      extremes_(function.table), count_(volume.bricks.count) {
     classify(volume);
     sums_ = BrickSums<std::uint32_t>(count_, [this](std::size_t brick) { return std::uint32_t{mixed_[brick]}; });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/table_extremes.h"
 #include "cpu/brick_sums.h"
 #include "cpu/certified_bricks.h"
 
@@ -20,7 +21,7 @@ class CertifiedOccupancy {
     [[nodiscard]] const shader::CertifiedItem& item() const noexcept { return item_; }
     /// Valid while this object lives.
     [[nodiscard]] shader::OpacityTable table() const noexcept {
-        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.data()};
+        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data()};
     }
     [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {
         return (static_cast<std::size_t>(brick[2]) * static_cast<std::size_t>(count_[1]) +
@@ -44,7 +45,7 @@ class CertifiedOccupancy {
     void classify(const VolumeImpl& volume);
 
     shader::CertifiedItem item_;
-    std::vector<float> extremes_;
+    TableExtremes extremes_;
     std::array<std::int32_t, 3> count_;
     std::vector<std::uint8_t> mixed_;
     CertifiedBricks bricks_;

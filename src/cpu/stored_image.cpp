@@ -113,7 +113,7 @@ StoredImage::StoredImage(const VolumeView& volume) : type(storedAs(volume.type))
 
 BrickRanges::BrickRanges(const StoredImage& image) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        count[axis] = (image.size[axis] >> kBrickShift) + 1;
+        count[axis] = brickCount(image.size[axis]);
     }
     image.visit([&](const auto* voxels) { rangesOf(image, voxels, *this); });
 }

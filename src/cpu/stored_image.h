@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/bricks.h"
 #include "voxtact/data.h"
 
 #include <array>
@@ -11,8 +12,6 @@ namespace voxtact::cpu {
 
 /// Voxels of a side, beyond which a float cannot tell one from the next.
 inline constexpr std::uint32_t kMaxSide = 1U << 23U;
-/// A brick is 2^kBrickShift cells a side.
-inline constexpr int kBrickShift = 3;
 
 /// How the voxels of a StoredImage are kept.
 enum class Stored { UInt8, UInt16, Float };

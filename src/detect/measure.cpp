@@ -51,7 +51,7 @@ struct DeviceScene {
 };
 
 Result<DeviceScene> uploadScene(const Context& context, const QueueAccess& queue, const MeasureScene& scene) {
-    Result<Volume> volume = Volume::upload(context, queue, scene.volume.view(), "measured volume");
+    Result<Volume> volume = Volume::upload(context, queue, scene.volume.view(), {.name = "measured volume"});
     if (!volume.ok()) {
         return volume.error();
     }

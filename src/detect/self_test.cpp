@@ -36,7 +36,7 @@ Result<Volume> makeVolume(const Context& context, const QueueAccess& queue, cons
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         voxels[i] = i % kVoxels < scene.opaqueSlabs ? std::byte{255} : std::byte{0};
     }
-    return Volume::upload(context, queue, {unitGrid(), ScalarType::UInt8, voxels}, "self-test volume");
+    return Volume::upload(context, queue, {unitGrid(), ScalarType::UInt8, voxels}, {.name = "self-test volume"});
 }
 
 Result<Mesh> makeSquare(const Context& context, const QueueAccess& queue) {

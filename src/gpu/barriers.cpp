@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/barriers.h"
 
+#include <algorithm>
+
 namespace voxtact {
 
-void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
-                  VkExtent3D extent) {
+void cmdUpdateBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer buffer, VkDeviceSize offset,
+                     std::span<const std::byte> data) {
+    constexpr std::size_t kMost = 65536; // of one vkCmdUpdateBuffer
+    for (std::size_t done = 0; done < data.size(); done += kMost) {
+        const std::span<const std::byte> part = data.subspan(done, std::min(kMost, data.size() - done));
+        context.vk.CmdUpdateBuffer(commandBuffer, buffer, offset + done, part.size(), part.data());
+    }
+}
+
+void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage image, const ImageUse& from,
+             const ImageUse& to) {
     VkImageMemoryBarrier2 transition{};
     transition.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-    // Earlier readers must be done before the contents go.
-    transition.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    transition.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-    transition.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    transition.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    transition.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    transition.srcStageMask = from.stages;
+    transition.srcAccessMask = from.access;
+    transition.dstStageMask = to.stages;
+    transition.dstAccessMask = to.access;
+    transition.oldLayout = from.layout;
+    transition.newLayout = to.layout;
     transition.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     transition.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     transition.image = image;
@@ -22,19 +33,20 @@ void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkB
     info.imageMemoryBarrierCount = 1;
     info.pImageMemoryBarriers = &transition;
     context.vk.CmdPipelineBarrier2(commandBuffer, &info);
+}
 
+void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
+                  VkExtent3D extent) {
+    constexpr ImageUse kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+    // Earlier readers must be done before the contents go.
+    barrier(context, commandBuffer, image, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
+            kCopied);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = extent;
     context.vk.CmdCopyBufferToImage(commandBuffer, staging, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-
-    transition.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-    transition.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    transition.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    transition.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    transition.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    transition.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    context.vk.CmdPipelineBarrier2(commandBuffer, &info);
+    barrier(context, commandBuffer, image, kCopied, kReadByShaders);
 }
 
 } // namespace voxtact

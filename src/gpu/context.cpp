@@ -74,16 +74,24 @@ Result<void> makeSetLayouts(ContextImpl& context) {
     constexpr VkShaderStageFlags kStages =
         VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
     const VkDescriptorSetLayoutBinding image{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, kStages, nullptr};
+    const VkDescriptorSetLayoutBinding volume[] = {
+        image,
+        {VOXTACT_BINDING_BRICKS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+    };
+    const VkDescriptorSetLayoutBinding function[] = {
+        image,
+        {VOXTACT_BINDING_EXTREMES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+    };
     // Storage buffers in the vertex stage are written nowhere, so that no feature is needed for them.
     const VkDescriptorSetLayoutBinding pairs[] = {
         {VOXTACT_BINDING_TRANSFORMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
         {VOXTACT_BINDING_RESULTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
     };
-    if (Result<void> made = makeSetLayout(context, SetIndex::Volume, {&image, 1}, "volume set layout"); !made.ok()) {
+    if (Result<void> made = makeSetLayout(context, SetIndex::Volume, volume, "volume set layout"); !made.ok()) {
         return made;
     }
     if (Result<void> made =
-            makeSetLayout(context, SetIndex::TransferFunction, {&image, 1}, "transfer function set layout");
+            makeSetLayout(context, SetIndex::TransferFunction, function, "transfer function set layout");
         !made.ok()) {
         return made;
     }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <mutex>
 
 namespace voxtact {
 
@@ -37,6 +38,10 @@ struct ContextImpl {
     std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex
     VkPipelineLayout rasterLayout = VK_NULL_HANDLE;    ///< sets 0 to 2, and ItemConstants for the fragment stage
     VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets, and ComputeConstants
+
+    std::mutex onDemandMutex; ///< of the two below, which are made for the first object that needs them
+    Owned<VkPipeline> brickPipeline;
+    Buffer nothing; ///< emptyBuffer()
 
     std::atomic<bool> lost{false};
 

@@ -142,6 +142,20 @@ Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsage
     return out;
 }
 
+Result<VkBuffer> emptyBuffer(ContextImpl& context) {
+    constexpr VkDeviceSize kBytes = 16;
+    const std::lock_guard lock(context.onDemandMutex);
+    if (!context.nothing.buffer) {
+        Result<Buffer> made =
+            makeBuffer(context, kBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::Device, "empty binding");
+        if (!made.ok()) {
+            return made.error();
+        }
+        context.nothing = std::move(*made);
+    }
+    return context.nothing.get();
+}
+
 Result<void> flush(ContextImpl& context, const Buffer& buffer) {
     return wholeRange(context, buffer, true);
 }

@@ -73,6 +73,9 @@ struct Buffer {
 /// Makes the device's writes visible to the host.
 [[nodiscard]] Result<void> invalidate(ContextImpl& context, const Buffer& buffer);
 
+/// A small storage buffer, shared by the bindings of one context that have nothing to show: a set has no holes.
+[[nodiscard]] Result<VkBuffer> emptyBuffer(ContextImpl& context);
+
 struct Image {
     Owned<VkDeviceMemory> memory;
     Owned<VkImage> image;

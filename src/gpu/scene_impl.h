@@ -10,6 +10,7 @@ struct VolumeImpl {
     ContextImpl& context;
     Grid grid{};
     Mat4 texture_from_world{};
+    ScalarType type = ScalarType::UInt8; ///< of what was uploaded
     VkFormat format = VK_FORMAT_UNDEFINED;
     double valueSlope = 1; ///< value = valueSlope * texel + valueIntercept, texel being what the sampler returns
     double valueIntercept = 0;
@@ -18,17 +19,23 @@ struct VolumeImpl {
     std::optional<std::vector<ValueRange>> boundary{}; ///< boundaryRanges(); nothing when not known
     Image image{};                                     ///< empty when wrapped
     Buffer staging{};
+    Buffer editScratch{}; ///< the texels of one slice; empty when not editable
     VkImageView view = VK_NULL_HANDLE;
-    DescriptorSet descriptors{};
+    Buffer bricks{}; ///< vec4(lo, hi, wideLo, wideHi) of stored values for each brick, x fastest; empty without
+    std::array<std::int32_t, 3> brickCount{}; ///< zero without bricks
+    DescriptorSet descriptors{};              ///< VOXTACT_SET_VOLUME: the image, the bricks
 };
 
 struct TransferFunctionImpl {
     ContextImpl& context;
     ValueRange domain{};
-    std::vector<float> table{}; ///< the host's copy; empty for a wrapped one without
-    Image image{};
-    Buffer staging{};
-    DescriptorSet descriptors{};
+    std::vector<float> table{};  ///< the host's copy; empty for a wrapped one without
+    Image image{};               ///< empty when wrapped
+    Buffer extremes{};           ///< TableExtremes::values(), which begin with the table; empty without a host's table
+    Buffer staging{};            ///< the same
+    DescriptorSet descriptors{}; ///< VOXTACT_SET_TRANSFER_FUNCTION: the table, its extremes
+
+    [[nodiscard]] bool hasExtremes() const noexcept { return static_cast<bool>(extremes.buffer); }
 };
 
 struct MeshImpl {

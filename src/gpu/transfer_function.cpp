@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/table_extremes.h"
 #include "core/text.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -33,15 +34,46 @@ Result<void> checkDevice(const ContextImpl& context, std::uint32_t tableSize) {
 }
 
 Result<void> describe(TransferFunctionImpl& function, VkImageView view, VkImageLayout layout, const char* name) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
-    Result<DescriptorSet> set = makeDescriptorSet(
-        function.context, function.context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], {&size, 1}, name);
+    ContextImpl& context = function.context;
+    const Result<VkBuffer> extremes =
+        function.hasExtremes() ? Result<VkBuffer>(function.extremes.get()) : emptyBuffer(context);
+    if (!extremes.ok()) {
+        return extremes.error();
+    }
+    constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
+    Result<DescriptorSet> set =
+        makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], kSizes, name);
     if (!set.ok()) {
         return set.error();
     }
     function.descriptors = std::move(*set);
-    writeImage(function.context, function.descriptors.set, view, layout);
+    writeImage(context, function.descriptors.set, view, layout);
+    writeBuffer(context, function.descriptors.set, VOXTACT_BINDING_EXTREMES, *extremes);
     return {};
+}
+
+/// Makes a buffer and, where the host can write it, fills it with the table's extremes.
+Result<void> makeExtremes(TransferFunctionImpl& function, const TableExtremes& extremes, VkBufferUsageFlags usage,
+                          MemoryUse use, const char* name, Buffer& out) {
+    ContextImpl& context = function.context;
+    const VkDeviceSize bytes = extremes.values().size_bytes();
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the transfer function's table of " + std::to_string(function.table.size()) + " entries needs " +
+                         std::to_string(bytes) + " bytes of a buffer, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    Result<Buffer> buffer = makeBuffer(context, bytes, usage, use, name);
+    if (!buffer.ok()) {
+        return buffer.error();
+    }
+    out = std::move(*buffer);
+    if (out.mapped == nullptr) {
+        return {};
+    }
+    std::memcpy(out.mapped, extremes.values().data(), bytes);
+    return flush(context, out);
 }
 
 Result<void> fillTable(TransferFunctionImpl& function, const char* name) {
@@ -56,18 +88,46 @@ Result<void> fillTable(TransferFunctionImpl& function, const char* name) {
         return image.error();
     }
     function.image = std::move(*image);
-    const VkDeviceSize bytes = function.table.size() * sizeof(float);
-    Result<Buffer> staging =
-        makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "transfer function staging");
-    if (!staging.ok()) {
-        return staging.error();
+    const TableExtremes extremes(function.table);
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    if (Result<void> made = makeExtremes(function, extremes, kUsage, MemoryUse::Device, "transfer function extremes",
+                                         function.extremes);
+        !made.ok()) {
+        return made;
     }
-    function.staging = std::move(*staging);
-    std::memcpy(function.staging.mapped, function.table.data(), bytes);
-    if (Result<void> flushed = flush(context, function.staging); !flushed.ok()) {
-        return flushed;
+    if (Result<void> made = makeExtremes(function, extremes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
+                                         "transfer function staging", function.staging);
+        !made.ok()) {
+        return made;
     }
     return describe(function, function.image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, name);
+}
+
+/// Until cmdFilled(), the extremes may be written by transfers.
+void cmdBeginFilling(const TransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
+    barrier(function.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+}
+
+/// Takes the table from the extremes' first level, and leaves both readable.
+void cmdFilled(const TransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
+    barrier(function.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT);
+    cmdFillImage(function.context, commandBuffer, function.extremes.get(), function.image.image.get(),
+                 {static_cast<std::uint32_t>(function.table.size()), 1, 1});
+}
+
+Result<void> checkUpdate(const TransferFunctionImpl& function, const TransferFunctionDesc& desc) {
+    if (!function.image.image) {
+        return Error{ErrorCode::InvalidArgument, 0, "the transfer function is wrapped: its table is the caller's"};
+    }
+    if (desc.tableSize != function.table.size()) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "the new table has " + std::to_string(desc.tableSize) +
+                         " entries, that of the transfer function " + std::to_string(function.table.size())};
+    }
+    return {};
 }
 
 } // namespace
@@ -115,6 +175,13 @@ Result<TransferFunction> TransferFunction::wrap(const Context& context, const Wr
             TransferFunctionImpl{.context = context.impl(),
                                  .domain = domain,
                                  .table = std::vector<float>(wrapped.table.begin(), wrapped.table.end())});
+        if (!impl->table.empty()) {
+            if (Result<void> made = makeExtremes(*impl, TableExtremes(impl->table), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                                 MemoryUse::Upload, "wrapped transfer function", impl->extremes);
+                !made.ok()) {
+                return made.error();
+            }
+        }
         if (Result<void> described = describe(*impl, wrapped.view, wrapped.layout, "wrapped transfer function");
             !described.ok()) {
             return described.error();
@@ -134,8 +201,30 @@ Result<void> TransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
             return notUploadable("transfer function");
         }
         const Label label(impl_->context, commandBuffer, "voxtact transfer function upload");
-        cmdFillImage(impl_->context, commandBuffer, impl_->staging.get(), impl_->image.image.get(),
-                     {static_cast<std::uint32_t>(impl_->table.size()), 1, 1});
+        cmdBeginFilling(*impl_, commandBuffer);
+        const VkBufferCopy whole{0, 0, impl_->extremes.size};
+        impl_->context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->extremes.get(), 1, &whole);
+        cmdFilled(*impl_, commandBuffer);
+        return {};
+    });
+}
+
+Result<void> TransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc) {
+    return guard([&]() -> Result<void> {
+        if (Result<void> checked = checkUpdate(*impl_, desc); !checked.ok()) {
+            return checked;
+        }
+        Result<std::vector<float>> table = sampleTable(desc);
+        if (!table.ok()) {
+            return table.error();
+        }
+        const TableExtremes extremes(*table);
+        const Label label(impl_->context, commandBuffer, "voxtact transfer function update");
+        cmdBeginFilling(*impl_, commandBuffer);
+        cmdUpdateBuffer(impl_->context, commandBuffer, impl_->extremes.get(), 0, std::as_bytes(extremes.values()));
+        cmdFilled(*impl_, commandBuffer);
+        impl_->domain = desc.domain;
+        impl_->table = std::move(*table);
         return {};
     });
 }

@@ -2,9 +2,11 @@
 #include "core/boundary.h"
 #include "core/guard.h"
 #include "gpu/barriers.h"
+#include "gpu/bricks.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
+#include "gpu/texels.h"
 #include "shared.h"
 
 #include <algorithm>
@@ -22,16 +24,12 @@ struct TexelFormat {
     double intercept;
 };
 
-/// int16 is kept with its sign bit flipped, as uint16: SNORM would make -32768 and -32767 the same.
-constexpr double kInt16Bias = 32768;
-constexpr std::uint16_t kInt16SignBit = 0x8000;
-
 TexelFormat texelFormat(ScalarType type) {
     switch (type) {
     case ScalarType::UInt8:
         return {VK_FORMAT_R8_UNORM, 255, 0};
     case ScalarType::Int16:
-        return {VK_FORMAT_R16_UNORM, 65535, -kInt16Bias};
+        return {VK_FORMAT_R16_UNORM, 65535, -double{kInt16SignBit}};
     case ScalarType::UInt16:
         return {VK_FORMAT_R16_UNORM, 65535, 0};
     case ScalarType::Float32:
@@ -73,7 +71,7 @@ Result<void> checkFormat(const ContextImpl& context, VkFormat format, const char
     return {};
 }
 
-Result<void> checkLimits(ContextImpl& context, const VolumeView& data, VkFormat format) {
+Result<void> checkLimits(ContextImpl& context, const VolumeView& data, VkFormat format, VkImageUsageFlags usage) {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (data.grid.size[axis] > context.limits.maxImageDimension3D) {
@@ -85,7 +83,7 @@ Result<void> checkLimits(ContextImpl& context, const VolumeView& data, VkFormat 
     }
     VkImageFormatProperties properties{};
     const VkResult result = context.vk.GetPhysicalDeviceImageFormatProperties(
-        context.physicalDevice, format, VK_IMAGE_TYPE_3D, VK_IMAGE_TILING_OPTIMAL, ImageDesc{}.usage, 0, &properties);
+        context.physicalDevice, format, VK_IMAGE_TYPE_3D, VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
     if (result != VK_SUCCESS) {
         return context.failure(result, "asking for the limits of a 3D image");
     }
@@ -100,36 +98,48 @@ Result<void> checkLimits(ContextImpl& context, const VolumeView& data, VkFormat 
     return {};
 }
 
-void fillStaging(const VolumeView& data, void* to) {
-    if (data.type != ScalarType::Int16) {
-        std::memcpy(to, data.voxels.data(), data.voxels.size());
-        return;
-    }
-    const auto* from = reinterpret_cast<const std::uint16_t*>(data.voxels.data());
-    auto* out = static_cast<std::uint16_t*>(to);
-    const std::size_t count = data.voxels.size() / sizeof(std::uint16_t);
-    for (std::size_t i = 0; i < count; ++i) {
-        out[i] = static_cast<std::uint16_t>(from[i] ^ kInt16SignBit);
-    }
-}
-
 VkExtent3D extentOf(const Grid& grid) {
     return {grid.size[0], grid.size[1], grid.size[2]};
 }
 
+VkImageUsageFlags usageOf(const VolumeOptions& options) {
+    const VkImageUsageFlags usage = ImageDesc{}.usage;
+    return options.editable ? usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT : usage;
+}
+
+/// Room for the texels of one slice, of which edits are made.
+Result<void> makeEditScratch(VolumeImpl& volume) {
+    constexpr VkDeviceSize kWord = 4;
+    const VkDeviceSize slice = VkDeviceSize{volume.grid.size[0]} * volume.grid.size[1] * bytesPerVoxel(volume.type);
+    Result<Buffer> scratch = makeBuffer(volume.context, (slice + kWord - 1) / kWord * kWord,
+                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                        MemoryUse::Device, "volume edits");
+    if (!scratch.ok()) {
+        return scratch.error();
+    }
+    volume.editScratch = std::move(*scratch);
+    return {};
+}
+
 Result<void> describe(VolumeImpl& volume, VkImageLayout layout, const char* name) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
-    Result<DescriptorSet> set =
-        makeDescriptorSet(volume.context, volume.context.setLayouts[VOXTACT_SET_VOLUME], {&size, 1}, name);
+    ContextImpl& context = volume.context;
+    const Result<VkBuffer> bricks = volume.bricks.buffer ? Result<VkBuffer>(volume.bricks.get()) : emptyBuffer(context);
+    if (!bricks.ok()) {
+        return bricks.error();
+    }
+    constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_VOLUME], kSizes, name);
     if (!set.ok()) {
         return set.error();
     }
     volume.descriptors = std::move(*set);
-    writeImage(volume.context, volume.descriptors.set, volume.view, layout);
+    writeImage(context, volume.descriptors.set, volume.view, layout);
+    writeBuffer(context, volume.descriptors.set, VOXTACT_BINDING_BRICKS, *bricks);
     return {};
 }
 
-Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const char* name) {
+Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const VolumeOptions& options, const char* name) {
     ContextImpl& context = volume.context;
     const TexelFormat texel = texelFormat(data.type);
     volume.format = texel.format;
@@ -139,6 +149,7 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const char* 
     ImageDesc desc;
     desc.format = texel.format;
     desc.extent = extentOf(data.grid);
+    desc.usage = usageOf(options);
     Result<Image> image = makeImage(context, desc, "the volume", name);
     if (!image.ok()) {
         return image.error();
@@ -151,9 +162,19 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const char* 
         return staging.error();
     }
     volume.staging = std::move(*staging);
-    fillStaging(data, volume.staging.mapped);
+    fillTexels(data.type, data.voxels, static_cast<std::byte*>(volume.staging.mapped));
     if (Result<void> flushed = flush(context, volume.staging); !flushed.ok()) {
         return flushed;
+    }
+    if (options.editable) {
+        if (Result<void> made = makeEditScratch(volume); !made.ok()) {
+            return made;
+        }
+    }
+    if (options.bricks) {
+        if (Result<void> made = makeBricks(volume, name); !made.ok()) {
+            return made;
+        }
     }
     return describe(volume, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, name);
 }
@@ -181,7 +202,7 @@ Volume::Volume(Volume&&) noexcept = default;
 Volume& Volume::operator=(Volume&&) noexcept = default;
 Volume::~Volume() = default;
 
-Result<Volume> Volume::create(const Context& context, const VolumeView& data, const char* name) {
+Result<Volume> Volume::create(const Context& context, const VolumeView& data, const VolumeOptions& options) {
     return guard([&]() -> Result<Volume> {
         ContextImpl& c = context.impl();
         if (Result<void> alive = c.alive(); !alive.ok()) {
@@ -195,7 +216,7 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         if (Result<void> checked = checkFormat(c, format, toString(data.type)); !checked.ok()) {
             return checked.error();
         }
-        if (Result<void> limits = checkLimits(c, data, format); !limits.ok()) {
+        if (Result<void> limits = checkLimits(c, data, format, usageOf(options)); !limits.ok()) {
             return limits.error();
         }
         const Result<ValueRange> range = checkVolume(data);
@@ -204,9 +225,11 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         }
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = data.grid});
         impl->texture_from_world = *texture_from_world;
+        impl->type = data.type;
         impl->valueRange = *range;
         impl->boundary = boundaryRanges(data);
-        if (Result<void> filled = fillVolume(*impl, data, name == nullptr ? "volume" : name); !filled.ok()) {
+        const char* name = options.name == nullptr ? "volume" : options.name;
+        if (Result<void> filled = fillVolume(*impl, data, options, name); !filled.ok()) {
             return filled.error();
         }
         return Volume(std::move(impl));
@@ -232,6 +255,11 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
             impl->boundary = {*wrapped.boundaryValues};
         }
         impl->view = wrapped.view;
+        if (wrapped.bricks) {
+            if (Result<void> made = makeBricks(*impl, "wrapped volume"); !made.ok()) {
+                return made.error();
+            }
+        }
         if (Result<void> described = describe(*impl, wrapped.layout, "wrapped volume"); !described.ok()) {
             return described.error();
         }
@@ -240,8 +268,8 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
 }
 
 Result<Volume> Volume::upload(const Context& context, const QueueAccess& queue, const VolumeView& data,
-                              const char* name) {
-    return guard([&] { return uploaded(context.impl(), queue, create(context, data, name)); });
+                              const VolumeOptions& options) {
+    return guard([&] { return uploaded(context.impl(), queue, create(context, data, options)); });
 }
 
 Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
@@ -252,6 +280,25 @@ Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
         const Label label(impl_->context, commandBuffer, "voxtact volume upload");
         cmdFillImage(impl_->context, commandBuffer, impl_->staging.get(), impl_->image.image.get(),
                      extentOf(impl_->grid));
+        if (impl_->bricks.buffer) {
+            cmdBricks(*impl_, commandBuffer, wholeBox(impl_->grid));
+        }
+        return {};
+    });
+}
+
+Result<void> Volume::cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed) {
+    return guard([&]() -> Result<void> {
+        if (!impl_->bricks.buffer) {
+            return Error{ErrorCode::InvalidArgument, 0, "the volume has no bricks"};
+        }
+        const Result<VoxelBox> box = voxelBounds(changed, impl_->grid);
+        if (!box.ok()) {
+            return box.error();
+        }
+        if (!isEmpty(*box)) {
+            cmdBricks(*impl_, commandBuffer, *box);
+        }
         return {};
     });
 }

@@ -85,7 +85,7 @@ TEST(OccupancyTest, BoxesAgreeWithTheirSamples) {
                 const shader::ExactCell cell = shader::exactCell(at[axis], volume.image.size[axis]);
                 const float shifted = at[axis] * static_cast<float>(volume.image.size[axis]) - 0.5F;
                 EXPECT_EQ(cell.weight, shifted - std::floor(shifted));
-                const int brick = (static_cast<int>(std::floor(shifted)) + 1) >> cpu::kBrickShift;
+                const int brick = (static_cast<int>(std::floor(shifted)) + 1) >> kBrickShift;
                 ASSERT_LT(brick, volume.bricks.count[axis]);
                 box.lo[axis] = static_cast<int>(below(random, static_cast<std::size_t>(brick) + 1));
                 box.hi[axis] = brick + static_cast<int>(

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace voxtact::test {
 
@@ -141,6 +142,45 @@ VkImageView RawVulkan::makeImage(VkImageType type, VkFormat format, VkExtent3D e
     must(vk().vkCreateImageView(device(), &viewInfo, nullptr, &view));
     views_.push_back(view);
     return view;
+}
+
+std::vector<std::byte> RawVulkan::readBuffer(VkBuffer buffer, VkDeviceSize size) {
+    const HostBuffer mine = makeBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const VkCommandBuffer commands = begin();
+    const VkBufferCopy whole{0, 0, size};
+    vk().vkCmdCopyBuffer(commands, buffer, mine.buffer, 1, &whole);
+    submitAndWait(commands);
+    const auto* first = static_cast<const std::byte*>(mine.mapped);
+    return {first, first + size};
+}
+
+std::vector<std::byte> RawVulkan::readImage(VkImage image, VkExtent3D extent, std::size_t texelBytes) {
+    const VkDeviceSize size = VkDeviceSize{extent.width} * extent.height * extent.depth * texelBytes;
+    const HostBuffer mine = makeBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const VkCommandBuffer commands = begin();
+    VkImageMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+    barrier.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
+    barrier.oldLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
+                              nullptr, 0, nullptr, 1, &barrier);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = extent;
+    vk().vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, mine.buffer, 1, &region);
+    barrier.srcAccessMask = 0;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
+    std::swap(barrier.oldLayout, barrier.newLayout);
+    vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                              nullptr, 0, nullptr, 1, &barrier);
+    submitAndWait(commands);
+    const auto* first = static_cast<const std::byte*>(mine.mapped);
+    return {first, first + size};
 }
 
 VkCommandBuffer RawVulkan::begin(VkCommandBufferUsageFlags flags) {

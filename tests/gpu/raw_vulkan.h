@@ -36,6 +36,12 @@ class RawVulkan {
     VkImageView makeImage(VkImageType type, VkFormat format, VkExtent3D extent, std::span<const std::byte> texels,
                           VkImageLayout layout);
 
+    /// The contents of a buffer with usage TRANSFER_SRC that no command is using.
+    std::vector<std::byte> readBuffer(VkBuffer buffer, VkDeviceSize size);
+    /// The contents of a 3D image in layout SHADER_READ_ONLY_OPTIMAL, with usage TRANSFER_SRC, that no command is
+    /// using.
+    std::vector<std::byte> readImage(VkImage image, VkExtent3D extent, std::size_t texelBytes);
+
     VkCommandBuffer begin(VkCommandBufferUsageFlags flags = 0);
     /// Ends and submits; `fence` may be null.
     void submit(VkCommandBuffer commandBuffer, VkFence fence, bool end = true);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/bricks.h"
+#include "core/bricks.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "gpu/pipeline.h"
+
+#include "voxtact_shaders/bricks_comp.h"
+
+namespace voxtact {
+
+namespace {
+
+/// The brick pass's pipeline, made for the first volume with bricks.
+Result<void> makePipeline(ContextImpl& context) {
+    const std::lock_guard lock(context.onDemandMutex);
+    if (context.brickPipeline) {
+        return {};
+    }
+    Result<Owned<VkPipeline>> pipeline = makeComputePipeline(context, spirv::bricks_comp, {}, "bricks");
+    if (!pipeline.ok()) {
+        return pipeline.error();
+    }
+    context.brickPipeline = std::move(*pipeline);
+    return {};
+}
+
+BrickSpan spanOf(const VolumeImpl& volume, const VoxelBox& changed, std::size_t axis) {
+    return bricksOfVoxels(static_cast<std::int32_t>(changed.first[axis]),
+                          static_cast<std::int32_t>(changed.first[axis] + changed.size[axis]),
+                          static_cast<std::int32_t>(volume.grid.size[axis]));
+}
+
+} // namespace
+
+Result<void> makeBricks(VolumeImpl& volume, const char* name) {
+    ContextImpl& context = volume.context;
+    VkDeviceSize bytes = sizeof(shader::vec4);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        volume.brickCount[axis] = brickCount(static_cast<std::int32_t>(volume.grid.size[axis]));
+        bytes *= static_cast<VkDeviceSize>(volume.brickCount[axis]);
+    }
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the volume's bricks have " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    if (Result<void> made = makePipeline(context); !made.ok()) {
+        return made;
+    }
+    Result<Buffer> buffer =
+        makeBuffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                   MemoryUse::Device, (std::string(name) + " bricks").c_str());
+    if (!buffer.ok()) {
+        return buffer.error();
+    }
+    volume.bricks = std::move(*buffer);
+    return {};
+}
+
+void cmdBricks(const VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& changed) {
+    ContextImpl& context = volume.context;
+    const DeviceFunctions& vk = context.vk;
+    const Label label(context, commandBuffer, "voxtact bricks");
+    // Earlier readers of the bricks must be done, earlier writers of the bricks and of the image too.
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context.brickPipeline.get());
+    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context.computeLayout, VOXTACT_SET_VOLUME,
+                             1, &volume.descriptors.set, 0, nullptr);
+    const BrickSpan x = spanOf(volume, changed, 0);
+    const BrickSpan y = spanOf(volume, changed, 1);
+    const BrickSpan z = spanOf(volume, changed, 2);
+    const shader::BrickConstants constants{
+        x.first, y.first, z.first, volume.brickCount[0], volume.brickCount[1], static_cast<float>(volume.storedUnit)};
+    vk.CmdPushConstants(commandBuffer, context.computeLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                        &constants);
+    vk.CmdDispatch(commandBuffer, static_cast<std::uint32_t>(x.end - x.first),
+                   static_cast<std::uint32_t>(y.end - y.first), static_cast<std::uint32_t>(z.end - z.first));
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+}
+
+} // namespace voxtact

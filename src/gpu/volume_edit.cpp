@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// Edits of a volume in place: through a scratch buffer of one slice, or from a buffer of the caller's.
+#include "core/edit_rows.h"
+#include "core/guard.h"
+#include "core/text.h"
+#include "gpu/barriers.h"
+#include "gpu/bricks.h"
+#include "gpu/debug.h"
+#include "gpu/texels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace voxtact {
+
+namespace {
+
+constexpr VkDeviceSize kWord = 4; ///< what vkCmdFillBuffer and vkCmdUpdateBuffer write multiples of
+
+VkDeviceSize roundedUp(VkDeviceSize bytes) {
+    return (bytes + kWord - 1) / kWord * kWord;
+}
+
+Error refuse(std::string text) {
+    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
+}
+
+Result<void> checkEditable(const VolumeImpl& volume) {
+    if (volume.editScratch.buffer) {
+        return {};
+    }
+    return refuse(volume.image.image ? "the volume was made without VolumeOptions::editable"
+                                     : "the volume is wrapped: its voxels are the caller's");
+}
+
+/// The bits of a value in a texel, as often as they fit 32 bits.
+template <class Scalar> Result<std::uint32_t> wordOf(double value, ScalarType type) {
+    // NaN and whatever is out of range fail the comparisons, before a conversion that would not be defined.
+    const bool inRange = value >= static_cast<double>(std::numeric_limits<Scalar>::lowest()) &&
+                         value <= static_cast<double>(std::numeric_limits<Scalar>::max());
+    if (!inRange || static_cast<double>(static_cast<Scalar>(value)) != value) {
+        return refuse("the value " + number(value) + " is not one that a voxel of type " + toString(type) +
+                      " can have");
+    }
+    const auto voxel = static_cast<Scalar>(value);
+    std::array<std::byte, kWord> word{};
+    for (std::size_t at = 0; at < word.size(); at += sizeof voxel) {
+        fillTexels(type, std::as_bytes(std::span(&voxel, 1)), word.data() + at);
+    }
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, word.data(), sizeof bits);
+    return bits;
+}
+
+Result<std::uint32_t> wordOf(double value, ScalarType type) {
+    switch (type) {
+    case ScalarType::UInt8:
+        return wordOf<std::uint8_t>(value, type);
+    case ScalarType::Int16:
+        return wordOf<std::int16_t>(value, type);
+    case ScalarType::UInt16:
+        return wordOf<std::uint16_t>(value, type);
+    case ScalarType::Float32:
+        break;
+    }
+    return wordOf<float>(value, type);
+}
+
+VkBufferImageCopy copyOf(const VoxelBox& box, VkDeviceSize offset) {
+    VkBufferImageCopy region{};
+    region.bufferOffset = offset;
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageOffset = {static_cast<std::int32_t>(box.first[0]), static_cast<std::int32_t>(box.first[1]),
+                          static_cast<std::int32_t>(box.first[2])};
+    region.imageExtent = {box.size[0], box.size[1], box.size[2]};
+    return region;
+}
+
+bool reachesFaces(const VoxelBox& box, const Grid& grid) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (box.first[axis] == 0 || box.first[axis] + box.size[axis] == grid.size[axis]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// One edit, while it is being recorded: what is before it, between its steps, and after it.
+class Edit {
+  public:
+    Edit(VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& bounds)
+        : volume_(volume), vk_(volume.context.vk), commandBuffer_(commandBuffer), bounds_(bounds),
+          label_(volume.context, commandBuffer, "voxtact volume edit") {
+        // The scratch buffer, and what the caller copies from.
+        barrier(volume_.context, commandBuffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_TRANSFER_READ_BIT);
+        barrier(volume_.context, commandBuffer_, volume_.image.image.get(),
+                {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, kReadByShaders.layout}, kCopied);
+    }
+
+    void fillScratch(VkDeviceSize bytes, std::uint32_t word) {
+        beginScratch();
+        vk_.CmdFillBuffer(commandBuffer_, volume_.editScratch.get(), 0, roundedUp(bytes), word);
+        endScratch();
+    }
+    void writeScratch(std::span<const std::byte> voxels) {
+        beginScratch();
+        std::array<std::byte, 65536> texels; // what one vkCmdUpdateBuffer takes
+        for (std::size_t done = 0; done < voxels.size(); done += texels.size()) {
+            const auto part = voxels.subspan(done, std::min(texels.size(), voxels.size() - done));
+            const auto whole = static_cast<std::size_t>(roundedUp(part.size()));
+            std::fill(texels.begin() + static_cast<std::ptrdiff_t>(part.size()),
+                      texels.begin() + static_cast<std::ptrdiff_t>(whole), std::byte{0});
+            fillTexels(volume_.type, part, texels.data());
+            vk_.CmdUpdateBuffer(commandBuffer_, volume_.editScratch.get(), done, whole, texels.data());
+        }
+        endScratch();
+    }
+
+    /// Copies into a box of voxels, sooner or later.
+    void copy(const VoxelBox& box, VkBuffer from, VkDeviceSize offset = 0) {
+        copies_[pending_++] = copyOf(box, offset);
+        if (pending_ == copies_.size()) {
+            flushCopies(from);
+        }
+    }
+    void copyFromScratch(const VoxelBox& box) { copy(box, volume_.editScratch.get()); }
+    void flushCopies(VkBuffer from) {
+        if (pending_ > 0) {
+            vk_.CmdCopyBufferToImage(commandBuffer_, from, volume_.image.image.get(), kCopied.layout, pending_,
+                                     copies_.data());
+            pending_ = 0;
+        }
+    }
+    void flushCopiesFromScratch() { flushCopies(volume_.editScratch.get()); }
+
+    /// `values`: what was written, where that is known.
+    void finish(const std::optional<ValueRange>& values) {
+        barrier(volume_.context, commandBuffer_, volume_.image.image.get(), kCopied, kReadByShaders);
+        if (volume_.bricks.buffer) {
+            cmdBricks(volume_, commandBuffer_, bounds_);
+        }
+        if (reachesFaces(bounds_, volume_.grid)) {
+            volume_.boundary.reset();
+        }
+        if (values && volume_.valueRange) {
+            volume_.valueRange =
+                ValueRange{std::min(volume_.valueRange->lo, values->lo), std::max(volume_.valueRange->hi, values->hi)};
+        } else {
+            volume_.valueRange.reset();
+        }
+    }
+
+  private:
+    static constexpr ImageUse kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+
+    void beginScratch() {
+        barrier(volume_.context, commandBuffer_, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    }
+    void endScratch() {
+        barrier(volume_.context, commandBuffer_, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+    }
+
+    VolumeImpl& volume_;
+    const DeviceFunctions& vk_;
+    VkCommandBuffer commandBuffer_;
+    VoxelBox bounds_;
+    Label label_;
+    std::array<VkBufferImageCopy, 256> copies_;
+    std::uint32_t pending_ = 0;
+};
+
+VkDeviceSize bytesOf(const VolumeImpl& volume, VkDeviceSize voxels) {
+    return voxels * bytesPerVoxel(volume.type);
+}
+
+void set(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::uint32_t word) {
+    edit.fillScratch(bytesOf(volume, VkDeviceSize{box.size[0]} * box.size[1]), word);
+    for (std::uint32_t z = 0; z < box.size[2]; ++z) {
+        edit.copyFromScratch({{box.first[0], box.first[1], box.first[2] + z}, {box.size[0], box.size[1], 1}});
+    }
+    edit.flushCopiesFromScratch();
+}
+
+void set(VolumeImpl& volume, Edit& edit, const std::vector<VoxelRow>& rows, std::uint32_t word) {
+    edit.fillScratch(bytesOf(volume, boundsOf(rows).size[0]), word);
+    for (const VoxelRow& row : rows) {
+        edit.copyFromScratch({{row.firstX, row.y, row.z}, {row.endX - row.firstX, 1, 1}});
+    }
+    edit.flushCopiesFromScratch();
+}
+
+Result<ValueRange> checkVoxels(const VolumeImpl& volume, const VoxelBox& box, std::span<const std::byte> voxels) {
+    Grid grid;
+    grid.size = box.size;
+    return checkVolume({grid, volume.type, voxels});
+}
+
+/// Writes as many slices at once as the scratch buffer holds.
+void write(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::span<const std::byte> voxels) {
+    const auto slice = static_cast<std::size_t>(bytesOf(volume, VkDeviceSize{box.size[0]} * box.size[1]));
+    const auto atOnce = static_cast<std::uint32_t>(
+        std::min<std::size_t>(static_cast<std::size_t>(volume.editScratch.size) / slice, box.size[2]));
+    for (std::uint32_t done = 0; done < box.size[2]; done += atOnce) {
+        const std::uint32_t slices = std::min(atOnce, box.size[2] - done);
+        edit.writeScratch(voxels.subspan(done * slice, slices * slice));
+        edit.copyFromScratch({{box.first[0], box.first[1], box.first[2] + done}, {box.size[0], box.size[1], slices}});
+        edit.flushCopiesFromScratch();
+    }
+}
+
+} // namespace
+
+Result<void> Volume::cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value) {
+    return guard([&]() -> Result<void> {
+        VolumeImpl& volume = *impl_;
+        if (Result<void> editable = checkEditable(volume); !editable.ok()) {
+            return editable;
+        }
+        const Result<VoxelBox> bounds = voxelBounds(region, volume.grid);
+        if (!bounds.ok()) {
+            return bounds.error();
+        }
+        const Result<std::uint32_t> word = wordOf(value, volume.type);
+        if (!word.ok()) {
+            return word.error();
+        }
+        if (isEmpty(*bounds)) {
+            return {};
+        }
+        Edit edit(volume, commandBuffer, *bounds);
+        if (std::holds_alternative<VoxelBox>(region)) {
+            set(volume, edit, *bounds, *word);
+        } else {
+            set(volume, edit, voxelRows(region, volume.grid), *word);
+        }
+        edit.finish(ValueRange{value, value});
+        return {};
+    });
+}
+
+Result<void> Volume::cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box, std::span<const std::byte> voxels) {
+    return guard([&]() -> Result<void> {
+        VolumeImpl& volume = *impl_;
+        if (Result<void> editable = checkEditable(volume); !editable.ok()) {
+            return editable;
+        }
+        if (const Result<VoxelBox> bounds = voxelBounds(box, volume.grid); !bounds.ok()) {
+            return bounds.error();
+        }
+        if (isEmpty(box) && voxels.empty()) {
+            return {};
+        }
+        const Result<ValueRange> values = checkVoxels(volume, box, voxels);
+        if (!values.ok()) {
+            return values.error();
+        }
+        Edit edit(volume, commandBuffer, box);
+        write(volume, edit, box, voxels);
+        edit.finish(*values);
+        return {};
+    });
+}
+
+Result<void> Volume::cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box, VkBuffer source, VkDeviceSize offset) {
+    return guard([&]() -> Result<void> {
+        VolumeImpl& volume = *impl_;
+        if (Result<void> editable = checkEditable(volume); !editable.ok()) {
+            return editable;
+        }
+        if (const Result<VoxelBox> bounds = voxelBounds(box, volume.grid); !bounds.ok()) {
+            return bounds.error();
+        }
+        if (source == VK_NULL_HANDLE) {
+            return refuse("the buffer to copy voxels from is null");
+        }
+        if (offset % kWord != 0) {
+            return refuse("the offset " + std::to_string(offset) + " of the voxels to copy is not a multiple of 4");
+        }
+        if (isEmpty(box)) {
+            return {};
+        }
+        Edit edit(volume, commandBuffer, box);
+        edit.copy(box, source, offset);
+        edit.flushCopies(source);
+        edit.finish(std::nullopt);
+        return {};
+    });
+}
+
+} // namespace voxtact

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Transfer functions that change between the commands of one command buffer.
+#include "core/table_extremes.h"
+#include "gpu/scene_impl.h"
+#include "gpu_fixture.h"
+#include "raw_vulkan.h"
+#include "support/scenes.h"
+
+#include <gmock/gmock.h>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr ValueRange kBytes{0, 255};
+constexpr ControlPoint kAllOpaque[] = {{0, 1}};
+constexpr ControlPoint kThousandRamp[] = {{0, 0}, {1000, 1}};
+
+class TableUpdateTest : public GpuTest {
+  protected:
+    /// The extremes that the device has of a function.
+    static std::vector<float> extremesOf(RawVulkan& raw, const TransferFunction& function) {
+        const Buffer& extremes = function.impl().extremes;
+        const std::vector<std::byte> bytes = raw.readBuffer(extremes.get(), extremes.size);
+        std::vector<float> out(bytes.size() / sizeof(float));
+        std::memcpy(out.data(), bytes.data(), bytes.size());
+        return out;
+    }
+    static void expectExtremes(RawVulkan& raw, const TransferFunction& function, const TransferFunctionDesc& desc) {
+        const TableExtremes expected(take(sampleTable(desc)));
+        const std::vector<float> found = extremesOf(raw, function);
+        EXPECT_TRUE(std::ranges::equal(found, expected.values()));
+    }
+};
+
+TEST_F(TableUpdateTest, TheExtremesFollow) {
+    RawVulkan raw(gpu().device);
+    // The largest table needs several vkCmdUpdateBuffer.
+    for (const std::uint32_t size : {2U, 3U, 256U, 4000U}) {
+        TransferFunction function =
+            take(TransferFunction::upload(context(), queue(), {byteRamp(), kBytes, size}, "extremes"));
+        expectExtremes(raw, function, {byteRamp(), kBytes, size});
+        const TransferFunctionDesc next{kThousandRamp, {-500, 1500}, size};
+        const VkCommandBuffer commands = raw.begin();
+        take(function.cmdUpdate(commands, {kAllOpaque, kBytes, size}));
+        take(function.cmdUpdate(commands, next));
+        raw.submitAndWait(commands);
+        expectExtremes(raw, function, next);
+        EXPECT_EQ(function.domain().lo, -500);
+        EXPECT_EQ(function.tableSize(), size);
+    }
+}
+
+TEST_F(TableUpdateTest, TakesEffectInCommandBufferOrder) {
+    RawVulkan raw(gpu().device);
+    // The half of the volume below x = 0.5 is 255.
+    const Volume volume = upload(makeBytes(unitGrid(8), [](std::uint32_t x, auto...) { return x < 4 ? 255.0 : 0.0; }));
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const Mat4 pose = identity();
+    for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Compute}) {
+        TransferFunction function = upload(byteRamp(), kBytes);
+        const Detector counting = take(Detector::create(context(), {.method = method}));
+        const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
+        const Batch batch{std::span(&item, 1), flatView(0, 1, 64, 64), 0.5};
+        std::vector<Results> results;
+        for (int i = 0; i < 4; ++i) {
+            results.push_back(take(Results::create(context(), {.maxPairs = 1})));
+        }
+        const VkCommandBuffer commands = raw.begin();
+        take(counting.cmdDetect(commands, batch, results[0]));
+        take(function.cmdUpdate(commands, {kAllOpaque, kBytes}));
+        take(counting.cmdDetect(commands, batch, results[1]));
+        take(function.cmdUpdate(commands, {kThousandRamp, {0, 1000}}));
+        take(counting.cmdDetect(commands, batch, results[2]));
+        take(function.cmdUpdate(commands, {byteRamp(), kBytes}));
+        take(counting.cmdDetect(commands, batch, results[3]));
+        for (Results& each : results) {
+            take(each.cmdReadBack(commands));
+        }
+        raw.submitAndWait(commands);
+        const std::uint64_t expected[] = {64 * 32, 64 * 64, 0, 64 * 32};
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            EXPECT_EQ(unpack(take(results[i].read())[0]).count, expected[i]) << toString(method) << " " << i;
+        }
+    }
+}
+
+TEST_F(TableUpdateTest, TheProofOfTheBoundaryFollows) {
+    RawVulkan raw(gpu().device);
+    const Volume volume = upload(makeBytes(unitGrid(8), [](auto...) { return 0.0; }));
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    TransferFunction function = upload(byteRamp(), kBytes);
+    const Detector counting = take(Detector::create(context(), {}));
+    EXPECT_EQ(counting.boundaryFor({&mesh, &volume, &function, {}}, 0.5), Boundary::Clamp);
+    const VkCommandBuffer commands = raw.begin();
+    take(function.cmdUpdate(commands, {kAllOpaque, kBytes}));
+    EXPECT_EQ(counting.boundaryFor({&mesh, &volume, &function, {}}, 0.5), Boundary::Range);
+    raw.submitAndWait(commands);
+}
+
+TEST_F(TableUpdateTest, WrappedTables) {
+    RawVulkan raw(gpu().device);
+    const std::vector<float> table = take(sampleTable({byteRamp(), kBytes, 64}));
+    WrappedTransferFunction wrapped;
+    wrapped.view = raw.makeImage(VK_IMAGE_TYPE_1D, VK_FORMAT_R32_SFLOAT, {64, 1, 1}, std::as_bytes(std::span(table)),
+                                 wrapped.layout);
+    TransferFunction without = take(TransferFunction::wrap(context(), wrapped));
+    EXPECT_FALSE(without.impl().hasExtremes());
+    wrapped.table = table;
+    TransferFunction with = take(TransferFunction::wrap(context(), wrapped));
+    ASSERT_TRUE(with.impl().hasExtremes());
+    const auto* first = static_cast<const float*>(with.impl().extremes.mapped);
+    const TableExtremes expected(table);
+    EXPECT_TRUE(std::ranges::equal(expected.values(), std::span(first, expected.values().size())));
+
+    const VkCommandBuffer commands = raw.begin();
+    EXPECT_THAT(with.cmdUpdate(commands, {byteRamp(), kBytes, 64}).error().text, HasSubstr("wrapped"));
+    raw.submitAndWait(commands);
+}
+
+TEST_F(TableUpdateTest, BadInputIsRefusedAndChangesNothing) {
+    RawVulkan raw(gpu().device);
+    TransferFunction function = upload(byteRamp(), kBytes);
+    const VkCommandBuffer commands = raw.begin();
+    EXPECT_THAT(function.cmdUpdate(commands, {byteRamp(), {0, 9}, 255}).error().text,
+                HasSubstr("255 entries, that of the transfer function 256"));
+    EXPECT_THAT(function.cmdUpdate(commands, {{}, {0, 9}}).error().text, HasSubstr("no control points"));
+    EXPECT_THAT(function.cmdUpdate(commands, {byteRamp(), {9, 9}}).error().text, HasSubstr("domain 9:9"));
+    raw.submitAndWait(commands);
+    EXPECT_EQ(function.domain().hi, 255);
+    expectExtremes(raw, function, {byteRamp(), kBytes});
+}
+
+} // namespace
+} // namespace voxtact::test
