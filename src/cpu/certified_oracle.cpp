@@ -2,6 +2,7 @@
 #include "cpu/certified_oracle.h"
 #include "core/guard.h"
 #include "core/text.h"
+#include "cpu/certified_cut.h"
 #include "cpu/certified_sample.h"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ using certified::Corners;
 using certified::Field;
 using certified::kRounding;
 using certified::Opacity;
-using Polygon = std::vector<Vec3>;
+using certified::Polygon;
+using certified::Region;
 
 /// A triangle stays undecided when so many pieces have come from dividing.
 constexpr std::size_t kMostPieces = std::size_t{1} << 13U;
@@ -77,39 +79,6 @@ Result<Scene> prepare(const OraclePair& pair, double resolution) {
                  resolution};
 }
 
-/// Index space.
-struct Region {
-    Vec3 lo{};
-    Vec3 hi{};
-};
-
-Region shrunk(Region region, double by) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        region.lo[axis] += by;
-        region.hi[axis] -= by;
-    }
-    return region;
-}
-
-Region boundsOf(std::span<const Vec3> points) {
-    Region out{points.front(), points.front()};
-    for (const Vec3& point : points) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            out.lo[axis] = std::min(out.lo[axis], point[axis]);
-            out.hi[axis] = std::max(out.hi[axis], point[axis]);
-        }
-    }
-    return out;
-}
-
-bool meet(const Region& a, const Region& b) {
-    bool out = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        out = out && std::max(a.lo[axis], b.lo[axis]) <= std::min(a.hi[axis], b.hi[axis]);
-    }
-    return out;
-}
-
 Region domainOf(const Scene& scene) {
     Region out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -166,58 +135,15 @@ Placed place(const Scene& scene, std::size_t triangle) {
     return out;
 }
 
-enum class Side { Above, Below };
-
-/// The part of a convex polygon, or of a segment or a point, on one side of an axis-aligned plane that belongs to it.
-Polygon cut(const Polygon& polygon, std::size_t axis, double at, Side side) {
-    const auto inside = [&](const Vec3& point) { return side == Side::Above ? point[axis] >= at : point[axis] <= at; };
-    Polygon out;
-    out.reserve(polygon.size() + 1);
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Vec3& a = polygon[i];
-        const Vec3& b = polygon[(i + 1) % polygon.size()];
-        if (inside(a)) {
-            out.push_back(a);
-        }
-        if (inside(a) != inside(b)) {
-            const double weight = (at - a[axis]) / (b[axis] - a[axis]);
-            Vec3 between{};
-            for (std::size_t c = 0; c < 3; ++c) {
-                between[c] = a[c] + weight * (b[c] - a[c]);
-            }
-            between[axis] = at;
-            out.push_back(between);
-        }
-    }
-    return out;
-}
-
-Polygon slab(const Polygon& polygon, std::size_t axis, double lo, double hi) {
-    return cut(cut(polygon, axis, lo, Side::Above), axis, hi, Side::Below);
-}
-
-Vec3 middle(const Vec3& a, const Vec3& b) {
-    return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-}
-
-Vec3 centroid(const Corners& triangle) {
-    const auto [a, b, c] = triangle;
-    return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
-}
-
-double length(const Vec3& a, const Vec3& b) {
-    return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-}
-
 /// Looks for an opaque point of one triangle in a region, a box in the domain.
 class Search {
   public:
     Search(const Scene& scene, const Placed& triangle, const Region& region)
-        : scene_(scene), triangle_(triangle), margin_(2 * triangle.error), outer_(shrunk(region, -margin_)),
-          inner_(shrunk(region, margin_)) {}
+        : scene_(scene), triangle_(triangle), margin_(2 * triangle.error), outer_(certified::shrunk(region, -margin_)),
+          inner_(certified::shrunk(region, margin_)) {}
 
     CertifiedTriangle run() {
-        if (std::isfinite(triangle_.error) && !meet(boundsOf(triangle_.corners), outer_)) {
+        if (std::isfinite(triangle_.error) && !certified::meet(certified::boundsOf(triangle_.corners), outer_)) {
             return {};
         }
         if (triangle_.error > kMostError) {
@@ -225,7 +151,7 @@ class Search {
         }
         Polygon polygon(triangle_.corners.begin(), triangle_.corners.end());
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            polygon = slab(polygon, axis, outer_.lo[axis], outer_.hi[axis]);
+            polygon = certified::slab(polygon, axis, outer_.lo[axis], outer_.hi[axis]);
         }
         Cell cell{};
         cutAtCells(polygon, 2, cell);
@@ -259,7 +185,7 @@ class Search {
         if (polygon.empty()) {
             return;
         }
-        const Region bounds = boundsOf(polygon);
+        const Region bounds = certified::boundsOf(polygon);
         const std::int64_t last = std::int64_t{scene_.field.size()[axis]} - 1;
         const auto cellAt = [&](double place) {
             return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(place)), -1, last);
@@ -268,7 +194,7 @@ class Search {
         for (std::int64_t i = cellAt(bounds.lo[axis] - margin_); i <= end; ++i) {
             cell[axis] = i;
             const auto lo = static_cast<double>(i);
-            const Polygon part = slab(polygon, axis, lo - margin_, lo + 1 + margin_);
+            const Polygon part = certified::slab(polygon, axis, lo - margin_, lo + 1 + margin_);
             if (axis > 0) {
                 cutAtCells(part, axis - 1, cell);
             } else {
@@ -297,7 +223,7 @@ class Search {
         if (!scene_.opacity.mayBeOpaque(values)) {
             return;
         }
-        lookAt(centroid(piece.corners));
+        lookAt(certified::centroid(piece.corners));
         for (const Vec3& corner : piece.corners) {
             lookAt(corner);
         }
@@ -308,37 +234,21 @@ class Search {
             found_.certainty = Certainty::Undecided;
             return;
         }
-        split(piece);
+        for (const Corners& half : certified::halves(piece.corners)) {
+            pieces_.push_back({half, piece.part});
+        }
     }
 
     [[nodiscard]] bool cannotBeDecided(const Piece& piece, const ValueRange& values) const {
-        const auto& [a, b, c] = piece.corners;
-        return std::max({length(a, b), length(b, c), length(c, a)}) <= scene_.resolution ||
-               values.hi - values.lo <= 3 * scene_.field.doubt(2 * margin_) || !meet(boundsOf(piece.corners), inner_);
-    }
-
-    /// In the middle of the longest edge.
-    void split(const Piece& piece) {
-        std::size_t longest = 0;
-        double most = -1;
-        for (std::size_t edge = 0; edge < 3; ++edge) {
-            const double here = length(piece.corners[edge], piece.corners[(edge + 1) % 3]);
-            if (here > most) {
-                most = here;
-                longest = edge;
-            }
-        }
-        const Vec3& a = piece.corners[longest];
-        const Vec3& b = piece.corners[(longest + 1) % 3];
-        const Vec3& c = piece.corners[(longest + 2) % 3];
-        pieces_.push_back({{a, middle(a, b), c}, piece.part});
-        pieces_.push_back({{middle(a, b), b, c}, piece.part});
+        return certified::longestEdge(piece.corners) <= scene_.resolution ||
+               values.hi - values.lo <= 3 * scene_.field.doubt(2 * margin_) ||
+               !certified::meet(certified::boundsOf(piece.corners), inner_);
     }
 
     /// The part of the triangle in the region is connected and values are continuous, so that all values between two
     /// known ones occur.
     void lookAt(const Vec3& place) {
-        if (found_.certainty == Certainty::Certain || !meet({place, place}, inner_)) {
+        if (found_.certainty == Certainty::Certain || !certified::meet({place, place}, inner_)) {
             return;
         }
         const ValueRange value = scene_.field.at(place, margin_);
@@ -368,7 +278,7 @@ class Search {
         Vec3 below = lowest_.place;
         Vec3 above = highest_.place;
         for (int i = 0; i < kBisections; ++i) {
-            const Vec3 here = middle(below, above);
+            const Vec3 here = certified::middle(below, above);
             (scene_.field.at(here, 0).lo <= value ? below : above) = here;
         }
         return below;
@@ -419,7 +329,7 @@ Certainty decideCell(const Scene& scene, const Placed& triangle, const Cell& cel
 }
 
 std::vector<CertifiedCell> cellsOf(const Scene& scene, const Placed& triangle) {
-    const Region bounds = shrunk(boundsOf(triangle.corners), -2 * kCellMargin);
+    const Region bounds = certified::shrunk(certified::boundsOf(triangle.corners), -2 * kCellMargin);
     const bool placed = triangle.error <= kMostError;
     Cell first{};
     Cell last{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/certified_cut.h"
 #include "voxtact/data.h"
 
 #include <array>
@@ -16,7 +17,6 @@ namespace voxtact::cpu::certified {
 inline constexpr double kRounding = 0x1p-52;
 
 using Cell = std::array<std::int64_t, 3>;
-using Corners = std::array<Vec3, 3>;
 /// The voxel with the lowest numbers first, x fastest.
 using CellVoxels = std::array<double, 8>;
 

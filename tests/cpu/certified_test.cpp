@@ -98,6 +98,27 @@ bool runCase(cpu::Detector& detector, std::uint64_t seed, std::uint64_t number, 
     return true;
 }
 
+void describe(cpu::Detector& detector, const CertifiedCase& c) {
+    const Result<cpu::CertifiedOracle> oracle = cpu::certifiedOracle(c.scene.pair());
+    const Result<EngineSays> engine = askEngine(detector, c);
+    if (!oracle.ok() || !engine.ok()) {
+        return;
+    }
+    std::cout << toString(c.kind) << "; the engine says: hit " << engine->pair.hit << ", possible "
+              << engine->pair.possible << ", count " << engine->pair.count << " (" << toString(engine->pair.exactness)
+              << ")\n";
+    for (const TouchedTriangle& touched : engine->triangles) {
+        std::cout << "  triangle " << touched.triangle << ": " << touched.count << "\n";
+    }
+    std::cout << "the oracle says: " << toString(oracle->certainty) << "\n";
+    const std::vector<CellCount> cells = countCells(c);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const auto [x, y, z] = oracle->triangles[i].witness;
+        std::cout << "  triangle " << i << ": " << toString(oracle->triangles[i].certainty) << ", " << cells[i].certain
+                  << " to " << cells[i].possible << " cells, witness " << x << " " << y << " " << z << "\n";
+    }
+}
+
 class Certified : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Certified, AgainstTheOracle) {
@@ -108,7 +129,9 @@ TEST_P(Certified, AgainstTheOracle) {
     Tally tally;
     if (const std::optional<std::uint64_t> wanted = wantedCase()) {
         if (GetParam() == 0) {
-            runCase(*detector, seed, *wanted, makeCertifiedCase(seed, *wanted), tally);
+            const CertifiedCase c = makeCertifiedCase(seed, *wanted);
+            describe(*detector, c);
+            runCase(*detector, seed, *wanted, c, tally);
         }
         return;
     }
