@@ -235,15 +235,9 @@ TEST(CertifiedOracleRandom, NoSampleContradictsTheCells) {
             }
             certain += certainHere;
             undecided += cells.size() - certainHere;
-            if (certainHere > 0) {
-                EXPECT_EQ(oracle.triangles[triangle].certainty, Certainty::Certain);
-            }
-            if (oracle.triangles[triangle].certainty == Certainty::None) {
-                EXPECT_TRUE(cells.empty());
-            }
-            if (oracle.triangles[triangle].certainty == Certainty::Certain) {
-                EXPECT_FALSE(cells.empty());
-            }
+            const Certainty whole = oracle.triangles[triangle].certainty;
+            EXPECT_FALSE(whole == Certainty::None && certainHere > 0);
+            EXPECT_FALSE(whole == Certainty::Certain && cells.empty());
             const Triangle corners = triangleOf(c, triangle);
             for (int i = 0; i < 300; ++i) {
                 const Vec3 point = pointOf(corners, sampleWeights(random, corners));

@@ -318,6 +318,21 @@ TEST(CertifiedOracle, HugeCoordinatesAreUndecidedOrOutside) {
     EXPECT_EQ(take(certifiedCells(scene.pair(), 0)).size(), 125U);
 }
 
+TEST(CertifiedOracle, CancellingCoordinatesCostCertainty) {
+    OracleScene scene;
+    scene.volume = ramp();
+    constexpr double kFar = 16777216; // a float, and the doubles there are 4e-9 apart
+    addTriangle(scene.mesh, {kFar, 0.25, 0.25}, {kFar, 0.75, 0.25}, {kFar, 0.5, 0.75});
+    const auto at = [&](double voxels) {
+        scene.world_from_object = translation({kIsoTexture + voxels / 8 - kFar, 0, 0});
+        return verdict(scene);
+    };
+    EXPECT_EQ(at(1e-3), Certainty::Certain);
+    EXPECT_EQ(at(-1e-3), Certainty::None);
+    EXPECT_EQ(at(1e-8), Certainty::Undecided);
+    EXPECT_EQ(at(-1e-8), Certainty::Undecided);
+}
+
 TEST(CertifiedOracle, RefusesWhatTheOtherRefuses) {
     OracleScene good;
     good.volume = opaqueImage();
