@@ -30,6 +30,7 @@ constexpr double kMostError = 0x1p-12;
 constexpr double kTransformRoundings = 64;
 constexpr double kCutRoundings = 256;
 constexpr int kBisections = 100;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A pair that has passed the checks.
 struct Scene {
@@ -129,7 +130,7 @@ Placed place(const Scene& scene, std::size_t triangle) {
             out.corners[corner][axis] = texture.point[axis] * n - 0.5;
             const double cuts = kCutRoundings * (std::abs(out.corners[corner][axis]) + n);
             const double error = kRounding * (kTransformRoundings * (texture.magnitude[axis] * n + 1) + cuts);
-            out.error = std::max(out.error, std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
+            out.error = std::max(out.error, std::isfinite(error) ? error : kInfinity);
         }
     }
     return out;
@@ -299,8 +300,8 @@ class Search {
     Region inner_; ///< a computed point in it is in the region beyond doubt
     std::vector<CellPart> parts_;
     std::vector<Piece> pieces_; ///< grows behind: all large pieces are looked at before the smaller ones
-    Known lowest_{{}, std::numeric_limits<double>::infinity()};
-    Known highest_{{}, -std::numeric_limits<double>::infinity()};
+    Known lowest_{{}, kInfinity};
+    Known highest_{{}, -kInfinity};
     CertifiedTriangle found_;
 };
 

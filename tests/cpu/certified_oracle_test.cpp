@@ -22,7 +22,6 @@ using cpu::certifiedCells;
 using cpu::CertifiedOracle;
 using cpu::certifiedOracle;
 using cpu::CertifiedTriangle;
-using testing::Each;
 using testing::HasSubstr;
 
 CertifiedOracle ask(const OracleScene& scene) {
