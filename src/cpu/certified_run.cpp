@@ -4,6 +4,7 @@
 #include "cpu/certified_pair.h"
 #include "cpu/tasks.h"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 
@@ -43,18 +44,29 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
             occupancies.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold, desc.resolution));
     }
     std::vector<PairTally> tallies(pairs);
+    std::vector<std::vector<TouchedTriangle>> touched(pool.threads());
     const Tasks tasks(batch, pairs, pool.threads());
-    tasks.run(pool, [&](const Task& task, std::uint32_t) {
+    tasks.run(pool, [&](const Task& task, std::uint32_t thread) {
         PairTally& tally = tallies[task.pair];
         if (desc.stopAtFirst && tally.certain.load(std::memory_order_relaxed) > 0) {
             return;
         }
         const BatchItem& item = batch.items[task.item];
         const VolumeImpl& volume = item.volume->impl();
+        CertifiedSink sink;
+        if (desc.outputs.triangles) {
+            sink = [&, thread](std::uint32_t triangle, const shader::VoxelPoint&) {
+                std::vector<TouchedTriangle>& list = touched[thread];
+                if (list.empty() || list.back().pair != task.pair || list.back().triangle != triangle) {
+                    list.push_back({task.pair, triangle, 0});
+                }
+                ++list.back().count;
+            };
+        }
         const CertifiedTally found =
             decide({item.mesh->impl(), volume, *ofItem[task.item],
                     certifiedPair(volume.grid, volume.texture_from_world, item.world_from_object[task.pose]),
-                    task.clusterBegin, task.clusterEnd, desc.stopAtFirst});
+                    task.clusterBegin, task.clusterEnd, desc.stopAtFirst}, sink);
         tally.certain.fetch_add(found.certain, std::memory_order_relaxed);
         if (found.undecided) {
             tally.undecided.store(true, std::memory_order_relaxed);
@@ -68,6 +80,13 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
             answer.pairs.push_back(answerOf(tallies[pair], {i, pose, pair}, desc.stopAtFirst));
         }
     }
+    for (const std::vector<TouchedTriangle>& list : touched) {
+        answer.triangles.insert(answer.triangles.end(), list.begin(), list.end());
+    }
+    // All fragments of a triangle are in one task: no triangle is in the list twice.
+    std::sort(answer.triangles.begin(), answer.triangles.end(), [](const TouchedTriangle& a, const TouchedTriangle& b) {
+        return a.pair != b.pair ? a.pair < b.pair : a.triangle < b.triangle;
+    });
     return answer;
 }
 

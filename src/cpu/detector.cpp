@@ -159,7 +159,7 @@ Result<Detector> Detector::create(const DetectorDesc& desc) {
             return resolution.error();
         }
         if ((desc.projection != Projection::View && desc.projection != Projection::Conservative) ||
-            desc.outputs.any()) {
+            (desc.outputs.any() && desc.projection != Projection::Conservative)) {
             return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
         }
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
