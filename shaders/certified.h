@@ -108,10 +108,14 @@ struct CertifiedBounds {
 };
 
 EXACT CertifiedVertex certifiedVertex(CertifiedPair pair, float x, float y, float z) {
+    PRECISE float fromX = x - pair.reference[0];
+    PRECISE float fromY = y - pair.reference[1];
+    PRECISE float fromZ = z - pair.reference[2];
     CertifiedVertex vertex;
-    vertex.point = voxelPoint(exactDot(pair.voxel_from_object[0], x, y, z), exactDot(pair.voxel_from_object[1], x, y, z),
-                              exactDot(pair.voxel_from_object[2], x, y, z));
-    vertex.error = exactDot(pair.error, certifiedAbs(x), certifiedAbs(y), certifiedAbs(z));
+    vertex.point = voxelPoint(exactDot(pair.voxel_from_reference[0], fromX, fromY, fromZ),
+                              exactDot(pair.voxel_from_reference[1], fromX, fromY, fromZ),
+                              exactDot(pair.voxel_from_reference[2], fromX, fromY, fromZ));
+    vertex.error = exactDot(pair.error, certifiedAbs(fromX), certifiedAbs(fromY), certifiedAbs(fromZ));
     return vertex;
 }
 

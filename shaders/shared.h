@@ -58,8 +58,10 @@ struct TracedFragment {
 
 /// What the projection `conservative` needs of one pair; element `pair` of a std430 buffer.
 struct CertifiedPair {
-    vec4 voxel_from_object[3]; // the first three rows: affine. Voxel i's centre is at i
-    vec4 error; // of a transformed vertex (x, y, z), in voxels along each axis: error * (|x|, |y|, |z|, 1)
+    vec4 reference;               // a point of object space near the volume; w is 0
+    vec4 voxel_from_reference[3]; // rows: voxel space from object space less the reference. Voxel i's centre is at i
+    vec4 error; // of a transformed vertex, (x, y, z) from the reference, in voxels along each axis:
+                // error * (|x|, |y|, |z|, 1)
 };
 
 /// What it needs of one batch item. The entry coordinate of a stored value (see opacity_ranges.h) is
@@ -110,7 +112,7 @@ struct CertifiedItem {
 static_assert(sizeof(PairTransform) == 112 && offsetof(PairTransform, texture_from_object) == 64);
 static_assert(sizeof(ItemConstants) == 16);
 static_assert(sizeof(ComputeConstants) == 60);
-static_assert(sizeof(CertifiedPair) == 64);
+static_assert(sizeof(CertifiedPair) == 80);
 static_assert(sizeof(CertifiedItem) == 44);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader

@@ -4,6 +4,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,11 +12,13 @@ namespace voxtact {
 
 namespace {
 
-/// Rounding of the matrix to float, of three products and of three sums, in all less than 6 units of 2^-24 of the sum
-/// of the terms' magnitudes.
+/// Rounding of a vertex's difference from the reference, of the matrix to float, of three products and of three sums:
+/// in all less than 7 units of 2^-24 of the sum of the terms' magnitudes.
 constexpr double kFloatError = 0x1p-21;
 /// The products of matrices in double, with the voxels' scale.
-constexpr double kDoubleError = 0x1p-49;
+constexpr double kDoubleError = 0x1p-48;
+/// Object units. A reference beyond it is worse than none.
+constexpr double kFarthestReference = 1e12;
 
 struct Rows {
     Mat4 value;     ///< voxel_from_object; the last row is not used
@@ -46,6 +49,32 @@ float roundedUp(double value) {
     return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
+/// The point of object space that comes to the volume's centre, rounded to float: what is near the volume is then near
+/// the reference, however far the object's origin is. The origin where there is no such point.
+std::array<float, 3> referenceOf(const Grid& grid, const Mat4& m) {
+    const auto minor = [&](std::size_t r, std::size_t c) {
+        const std::size_t r1 = (r + 1) % 3;
+        const std::size_t r2 = (r + 2) % 3;
+        const std::size_t c1 = (c + 1) % 3;
+        const std::size_t c2 = (c + 2) % 3;
+        return m[4 * c1 + r1] * m[4 * c2 + r2] - m[4 * c2 + r1] * m[4 * c1 + r2];
+    };
+    const double determinant = m[0] * minor(0, 0) + m[4] * minor(0, 1) + m[8] * minor(0, 2);
+    std::array<float, 3> reference{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (std::size_t row = 0; row < 3; ++row) {
+            sum += minor(row, axis) * (0.5 * grid.size[row] - m[12 + row]);
+        }
+        const double place = sum / determinant;
+        if (!(std::abs(place) < kFarthestReference)) {
+            return {};
+        }
+        reference[axis] = static_cast<float>(place);
+    }
+    return reference;
+}
+
 } // namespace
 
 Result<void> checkResolution(double resolution) {
@@ -59,16 +88,27 @@ Result<void> checkResolution(double resolution) {
 shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_world,
                                     const Mat4& world_from_object) noexcept {
     const Rows rows = voxelFromObject(grid, texture_from_world, world_from_object);
+    const std::array<float, 3> reference = referenceOf(grid, rows.value);
     shader::CertifiedPair out{};
-    for (std::size_t column = 0; column < 4; ++column) {
-        double worst = 0;
-        for (std::size_t row = 0; row < 3; ++row) {
-            const double value = rows.value[4 * column + row];
-            out.voxel_from_object[row][column] = static_cast<float>(value);
-            worst = std::max(worst, kFloatError * std::abs(value) + kDoubleError * rows.magnitude[4 * column + row]);
+    std::array<double, 4> worst{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        double place = rows.value[12 + row];
+        double magnitude = rows.magnitude[12 + row];
+        for (std::size_t column = 0; column < 3; ++column) {
+            const double element = rows.value[4 * column + row];
+            place += element * static_cast<double>(reference[column]);
+            magnitude += rows.magnitude[4 * column + row] * std::abs(static_cast<double>(reference[column]));
+            out.voxel_from_reference[row][column] = static_cast<float>(element);
+            worst[column] = std::max(worst[column], kFloatError * std::abs(element) +
+                                                        kDoubleError * rows.magnitude[4 * column + row]);
         }
+        out.voxel_from_reference[row][3] = static_cast<float>(place);
+        worst[3] = std::max(worst[3], kFloatError * std::abs(place) + kDoubleError * magnitude);
+    }
+    std::copy(reference.begin(), reference.end(), out.reference.begin());
+    for (std::size_t column = 0; column < 4; ++column) {
         // Elements below the smallest normal float lose more than their relative error.
-        out.error[column] = roundedUp(worst + 0x1p-120);
+        out.error[column] = roundedUp(worst[column] + 0x1p-120);
     }
     return out;
 }

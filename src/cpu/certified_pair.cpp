@@ -55,14 +55,15 @@ template <class Kept> class Decider {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             centre[axis] = box.lo[axis] / 2 + box.hi[axis] / 2;
             radius[axis] = std::max(box.hi[axis] - centre[axis], centre[axis] - box.lo[axis]);
-            farthest[axis] = std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis]));
+            const float reference = job_.transform.reference[axis];
+            farthest[axis] = std::max(std::abs(box.lo[axis] - reference), std::abs(box.hi[axis] - reference));
         }
         const CertifiedVertex middle = shader::certifiedVertex(job_.transform, centre[0], centre[1], centre[2]);
         // The centre's rounding and the radius's, with what a triangle in the box adds to it at most.
         const float error = 4 * shader::exactDot(job_.transform.error, farthest[0], farthest[1], farthest[2]);
         std::array<float, 3> extent{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const shader::vec4& row = job_.transform.voxel_from_object[axis];
+            const shader::vec4& row = job_.transform.voxel_from_reference[axis];
             extent[axis] = std::abs(row[0]) * radius[0] + std::abs(row[1]) * radius[1] + std::abs(row[2]) * radius[2];
         }
         const float longest = std::max({extent[0], extent[1], extent[2]});
