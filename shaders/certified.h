@@ -159,6 +159,52 @@ EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex
     return bounds;
 }
 
+/// A box of object space.
+struct CertifiedBox {
+    float loX, loY, loZ;
+    float hiX, hiY, hiZ;
+};
+
+EXACT float certifiedFarther(float lo, float hi, float from) {
+    return certifiedMax(certifiedAbs(lo - from), certifiedAbs(hi - from));
+}
+
+EXACT float certifiedExtent(vec4 row, VoxelPoint radius) {
+    return certifiedAbs(row[0]) * radius.x + certifiedAbs(row[1]) * radius.y + certifiedAbs(row[2]) * radius.z;
+}
+
+/// The cells that the triangles in a box of object space may pass through: those of certifiedBounds() are among them,
+/// and its delta is no larger.
+EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair, CertifiedBox box) {
+    // Halves first: the sum of two large floats may overflow.
+    const VoxelPoint centre = voxelPoint(box.loX * 0.5f + box.hiX * 0.5f, box.loY * 0.5f + box.hiY * 0.5f,
+                                         box.loZ * 0.5f + box.hiZ * 0.5f);
+    const VoxelPoint radius = voxelPoint(certifiedMax(box.hiX - centre.x, centre.x - box.loX),
+                                         certifiedMax(box.hiY - centre.y, centre.y - box.loY),
+                                         certifiedMax(box.hiZ - centre.z, centre.z - box.loZ));
+    const CertifiedVertex middle = certifiedVertex(pair, centre.x, centre.y, centre.z);
+    // The farthest point's error; rounding of the centre and of the radius, and clipping, within its multiple.
+    const VoxelPoint farthest =
+        voxelPoint(certifiedFarther(box.loX, box.hiX, pair.reference[0]),
+                   certifiedFarther(box.loY, box.hiY, pair.reference[1]),
+                   certifiedFarther(box.loZ, box.hiZ, pair.reference[2]));
+    const float error = exactDot(pair.error, farthest.x, farthest.y, farthest.z);
+    const VoxelPoint extent = voxelPoint(certifiedExtent(pair.voxel_from_reference[0], radius),
+                                         certifiedExtent(pair.voxel_from_reference[1], radius),
+                                         certifiedExtent(pair.voxel_from_reference[2], radius));
+    PRECISE float reach = 4.0f * voxelLength(extent) + 4.0f;
+    PRECISE float shift = reach * CERTIFIED_CLIP_ERROR;
+    PRECISE float delta = 4.0f * error + shift;
+    delta = delta <= CERTIFIED_FARTHEST ? delta : CERTIFIED_FARTHEST;
+    CertifiedBounds bounds;
+    bounds.delta = delta;
+    bounds.usable = delta <= CERTIFIED_MOST_DELTA;
+    certifiedCells(middle.point.x - extent.x, middle.point.x + extent.x, delta, item.sizeX, bounds.firstX, bounds.lastX);
+    certifiedCells(middle.point.y - extent.y, middle.point.y + extent.y, delta, item.sizeY, bounds.firstY, bounds.lastY);
+    certifiedCells(middle.point.z - extent.z, middle.point.z + extent.z, delta, item.sizeZ, bounds.firstZ, bounds.lastZ);
+    return bounds;
+}
+
 EXACT CertifiedTriangle certifiedTriangle(VoxelPoint a, VoxelPoint b, VoxelPoint c, float delta) {
     CertifiedTriangle triangle;
     triangle.corner0 = a;

@@ -16,6 +16,10 @@ using shader::CertifiedTriangle;
 using shader::CertifiedVertex;
 using shader::VoxelPoint;
 
+CellBox cellsOf(const shader::CertifiedBounds& bounds) {
+    return {{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
+}
+
 /// The most vertices that a cluster has, padding included.
 constexpr std::size_t kMostVertices = 3 * std::size_t{kClusterTriangles} + kMeshAlignment;
 
@@ -49,36 +53,15 @@ template <class Kept> class Decider {
 
     /// Whether the triangles in a box of object space may pass through a brick that may have an opaque point.
     [[nodiscard]] bool mayTouch(const RunBox& box) const {
-        std::array<float, 3> centre{};
-        std::array<float, 3> radius{};
-        std::array<float, 3> farthest{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            centre[axis] = box.lo[axis] / 2 + box.hi[axis] / 2;
-            radius[axis] = std::max(box.hi[axis] - centre[axis], centre[axis] - box.lo[axis]);
-            const float reference = job_.transform.reference[axis];
-            farthest[axis] = std::max(std::abs(box.lo[axis] - reference), std::abs(box.hi[axis] - reference));
+        const shader::CertifiedBounds bounds = shader::certifiedBoxBounds(
+            item_, job_.transform, {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]});
+        const CellBox cells = cellsOf(bounds);
+        if (cells.empty()) {
+            return false;
         }
-        const CertifiedVertex middle = shader::certifiedVertex(job_.transform, centre[0], centre[1], centre[2]);
-        // The centre's rounding and the radius's, with what a triangle in the box adds to it at most.
-        const float error = 4 * shader::exactDot(job_.transform.error, farthest[0], farthest[1], farthest[2]);
-        std::array<float, 3> extent{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const shader::vec4& row = job_.transform.voxel_from_reference[axis];
-            extent[axis] = std::abs(row[0]) * radius[0] + std::abs(row[1]) * radius[1] + std::abs(row[2]) * radius[2];
-        }
-        const float longest = std::max({extent[0], extent[1], extent[2]});
-        const float delta = error + (4 * longest + 4) * CERTIFIED_CLIP_ERROR;
-        if (!(delta <= CERTIFIED_FARTHEST)) {
-            return true;
-        }
-        CellBox cells{};
-        const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float at = voxelAlong(middle.point, static_cast<int>(axis));
-            shader::certifiedCells(at - extent[axis], at + extent[axis], delta, size[axis], cells.lo[axis],
-                                   cells.hi[axis]);
-        }
-        return !cells.empty() && job_.occupancy.mayBeOpaque(job_.volume, cells);
+        // A triangle that is not usable is undecided wherever its bricks may have an opaque point.
+        return bounds.usable ? job_.occupancy.mayBeOpaque(job_.volume, cells)
+                             : job_.occupancy.mayBeOpaque(cells.bricks());
     }
 
     void decideRun(std::uint32_t run) {
@@ -115,7 +98,7 @@ template <class Kept> class Decider {
 
     void decideTriangle(const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
         const shader::CertifiedBounds bounds = shader::certifiedBounds(item_, a, b, c);
-        const CellBox cells{{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
+        const CellBox cells = cellsOf(bounds);
         if (cells.empty()) {
             return;
         }
