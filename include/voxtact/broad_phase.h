@@ -26,8 +26,9 @@ struct BoxPair {
 [[nodiscard]] VOXTACT_API Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> left,
                                                                         std::span<const Box> right);
 
-/// The box of a box's eight corners under an affine matrix, rounded outward: for the world box of a mesh at a pose
-/// (world_from_object), or of a volume (world_from_texture of the box [0,1]^3).
+/// The box of a box's eight corners under an affine matrix, rounded outward (what is exact stays exact): for the world
+/// box of a mesh at a pose (world_from_object), or of a volume (world_from_texture of the box [0,1]^3). A box that
+/// overlaps nothing, and a matrix that is not finite, give a box that overlaps nothing.
 [[nodiscard]] VOXTACT_API Box transformBox(const Mat4& b_from_a, const Box& box) noexcept;
 
 } // namespace voxtact
