@@ -153,7 +153,7 @@ TEST(Edits, BadOnesAreRefusedAndChangeNothing) {
     const auto text = [&](ScalarType type, double value) {
         const VolumeData data{grid, type, std::vector<std::byte>(voxelCount(grid) * bytesPerVoxel(type)), {}, {}};
         cpu::Volume volume = take(cpu::Volume::create(data.view()));
-        const std::string out = volume.set(VoxelBox{{1, 1, 1}, {2, 2, 2}}, value).error().text;
+        std::string out = volume.set(VoxelBox{{1, 1, 1}, {2, 2, 2}}, value).error().text;
         expectSame(volume, take(cpu::Volume::create(data.view())));
         return out;
     };
