@@ -3,6 +3,7 @@
 
 #include "voxtact/answers.h"
 #include "voxtact/data.h"
+#include "voxtact/edit.h"
 #include "voxtact/labels.h"
 
 #include <memory>
@@ -32,6 +33,19 @@ class Volume {
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
     VOXTACT_API ~Volume();
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
+
+    /// Edits: the next detect() sees them. None may run on the volume meanwhile. Either all of an edit is done or,
+    /// where it is refused, nothing.
+    ///
+    /// Gives the voxels of a region a value in the image's own units. Refuses what voxelBounds() refuses, and a value
+    /// that the voxels' type cannot have: NaN, infinite, out of range or, for integers, not whole. Floats are rounded
+    /// to the nearest. A region without voxels is no error.
+    [[nodiscard]] VOXTACT_API Result<void> set(const VoxelRegion& region, double value);
+    /// Replaces the voxels of a box by scalars of the type that the volume was created with, x fastest, then y, then z,
+    /// without padding; any alignment will do. Refuses a box that leaves the grid, the wrong number of bytes, and NaN
+    /// or infinite voxels.
+    [[nodiscard]] VOXTACT_API Result<void> write(const VoxelBox& box, std::span<const std::byte> voxels);
+
     [[nodiscard]] const VolumeImpl& impl() const noexcept { return *impl_; }
 
   private:

@@ -17,10 +17,12 @@ struct LabelData {
 };
 
 /// Refuses what checkVolume() refuses, float voxels that are not whole numbers within +-2^24, and more than 65536
-/// different labels. O(voxels).
+/// different labels (LimitExceeded). O(voxels + the labels' range).
 [[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const VolumeView& volume);
 
-/// Number of the label of a world point in `values`; that of 0 outside of the grid.
+/// Number of the label of a world point in `values`; that of 0 outside of the grid. The voxel along an axis with n of
+/// them is floor(n * texture coordinate): half way between two centres it is the upper one, and at 1 the last one.
+/// Expects what makeLabels() returns.
 [[nodiscard]] VOXTACT_API std::uint32_t labelAt(const LabelData& labels, const Vec3& world) noexcept;
 
 } // namespace voxtact

@@ -30,8 +30,13 @@ std::uint64_t nextObjectId() noexcept {
 }
 
 VolumeImpl::VolumeImpl(const VolumeView& data)
-    : grid(data.grid), texture_from_world(textureFromWorld(data.grid).value()),
+    : grid(data.grid), type(data.type), texture_from_world(textureFromWorld(data.grid).value()),
       storedIntercept(cpu::storedIntercept(data.type)), image(data), bricks(image) {}
+
+void VolumeImpl::edited(const VoxelBox& box) {
+    bricks.update(image, box);
+    id = nextObjectId();
+}
 
 Volume::Volume(std::unique_ptr<VolumeImpl> impl) noexcept : impl_(std::move(impl)) {}
 Volume::Volume(Volume&&) noexcept = default;

@@ -16,8 +16,12 @@ namespace voxtact::cpu {
 struct VolumeImpl {
     explicit VolumeImpl(const VolumeView& data);
 
-    std::uint64_t id = nextObjectId();
+    /// Brings everything that is made from the image up to date, after voxels of a box (not an empty one) changed.
+    void edited(const VoxelBox& box);
+
+    std::uint64_t id = nextObjectId(); ///< another one after every edit
     Grid grid;
+    ScalarType type;
     Mat4 texture_from_world;
     double storedIntercept; ///< value = stored + storedIntercept
     StoredImage image;

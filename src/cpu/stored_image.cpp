@@ -65,21 +65,73 @@ template <class Scalar> void fill(const Grid& grid, const Scalar* voxels, Stored
     }
 }
 
-/// The padded voxels that the cells of a brick have corners at.
+/// Padded voxels along an axis.
 struct Extent {
     std::int64_t first;
     std::int64_t end;
 };
 
+/// Where voxels of the image are kept: the outermost ones twice.
+Extent copiesOf(std::uint32_t first, std::uint32_t end, std::int32_t size) {
+    const bool last = end == static_cast<std::uint32_t>(size);
+    return {first == 0 ? 0 : std::int64_t{first} + 1, std::int64_t{end} + (last ? 2 : 1)};
+}
+
+template <class Scalar>
+void replaceRow(StoredImage& image, const VoxelRow& row, const std::byte* voxels, std::size_t step) {
+    using Kept = decltype(keep(Scalar{}));
+    const Extent extentX = copiesOf(row.firstX, row.endX, image.size[0]);
+    const Extent extentY = copiesOf(row.y, row.y + 1, image.size[1]);
+    const Extent extentZ = copiesOf(row.z, row.z + 1, image.size[2]);
+    const auto kept = [&](std::int64_t x) {
+        const std::int64_t source = std::clamp<std::int64_t>(x - 1, row.firstX, std::int64_t{row.endX} - 1);
+        Scalar voxel;
+        std::memcpy(&voxel, voxels + static_cast<std::size_t>(source - row.firstX) * step, sizeof voxel);
+        return keep(voxel);
+    };
+    for (std::int64_t z = extentZ.first; z < extentZ.end; ++z) {
+        for (std::int64_t y = extentY.first; y < extentY.end; ++y) {
+            std::byte* to =
+                image.bytes.data() + static_cast<std::size_t>(z * image.stride[2] + y * image.stride[1]) * sizeof(Kept);
+            for (std::int64_t x = extentX.first; x < extentX.end; ++x) {
+                const Kept value = kept(x);
+                std::memcpy(to + static_cast<std::size_t>(x) * sizeof value, &value, sizeof value);
+            }
+        }
+    }
+}
+
+/// The padded voxels that the cells of a brick have corners at.
 Extent extentOf(std::int32_t brick, std::int32_t size) {
     const std::int64_t first = std::int64_t{brick} << kBrickShift;
     return {first, std::min(first + (1 << kBrickShift) + 1, std::int64_t{size} + 2)};
 }
 
-template <class Kept> void rangesOf(const StoredImage& image, const Kept* voxels, BrickRanges& out) {
-    for (std::int32_t brickZ = 0; brickZ < out.count[2]; ++brickZ) {
-        for (std::int32_t brickY = 0; brickY < out.count[1]; ++brickY) {
-            for (std::int32_t brickX = 0; brickX < out.count[0]; ++brickX) {
+/// Bricks of a box, both ends inclusive.
+struct Bricks {
+    std::array<std::int32_t, 3> lo{};
+    std::array<std::int32_t, 3> hi{};
+};
+
+/// The bricks that edited voxels are a corner in.
+Bricks bricksAround(const StoredImage& image, const BrickRanges& ranges, const VoxelBox& edited) {
+    Bricks bricks;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Extent copies = copiesOf(edited.first[axis], edited.first[axis] + edited.size[axis], image.size[axis]);
+        // A brick's first layer of corners is also the last one of the brick before.
+        const std::int64_t first = std::max<std::int64_t>(copies.first - 1, 0) >> kBrickShift;
+        const std::int64_t last = (copies.end - 1) >> kBrickShift;
+        bricks.lo[axis] = static_cast<std::int32_t>(first);
+        bricks.hi[axis] = static_cast<std::int32_t>(std::min<std::int64_t>(last, ranges.count[axis] - 1));
+    }
+    return bricks;
+}
+
+template <class Kept>
+void rangesOf(const StoredImage& image, const Kept* voxels, const Bricks& bricks, BrickRanges& out) {
+    for (std::int32_t brickZ = bricks.lo[2]; brickZ <= bricks.hi[2]; ++brickZ) {
+        for (std::int32_t brickY = bricks.lo[1]; brickY <= bricks.hi[1]; ++brickY) {
+            for (std::int32_t brickX = bricks.lo[0]; brickX <= bricks.hi[0]; ++brickX) {
                 const Extent extentX = extentOf(brickX, image.size[0]);
                 const Extent extentY = extentOf(brickY, image.size[1]);
                 const Extent extentZ = extentOf(brickZ, image.size[2]);
@@ -94,8 +146,10 @@ template <class Kept> void rangesOf(const StoredImage& image, const Kept* voxels
                         }
                     }
                 }
-                out.lo.push_back(storedValue(lo));
-                out.hi.push_back(storedValue(hi));
+                const auto brick =
+                    static_cast<std::size_t>((std::int64_t{brickZ} * out.count[1] + brickY) * out.count[0] + brickX);
+                out.lo[brick] = storedValue(lo);
+                out.hi[brick] = storedValue(hi);
             }
         }
     }
@@ -111,11 +165,36 @@ StoredImage::StoredImage(const VolumeView& volume) : type(storedAs(volume.type))
     visitVoxels(volume, [&](const auto* voxels) { fill(volume.grid, voxels, *this); });
 }
 
+void StoredImage::replace(const VoxelRow& row, ScalarType from, const std::byte* voxels, std::size_t step) {
+    switch (from) {
+    case ScalarType::UInt8:
+        return replaceRow<std::uint8_t>(*this, row, voxels, step);
+    case ScalarType::Int16:
+        return replaceRow<std::int16_t>(*this, row, voxels, step);
+    case ScalarType::UInt16:
+        return replaceRow<std::uint16_t>(*this, row, voxels, step);
+    case ScalarType::Float32:
+        break;
+    }
+    replaceRow<float>(*this, row, voxels, step);
+}
+
 BrickRanges::BrickRanges(const StoredImage& image) {
+    Bricks all;
+    std::size_t bricks = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         count[axis] = brickCount(image.size[axis]);
+        all.hi[axis] = count[axis] - 1;
+        bricks *= static_cast<std::size_t>(count[axis]);
     }
-    image.visit([&](const auto* voxels) { rangesOf(image, voxels, *this); });
+    lo.resize(bricks);
+    hi.resize(bricks);
+    image.visit([&](const auto* voxels) { rangesOf(image, voxels, all, *this); });
+}
+
+void BrickRanges::update(const StoredImage& image, const VoxelBox& edited) {
+    const Bricks touched = bricksAround(image, *this, edited);
+    image.visit([&](const auto* voxels) { rangesOf(image, voxels, touched, *this); });
 }
 
 } // namespace voxtact::cpu

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bricks.h"
+#include "core/edit_rows.h"
 #include "voxtact/data.h"
 
 #include <array>
@@ -21,6 +22,10 @@ enum class Stored { UInt8, UInt16, Float };
 /// no clamping.
 struct StoredImage {
     explicit StoredImage(const VolumeView& volume);
+
+    /// Replaces a row of voxels, wherever it is repeated too, by voxels of the type that the image was made from:
+    /// `voxels` is the first of them, and the next is `step` bytes further on; 0: the same once more.
+    void replace(const VoxelRow& row, ScalarType from, const std::byte* voxels, std::size_t step);
 
     Stored type = Stored::UInt8;
     std::array<std::int32_t, 3> size{};   ///< voxels of the image
@@ -44,6 +49,9 @@ struct StoredImage {
 /// The range of the stored values of each brick: of all the corners of its cells, and so of every sample in it.
 struct BrickRanges {
     explicit BrickRanges(const StoredImage& image);
+
+    /// Looks once more at the bricks that a box of voxels has a part in. Not for an empty box.
+    void update(const StoredImage& image, const VoxelBox& edited);
 
     std::array<std::int32_t, 3> count{};
     std::vector<float> lo;
