@@ -32,6 +32,7 @@ enum class Projection : std::uint32_t {
 
 /// Samples along a voxel's side in the projection DominantAxis.
 inline constexpr std::uint32_t kDefaultSamplesPerVoxel = 1;
+inline constexpr std::uint32_t kMostSamplesPerVoxel = 16;
 /// The projection Conservative stops dividing pieces of a triangle that are no longer than this many voxels.
 inline constexpr double kDefaultResolution = 1.0 / 64;
 /// How far a contact's penetration is followed, in millimetres.

@@ -118,8 +118,9 @@ struct WrappedMesh {
     VkDeviceSize indexOffset = 0;                 ///< bytes
     VkIndexType indexType = VK_INDEX_TYPE_UINT32; ///< UINT16 or UINT32
     std::uint32_t triangleCount = 0;
-    /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` needs. 16-bit indices must then
-    /// be followed by two more bytes where they end in the middle of four.
+    /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` and the projection
+    /// `dominant-axis` need. 16-bit indices must then be followed by two more bytes where they end in the middle of
+    /// four.
     bool storage = false;
 };
 

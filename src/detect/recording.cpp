@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/recording.h"
+#include "core/projection.h"
 #include "detect/batch.h"
 #include "detect/counting.h"
 #include "gpu/barriers.h"
@@ -58,12 +59,14 @@ template <class Record, std::size_t AtOnce> class BufferUpdate {
 
 /// The transforms that the vertex shader reads.
 void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                      const ResultsImpl& results) {
+                      const ResultsImpl& results, Projection projection) {
+    const Cameras cameras(projection, batch.view);
     BufferUpdate<shader::PairTransform, kTransformsAtOnce> update(context, commandBuffer, results.transforms.get());
     for (const BatchItem& item : batch.items) {
         for (const Mat4& world_from_object : item.world_from_object) {
-            update.add(
-                pairTransform(batch.view.clip_from_world, world_from_object, item.volume->impl().texture_from_world));
+            for (const Mat4& clip_from_world : cameras.clip_from_world()) {
+                update.add(pairTransform(clip_from_world, world_from_object, item.volume->impl().texture_from_world));
+            }
         }
     }
     update.finish();
@@ -107,7 +110,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     barrier(context, commandBuffer, kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    recordTransforms(context, commandBuffer, batch, results);
+    recordTransforms(context, commandBuffer, batch, results, desc.projection);
     recordEmptyResults(context, commandBuffer, batch, results, howOf(desc));
     if (countsByQuery(desc.method)) {
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);

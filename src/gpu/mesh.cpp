@@ -49,7 +49,7 @@ std::uint32_t indexBytes(const MeshImpl& mesh) {
     return mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
 }
 
-/// The descriptor set of the compute path, over what a triangle can reach of the two buffers.
+/// The descriptor set for shaders that read the mesh as storage, over what a triangle can reach of the two buffers.
 Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* name) {
     ContextImpl& context = mesh.context;
     constexpr VkDeviceSize kWord = 4;
@@ -60,7 +60,7 @@ Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* nam
     const VkDeviceSize indexRange = mesh.indices == VK_NULL_HANDLE ? vertexEnd : indexEnd / kWord * kWord;
     const VkDeviceSize most = context.limits.maxStorageBufferRange;
     if (vertexEnd > most || indexRange > most) {
-        mesh.noCompute = "the mesh needs " + std::to_string(std::max(vertexEnd, indexRange)) +
+        mesh.noStorage = "the mesh needs " + std::to_string(std::max(vertexEnd, indexRange)) +
                          " bytes of a buffer, the device's maxStorageBufferRange is " + std::to_string(most);
         return {};
     }
@@ -159,7 +159,7 @@ Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
         impl->indexType = wrapped.indexType;
         impl->triangleCount = wrapped.triangleCount;
         if (!wrapped.storage) {
-            impl->noCompute = "WrappedMesh::storage is false: its buffers cannot be read by a compute shader";
+            impl->noStorage = "WrappedMesh::storage is false: its buffers cannot be read as storage";
         } else if (Result<void> described = describe(*impl, wrapped.vertexCount, "wrapped mesh"); !described.ok()) {
             return described.error();
         }

@@ -41,8 +41,8 @@ struct MeshImpl {
     VkIndexType indexType = VK_INDEX_TYPE_UINT32;
     std::uint32_t triangleCount = 0;
     std::optional<MeshFacts> facts{};
-    DescriptorSet descriptors{}; ///< for the compute path; empty where `noCompute` says why
-    std::string noCompute{};
+    DescriptorSet descriptors{}; ///< for shaders that read the mesh as storage; empty where `noStorage` says why
+    std::string noStorage{};
     Buffer buffer{}; ///< positions, then indices; empty when wrapped
     Buffer staging{};
 };
