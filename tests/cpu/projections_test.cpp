@@ -98,6 +98,16 @@ TEST(Projections, DominantAxisIsTheReferenceBeyondReason) {
     }
 }
 
+/// A ramp over all values of the volume and a threshold in between, so that hardly a decision is within rounding. False
+/// where the values are too large, or too near each other, for that.
+bool makePlain(RandomScene& scene) {
+    scene.domain = take(checkVolume(scene.volume.view()));
+    scene.points = {{scene.domain.lo, 0}, {scene.domain.hi, 1}};
+    scene.threshold = 0.4137;
+    const double largest = std::max(std::abs(scene.domain.lo), std::abs(scene.domain.hi));
+    return largest < 1e37 && scene.domain.hi - scene.domain.lo > largest / 100;
+}
+
 TEST(Projections, DominantAxisIsTheOracleUpToRounding) {
     std::mt19937_64 random(testSeed());
     std::uint64_t survivors = 0;
@@ -107,8 +117,8 @@ TEST(Projections, DominantAxisIsTheOracleUpToRounding) {
         std::mt19937_64 local(seed);
         RandomScene scene = makeRandomScene(local, 2);
         scene.rangeTest = true;
-        if (scene.domain.hi - scene.domain.lo > 1e37) {
-            continue; // the difference of two voxels overflows in single precision
+        if (!makePlain(scene)) {
+            continue;
         }
         cpu::DetectorDesc desc = kDominant;
         desc.samplesPerVoxel = randomSamples(local, scene.volume.grid);
@@ -125,7 +135,7 @@ TEST(Projections, DominantAxisIsTheOracleUpToRounding) {
                                            .size();
             const std::uint64_t difference =
                 std::max<std::uint64_t>(counts[i], oracle) - std::min<std::uint64_t>(counts[i], oracle);
-            EXPECT_LE(difference, 3 + oracle / 50)
+            EXPECT_LE(difference, 8 + oracle / 50)
                 << "scene " << seed << ", pose " << i << ": " << counts[i] << " against the oracle's " << oracle;
             survivors += oracle;
             differ += difference;
@@ -133,7 +143,7 @@ TEST(Projections, DominantAxisIsTheOracleUpToRounding) {
     }
     std::cout << "the oracle's survivors: " << survivors << ", the counts differ by " << differ << "\n";
     EXPECT_GT(survivors, 10000U);
-    EXPECT_LE(differ, survivors / 500);
+    EXPECT_LE(differ, 50 + survivors / 2000);
 }
 
 TEST(Projections, TwoViewIsTheViewAndTheSideView) {
@@ -217,20 +227,6 @@ TEST(Projections, ATiltedPlateHasItsAreaTimesItsLargestNormalComponent) {
     EXPECT_GT(most / least, 1.4) << "rotations that find no difference prove nothing";
 }
 
-/// Turns a volume in the world, by a rigid motion.
-void turn(VolumeData& volume, const Mat4& motion) {
-    volume.grid.origin = transformPoint(motion, volume.grid.origin);
-    std::array<double, 9> direction{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t r = 0; r < 3; ++r) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                direction[3 * c + r] += motion[4 * k + r] * volume.grid.direction[3 * c + k];
-            }
-        }
-    }
-    volume.grid.direction = direction;
-}
-
 TEST(Projections, TurningMeshAndVolumeTogetherKeepsTheCount) {
     std::mt19937_64 random(testSeed());
     const VolumeData head = take(makeBuiltinVolume("head:64"));
@@ -238,11 +234,8 @@ TEST(Projections, TurningMeshAndVolumeTogetherKeepsTheCount) {
     const Mat4 pose = multiply(translation({10, 20, 30}), randomRotation(random));
     std::vector<double> counts;
     for (int round = 0; round < 100; ++round) {
-        const Mat4 motion =
-            multiply(translation({uniform(random, -100, 100), uniform(random, -100, 100), uniform(random, -100, 100)}),
-                     randomRotation(random));
-        VolumeData turned = head;
-        turn(turned, motion);
+        const Mat4 motion = randomMotion(random);
+        const VolumeData turned = moved(head, motion);
         cpu::DetectorDesc desc = kDominant;
         desc.samplesPerVoxel = 4;
         counts.push_back(static_cast<double>(countOf(scalpel, turned, desc, multiply(motion, pose))));
