@@ -141,8 +141,8 @@ class Detector {
     ///   queries          no occlusion query may be active
     ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3),
     ///                    push constants, vertex binding 0, index buffer, dynamic viewport and scissor; for the method
-    ///                    compute instead:
-    ///                    compute pipeline, descriptor sets 0..3 of the compute bind point, push constants
+    ///                    compute instead: compute pipeline, descriptor sets 0..3 of the compute bind point, push
+    ///                    constants
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
