@@ -12,6 +12,8 @@
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(constant_id = VOXTACT_CONSTANT_EXACT_FILTER) const bool kExactFilter = true;
+layout(constant_id = VOXTACT_CONSTANT_VIEWS) const uint kViews = 1; // of a pair
+layout(constant_id = VOXTACT_CONSTANT_DOMINANT_AXIS) const bool kDominantAxis = false;
 
 layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
 layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
@@ -28,6 +30,8 @@ const bool kCarry = true;
 
 #include "survives.glsl"
 #include "count.glsl"
+#include "dominant.h"
+#include "mesh.glsl"
 
 /// A piece is a triangle, or one triangle of the fan that clipping made of it: triangle * 8 + number in the fan.
 #define MOST_PIECES (EXACT_MAX_CORNERS - 2)
@@ -38,20 +42,6 @@ const float kDomainMargin = 1e-3;
 shared uint queue[VOXTACT_COMPUTE_GROUP * MOST_PIECES];
 shared uint queued;
 
-uint vertexOf(uint corner) {
-    if (constants.indexBytes == 0) {
-        return corner;
-    }
-    const uint at = constants.indexOffset + corner * constants.indexBytes;
-    const uint word = indices[at >> 2];
-    return constants.indexBytes == 4 ? word : (word >> (8 * (at & 2))) & 0xffffu;
-}
-
-ExactCorner cornerOf(PairTransform transform, uint triangle, uint corner) {
-    const uint at = constants.vertexOffset + vertexOf(3 * triangle + corner) * constants.vertexStride;
-    return exactVertex(transform, vertices[at], vertices[at + 1], vertices[at + 2]);
-}
-
 bool beyond(float a, float b, float c) {
     return (a < -kDomainMargin && b < -kDomainMargin && c < -kDomainMargin) ||
            (a > 1.0 + kDomainMargin && b > 1.0 + kDomainMargin && c > 1.0 + kDomainMargin);
@@ -60,11 +50,14 @@ bool beyond(float a, float b, float c) {
 /// The pieces of a triangle: their number, the corners of the polygon being left in `corners`.
 int piecesOf(PairTransform transform, uint triangle, inout ExactCorner corners[EXACT_MAX_CORNERS]) {
     for (uint corner = 0; corner < 3; ++corner) {
-        corners[corner] = cornerOf(transform, triangle, corner);
+        corners[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
     }
     if (constants.rangeTest != 0 && (beyond(corners[0].tx, corners[1].tx, corners[2].tx) ||
                        beyond(corners[0].ty, corners[1].ty, corners[2].ty) ||
                        beyond(corners[0].tz, corners[1].tz, corners[2].tz))) {
+        return 0;
+    }
+    if (kDominantAxis && !dominantProject(corners[0], corners[1], corners[2], constants.grid)) {
         return 0;
     }
     const float guardX = constants.guardX;
@@ -128,9 +121,10 @@ void main() {
         queued = 0;
     }
     barrier();
-    const uint pair = constants.firstPair + gl_WorkGroupID.y;
+    const uint view = constants.firstTransform + gl_WorkGroupID.y;
+    const uint pair = view / kViews;
     const uint triangle = gl_GlobalInvocationID.x;
-    const PairTransform transform = transforms[pair];
+    const PairTransform transform = transforms[view];
     uint survivors = triangle < constants.triangleCount ? countTriangle(transform, triangle) : 0;
     barrier();
     for (uint i = 0; i < queued; ++i) {

@@ -12,7 +12,8 @@ using uint = std::uint32_t;
 using vec4 = std::array<float, 4>;
 #endif
 
-/// What the vertex shader needs of one pair; element `pair` of a std430 buffer.
+/// What the vertex shader needs of one pair; element `pair` of a std430 buffer. A projection with several views has as
+/// many of them for each pair, one after the other.
 struct PairTransform {
     vec4 clip_from_object[4];    // rows
     vec4 texture_from_object[3]; // its first three rows: affine
@@ -26,6 +27,28 @@ struct ItemConstants {
     float storedUnit; // the integer behind 1.0 of a normalised texel; 0 for float texels
 };
 
+/// How a mesh lies in its storage buffers.
+struct MeshConstants {
+    uint vertexOffset; // of the first position, in floats
+    uint vertexStride; // in floats
+    uint indexOffset;  // in bytes
+    uint indexBytes;   // 2, 4, or 0: not indexed
+};
+
+/// The grid that the projection `dominant-axis` has its pixels on.
+struct DominantGrid {
+    float sizeX; // voxels
+    float sizeY;
+    float sizeZ;
+    float clipScale; // clip = clipScale * voxels - 1
+};
+
+/// What the vertex shader of `dominant-axis` needs of one batch item: push constants behind the fragment program's.
+struct DominantConstants {
+    DominantGrid grid;
+    MeshConstants mesh;
+};
+
 /// Push constants of the compute path.
 struct ComputeConstants {
     ItemConstants item;
@@ -33,12 +56,10 @@ struct ComputeConstants {
     float guardY;
     int width; // of the viewport
     int height;
-    uint firstPair;
+    uint firstTransform;
     uint triangleCount;
-    uint vertexOffset; // of the first position, in floats
-    uint vertexStride; // in floats
-    uint indexOffset;  // in bytes
-    uint indexBytes;   // 2, 4, or 0: not indexed
+    MeshConstants mesh;
+    DominantGrid grid; // of the projection `dominant-axis`
     uint rangeTest;    // 0: clamp
 };
 
@@ -80,6 +101,17 @@ struct CertifiedItem {
     int sizeZ;
 };
 
+/// Push constants of the projection `conservative`.
+struct CertifiedConstants {
+    CertifiedItem item;
+    MeshConstants mesh;
+    uint firstPair;
+    uint triangleCount;
+    uint clusterCount; // 0: the mesh has none on the device
+    uint clusterWord;  // of the words of the index buffer, where the clusters are: of each the box, lo and hi; and then
+                       // the triangles, cluster by cluster, VOXTACT_COMPUTE_GROUP in each but the last
+};
+
 // Descriptor sets.
 #define VOXTACT_SET_VOLUME 0
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
@@ -101,6 +133,11 @@ struct CertifiedItem {
 #define VOXTACT_CONSTANT_RANGE_TEST 0
 #define VOXTACT_CONSTANT_CARRY 1
 #define VOXTACT_CONSTANT_EXACT_FILTER 2
+#define VOXTACT_CONSTANT_VIEWS 3
+#define VOXTACT_CONSTANT_DOMINANT_AXIS 4
+#define VOXTACT_CONSTANT_STOP_AT_FIRST 5
+// Where the push constants of dominant.vert begin: room for those of the fragment program is before them.
+#define VOXTACT_OFFSET_DOMINANT 96
 // Lanes of a work group of the compute path.
 #define VOXTACT_COMPUTE_GROUP 64
 // Those of the brick pass.
@@ -111,9 +148,13 @@ struct CertifiedItem {
 #ifdef __cplusplus
 static_assert(sizeof(PairTransform) == 112 && offsetof(PairTransform, texture_from_object) == 64);
 static_assert(sizeof(ItemConstants) == 16);
-static_assert(sizeof(ComputeConstants) == 60);
+static_assert(sizeof(MeshConstants) == 16 && sizeof(DominantGrid) == 16);
+static_assert(sizeof(ItemConstants) <= VOXTACT_OFFSET_DOMINANT);
+static_assert(VOXTACT_OFFSET_DOMINANT + sizeof(DominantConstants) <= 128, "Vulkan's least maxPushConstantsSize");
+static_assert(sizeof(ComputeConstants) == 76);
 static_assert(sizeof(CertifiedPair) == 80);
 static_assert(sizeof(CertifiedItem) == 44);
+static_assert(sizeof(CertifiedConstants) == 76);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif

@@ -32,6 +32,7 @@ struct ContextDesc {
     /// Both VkPhysicalDeviceVulkan1xFeatures and the single-feature structs are read.
     const VkPhysicalDeviceFeatures2* enabledFeatures = nullptr;
     std::span<const char* const> enabledInstanceExtensions; ///< only VK_EXT_debug_utils is looked for: names and labels
+    std::span<const char* const> enabledDeviceExtensions;   ///< those of optionalDeviceExtensions() are looked for
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;         ///< optional; used, never destroyed
     const VkAllocationCallbacks* allocator = nullptr;       ///< optional
     LogCallback log = nullptr;                              ///< optional; warnings, a line each
@@ -48,6 +49,10 @@ struct Requirement {
 
 /// Everything that voxtact requires or recommends, in the order in which check() reports it.
 [[nodiscard]] VOXTACT_API std::span<const Requirement> requirements() noexcept;
+
+/// Device extensions that voxtact can use, and that no method needs: VK_EXT_conservative_rasterization, for
+/// DetectorDesc::overestimate. Nothing is reported where they are not enabled.
+[[nodiscard]] VOXTACT_API std::span<const char* const> optionalDeviceExtensions() noexcept;
 
 /// A feature chain for vkCreateDevice with every one of requirements() that `supported` offers, and nothing else.
 /// Add your own features to `features2.features`, `vulkan12` and `vulkan13`, or chain more structs behind `vulkan13`.

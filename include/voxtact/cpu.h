@@ -106,6 +106,7 @@ struct DetectorDesc {
     std::uint32_t threads = 0;          ///< 0: one for each processor
     Boundary boundary = Boundary::Auto; ///< Auto is the range test: the host has nothing to gain from clamping
     bool stopAtFirst = false;           ///< the count is then 0 or 1, and its exactness LowerBound
+    /// dominant-axis sets its triangles up one by one: a good deal slower than a view for meshes of small triangles.
     Projection projection = Projection::View;
     Outputs outputs{};                                       ///< with stopAtFirst: refused
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
@@ -122,8 +123,8 @@ class Detector {
     VOXTACT_API ~Detector();
 
     /// Answers for every pair, with CountingMethod::Cpu. gpuMilliseconds is 0. Refuses what the Vulkan detector
-    /// refuses: null objects, bad poses, a singular camera, a viewport of 0 or beyond kMaxViewport, a threshold
-    /// outside [0,1].
+    /// refuses: null objects, bad poses, a singular camera, a viewport of 0 or beyond kMaxViewport (dominant-axis: a
+    /// volume that needs one), a threshold outside [0,1].
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
     [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
 

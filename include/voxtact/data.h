@@ -142,7 +142,7 @@ struct MeshFacts {
 /// indices out of range (the first is named). O(vertices + triangles).
 [[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
 
-/// The camera of the `view` projection.
+/// The camera of the projections `view` and `two-view`.
 struct View {
     Mat4 clip_from_world{};    ///< Vulkan clip space; orthographic or perspective; not singular
     std::uint32_t width = 512; ///< pixels; at least 1, at most what the method can do: Context::maxViewport()
@@ -152,6 +152,11 @@ struct View {
 /// An orthographic view along world -z (from above, anterior up: world x runs to the left, y down) whose square
 /// pixels frame the box of the volume, with a margin of 1 %.
 [[nodiscard]] VOXTACT_API Mat4 framingCamera(const Grid& grid, std::uint32_t width, std::uint32_t height) noexcept;
+
+/// The second camera of the projection `two-view`: the view volume of the first one, seen along its x axis. With the
+/// first one's clip coordinates x, y, z, w it has 2z - w, y, (x + w) / 2, w: what was depth runs to the right, what ran
+/// to the right is depth, and no point enters or leaves the view volume. Orthographic or perspective.
+[[nodiscard]] VOXTACT_API Mat4 sideView(const Mat4& clip_from_world) noexcept;
 
 /// Refuses NaN or infinite elements and a last row other than 0 0 0 1. `what` begins the error text ("pose 3").
 [[nodiscard]] VOXTACT_API Result<void> checkAffine(const Mat4& matrix, const std::string& what);

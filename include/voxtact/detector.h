@@ -24,7 +24,10 @@ struct DetectorDesc {
     Outputs outputs{};                                       ///< beside the counts; the Results need room for them
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
     double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
-    /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization.
+    bool stopAtFirst = false; ///< conservative: the count is then 0 or 1, and its exactness LowerBound
+    /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
+    /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel beside the triangle.
+    /// InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
 };
 
@@ -130,15 +133,17 @@ class Detector {
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics (and compute,
     ///                    for the method compute)
     ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them, wrapped ones in the
-    ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER (for the method
-    ///                    compute: to COMPUTE_SHADER) by the caller; an earlier use of the same Results in this queue
+    ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER (for the projection
+    ///                    dominant-axis: to VERTEX_SHADER / FRAGMENT_SHADER, for the method compute: to
+    ///                    COMPUTE_SHADER) by the caller; an earlier use of the same Results in this queue
     ///                    may be in flight: the reads that cmdReadBack() and compute or fragment shaders make of
     ///                    buffer() are waited for
     ///   leaves           Results::buffer() available and visible to TRANSFER read, and to shader reads in all stages
     ///   queries          no occlusion query may be active
-    ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point, push constants, vertex
-    ///                    binding 0, index buffer, dynamic viewport and scissor; for the method compute instead:
-    ///                    compute pipeline, descriptor sets 0..3 of the compute bind point, push constants
+    ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3),
+    ///                    push constants, vertex binding 0, index buffer, dynamic viewport and scissor; for the method
+    ///                    compute instead: compute pipeline, descriptor sets 0..3 of the compute bind point, push
+    ///                    constants
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;

@@ -24,7 +24,10 @@ enum class CountingMethod : std::uint32_t {
 enum class Projection : std::uint32_t {
     View = 0,    ///< the paper's: the caller's camera and viewport
     TwoView = 1, ///< the paper's workaround for triangles seen edge-on: the view, and its view volume seen along its x
-    /// Each triangle along its own dominant axis in voxel space, onto a grid of the voxels' size or finer: no camera
+    /// Each triangle along its own dominant axis in voxel space, onto a grid of the voxels' size or finer: no camera.
+    /// The axis is that of the largest component of the triangle's normal, of equals the first; pixel centres are at
+    /// the centres of voxels, or of their samples; depth clips nothing. The viewport is the square of the volume's
+    /// longest side, also for Boundary::Clamp.
     DominantAxis = 2,
     /// Every voxel cell that a triangle passes through, decided with bounds: a contact is never missed. No camera
     Conservative = 3,
@@ -32,6 +35,7 @@ enum class Projection : std::uint32_t {
 
 /// Samples along a voxel's side in the projection DominantAxis.
 inline constexpr std::uint32_t kDefaultSamplesPerVoxel = 1;
+inline constexpr std::uint32_t kMostSamplesPerVoxel = 16;
 /// The projection Conservative stops dividing pieces of a triangle that are no longer than this many voxels.
 inline constexpr double kDefaultResolution = 1.0 / 64;
 /// How far a contact's penetration is followed, in millimetres.

@@ -182,9 +182,18 @@ struct WrappedMesh {
     VkDeviceSize indexOffset = 0;                 ///< bytes
     VkIndexType indexType = VK_INDEX_TYPE_UINT32; ///< UINT16 or UINT32
     std::uint32_t triangleCount = 0;
-    /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` needs. 16-bit indices must then
-    /// be followed by two more bytes where they end in the middle of four.
+    /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` and the projection
+    /// `dominant-axis` need. 16-bit indices must then be followed by two more bytes where they end in the middle of
+    /// four.
     bool storage = false;
+};
+
+/// How a mesh is made.
+struct MeshOptions {
+    const char* name = nullptr; ///< appears on the Vulkan objects; may be null
+    /// Clusters of near triangles are made and kept beside it, 4 to 5 bytes a triangle, for the projection
+    /// `conservative` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
+    bool clusters = false;
 };
 
 /// A triangle mesh on the device.
@@ -192,10 +201,10 @@ class Mesh {
   public:
     /// Refuses what checkMesh() refuses.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
-                                                         const char* name = nullptr);
+                                                         const MeshOptions& options = {});
     [[nodiscard]] VOXTACT_API static Result<Mesh> wrap(const Context& context, const WrappedMesh& wrapped);
     [[nodiscard]] VOXTACT_API static Result<Mesh> upload(const Context& context, const QueueAccess& queue,
-                                                         const MeshView& data, const char* name = nullptr);
+                                                         const MeshView& data, const MeshOptions& options = {});
     VOXTACT_API Mesh(Mesh&&) noexcept;
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
     VOXTACT_API ~Mesh();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstring>
 #include <optional>
 
 namespace voxtact::app {
@@ -57,6 +58,23 @@ std::optional<VkQueueFamilyProperties> findGraphicsFamily(const InstanceFunction
     return std::nullopt;
 }
 
+/// Those of voxtact's optional extensions that the device has.
+std::vector<const char*> findExtensions(const InstanceFunctions& functions, VkPhysicalDevice physical) {
+    std::uint32_t count = 0;
+    functions.enumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> there(count);
+    functions.enumerateDeviceExtensionProperties(physical, nullptr, &count, there.data());
+    std::vector<const char*> out;
+    for (const char* wanted : optionalDeviceExtensions()) {
+        if (std::ranges::any_of(there, [wanted](const VkExtensionProperties& extension) {
+                return std::strcmp(extension.extensionName, wanted) == 0;
+            })) {
+            out.push_back(wanted);
+        }
+    }
+    return out;
+}
+
 /// What the device supports, as the chain that FeatureRequest reads.
 struct SupportedFeatures {
     SupportedFeatures(const InstanceFunctions& functions, VkPhysicalDevice physical) {
@@ -91,6 +109,7 @@ struct VulkanDevice::State {
     VulkanInstance instance;
     PhysicalDevice physical;
     FeatureRequest features;
+    std::vector<const char*> extensions;
     VkDevice device = VK_NULL_HANDLE;
     VolkDeviceTable table{};
     VkQueue queue = VK_NULL_HANDLE;
@@ -218,6 +237,8 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     request.vulkan13.dynamicRendering &= supported.vulkan13.dynamicRendering;
     request.vulkan13.synchronization2 &= supported.vulkan13.synchronization2;
 
+    state->extensions = findExtensions(functions, physical.handle);
+
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -229,6 +250,8 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     info.pNext = &request.features2;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(state->extensions.size());
+    info.ppEnabledExtensionNames = state->extensions.data();
     const VkResult result = functions.createDevice(physical.handle, &info, nullptr, &state->device);
     if (result != VK_SUCCESS) {
         return vulkanError(result, "making a Vulkan device on '" + physical.name + "' failed");
@@ -243,6 +266,7 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     state->desc.apiVersion = VK_API_VERSION_1_3;
     state->desc.enabledFeatures = &request.features2;
     state->desc.enabledInstanceExtensions = instance.state_->extensions;
+    state->desc.enabledDeviceExtensions = state->extensions;
     return VulkanDevice(std::move(state));
 }
 

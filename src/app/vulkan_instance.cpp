@@ -84,6 +84,7 @@ InstanceFunctions loadFunctions(VkInstance instance) {
     get(functions.getPhysicalDeviceProperties2, "vkGetPhysicalDeviceProperties2");
     get(functions.getPhysicalDeviceFeatures2, "vkGetPhysicalDeviceFeatures2");
     get(functions.getPhysicalDeviceQueueFamilyProperties, "vkGetPhysicalDeviceQueueFamilyProperties");
+    get(functions.enumerateDeviceExtensionProperties, "vkEnumerateDeviceExtensionProperties");
     get(functions.createDevice, "vkCreateDevice");
     get(functions.createDebugUtilsMessenger, "vkCreateDebugUtilsMessengerEXT");
     get(functions.destroyDebugUtilsMessenger, "vkDestroyDebugUtilsMessengerEXT");

@@ -11,6 +11,9 @@ namespace {
 /// Keeps the box's own faces off the edge of the viewport and off the near and far planes.
 constexpr double kFramingMargin = 1.01;
 
+/// sideView()'s clip coordinates from the first camera's.
+constexpr Mat4 kSideFromClip{0, 0, 0.5, 0, 0, 1, 0, 0, 2, 0, 0, 0, -1, 0, 0.5, 1};
+
 Box worldBox(const Grid& grid) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const Mat4 world_from_texture = worldFromTexture(grid);
@@ -51,6 +54,10 @@ Mat4 framingCamera(const Grid& grid, std::uint32_t width, std::uint32_t height) 
     clip_from_world[14] = 0.5 - sz * centre[2];
     clip_from_world[15] = 1;
     return clip_from_world;
+}
+
+Mat4 sideView(const Mat4& clip_from_world) noexcept {
+    return multiply(kSideFromClip, clip_from_world);
 }
 
 } // namespace voxtact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/batch_check.h"
+#include "core/projection.h"
 #include "core/text.h"
 
 #include <limits>
@@ -29,6 +30,18 @@ Result<void> checkView(const View& view) {
     return {};
 }
 
+/// What the projection `dominant-axis` asks of an item that checkItem() accepts.
+Result<void> checkDominant(const BatchItem& item, std::size_t number, std::uint32_t samplesPerVoxel) {
+    const Grid& grid = item.volume->grid();
+    if (dominantSide(grid, samplesPerVoxel) > kMaxViewport) {
+        const std::string most = std::to_string(kMaxViewport);
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "batch item " + std::to_string(number) + ": " + dominantNeeds(grid, samplesPerVoxel) +
+                         ", the host engine's limit (cpu::kMaxViewport) is " + most + "x" + most};
+    }
+    return {};
+}
+
 Result<void> checkItem(const BatchItem& item, std::size_t number) {
     if (item.mesh == nullptr || item.volume == nullptr || item.transferFunction == nullptr) {
         return refuse("batch item " + std::to_string(number) + ": mesh, volume or transferFunction is null");
@@ -45,11 +58,11 @@ Result<void> checkItem(const BatchItem& item, std::size_t number) {
 
 } // namespace
 
-Result<std::uint32_t> checkBatch(const Batch& batch, Projection projection) {
+Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch) {
     if (!(batch.threshold >= 0 && batch.threshold <= 1)) {
         return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
     }
-    if (usesView(projection)) {
+    if (usesView(desc.projection)) {
         if (Result<void> view = checkView(batch.view); !view.ok()) {
             return view.error();
         }
@@ -58,6 +71,11 @@ Result<std::uint32_t> checkBatch(const Batch& batch, Projection projection) {
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         if (Result<void> item = checkItem(batch.items[i], i); !item.ok()) {
             return item.error();
+        }
+        if (desc.projection == Projection::DominantAxis) {
+            if (Result<void> item = checkDominant(batch.items[i], i, desc.samplesPerVoxel); !item.ok()) {
+                return item.error();
+            }
         }
         pairs += batch.items[i].world_from_object.size();
     }

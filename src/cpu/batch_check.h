@@ -6,8 +6,8 @@
 namespace voxtact::cpu {
 
 /// Refuses null objects, poses and cameras that are not finite or not affine, a singular camera, a viewport of 0 or
-/// beyond kMaxViewport, a threshold outside [0,1]. Without a camera the view is not looked at. Returns the number of
-/// pairs.
-[[nodiscard]] Result<std::uint32_t> checkBatch(const Batch& batch, Projection projection);
+/// beyond kMaxViewport, a threshold outside [0,1]. The camera counts only where the projection has one. Returns the
+/// number of pairs.
+[[nodiscard]] Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch);
 
 } // namespace voxtact::cpu

@@ -2,6 +2,7 @@
 #include "core/certified_constants.h"
 #include "core/guard.h"
 #include "core/pair_transform.h"
+#include "core/projection.h"
 #include "cpu/batch_check.h"
 #include "cpu/certified_run.h"
 #include "cpu/kernel.h"
@@ -39,6 +40,7 @@ constexpr std::uint32_t kPartsPerThread = 4;
 
 struct ItemFacts {
     std::shared_ptr<const Occupancy> occupancy;
+    ViewFacts view;
     std::uint32_t firstPair;
     std::uint32_t parts; ///< of each of its pairs
     std::uint64_t firstTask;
@@ -48,8 +50,7 @@ struct ItemFacts {
 class Run {
   public:
     Run(const Batch& batch, DetectorImpl& detector, std::uint32_t pairs)
-        : batch_(batch), detector_(detector), view_(batch.view, detector.desc.boundary != Boundary::Clamp),
-          counts_(pairs) {
+        : batch_(batch), detector_(detector), cameras_(detector.desc.projection, batch.view), counts_(pairs) {
         const std::uint32_t wanted = detector.pool.threads() == 1 || pairs == 0
                                          ? 1
                                          : std::max(detector.pool.threads() * kPartsPerThread / pairs, 1U);
@@ -59,8 +60,8 @@ class Run {
             const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(clusters / kFewestClusters, 1));
             const std::uint32_t parts = std::min(wanted, most);
             items_.push_back(
-                {detector.occupancies.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold), pair,
-                 parts, tasks_});
+                {detector.occupancies.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold),
+                 viewOf(item), pair, parts, tasks_});
             pair += static_cast<std::uint32_t>(item.world_from_object.size());
             tasks_ += item.world_from_object.size() * parts;
         }
@@ -91,6 +92,16 @@ class Run {
     }
 
   private:
+    [[nodiscard]] ViewFacts viewOf(const BatchItem& item) const {
+        const DetectorDesc& desc = detector_.desc;
+        View view = batch_.view;
+        if (desc.projection == Projection::DominantAxis) {
+            view.width = static_cast<std::uint32_t>(dominantSide(item.volume->grid(), desc.samplesPerVoxel));
+            view.height = view.width;
+        }
+        return {view, desc.boundary != Boundary::Clamp};
+    }
+
     void runTask(std::uint64_t task, Scratch& scratch) noexcept {
         const auto after =
             std::upper_bound(items_.begin(), items_.end(), task,
@@ -101,27 +112,39 @@ class Run {
         const std::uint64_t within = task - facts.firstTask;
         const auto pose = static_cast<std::size_t>(within / facts.parts);
         std::atomic<std::uint64_t>& count = counts_[facts.firstPair + pose];
-        if (facts.occupancy->nothingOpaque() ||
-            (detector_.desc.stopAtFirst && count.load(std::memory_order_relaxed) > 0)) {
-            return;
+        for (const Mat4& clip_from_world : cameras_.clip_from_world()) {
+            if (facts.occupancy->nothingOpaque() ||
+                (detector_.desc.stopAtFirst && count.load(std::memory_order_relaxed) > 0)) {
+                return;
+            }
+            const std::uint64_t survivors =
+                countPart(item, facts, clip_from_world, item.world_from_object[pose], within % facts.parts, scratch);
+            count.fetch_add(survivors, std::memory_order_relaxed);
         }
+    }
+
+    /// One part of a pair, seen once.
+    [[nodiscard]] std::uint64_t countPart(const BatchItem& item, const ItemFacts& facts, const Mat4& clip_from_world,
+                                          const Mat4& world_from_object, std::uint64_t part,
+                                          Scratch& scratch) const noexcept {
         const MeshImpl& mesh = item.mesh->impl();
         const VolumeImpl& volume = item.volume->impl();
         const shader::PairTransform transform =
-            pairTransform(batch_.view.clip_from_world, item.world_from_object[pose], volume.texture_from_world);
+            pairTransform(clip_from_world, world_from_object, volume.texture_from_world);
+        const shader::DominantGrid grid = dominantGrid(volume.grid);
         const std::uint64_t clusters = mesh.clusters.size();
-        const std::uint64_t part = within % facts.parts;
         const PairJob job{.mesh = mesh,
                           .volume = volume,
                           .occupancy = *facts.occupancy,
-                          .view = view_,
+                          .view = facts.view,
                           .transform = transform,
+                          .dominantAxis = detector_.desc.projection == Projection::DominantAxis ? &grid : nullptr,
                           .orthographic = isOrthographic(transform),
                           .cull = CullForms(mesh, transform),
                           .clusterBegin = static_cast<std::uint32_t>(clusters * part / facts.parts),
                           .clusterEnd = static_cast<std::uint32_t>(clusters * (part + 1) / facts.parts),
                           .stopAtFirst = detector_.desc.stopAtFirst};
-        count.fetch_add(countSurvivors(job, scratch), std::memory_order_relaxed);
+        return countSurvivors(job, scratch);
     }
 
     [[nodiscard]] PairAnswer answer(std::uint32_t pair, std::uint32_t item, std::uint32_t pose) const {
@@ -134,17 +157,31 @@ class Run {
                 .count = first && count > 0 ? 1 : count,
                 .exactness = first ? Exactness::LowerBound : Exactness::Exact,
                 .method = CountingMethod::Cpu,
-                .projection = Projection::View};
+                .projection = detector_.desc.projection};
     }
 
     const Batch& batch_;
     DetectorImpl& detector_;
-    ViewFacts view_;
+    Cameras cameras_;
     std::vector<ItemFacts> items_;
     std::vector<std::atomic<std::uint64_t>> counts_;
     std::uint64_t tasks_ = 0;
     std::atomic<std::uint64_t> next_{0};
 };
+
+Result<void> checkProjection(const DetectorDesc& desc) {
+    if (std::ranges::find(projections(), desc.projection) == projections().end()) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "there is no projection number " + std::to_string(static_cast<std::uint32_t>(desc.projection))};
+    }
+    if (desc.projection != Projection::Conservative && desc.outputs.any()) {
+        return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
+    }
+    if (Result<void> samples = checkSamples(desc.samplesPerVoxel); !samples.ok()) {
+        return samples;
+    }
+    return checkResolution(desc.resolution);
+}
 
 } // namespace
 
@@ -155,12 +192,8 @@ Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
-        if (Result<void> resolution = checkResolution(desc.resolution); !resolution.ok()) {
-            return resolution.error();
-        }
-        if ((desc.projection != Projection::View && desc.projection != Projection::Conservative) ||
-            (desc.outputs.any() && desc.projection != Projection::Conservative)) {
-            return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
+        if (Result<void> projection = checkProjection(desc); !projection.ok()) {
+            return projection.error();
         }
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
         return Detector(std::make_unique<DetectorImpl>(desc, desc.threads == 0 ? processors : desc.threads));
@@ -170,7 +203,7 @@ Result<Detector> Detector::create(const DetectorDesc& desc) {
 Result<BatchAnswer> Detector::detect(const Batch& batch) {
     return guard([&]() -> Result<BatchAnswer> {
         const auto start = std::chrono::steady_clock::now();
-        const Result<std::uint32_t> pairs = checkBatch(batch, impl_->desc.projection);
+        const Result<std::uint32_t> pairs = checkBatch(impl_->desc, batch);
         if (!pairs.ok()) {
             return pairs.error();
         }

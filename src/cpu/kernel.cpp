@@ -89,12 +89,13 @@ template <class Kept> class Pass {
 
     void addCluster(std::uint32_t cluster) {
         const ClusterPlace& place = job_.mesh.clusters[cluster];
-        const std::int32_t states = transformVertices(job_, place, !certain_, used_, scratch_.vertices);
-        const bool clean = (states & (kOutsideBits | kBadW)) == 0;
-        for (std::uint32_t i = 0; i < place.triangleCount; i += static_cast<std::uint32_t>(hn::Lanes(Ints()))) {
-            addTriangles(cluster, place.firstTriangle + i, clean);
+        if (job_.dominantAxis != nullptr) {
+            for (std::uint32_t i = 0; i < place.triangleCount; ++i) {
+                scratch_.lone.push_back({cluster, place.firstTriangle + i});
+            }
+        } else {
+            transformCluster(cluster, place);
         }
-        used_ += place.vertexCount;
         for (const LoneTriangle& lone : scratch_.lone) {
             survivors_ += rasteriseLone(job_, sampler_, certain_, lone);
             if (done()) {
@@ -102,6 +103,16 @@ template <class Kept> class Pass {
             }
         }
         scratch_.lone.clear();
+    }
+
+    /// Lists the triangles for the scalar set-up, and keeps the others for a full vector.
+    void transformCluster(std::uint32_t cluster, const ClusterPlace& place) {
+        const std::int32_t states = transformVertices(job_, place, !certain_, used_, scratch_.vertices);
+        const bool clean = (states & (kOutsideBits | kBadW)) == 0;
+        for (std::uint32_t i = 0; i < place.triangleCount; i += static_cast<std::uint32_t>(hn::Lanes(Ints()))) {
+            addTriangles(cluster, place.firstTriangle + i, clean);
+        }
+        used_ += place.vertexCount;
     }
 
     HWY_INLINE void addTriangles(std::uint32_t cluster, std::size_t first, bool clean) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/lone_triangle.h"
+#include "dominant.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,9 +62,14 @@ std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone, ExactTriangl
                                        firstVertex + mesh.corner1[lone.triangle],
                                        firstVertex + mesh.corner2[lone.triangle]};
     ExactCorner corners[EXACT_MAX_CORNERS];
-    bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
         corners[i] = exactVertex(job.transform, mesh.x[vertices[i]], mesh.y[vertices[i]], mesh.z[vertices[i]]);
+    }
+    if (job.dominantAxis != nullptr && !dominantProject(corners[0], corners[1], corners[2], *job.dominantAxis)) {
+        return 0;
+    }
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
         inside = inside && exactInside(corners[i], job.view.guardX, job.view.guardY);
     }
     const int count = inside ? 3 : exactClip(corners, 3, job.view.guardX, job.view.guardY);

@@ -9,7 +9,8 @@
 
 namespace voxtact::cpu {
 
-/// A triangle through exactVertex(), exactClip() and exactSetUp(); returns how many triangles came of it.
+/// A triangle through exactVertex(), dominantProject() where there is no camera, exactClip() and exactSetUp(); returns
+/// how many triangles came of it.
 [[nodiscard]] std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone,
                                     shader::ExactTriangle (&out)[EXACT_MAX_CORNERS]);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/oracle.h"
 #include "core/guard.h"
+#include "core/projection.h"
 #include "core/text.h"
 #include "cpu/oracle_raster.h"
 #include "cpu/oracle_sample.h"
@@ -27,6 +28,7 @@ struct Scene {
     Mat4 clip_from_object{};
     Mat4 texture_from_object{};
     double threshold = 0;
+    bool dominantAxis = false;
 };
 
 Error refuse(std::string text, ErrorCode code = ErrorCode::InvalidArgument) {
@@ -57,6 +59,15 @@ Result<void> checkTolerance(const Tolerance& tolerance) {
     return {};
 }
 
+/// The view, or without a camera the viewport.
+View viewOf(const OraclePair& pair) {
+    if (pair.projection != Projection::DominantAxis) {
+        return pair.view;
+    }
+    const auto side = static_cast<std::uint32_t>(dominantSide(pair.volume.grid, pair.samplesPerVoxel));
+    return {identity(), side, side};
+}
+
 Result<void> checkPair(const OraclePair& pair) {
     if (Result<MeshFacts> mesh = checkMesh(pair.mesh); !mesh.ok()) {
         return mesh.error();
@@ -64,7 +75,7 @@ Result<void> checkPair(const OraclePair& pair) {
     if (Result<ValueRange> volume = checkVolume(pair.volume); !volume.ok()) {
         return volume.error();
     }
-    if (Result<void> view = checkView(pair.view); !view.ok()) {
+    if (Result<void> view = checkView(viewOf(pair)); !view.ok()) {
         return view.error();
     }
     if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
@@ -88,9 +99,10 @@ Result<Scene> prepare(const OraclePair& pair) {
     Scene scene;
     scene.mesh = pair.mesh;
     scene.volume = pair.volume;
-    scene.view = pair.view;
+    scene.view = viewOf(pair);
+    scene.dominantAxis = pair.projection == Projection::DominantAxis;
     scene.table = {std::move(*entries), pair.transferFunction.domain};
-    scene.clip_from_object = multiply(pair.view.clip_from_world, pair.world_from_object);
+    scene.clip_from_object = multiply(scene.view.clip_from_world, pair.world_from_object);
     scene.texture_from_object = multiply(*texture_from_world, pair.world_from_object);
     scene.threshold = static_cast<double>(static_cast<float>(pair.threshold));
     return scene;
@@ -105,6 +117,9 @@ Triangle triangleOf(const Scene& scene, std::size_t number) {
             position[axis] = static_cast<double>(scene.mesh.positions[at + axis]);
         }
         out[i] = oracle::makeCorner(scene.clip_from_object, scene.texture_from_object, position);
+    }
+    if (scene.dominantAxis) {
+        oracle::projectAlongDominantAxis(out, scene.volume.grid.size);
     }
     return out;
 }

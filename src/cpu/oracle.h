@@ -12,7 +12,7 @@
 /// nothing skipped. It shares two roundings with everybody: the opacities of the table and the threshold are floats.
 namespace voxtact::cpu {
 
-/// One pair, as data.
+/// One pair, as data, seen once. (Two-view: twice, the second time through sideView().)
 struct OraclePair {
     MeshView mesh;
     VolumeView volume;
@@ -20,6 +20,8 @@ struct OraclePair {
     View view;
     Mat4 world_from_object = identity();
     double threshold = kDefaultThreshold;
+    Projection projection = Projection::View; ///< or DominantAxis: the view is not looked at
+    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel;
 };
 
 /// A fragment: a triangle of the mesh at a pixel. A clipped triangle stays one triangle.

@@ -228,6 +228,35 @@ Corner makeCorner(const Mat4& clip_from_object, const Mat4& texture_from_object,
     return out;
 }
 
+void projectAlongDominantAxis(Triangle& triangle, const std::array<std::uint32_t, 3>& size) {
+    std::array<Vec3, 3> voxels{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            voxels[i][axis] = triangle[i].texture[axis] * size[axis];
+        }
+    }
+    Vec3 normal{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t b = (axis + 1) % 3;
+        const std::size_t c = (axis + 2) % 3;
+        normal[axis] = std::abs((voxels[1][b] - voxels[0][b]) * (voxels[2][c] - voxels[0][c]) -
+                                (voxels[1][c] - voxels[0][c]) * (voxels[2][b] - voxels[0][b]));
+    }
+    const auto axis = static_cast<std::size_t>(std::max_element(normal.begin(), normal.end()) - normal.begin());
+    const double half = *std::max_element(size.begin(), size.end()) / 2.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Corner& corner = triangle[i];
+        corner.clip = {-3, -3, 0.5, 1};
+        corner.clipError = {};
+        for (std::size_t k = 0; k < 2 && normal[axis] > 0; ++k) {
+            const std::size_t along = (axis + 1 + k) % 3;
+            corner.clip[k] = voxels[i][along] / half - 1;
+            corner.clipError[k] =
+                (corner.textureError[along] * size[along] / half) + 4 * kFloatRounding * (1 + std::abs(corner.clip[k]));
+        }
+    }
+}
+
 Polygon clipAndSnap(const Triangle& triangle, const View& view, ViewVolume volume) {
     const double slack = volume == ViewVolume::True ? 0.0 : volume == ViewVolume::Widened ? 1.0 : -1.0;
     Polygon out;

@@ -52,6 +52,10 @@ struct TextureBox {
 
 [[nodiscard]] Corner makeCorner(const Mat4& clip_from_object, const Mat4& texture_from_object, const Vec3& position);
 
+/// Projects a triangle along the axis of the largest component of its normal in voxel space, onto a square viewport of
+/// the longest side of the image. One without a normal is put outside of it.
+void projectAlongDominantAxis(Triangle& triangle, const std::array<std::uint32_t, 3>& size);
+
 /// Which view volume to clip to: the true one, or one that single precision could at most, or must at least, see.
 enum class ViewVolume : std::uint32_t { True, Widened, Narrowed };
 [[nodiscard]] Polygon clipAndSnap(const Triangle& triangle, const View& view, ViewVolume volume);

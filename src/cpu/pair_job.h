@@ -10,7 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// What is the same for all pairs of a batch.
+/// What is the same for all pairs of a batch item.
 struct ViewFacts {
     ViewFacts(const View& view, bool withRangeTest);
 
@@ -42,14 +42,15 @@ struct CullForms {
     Form texture[3];
 };
 
-/// One mesh at one pose against one volume; or some of its clusters.
+/// One mesh at one pose against one volume, seen once; or some of its clusters.
 struct PairJob {
     const MeshImpl& mesh;
     const VolumeImpl& volume;
     const Occupancy& occupancy;
     const ViewFacts& view;
     shader::PairTransform transform;
-    bool orthographic; ///< w is 1 everywhere
+    const shader::DominantGrid* dominantAxis; ///< of the projection dominant-axis; null: through a camera
+    bool orthographic;                        ///< w is 1 everywhere
     CullForms cull;
     std::uint32_t clusterBegin;
     std::uint32_t clusterEnd;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/reference.h"
 #include "core/pair_transform.h"
+#include "core/projection.h"
 #include "core/voxel_visit.h"
 #include "cpu/stored_voxels.h"
-#include "exact.h"
+#include "dominant.h"
 
 #include <vector>
 
@@ -26,13 +27,18 @@ struct Scene {
 
 Scene makeScene(const ReferencePair& pair) {
     Scene scene{.pair = pair, .table = sampleTable(pair.transferFunction).value()};
-    scene.transform =
-        pairTransform(pair.view.clip_from_world, pair.world_from_object, textureFromWorld(pair.volume.grid).value());
+    const Cameras cameras(pair.projection, pair.view);
+    scene.transform = pairTransform(cameras.clip_from_world().front(), pair.world_from_object,
+                                    textureFromWorld(pair.volume.grid).value());
     scene.constants = itemConstants(1, storedIntercept(pair.volume.type), pair.transferFunction.domain, pair.threshold);
-    scene.guardX = exactGuard(pair.view.width);
-    scene.guardY = exactGuard(pair.view.height);
-    scene.width = static_cast<int>(pair.view.width);
-    scene.height = static_cast<int>(pair.view.height);
+    const auto side = static_cast<std::uint32_t>(dominantSide(pair.volume.grid, pair.samplesPerVoxel));
+    const bool dominant = pair.projection == Projection::DominantAxis;
+    const std::uint32_t width = dominant ? side : pair.view.width;
+    const std::uint32_t height = dominant ? side : pair.view.height;
+    scene.guardX = exactGuard(width);
+    scene.guardY = exactGuard(height);
+    scene.width = static_cast<int>(width);
+    scene.height = static_cast<int>(height);
     return scene;
 }
 
@@ -91,9 +97,15 @@ ReferenceCounts referenceCounts(const ReferencePair& pair) {
     ReferenceCounts counts;
     for (std::size_t i = 0; i < pair.mesh.indices.size(); i += 3) {
         ExactCorner corners[EXACT_MAX_CORNERS];
-        bool inside = true;
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = cornerOf(scene, pair.mesh.indices[i + k]);
+        }
+        if (pair.projection == Projection::DominantAxis &&
+            !dominantProject(corners[0], corners[1], corners[2], dominantGrid(pair.volume.grid))) {
+            continue;
+        }
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
             inside = inside && exactInside(corners[k], scene.guardX, scene.guardY);
         }
         const int count = inside ? 3 : exactClip(corners, 3, scene.guardX, scene.guardY);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "voxtact/data.h"
+#include "voxtact/methods.h"
 
 #include <cstdint>
 
@@ -9,7 +10,7 @@
 /// what the engine's counts must be, bit for bit.
 namespace voxtact::cpu {
 
-/// One pair, as data.
+/// One pair, as data, seen once.
 struct ReferencePair {
     MeshView mesh;
     VolumeView volume;
@@ -17,7 +18,9 @@ struct ReferencePair {
     View view;
     Mat4 world_from_object = identity();
     double threshold = kDefaultThreshold;
-    bool rangeTest = true; ///< false: the coordinate is clamped
+    bool rangeTest = true;                    ///< false: the coordinate is clamped
+    Projection projection = Projection::View; ///< or DominantAxis: the view is not looked at
+    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel;
 };
 
 struct ReferenceCounts {

@@ -56,7 +56,7 @@ enum CullVerdict : std::int32_t {
     kCullUnsure = 4, ///< the box means nothing
 };
 
-/// A triangle that goes through the scalar set-up.
+/// A triangle that goes through the scalar set-up: large, or with a corner outside, or without a camera.
 struct LoneTriangle {
     std::uint32_t cluster;
     std::uint32_t triangle; ///< of MeshImpl's arrays

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/compute.h"
+#include "core/projection.h"
 #include "detect/batch.h"
 #include "exact.h"
 #include "gpu/scene_impl.h"
@@ -10,27 +11,15 @@
 
 namespace voxtact {
 
-namespace {
-
-std::uint32_t groupsOf(const Mesh& mesh) {
-    return (mesh.triangles() + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP;
-}
-
-std::uint32_t indexBytes(const MeshImpl& mesh) {
-    if (mesh.indices == VK_NULL_HANDLE) {
-        return 0;
-    }
-    return mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
-}
-
-} // namespace
-
-Result<ComputePass> ComputePass::create(ContextImpl& context, Filter filter) {
-    ComputePass pass(context, filter);
-    const ShaderConstant constant{VOXTACT_CONSTANT_EXACT_FILTER, filter == Filter::Exact ? 1U : 0U};
-    const std::string name = std::string("compute ") + toString(filter);
-    Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(context, spirv::compute_comp, {&constant, 1}, name.c_str());
+Result<ComputePass> ComputePass::create(ContextImpl& context, const DetectorDesc& desc) {
+    ComputePass pass(context, desc);
+    const ShaderConstant constants[] = {
+        {VOXTACT_CONSTANT_EXACT_FILTER, desc.filter == Filter::Exact ? 1U : 0U},
+        {VOXTACT_CONSTANT_VIEWS, viewsPerPair(desc.projection)},
+        {VOXTACT_CONSTANT_DOMINANT_AXIS, desc.projection == Projection::DominantAxis ? 1U : 0U},
+    };
+    const std::string name = std::string("compute ") + toString(desc.projection) + " " + toString(desc.filter);
+    Result<Owned<VkPipeline>> pipeline = makeComputePipeline(context, spirv::compute_comp, constants, name.c_str());
     if (!pipeline.ok()) {
         return pipeline.error();
     }
@@ -40,21 +29,18 @@ Result<ComputePass> ComputePass::create(ContextImpl& context, Filter filter) {
 
 Result<void> ComputePass::check(const Batch& batch) const {
     constexpr auto kMost = static_cast<std::uint32_t>(EXACT_GUARD_PIXELS);
-    if (batch.view.width > kMost || batch.view.height > kMost) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     "the viewport is " + std::to_string(batch.view.width) + "x" + std::to_string(batch.view.height) +
-                         ", the counting method compute does at most " + std::to_string(kMost) + " pixels a side"};
-    }
     for (const BatchItem& item : batch.items) {
-        if (const std::string& reason = item.mesh->impl().noCompute; !reason.empty()) {
-            return Error{ErrorCode::Unsupported, 0, "the counting method compute cannot be used: " + reason};
-        }
-        if (groupsOf(*item.mesh) > context_->limits.maxComputeWorkGroupCount[0]) {
+        const VkExtent2D viewport = viewportOf(desc_, batch, item);
+        if (viewport.width > kMost || viewport.height > kMost) {
             return Error{ErrorCode::LimitExceeded, 0,
-                         "the mesh has " + std::to_string(item.mesh->triangles()) +
-                             " triangles, the device's maxComputeWorkGroupCount allows for " +
-                             std::to_string(std::uint64_t{context_->limits.maxComputeWorkGroupCount[0]} *
-                                            VOXTACT_COMPUTE_GROUP)};
+                         "the viewport is " + std::to_string(viewport.width) + "x" + std::to_string(viewport.height) +
+                             ", the counting method compute does at most " + std::to_string(kMost) + " pixels a side"};
+        }
+        if (Result<void> storage = checkStorage(item, "the counting method compute"); !storage.ok()) {
+            return storage;
+        }
+        if (Result<void> groups = checkGroups(*context_, *item.mesh); !groups.ok()) {
+            return groups;
         }
     }
     return {};
@@ -63,16 +49,15 @@ Result<void> ComputePass::check(const Batch& batch) const {
 shader::ComputeConstants ComputePass::constantsOf(const Batch& batch, const BatchItem& item) const {
     const MeshImpl& mesh = item.mesh->impl();
     shader::ComputeConstants constants{};
-    constants.item = itemConstants(item, filter_, batch.threshold);
-    constants.guardX = shader::exactGuard(batch.view.width);
-    constants.guardY = shader::exactGuard(batch.view.height);
-    constants.width = static_cast<int>(batch.view.width);
-    constants.height = static_cast<int>(batch.view.height);
+    const VkExtent2D viewport = viewportOf(desc_, batch, item);
+    constants.item = itemConstants(item, desc_.filter, batch.threshold);
+    constants.guardX = shader::exactGuard(viewport.width);
+    constants.guardY = shader::exactGuard(viewport.height);
+    constants.width = static_cast<int>(viewport.width);
+    constants.height = static_cast<int>(viewport.height);
     constants.triangleCount = mesh.triangleCount;
-    constants.vertexOffset = static_cast<std::uint32_t>(mesh.vertexOffset / sizeof(float));
-    constants.vertexStride = static_cast<std::uint32_t>(mesh.vertexStride / sizeof(float));
-    constants.indexOffset = static_cast<std::uint32_t>(mesh.indexOffset);
-    constants.indexBytes = indexBytes(mesh);
+    constants.mesh = meshConstants(mesh);
+    constants.grid = dominantGrid(item.volume->grid());
     return constants;
 }
 
@@ -86,13 +71,14 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
                              nullptr);
     shader::ComputeConstants constants = constantsOf(batch, item);
     constants.rangeTest = boundary == Boundary::Range ? 1 : 0;
-    const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
+    const std::uint32_t viewsOfPair = viewsPerPair(desc_.projection);
+    const std::uint32_t views = viewsOfPair * static_cast<std::uint32_t>(item.world_from_object.size());
     const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
-    for (std::uint32_t done = 0; done < pairs; done += std::min(atOnce, pairs - done)) {
-        constants.firstPair = firstPair + done;
+    for (std::uint32_t done = 0; done < views; done += std::min(atOnce, views - done)) {
+        constants.firstTransform = viewsOfPair * firstPair + done;
         vk.CmdPushConstants(commandBuffer, context_->computeLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                             &constants);
-        vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, pairs - done), 1);
+        vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, views - done), 1);
     }
 }
 

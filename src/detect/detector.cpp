@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "core/certified_constants.h"
 #include "core/guard.h"
 #include "core/opaque_ranges.h"
+#include "core/projection.h"
 #include "detect/batch.h"
 #include "detect/compute.h"
+#include "detect/conservative.h"
 #include "detect/recording.h"
 #include "detect/view.h"
 #include "gpu/debug.h"
@@ -14,10 +17,12 @@
 
 namespace voxtact {
 
+using AnyPass = std::variant<ViewPass, ComputePass, ConservativePass>;
+
 struct DetectorImpl {
     ContextImpl& context;
     DetectorDesc desc;
-    std::variant<ViewPass, ComputePass> pass;
+    AnyPass pass;
 };
 
 namespace {
@@ -58,6 +63,64 @@ Result<void> checkMethod(const Context& context, CountingMethod method) {
                  "there is no counting method number " + std::to_string(static_cast<std::uint32_t>(method))};
 }
 
+Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& desc) {
+    if (!desc.overestimate) {
+        return {};
+    }
+    if (desc.projection != Projection::DominantAxis || desc.method == CountingMethod::Compute) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string("DetectorDesc::overestimate is for the projection dominant-axis by a method that "
+                                 "rasterises, not for ") +
+                         toString(desc.projection) + " by " + toString(desc.method)};
+    }
+    if (!context.conservativeRasterization) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "DetectorDesc::overestimate needs the device extension VK_EXT_conservative_rasterization, which "
+                     "ContextDesc::enabledDeviceExtensions does not name"};
+    }
+    return {};
+}
+
+Result<void> checkProjection(const ContextImpl& context, const DetectorDesc& desc) {
+    if (std::ranges::find(projections(), desc.projection) == projections().end()) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "there is no projection number " + std::to_string(static_cast<std::uint32_t>(desc.projection))};
+    }
+    if (desc.outputs.any()) {
+        return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
+    }
+    if (desc.projection == Projection::Conservative && desc.method != CountingMethod::Compute) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string("the projection conservative is answered by the counting methods compute and cpu, "
+                                 "not by ") +
+                         toString(desc.method)};
+    }
+    if (desc.stopAtFirst && desc.projection != Projection::Conservative) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "DetectorDesc::stopAtFirst is for the projection conservative; a boolean query is query-any"};
+    }
+    if (Result<void> resolution = checkResolution(desc.resolution); !resolution.ok()) {
+        return resolution;
+    }
+    if (Result<void> samples = checkSamples(desc.samplesPerVoxel); !samples.ok()) {
+        return samples;
+    }
+    return checkOverestimate(context, desc);
+}
+
+/// What the pass itself refuses of a checked batch.
+Result<void> checkPass(const AnyPass& any, const Batch& batch) {
+    return std::visit(
+        [&](const auto& pass) -> Result<void> {
+            if constexpr (requires { pass.check(batch); }) {
+                return pass.check(batch);
+            } else {
+                return {};
+            }
+        },
+        any);
+}
+
 template <class Pass>
 Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const DetectorDesc& desc, Result<Pass> pass) {
     if (!pass.ok()) {
@@ -79,15 +142,16 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         if (Result<void> alive = c.alive(); !alive.ok()) {
             return alive.error();
         }
-        if (desc.projection != Projection::View || desc.outputs.any()) {
-            return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
-        }
         if (Result<void> method = checkMethod(context, desc.method); !method.ok()) {
             return method.error();
         }
+        if (Result<void> projection = checkProjection(c, desc); !projection.ok()) {
+            return projection.error();
+        }
         Result<std::unique_ptr<DetectorImpl>> impl =
-            desc.method == CountingMethod::Compute ? withPass(c, desc, ComputePass::create(c, desc.filter))
-                                                   : withPass(c, desc, ViewPass::create(c, desc.method, desc.filter));
+            desc.projection == Projection::Conservative ? withPass(c, desc, ConservativePass::create(c, desc))
+            : desc.method == CountingMethod::Compute    ? withPass(c, desc, ComputePass::create(c, desc))
+                                                        : withPass(c, desc, ViewPass::create(c, desc));
         if (!impl.ok()) {
             return impl.error();
         }
@@ -105,7 +169,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (&slot.context != &context) {
             return Error{ErrorCode::InvalidArgument, 0, "the Results belong to another Context"};
         }
-        const Result<std::uint32_t> pairs = checkBatch(context, batch);
+        const Result<std::uint32_t> pairs = checkBatch(context, impl_->desc, batch);
         if (!pairs.ok()) {
             return pairs.error();
         }
@@ -114,10 +178,14 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                          "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
                              std::to_string(slot.maxPairs)};
         }
-        if (const auto* compute = std::get_if<ComputePass>(&impl_->pass)) {
-            if (Result<void> checked = compute->check(batch); !checked.ok()) {
-                return checked;
-            }
+        if (const std::uint64_t views = std::uint64_t{*pairs} * viewsPerPair(impl_->desc.projection);
+            views > slot.maxTransforms) {
+            return Error{ErrorCode::LimitExceeded, 0,
+                         "the batch has " + std::to_string(views) + " views, the Results have room for " +
+                             std::to_string(slot.maxTransforms) + " within the device's maxStorageBufferRange"};
+        }
+        if (Result<void> checked = checkPass(impl_->pass, batch); !checked.ok()) {
+            return checked;
         }
         slot.pairs = *pairs;
         slot.readBackRecorded = false;

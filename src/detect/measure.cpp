@@ -55,7 +55,7 @@ Result<DeviceScene> uploadScene(const Context& context, const QueueAccess& queue
     if (!volume.ok()) {
         return volume.error();
     }
-    Result<Mesh> mesh = Mesh::upload(context, queue, scene.mesh.view(), "measured mesh");
+    Result<Mesh> mesh = Mesh::upload(context, queue, scene.mesh.view(), {.name = "measured mesh"});
     if (!mesh.ok()) {
         return mesh.error();
     }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/recording.h"
+#include "core/certified_constants.h"
+#include "core/projection.h"
 #include "detect/batch.h"
 #include "detect/counting.h"
 #include "gpu/barriers.h"
@@ -23,7 +25,7 @@ static_assert(kResultsAtOnce * sizeof(PairResult) <= 65536);
 
 std::uint32_t howOf(const DetectorDesc& desc) {
     return static_cast<std::uint32_t>(desc.method) | static_cast<std::uint32_t>(desc.projection) << 8U |
-           static_cast<std::uint32_t>(exactness(desc.method)) << 16U;
+           static_cast<std::uint32_t>(desc.stopAtFirst ? Exactness::LowerBound : exactness(desc.method)) << 16U;
 }
 
 /// Collects records of one type and updates a buffer with as many at once as Vulkan takes.
@@ -58,12 +60,28 @@ template <class Record, std::size_t AtOnce> class BufferUpdate {
 
 /// The transforms that the vertex shader reads.
 void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                      const ResultsImpl& results) {
+                      const ResultsImpl& results, Projection projection) {
+    const Cameras cameras(projection, batch.view);
     BufferUpdate<shader::PairTransform, kTransformsAtOnce> update(context, commandBuffer, results.transforms.get());
     for (const BatchItem& item : batch.items) {
         for (const Mat4& world_from_object : item.world_from_object) {
-            update.add(
-                pairTransform(batch.view.clip_from_world, world_from_object, item.volume->impl().texture_from_world));
+            for (const Mat4& clip_from_world : cameras.clip_from_world()) {
+                update.add(pairTransform(clip_from_world, world_from_object, item.volume->impl().texture_from_world));
+            }
+        }
+    }
+    update.finish();
+}
+
+/// The same for the projection conservative.
+void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
+                          const ResultsImpl& results) {
+    static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::PairTransform), "they share a buffer");
+    BufferUpdate<shader::CertifiedPair, kTransformsAtOnce> update(context, commandBuffer, results.transforms.get());
+    for (const BatchItem& item : batch.items) {
+        const VolumeImpl& volume = item.volume->impl();
+        for (const Mat4& world_from_object : item.world_from_object) {
+            update.add(certifiedPair(volume.grid, volume.texture_from_world, world_from_object));
         }
     }
     update.finish();
@@ -107,7 +125,11 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     barrier(context, commandBuffer, kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    recordTransforms(context, commandBuffer, batch, results);
+    if (desc.projection == Projection::Conservative) {
+        recordCertifiedPairs(context, commandBuffer, batch, results);
+    } else {
+        recordTransforms(context, commandBuffer, batch, results, desc.projection);
+    }
     recordEmptyResults(context, commandBuffer, batch, results, howOf(desc));
     if (countsByQuery(desc.method)) {
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);

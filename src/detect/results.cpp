@@ -5,6 +5,7 @@
 #include "gpu/debug.h"
 #include "shared.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -26,6 +27,13 @@ Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type,
     nameObject(context, VK_OBJECT_TYPE_QUERY_POOL, handle, name);
     return Owned<VkQueryPool>(
         context, handle, [](ContextImpl& c, VkQueryPool pool) { c.vk.DestroyQueryPool(c.device, pool, c.allocator); });
+}
+
+/// Two a pair, for the projection two-view, as far as the device has room for them.
+std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
+    const VkDeviceSize bytes = std::min<VkDeviceSize>(context.limits.maxStorageBufferRange, context.maxAllocation);
+    const VkDeviceSize room = std::min<VkDeviceSize>(bytes / sizeof(shader::PairTransform), UINT32_MAX);
+    return static_cast<std::uint32_t>(std::max<VkDeviceSize>(std::min<VkDeviceSize>(2ULL * maxPairs, room), maxPairs));
 }
 
 Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
@@ -58,7 +66,7 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     };
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
-        {out.transforms, VkDeviceSize{out.maxPairs} * sizeof(shader::PairTransform), kTo, MemoryUse::Device,
+        {out.transforms, VkDeviceSize{out.maxTransforms} * sizeof(shader::PairTransform), kTo, MemoryUse::Device,
          "pair transforms"},
         {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
         {out.readBack, resultBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "pair results on the host"},
@@ -131,6 +139,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
             return checked.error();
         }
         auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = c, .maxPairs = desc.maxPairs});
+        impl->maxTransforms = transformsFor(c, desc.maxPairs);
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         if (Result<void> made = makeBuffers(*impl, desc.readBack); !made.ok()) {
             return made.error();

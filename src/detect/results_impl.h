@@ -12,7 +12,8 @@ struct ResultsImpl {
     std::uint32_t pairs = 0;         ///< of the batch recorded last
     std::uint32_t timestampBits = 0; ///< valid bits; 0: no timestamps
     bool readBackRecorded = false;   ///< cmdReadBack() came after the last cmdDetect()
-    Buffer transforms{};             ///< maxPairs PairTransforms
+    std::uint32_t maxTransforms = 0; ///< at least maxPairs
+    Buffer transforms{};             ///< maxTransforms PairTransforms
     Buffer results{};                ///< maxPairs PairResults
     Buffer readBack{};               ///< the host's copy; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries

@@ -42,7 +42,7 @@ Result<Volume> makeVolume(const Context& context, const QueueAccess& queue, cons
 Result<Mesh> makeSquare(const Context& context, const QueueAccess& queue) {
     constexpr std::array<float, 12> kCorners{0, 0, 0.5F, 1, 0, 0.5F, 1, 1, 0.5F, 0, 1, 0.5F};
     constexpr std::array<std::uint32_t, 6> kTriangles{0, 1, 2, 0, 2, 3};
-    return Mesh::upload(context, queue, {kCorners, kTriangles}, "self-test square");
+    return Mesh::upload(context, queue, {kCorners, kTriangles}, {.name = "self-test square"});
 }
 
 /// x and y of the unit square fill the viewport.

@@ -189,7 +189,7 @@ Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filte
 
 Result<std::vector<shader::TracedFragment>> FragmentTrace::survivors(const Batch& batch) {
     return guard([&]() -> Result<std::vector<shader::TracedFragment>> {
-        const Result<std::uint32_t> pairs = checkBatch(impl_->context, batch);
+        const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
         if (!pairs.ok()) {
             return pairs.error();
         }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "detect/view.h"
+#include "core/projection.h"
 #include "detect/batch.h"
 #include "detect/counting.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
 
+#include "voxtact_shaders/dominant_vert.h"
 #include "voxtact_shaders/view_atomic_frag.h"
 #include "voxtact_shaders/view_frag.h"
 #include "voxtact_shaders/view_subgroup_frag.h"
 #include "voxtact_shaders/view_trace_frag.h"
 #include "voxtact_shaders/view_vert.h"
+
+#include <algorithm>
 
 namespace voxtact {
 
@@ -32,13 +36,24 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
                                      const std::string& name) {
     for (std::uint32_t rangeTest = 0; rangeTest < 2; ++rangeTest) {
         for (std::uint32_t carry = 0; carry < (withCarry ? 2U : 1U); ++carry) {
-            const ShaderConstant constants[] = {{VOXTACT_CONSTANT_RANGE_TEST, rangeTest},
-                                                {VOXTACT_CONSTANT_CARRY, carry},
-                                                {VOXTACT_CONSTANT_EXACT_FILTER, filter_ == Filter::Exact ? 1U : 0U}};
-            const std::string variant = "view " + name + " " + toString(filter_) +
+            const ShaderConstant constants[] = {
+                {VOXTACT_CONSTANT_RANGE_TEST, rangeTest},
+                {VOXTACT_CONSTANT_CARRY, carry},
+                {VOXTACT_CONSTANT_EXACT_FILTER, desc_.filter == Filter::Exact ? 1U : 0U},
+                {VOXTACT_CONSTANT_VIEWS, viewsPerPair(desc_.projection)}};
+            const std::string variant = toString(desc_.projection) + (" " + name) + " " + toString(desc_.filter) +
                                         (rangeTest != 0 ? " range" : " clamp") + (carry != 0 ? " carry" : "");
-            Result<Owned<VkPipeline>> pipeline =
-                makeRasterPipeline(*context_, {spirv::view_vert, fragment, constants, layout, variant.c_str()});
+            RasterPipelineDesc desc{.vertexSpirv = spirv::view_vert,
+                                    .fragmentSpirv = fragment,
+                                    .constants = constants,
+                                    .layout = layout,
+                                    .overestimate = desc_.overestimate,
+                                    .name = variant.c_str()};
+            if (dominantAxis()) {
+                desc.vertexSpirv = spirv::dominant_vert;
+                desc.vertexInput = false;
+            }
+            Result<Owned<VkPipeline>> pipeline = makeRasterPipeline(*context_, desc);
             if (!pipeline.ok()) {
                 return pipeline.error();
             }
@@ -48,10 +63,10 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
     return {};
 }
 
-Result<ViewPass> ViewPass::create(ContextImpl& context, CountingMethod method, Filter filter) {
-    ViewPass pass(context, method, filter);
-    if (Result<void> made =
-            pass.makePipelines(fragmentSpirv(method), context.rasterLayout, !countsByQuery(method), toString(method));
+Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc) {
+    ViewPass pass(context, desc);
+    if (Result<void> made = pass.makePipelines(fragmentSpirv(desc.method), pass.layout(), !countsByQuery(desc.method),
+                                               toString(desc.method));
         !made.ok()) {
         return made.error();
     }
@@ -60,7 +75,7 @@ Result<ViewPass> ViewPass::create(ContextImpl& context, CountingMethod method, F
 
 Result<ViewPass> ViewPass::createTrace(ContextImpl& context, Filter filter, VkPipelineLayout layout) {
     // A method that draws an item as one: the list has no use for carries, so both variants are the same.
-    ViewPass pass(context, CountingMethod::Atomic, filter);
+    ViewPass pass(context, {.method = CountingMethod::Atomic, .filter = filter});
     if (Result<void> made = pass.makePipelines(spirv::view_trace_frag, layout, true, "trace"); !made.ok()) {
         return made.error();
     }
@@ -68,23 +83,48 @@ Result<ViewPass> ViewPass::createTrace(ContextImpl& context, Filter filter, VkPi
 }
 
 bool ViewPass::eachAlone() const noexcept {
-    return countsByQuery(method_) && context_->flushAfterQuery;
+    return countsByQuery(desc_.method) && context_->flushAfterQuery;
 }
 
-void ViewPass::bindBatch(VkCommandBuffer commandBuffer, const View& view, const ResultsImpl& results) const {
+VkPipelineLayout ViewPass::layout() const noexcept {
+    return dominantAxis() ? context_->dominantLayout : context_->rasterLayout;
+}
+
+VkExtent2D ViewPass::largestViewport(const Batch& batch) const noexcept {
+    VkExtent2D largest{0, 0};
+    for (const BatchItem& item : batch.items) {
+        const VkExtent2D viewport = viewportOf(desc_, batch, item);
+        largest = {std::max(largest.width, viewport.width), std::max(largest.height, viewport.height)};
+    }
+    return largest;
+}
+
+void ViewPass::bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const {
+    context_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_PAIRS, 1,
+                                       &results.descriptors.set, 0, nullptr);
+}
+
+void ViewPass::bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const {
     const DeviceFunctions& vk = context_->vk;
-    const VkViewport viewport{0, 0, static_cast<float>(view.width), static_cast<float>(view.height), 0, 1};
-    const VkRect2D area{{0, 0}, {view.width, view.height}};
-    vk.CmdSetViewport(commandBuffer, 0, 1, &viewport);
-    vk.CmdSetScissor(commandBuffer, 0, 1, &area);
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, context_->rasterLayout, VOXTACT_SET_PAIRS,
-                             1, &results.descriptors.set, 0, nullptr);
+    const MeshImpl& mesh = item.mesh->impl();
+    if (dominantAxis()) {
+        vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_MESH, 1,
+                                 &mesh.descriptors.set, 0, nullptr);
+        const shader::DominantConstants constants{dominantGrid(item.volume->grid()), meshConstants(mesh)};
+        vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_VERTEX_BIT, VOXTACT_OFFSET_DOMINANT,
+                            sizeof constants, &constants);
+        return;
+    }
+    vk.CmdBindVertexBuffers2(commandBuffer, 0, 1, &mesh.vertices, &mesh.vertexOffset, nullptr, &mesh.vertexStride);
+    if (mesh.indices != VK_NULL_HANDLE) {
+        vk.CmdBindIndexBuffer(commandBuffer, mesh.indices, mesh.indexOffset, mesh.indexType);
+    }
 }
 
-void ViewPass::beginRendering(VkCommandBuffer commandBuffer, const View& view) const {
+void ViewPass::beginRendering(VkCommandBuffer commandBuffer, VkExtent2D viewport) const {
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    info.renderArea = {{0, 0}, {view.width, view.height}};
+    info.renderArea = {{0, 0}, viewport};
     info.layerCount = 1;
     context_->vk.CmdBeginRendering(commandBuffer, &info);
 }
@@ -92,35 +132,35 @@ void ViewPass::beginRendering(VkCommandBuffer commandBuffer, const View& view) c
 void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                           std::uint32_t firstPair, const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
-    const bool carry = !countsByQuery(method_) && needsCarry(batch, item);
+    const VkExtent2D extent = viewportOf(desc_, batch, item);
+    const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+    const VkRect2D area{{0, 0}, extent};
+    vk.CmdSetViewport(commandBuffer, 0, 1, &viewport);
+    vk.CmdSetScissor(commandBuffer, 0, 1, &area);
+    const bool carry = !countsByQuery(desc_.method) && needsCarry(desc_, batch, item);
     const auto& variants = pipelines_[boundary == Boundary::Range ? 1 : 0];
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, variants[carry ? 1 : 0].get());
     const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set};
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, context_->rasterLayout, VOXTACT_SET_VOLUME,
-                             2, sets, 0, nullptr);
-    const shader::ItemConstants constants = itemConstants(item, filter_, batch.threshold);
-    vk.CmdPushConstants(commandBuffer, context_->rasterLayout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
-                        &constants);
-    const MeshImpl& mesh = item.mesh->impl();
-    vk.CmdBindVertexBuffers2(commandBuffer, 0, 1, &mesh.vertices, &mesh.vertexOffset, nullptr, &mesh.vertexStride);
-    if (mesh.indices != VK_NULL_HANDLE) {
-        vk.CmdBindIndexBuffer(commandBuffer, mesh.indices, mesh.indexOffset, mesh.indexType);
-    }
-    if (countsByQuery(method_)) {
-        recordQueries(commandBuffer, batch.view, item, firstPair, results);
+    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_VOLUME, 2, sets, 0,
+                             nullptr);
+    const shader::ItemConstants constants = itemConstants(item, desc_.filter, batch.threshold);
+    vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
+    bindMesh(commandBuffer, item);
+    if (countsByQuery(desc_.method)) {
+        recordQueries(commandBuffer, extent, item, firstPair, results);
     } else {
         draw(commandBuffer, item, firstPair, static_cast<std::uint32_t>(item.world_from_object.size()));
     }
 }
 
-void ViewPass::recordQueries(VkCommandBuffer commandBuffer, const View& view, const BatchItem& item,
+void ViewPass::recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item,
                              std::uint32_t firstPair, const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
     const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
-    const VkQueryControlFlags flags = method_ == CountingMethod::Query ? VK_QUERY_CONTROL_PRECISE_BIT : 0;
+    const VkQueryControlFlags flags = desc_.method == CountingMethod::Query ? VK_QUERY_CONTROL_PRECISE_BIT : 0;
     for (std::uint32_t pair = firstPair; pair < firstPair + pairs; ++pair) {
         if (eachAlone()) {
-            beginRendering(commandBuffer, view);
+            beginRendering(commandBuffer, viewport);
         }
         vk.CmdBeginQuery(commandBuffer, results.occlusion.get(), pair, flags);
         draw(commandBuffer, item, pair, 1);
@@ -136,10 +176,11 @@ void ViewPass::recordQueries(VkCommandBuffer commandBuffer, const View& view, co
 void ViewPass::draw(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstPair,
                     std::uint32_t pairs) const {
     const MeshImpl& mesh = item.mesh->impl();
-    if (mesh.indices == VK_NULL_HANDLE) {
-        context_->vk.CmdDraw(commandBuffer, 3 * mesh.triangleCount, pairs, 0, firstPair);
+    const std::uint32_t views = viewsPerPair(desc_.projection);
+    if (dominantAxis() || mesh.indices == VK_NULL_HANDLE) {
+        context_->vk.CmdDraw(commandBuffer, 3 * mesh.triangleCount, views * pairs, 0, views * firstPair);
     } else {
-        context_->vk.CmdDrawIndexed(commandBuffer, 3 * mesh.triangleCount, pairs, 0, 0, firstPair);
+        context_->vk.CmdDrawIndexed(commandBuffer, 3 * mesh.triangleCount, views * pairs, 0, 0, views * firstPair);
     }
 }
 

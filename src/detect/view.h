@@ -10,11 +10,11 @@
 
 namespace voxtact {
 
-/// The pass of the `view` projection: rasterises the batch with the caller's camera, one fragment program for all
-/// counting methods of the raster path.
+/// The pass of the projections that rasterise: the batch as the caller's camera sees it (and, two-view, from the
+/// side), or each triangle along its dominant axis. One fragment program for all counting methods of the raster path.
 class ViewPass {
   public:
-    [[nodiscard]] static Result<ViewPass> create(ContextImpl& context, CountingMethod method, Filter filter);
+    [[nodiscard]] static Result<ViewPass> create(ContextImpl& context, const DetectorDesc& desc);
     /// The same draws with a fragment shader that lists survivors instead of counting them. `layout` extends
     /// ContextImpl::rasterLayout by sets that the caller binds.
     [[nodiscard]] static Result<ViewPass> createTrace(ContextImpl& context, Filter filter, VkPipelineLayout layout);
@@ -25,10 +25,10 @@ class ViewPass {
     template <class BoundaryOf>
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
                 BoundaryOf&& boundaryOf) const {
-        bindBatch(commandBuffer, batch.view, results);
+        bindPairs(commandBuffer, results);
         const bool together = !eachAlone();
         if (together) {
-            beginRendering(commandBuffer, batch.view);
+            beginRendering(commandBuffer, largestViewport(batch));
         }
         std::uint32_t firstPair = 0;
         for (const BatchItem& item : batch.items) {
@@ -41,24 +41,26 @@ class ViewPass {
     }
 
   private:
-    ViewPass(ContextImpl& context, CountingMethod method, Filter filter) noexcept
-        : context_(&context), method_(method), filter_(filter) {}
+    ViewPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     [[nodiscard]] Result<void> makePipelines(std::span<const std::uint32_t> fragmentSpirv, VkPipelineLayout layout,
                                              bool withCarry, const std::string& name);
     /// Whether each pair is a rendering of its own, flushed before the next: see ContextImpl::flushAfterQuery.
     [[nodiscard]] bool eachAlone() const noexcept;
-    void bindBatch(VkCommandBuffer commandBuffer, const View& view, const ResultsImpl& results) const;
-    void beginRendering(VkCommandBuffer commandBuffer, const View& view) const;
+    [[nodiscard]] bool dominantAxis() const noexcept { return desc_.projection == Projection::DominantAxis; }
+    [[nodiscard]] VkPipelineLayout layout() const noexcept;
+    [[nodiscard]] VkExtent2D largestViewport(const Batch& batch) const noexcept;
+    void bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const;
+    void bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const;
+    void beginRendering(VkCommandBuffer commandBuffer, VkExtent2D viewport) const;
     void recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                     std::uint32_t firstPair, const ResultsImpl& results) const;
-    void recordQueries(VkCommandBuffer commandBuffer, const View& view, const BatchItem& item, std::uint32_t firstPair,
-                       const ResultsImpl& results) const;
+    void recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item,
+                       std::uint32_t firstPair, const ResultsImpl& results) const;
     void draw(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstPair, std::uint32_t pairs) const;
 
     ContextImpl* context_;
-    CountingMethod method_;
-    Filter filter_;
+    DetectorDesc desc_;
     std::array<std::array<Owned<VkPipeline>, 2>, 2> pipelines_; ///< [range test][carry]; no carry for queries
 };
 

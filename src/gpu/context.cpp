@@ -99,20 +99,20 @@ Result<void> makeSetLayouts(ContextImpl& context) {
         return made;
     }
     const VkDescriptorSetLayoutBinding mesh[] = {
-        {VOXTACT_BINDING_VERTICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
-        {VOXTACT_BINDING_INDICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+        {VOXTACT_BINDING_VERTICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
+        {VOXTACT_BINDING_INDICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
     };
     return makeSetLayout(context, SetIndex::Mesh, mesh, "mesh set layout");
 }
 
-Result<void> makeLayout(ContextImpl& context, std::uint32_t sets, const VkPushConstantRange& constants,
+Result<void> makeLayout(ContextImpl& context, std::uint32_t sets, std::span<const VkPushConstantRange> constants,
                         VkPipelineLayout& layout, const char* name) {
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.setLayoutCount = sets;
     info.pSetLayouts = context.setLayouts.data();
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &constants;
+    info.pushConstantRangeCount = static_cast<std::uint32_t>(constants.size());
+    info.pPushConstantRanges = constants.data();
     if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
         result != VK_SUCCESS) {
         return context.failure(result, "making a pipeline layout");
@@ -122,20 +122,28 @@ Result<void> makeLayout(ContextImpl& context, std::uint32_t sets, const VkPushCo
 }
 
 Result<void> makeLayouts(ContextImpl& context) {
+    const VkPushConstantRange raster[] = {
+        {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
+        {VK_SHADER_STAGE_VERTEX_BIT, VOXTACT_OFFSET_DOMINANT, sizeof(shader::DominantConstants)},
+    };
+    const VkPushConstantRange compute{VK_SHADER_STAGE_COMPUTE_BIT, 0, std::max(sizeof(shader::ComputeConstants), sizeof(shader::CertifiedConstants))};
     if (Result<void> made =
-            makeLayout(context, VOXTACT_SET_PAIRS + 1, {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
-                       context.rasterLayout, "raster pipeline layout");
+            makeLayout(context, VOXTACT_SET_PAIRS + 1, {raster, 1}, context.rasterLayout, "raster pipeline layout");
         !made.ok()) {
         return made;
     }
-    return makeLayout(context, VOXTACT_SET_MESH + 1, {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::ComputeConstants)},
-                      context.computeLayout, "compute pipeline layout");
+    if (Result<void> made =
+            makeLayout(context, VOXTACT_SET_MESH + 1, raster, context.dominantLayout, "dominant-axis pipeline layout");
+        !made.ok()) {
+        return made;
+    }
+    return makeLayout(context, VOXTACT_SET_MESH + 1, {&compute, 1}, context.computeLayout, "compute pipeline layout");
 }
 
 } // namespace
 
 ContextImpl::~ContextImpl() {
-    for (const VkPipelineLayout layout : {rasterLayout, computeLayout}) {
+    for (const VkPipelineLayout layout : {rasterLayout, dominantLayout, computeLayout}) {
         if (layout != VK_NULL_HANDLE) {
             vk.DestroyPipelineLayout(device, layout, allocator);
         }
@@ -206,6 +214,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->logCallback = desc.log;
         impl->logUser = desc.logUser;
         impl->features = readFeatures(desc.enabledFeatures);
+        impl->conservativeRasterization = conservativeRasterizationEnabled(desc);
         impl->methods = std::move(report.methods);
         impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
         readProperties(*impl);

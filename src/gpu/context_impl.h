@@ -25,6 +25,7 @@ struct ContextImpl {
     void* logUser = nullptr;
 
     EnabledFeatures features;
+    bool conservativeRasterization = false; ///< the extension is enabled
     VkPhysicalDeviceLimits limits{};
     VkDeviceSize maxAllocation = 0;
     /// llvmpipe (seen in Mesa 22.3) counts too much when the memory of its scene runs out while the end of a query is
@@ -37,6 +38,7 @@ struct ContextImpl {
     VkSampler sampler = VK_NULL_HANDLE; ///< linear, clamped to the edge; of volumes and transfer functions alike
     std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex
     VkPipelineLayout rasterLayout = VK_NULL_HANDLE;    ///< sets 0 to 2, and ItemConstants for the fragment stage
+    VkPipelineLayout dominantLayout = VK_NULL_HANDLE;  ///< all sets, ItemConstants, and DominantConstants for vertices
     VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets, and ComputeConstants
 
     std::mutex onDemandMutex; ///< of the two below, which are made for the first object that needs them

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/clusters.h"
 #include "core/guard.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -7,7 +8,10 @@
 #include "shared.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
+#include <vector>
 
 namespace voxtact {
 
@@ -15,10 +19,34 @@ namespace {
 
 constexpr VkDeviceSize kPositionBytes = 3 * sizeof(float);
 
-Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const char* name) {
+/// The words that are kept of clusters: their boxes, and then the triangles.
+std::vector<std::uint32_t> clusterWords(const MeshClusters& clusters) {
+    static_assert(kClusterTriangles == VOXTACT_COMPUTE_GROUP, "a work group decides a cluster");
+    std::vector<std::uint32_t> words;
+    words.reserve(6 * clusters.clusters.size() + clusters.triangles.size());
+    for (const MeshCluster& cluster : clusters.clusters) {
+        for (const std::array<float, 3>& corner : {cluster.lo, cluster.hi}) {
+            for (const float coordinate : corner) {
+                words.push_back(std::bit_cast<std::uint32_t>(coordinate));
+            }
+        }
+    }
+    words.insert(words.end(), clusters.triangles.begin(), clusters.triangles.end());
+    return words;
+}
+
+Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions& options, const char* name) {
     ContextImpl& context = mesh.context;
+    std::vector<std::uint32_t> clusters;
+    if (options.clusters) {
+        const MeshClusters made = makeClusters(data);
+        clusters = clusterWords(made);
+        mesh.clusterCount = static_cast<std::uint32_t>(made.clusters.size());
+    }
     const VkDeviceSize positions = data.positions.size_bytes();
-    const VkDeviceSize total = positions + data.indices.size_bytes();
+    const VkDeviceSize described = positions + data.indices.size_bytes();
+    const VkDeviceSize total = described + clusters.size() * sizeof(std::uint32_t);
+    mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
     Result<Buffer> buffer = makeBuffer(context, total,
                                        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -39,6 +67,9 @@ Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const char* name)
     auto* to = static_cast<std::byte*>(mesh.staging.mapped);
     std::memcpy(to, data.positions.data(), data.positions.size_bytes());
     std::memcpy(to + positions, data.indices.data(), data.indices.size_bytes());
+    if (!clusters.empty()) {
+        std::memcpy(to + described, clusters.data(), clusters.size() * sizeof(std::uint32_t));
+    }
     return flush(context, mesh.staging);
 }
 
@@ -49,7 +80,7 @@ std::uint32_t indexBytes(const MeshImpl& mesh) {
     return mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
 }
 
-/// The descriptor set of the compute path, over what a triangle can reach of the two buffers.
+/// The descriptor set for shaders that read the mesh as storage, over what a triangle can reach of the two buffers.
 Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* name) {
     ContextImpl& context = mesh.context;
     constexpr VkDeviceSize kWord = 4;
@@ -57,10 +88,13 @@ Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* nam
         mesh.vertexOffset + mesh.vertexStride * (VkDeviceSize{vertexCount} - 1) + kPositionBytes;
     const VkDeviceSize indexEnd =
         mesh.indexOffset + VkDeviceSize{3} * mesh.triangleCount * indexBytes(mesh) + kWord - 1;
-    const VkDeviceSize indexRange = mesh.indices == VK_NULL_HANDLE ? vertexEnd : indexEnd / kWord * kWord;
+    // A mesh of our own ends with the clusters.
+    const VkDeviceSize indexRange = mesh.buffer.buffer                   ? mesh.buffer.size
+                                    : mesh.indices == VK_NULL_HANDLE ? vertexEnd
+                                                                     : indexEnd / kWord * kWord;
     const VkDeviceSize most = context.limits.maxStorageBufferRange;
     if (vertexEnd > most || indexRange > most) {
-        mesh.noCompute = "the mesh needs " + std::to_string(std::max(vertexEnd, indexRange)) +
+        mesh.noStorage = "the mesh needs " + std::to_string(std::max(vertexEnd, indexRange)) +
                          " bytes of a buffer, the device's maxStorageBufferRange is " + std::to_string(most);
         return {};
     }
@@ -118,7 +152,7 @@ Mesh::Mesh(Mesh&&) noexcept = default;
 Mesh& Mesh::operator=(Mesh&&) noexcept = default;
 Mesh::~Mesh() = default;
 
-Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const char* name) {
+Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const MeshOptions& options) {
     return guard([&]() -> Result<Mesh> {
         ContextImpl& c = context.impl();
         if (Result<void> alive = c.alive(); !alive.ok()) {
@@ -131,7 +165,7 @@ Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const ch
         auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = c});
         impl->triangleCount = facts->triangles;
         impl->facts = *facts;
-        if (Result<void> filled = fillBuffers(*impl, data, name == nullptr ? "mesh" : name); !filled.ok()) {
+        if (Result<void> filled = fillBuffers(*impl, data, options, options.name == nullptr ? "mesh" : options.name); !filled.ok()) {
             return filled.error();
         }
         if (Result<void> described = describe(*impl, facts->vertices, "mesh"); !described.ok()) {
@@ -159,7 +193,7 @@ Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
         impl->indexType = wrapped.indexType;
         impl->triangleCount = wrapped.triangleCount;
         if (!wrapped.storage) {
-            impl->noCompute = "WrappedMesh::storage is false: its buffers cannot be read by a compute shader";
+            impl->noStorage = "WrappedMesh::storage is false: its buffers cannot be read as storage";
         } else if (Result<void> described = describe(*impl, wrapped.vertexCount, "wrapped mesh"); !described.ok()) {
             return described.error();
         }
@@ -167,8 +201,9 @@ Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
     });
 }
 
-Result<Mesh> Mesh::upload(const Context& context, const QueueAccess& queue, const MeshView& data, const char* name) {
-    return guard([&] { return uploaded(context.impl(), queue, create(context, data, name)); });
+Result<Mesh> Mesh::upload(const Context& context, const QueueAccess& queue, const MeshView& data,
+                          const MeshOptions& options) {
+    return guard([&] { return uploaded(context.impl(), queue, create(context, data, options)); });
 }
 
 Result<void> Mesh::cmdUpload(VkCommandBuffer commandBuffer) {

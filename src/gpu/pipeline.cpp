@@ -56,32 +56,37 @@ Owned<VkPipeline> own(ContextImpl& context, VkPipeline handle, const char* name)
             [](ContextImpl& c, VkPipeline pipeline) { c.vk.DestroyPipeline(c.device, pipeline, c.allocator); }};
 }
 
-/// The fixed-function state, which is the same for every raster pass.
+/// The fixed-function state of raster passes.
 struct FixedState {
     VkVertexInputBindingDescription binding{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
     VkVertexInputAttributeDescription attribute{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    /// The last one is for vertex input only.
     std::array<VkDynamicState, 3> dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
                                                 VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE};
     VkPipelineVertexInputStateCreateInfo vertexInput{};
     VkPipelineInputAssemblyStateCreateInfo assembly{};
     VkPipelineViewportStateCreateInfo viewport{};
     VkPipelineRasterizationStateCreateInfo raster{};
+    VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
     VkPipelineMultisampleStateCreateInfo multisample{};
     VkPipelineDynamicStateCreateInfo dynamic{};
     VkPipelineRenderingCreateInfo rendering{};
 
-    FixedState() {
+    FixedState(bool withVertexInput, bool overestimate) {
         vertexInput.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-        vertexInput.vertexBindingDescriptionCount = 1;
+        vertexInput.vertexBindingDescriptionCount = withVertexInput ? 1 : 0;
         vertexInput.pVertexBindingDescriptions = &binding;
-        vertexInput.vertexAttributeDescriptionCount = 1;
+        vertexInput.vertexAttributeDescriptionCount = withVertexInput ? 1 : 0;
         vertexInput.pVertexAttributeDescriptions = &attribute;
         assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
         assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
         viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
         viewport.viewportCount = 1;
         viewport.scissorCount = 1;
+        conservative.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
+        conservative.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
         raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+        raster.pNext = overestimate ? &conservative : nullptr;
         raster.polygonMode = VK_POLYGON_MODE_FILL;
         raster.cullMode = VK_CULL_MODE_NONE;
         raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
@@ -89,7 +94,7 @@ struct FixedState {
         multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
         multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
         dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-        dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamicStates.size());
+        dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamicStates.size()) - (withVertexInput ? 0 : 1);
         dynamic.pDynamicStates = dynamicStates.data();
         rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
     }
@@ -108,12 +113,13 @@ Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterP
     if (!fragment.ok()) {
         return fragment.error();
     }
-    const Specialization constants(desc.fragmentConstants);
+    const Specialization constants(desc.constants);
     VkPipelineShaderStageCreateInfo stages[] = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex->get()),
                                                 stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment->get())};
+    stages[0].pSpecializationInfo = &constants.info;
     stages[1].pSpecializationInfo = &constants.info;
 
-    const FixedState fixed;
+    const FixedState fixed(desc.vertexInput, desc.overestimate);
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
     info.pNext = &fixed.rendering;

@@ -17,14 +17,17 @@ struct ShaderConstant {
 struct RasterPipelineDesc {
     std::span<const std::uint32_t> vertexSpirv;
     std::span<const std::uint32_t> fragmentSpirv;
-    std::span<const ShaderConstant> fragmentConstants;
-    VkPipelineLayout layout = VK_NULL_HANDLE; ///< ContextImpl::rasterLayout, or one that extends it
+    std::span<const ShaderConstant> constants; ///< of both stages; each takes those that it has
+    VkPipelineLayout layout =
+        VK_NULL_HANDLE;        ///< that of the shaders: ContextImpl::rasterLayout, or one that extends it
+    bool vertexInput = true;   ///< false: the vertex shader reads no vertex buffer
+    bool overestimate = false; ///< by VK_EXT_conservative_rasterization, which must be enabled
     const char* name = "";
 };
 
 /// A pipeline that rasterises triangles into no attachment at all: what counts is which fragments survive. Vertices
-/// are float3 at binding 0, whose stride is dynamic, as are viewport and scissor. Nothing is culled; the near and far
-/// planes clip.
+/// are float3 at binding 0, if any, whose stride is dynamic, as are viewport and scissor. Nothing is culled; the near
+/// and far planes clip.
 [[nodiscard]] Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc);
 
 /// A compute pipeline. Layout: ContextImpl::computeLayout.

@@ -2,6 +2,7 @@
 #include "gpu/requirements.h"
 #include "core/guard.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <initializer_list>
@@ -22,12 +23,20 @@ constexpr std::array kRequirements{
     Requirement{"shaderInt64", kCore, false, "no counting method compute"},
 };
 
+constexpr std::array kOptionalExtensions{VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
+
 /// Walks a pNext chain of feature structs.
 template <class Visitor> void forEachStruct(const VkPhysicalDeviceFeatures2* features, Visitor&& visitor) {
     for (const auto* next = static_cast<const VkBaseInStructure*>(features->pNext); next != nullptr;
          next = next->pNext) {
         visitor(next);
     }
+}
+
+bool contains(std::span<const char* const> extensions, const char* name) {
+    return std::ranges::any_of(extensions, [name](const char* extension) {
+        return extension != nullptr && std::strcmp(extension, name) == 0;
+    });
 }
 
 bool on(VkBool32 flag) {
@@ -121,6 +130,10 @@ std::span<const Requirement> requirements() noexcept {
     return kRequirements;
 }
 
+std::span<const char* const> optionalDeviceExtensions() noexcept {
+    return kOptionalExtensions;
+}
+
 EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept {
     EnabledFeatures out;
     if (features == nullptr) {
@@ -147,12 +160,11 @@ EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept
 }
 
 bool debugUtilsEnabled(const ContextDesc& desc) noexcept {
-    for (const char* extension : desc.enabledInstanceExtensions) {
-        if (extension != nullptr && std::strcmp(extension, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0) {
-            return true;
-        }
-    }
-    return false;
+    return contains(desc.enabledInstanceExtensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+}
+
+bool conservativeRasterizationEnabled(const ContextDesc& desc) noexcept {
+    return contains(desc.enabledDeviceExtensions, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
 }
 
 FeatureRequest::FeatureRequest(const VkPhysicalDeviceFeatures2* supported) noexcept {

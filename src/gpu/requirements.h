@@ -25,5 +25,6 @@ struct SubgroupSupport {
 /// Null reads as nothing enabled.
 [[nodiscard]] EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept;
 [[nodiscard]] bool debugUtilsEnabled(const ContextDesc& desc) noexcept;
+[[nodiscard]] bool conservativeRasterizationEnabled(const ContextDesc& desc) noexcept;
 
 } // namespace voxtact

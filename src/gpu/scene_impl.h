@@ -48,9 +48,11 @@ struct MeshImpl {
     VkIndexType indexType = VK_INDEX_TYPE_UINT32;
     std::uint32_t triangleCount = 0;
     std::optional<MeshFacts> facts{};
-    DescriptorSet descriptors{}; ///< for the compute path; empty where `noCompute` says why
-    std::string noCompute{};
-    Buffer buffer{}; ///< positions, then indices; empty when wrapped
+    DescriptorSet descriptors{}; ///< for shaders that read the mesh as storage; empty where `noStorage` says why
+    std::string noStorage{};
+    Buffer buffer{}; ///< positions, indices, then clusters as CertifiedConstants says; empty when wrapped
+    std::uint32_t clusterCount = 0; ///< 0: none on the device
+    std::uint32_t clusterWord = 0;
     Buffer staging{};
 };
 

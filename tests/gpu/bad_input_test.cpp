@@ -220,15 +220,20 @@ TEST_F(BadInputTest, AnAtomicCounterCarriesBeyond32Bits) {
     const Volume volume =
         take(Volume::upload(context, queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view()));
     const TransferFunction function = take(TransferFunction::upload(context, queue(), {byteRamp(), {0, 255}, 256}));
-    // One visible square, and so many degenerate triangles that 2^32 fragments cannot be ruled out.
-    MeshData data = makeFlat(0, 1.0 / 128, 0, 1.0 / 128, 0.5);
     const std::uint64_t pixels = std::uint64_t{4096} * 4096;
-    data.indices.resize(3 * (std::uint64_t{1} << 32U) / pixels, 0);
-    const Mesh mesh = take(Mesh::upload(context, queue(), data.view()));
-    const BatchItem item{&mesh, &volume, &function, std::span(&pose_, 1)};
-    BlockingDetector atomic = take(BlockingDetector::create(context, {.method = CountingMethod::Atomic}, queue()));
-    const BatchAnswer answer = take(atomic.detect({std::span(&item, 1), flatView(0, 1, 4096, 4096), 0.5}));
-    EXPECT_EQ(answer.pairs[0].count, UINT32_MAX - 9 + std::uint64_t{32} * 32);
+    for (const Projection projection : {Projection::View, Projection::TwoView}) {
+        // One visible square, edge-on from the side, and so many degenerate triangles that 2^32 fragments cannot be
+        // ruled out.
+        MeshData data = makeFlat(0, 1.0 / 128, 0, 1.0 / 128, 0.5);
+        const std::uint64_t views = projection == Projection::TwoView ? 2 : 1;
+        data.indices.resize(3 * (std::uint64_t{1} << 32U) / pixels / views, 0);
+        const Mesh mesh = take(Mesh::upload(context, queue(), data.view()));
+        const BatchItem item{&mesh, &volume, &function, std::span(&pose_, 1)};
+        BlockingDetector atomic = take(
+            BlockingDetector::create(context, {.method = CountingMethod::Atomic, .projection = projection}, queue()));
+        const BatchAnswer answer = take(atomic.detect({std::span(&item, 1), flatView(0, 1, 4096, 4096), 0.5}));
+        EXPECT_EQ(answer.pairs[0].count, UINT32_MAX - 9 + std::uint64_t{32} * 32) << toString(projection);
+    }
 }
 
 } // namespace

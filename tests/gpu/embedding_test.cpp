@@ -164,6 +164,12 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
         EXPECT_EQ(answer.pairs[1].count, 64U * 32U);
         // Nothing is known of a wrapped volume's boundary, so nothing is proven.
         EXPECT_EQ(detector.detector().boundaryFor(items[0], 0.5), Boundary::Range);
+        // Without a camera: 8 x 4 voxels. The rasteriser reads the buffers as compute does.
+        BlockingDetector dominant = take(BlockingDetector::create(
+            context, {.method = method, .projection = Projection::DominantAxis}, device.queueAccess()));
+        const BatchAnswer voxels = take(dominant.detect({items, {}, 0.5}));
+        EXPECT_EQ(voxels.pairs[0].count, 8U * 4U);
+        EXPECT_EQ(voxels.pairs[1].count, 8U * 4U);
     }
     wrappedVolume.boundaryValues = ValueRange{-1000, -900};
     const Volume vouched = take(Volume::wrap(context, wrappedVolume));

@@ -71,14 +71,30 @@ class HostAgreementTest : public GpuTest {
         cpu::Detector host;
     };
 
-    [[nodiscard]] Detectors makeDetectors(Boundary boundary) const {
+    [[nodiscard]] Detectors makeDetectors(Boundary boundary, Projection projection = Projection::View,
+                                          std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel) const {
+        DetectorDesc desc{.projection = projection, .boundary = boundary, .samplesPerVoxel = samplesPerVoxel};
         std::vector<BlockingDetector> raster;
         for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Subgroup}) {
-            raster.push_back(detector({.method = method, .boundary = boundary}));
+            desc.method = method;
+            raster.push_back(detector(desc));
         }
-        return {std::move(raster),
-                detector({.method = CountingMethod::Compute, .filter = Filter::Exact, .boundary = boundary}),
-                take(cpu::Detector::create({.boundary = boundary}))};
+        desc.method = CountingMethod::Compute;
+        desc.filter = Filter::Exact;
+        return {std::move(raster), detector(desc),
+                take(cpu::Detector::create(
+                    {.boundary = boundary, .projection = projection, .samplesPerVoxel = samplesPerVoxel}))};
+    }
+
+    /// Random scenes by detectors for both ways to treat the boundary.
+    void expectAgreementOnScenes(Detectors range, Detectors clamp, std::size_t scenes) {
+        std::mt19937_64 random(testSeed());
+        std::uint64_t survivors = 0;
+        for (std::size_t i = 0; i < scenes && !HasFailure(); ++i) {
+            const RandomScene scene = makeRandomScene(random, kPosesOfAScene);
+            survivors += expectAgreement(scene.rangeTest ? range : clamp, scene, "scene " + std::to_string(i));
+        }
+        EXPECT_GT(survivors, scenes * kPosesOfAScene);
     }
 
     /// All five on every pose. Returns the survivors in all.
@@ -147,17 +163,7 @@ class HostAgreementTest : public GpuTest {
 /// Half of the scenes: two tests that can run side by side.
 class TenThousandPosesTest : public HostAgreementTest {
   protected:
-    void run() {
-        std::mt19937_64 random(testSeed());
-        Detectors range = makeDetectors(Boundary::Range);
-        Detectors clamp = makeDetectors(Boundary::Clamp);
-        std::uint64_t survivors = 0;
-        for (std::size_t i = 0; i < kScenes / 2 && !HasFailure(); ++i) {
-            const RandomScene scene = makeRandomScene(random, kPosesOfAScene);
-            survivors += expectAgreement(scene.rangeTest ? range : clamp, scene, "scene " + std::to_string(i));
-        }
-        EXPECT_GT(survivors, kScenes * kPosesOfAScene);
-    }
+    void run() { expectAgreementOnScenes(makeDetectors(Boundary::Range), makeDetectors(Boundary::Clamp), kScenes / 2); }
 };
 
 TEST_F(TenThousandPosesTest, AllMethodsOnTheFirstHalf) {
@@ -166,6 +172,21 @@ TEST_F(TenThousandPosesTest, AllMethodsOnTheFirstHalf) {
 
 TEST_F(TenThousandPosesTest, AllMethodsOnTheSecondHalf) {
     run();
+}
+
+TEST_F(HostAgreementTest, AllMethodsByTwoView) {
+    expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::TwoView),
+                            makeDetectors(Boundary::Clamp, Projection::TwoView), kScenes / 14);
+}
+
+TEST_F(HostAgreementTest, AllMethodsByDominantAxis) {
+    expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::DominantAxis),
+                            makeDetectors(Boundary::Clamp, Projection::DominantAxis), kScenes / 14);
+}
+
+TEST_F(HostAgreementTest, AllMethodsByDominantAxisWithMoreSamples) {
+    expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::DominantAxis, 3),
+                            makeDetectors(Boundary::Clamp, Projection::DominantAxis, 3), kScenes / 28);
 }
 
 TEST_F(HostAgreementTest, AllMethodsOnTheRealHead) {

@@ -110,6 +110,25 @@ Mat4 randomRotation(std::mt19937_64& random) {
             1};
 }
 
+Mat4 randomMotion(std::mt19937_64& random) {
+    const Vec3 by{uniform(random, -100, 100), uniform(random, -100, 100), uniform(random, -100, 100)};
+    return multiply(translation(by), randomRotation(random));
+}
+
+VolumeData moved(VolumeData volume, const Mat4& motion) {
+    volume.grid.origin = transformPoint(motion, volume.grid.origin);
+    std::array<double, 9> direction{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t r = 0; r < 3; ++r) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                direction[3 * c + r] += motion[4 * k + r] * volume.grid.direction[3 * c + k];
+            }
+        }
+    }
+    volume.grid.direction = direction;
+    return volume;
+}
+
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random) {
     const Mat4 world_from_texture = worldFromTexture(grid);
     std::vector<Mat4> poses;

@@ -48,6 +48,10 @@ View flatView(double lo, double hi, std::uint32_t width, std::uint32_t height);
 
 /// A rotation from a uniformly random quaternion.
 Mat4 randomRotation(std::mt19937_64& random);
+/// A rotation and a translation of up to 100 mm along each axis.
+Mat4 randomMotion(std::mt19937_64& random);
+/// The volume after a rigid motion of the world.
+VolumeData moved(VolumeData volume, const Mat4& motion);
 double uniform(std::mt19937_64& random, double lo, double hi);
 /// Random poses whose object origin is within `grow` times the box of the volume.
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random);

@@ -119,6 +119,41 @@ TEST(Cameras, FramingShowsTheWholeBox) {
     EXPECT_NEAR(clip_from_world[0] * 640, -clip_from_world[5] * 480, 1e-12);
 }
 
+/// The side view of a camera has its view volume, with depth to the right and what was right in depth.
+void expectSideView(const Mat4& clip_from_world) {
+    const Mat4 world_from_clip = inverse(clip_from_world).value();
+    const Mat4 side = sideView(clip_from_world);
+    for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.0}) {
+        for (const double y : {-1.0, 0.125, 1.0}) {
+            for (const double z : {0.0, 0.25, 0.5, 1.0}) {
+                const Vec3 seen = transformPoint(side, transformPoint(world_from_clip, {x, y, z}));
+                EXPECT_NEAR(seen[0], 2 * z - 1, 1e-9);
+                EXPECT_NEAR(seen[1], y, 1e-9);
+                EXPECT_NEAR(seen[2], (x + 1) / 2, 1e-9);
+            }
+        }
+    }
+    // A point behind the eye stays there: w is the same.
+    for (std::size_t column = 0; column < 4; ++column) {
+        EXPECT_EQ(side[4 * column + 3], clip_from_world[4 * column + 3]);
+    }
+}
+
+TEST(Cameras, TheSideViewHasTheSameViewVolume) {
+    const Grid grid = obliqueGrid();
+    const Mat4 orthographic = framingCamera(grid, 640, 480);
+    expectSideView(orthographic);
+    Mat4 clip_from_eye{};
+    clip_from_eye[0] = 1.5;
+    clip_from_eye[5] = 2;
+    clip_from_eye[10] = 100.0 / 99;
+    clip_from_eye[11] = 1;
+    clip_from_eye[14] = -100.0 / 99;
+    const Mat4 perspective = multiply(clip_from_eye, multiply(translation({1, 2, 30}), orthographic));
+    expectSideView(perspective);
+    EXPECT_THAT(transformPoint(sideView(identity()), {0.5, 0.25, 0.125}), ElementsAre(-0.75, 0.25, 0.75));
+}
+
 TEST(TransferFunctions, TableEntriesAreAtTheMiddle) {
     constexpr ControlPoint kPoints[] = {{0, 0}, {4, 1}};
     EXPECT_THAT(sampleTable({kPoints, {0, 4}, 4}).value(), ElementsAre(0.125F, 0.375F, 0.625F, 0.875F));

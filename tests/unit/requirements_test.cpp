@@ -154,5 +154,13 @@ TEST_F(RequirementsTest, TheRequestAsksForWhatIsSupported) {
     }
 }
 
+TEST_F(RequirementsTest, OptionalExtensionsAreNotMissed) {
+    ASSERT_EQ(optionalDeviceExtensions().size(), 1U);
+    EXPECT_STREQ(optionalDeviceExtensions()[0], "VK_EXT_conservative_rasterization");
+    EXPECT_THAT(check(desc_).missing, IsEmpty());
+    desc_.enabledDeviceExtensions = optionalDeviceExtensions();
+    EXPECT_THAT(check(desc_).missing, IsEmpty());
+}
+
 } // namespace
 } // namespace voxtact::test
