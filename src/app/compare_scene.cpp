@@ -157,7 +157,8 @@ Machine describeMachine(const Session& session, ScalarType type) {
 }
 
 Result<Subject> makeSubject(const Session& session, MeshData data) {
-    Result<Mesh> device = Mesh::upload(session.context, session.device.queueAccess(), data.view(), data.name.c_str());
+    Result<Mesh> device = Mesh::upload(session.context, session.device.queueAccess(), data.view(),
+                                       {.name = data.name.c_str(), .clusters = true});
     if (!device.ok()) {
         return device.error();
     }

@@ -86,7 +86,7 @@ Result<void> detectOnDevice(const DetectOptions& options, const DetectInputs& in
     std::vector<Mesh> meshes;
     for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
         Result<Mesh> mesh = Mesh::upload(session.context, session.device.queueAccess(), inputs.meshes[i].view(),
-                                         options.meshes.sources[i].c_str());
+                                         {.name = options.meshes.sources[i].c_str(), .clusters = true});
         if (!mesh.ok()) {
             return mesh.error();
         }

@@ -58,8 +58,8 @@ inline constexpr double kCellMargin = 0x1p-9;
 
 /// The cells in which a triangle certainly has an opaque point, and those that are undecided, x fastest. In all other
 /// cells it has none, not even in the cell enlarged by `margin`. A point in a face between cells is in neither
-/// beyond doubt. Refuses what certifiedOracle() refuses, a triangle that the mesh does not have and a margin that is not
-/// within 0 to 1.
+/// beyond doubt. Refuses what certifiedOracle() refuses, a triangle that the mesh does not have and a margin that is
+/// not within 0 to 1.
 [[nodiscard]] VOXTACT_API Result<std::vector<CertifiedCell>>
 certifiedCells(const OraclePair& pair, std::uint32_t triangle, double margin = kCellMargin);
 

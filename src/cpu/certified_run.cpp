@@ -66,7 +66,8 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
         const CertifiedTally found =
             decide({item.mesh->impl(), volume, *ofItem[task.item],
                     certifiedPair(volume.grid, volume.texture_from_world, item.world_from_object[task.pose]),
-                    task.clusterBegin, task.clusterEnd, desc.stopAtFirst}, sink);
+                    task.clusterBegin, task.clusterEnd, desc.stopAtFirst},
+                   sink);
         tally.certain.fetch_add(found.certain, std::memory_order_relaxed);
         if (found.undecided) {
             tally.undecided.store(true, std::memory_order_relaxed);

@@ -89,7 +89,7 @@ Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* nam
     const VkDeviceSize indexEnd =
         mesh.indexOffset + VkDeviceSize{3} * mesh.triangleCount * indexBytes(mesh) + kWord - 1;
     // A mesh of our own ends with the clusters.
-    const VkDeviceSize indexRange = mesh.buffer.buffer                   ? mesh.buffer.size
+    const VkDeviceSize indexRange = mesh.buffer.buffer               ? mesh.buffer.size
                                     : mesh.indices == VK_NULL_HANDLE ? vertexEnd
                                                                      : indexEnd / kWord * kWord;
     const VkDeviceSize most = context.limits.maxStorageBufferRange;
@@ -165,7 +165,8 @@ Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const Me
         auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = c});
         impl->triangleCount = facts->triangles;
         impl->facts = *facts;
-        if (Result<void> filled = fillBuffers(*impl, data, options, options.name == nullptr ? "mesh" : options.name); !filled.ok()) {
+        if (Result<void> filled = fillBuffers(*impl, data, options, options.name == nullptr ? "mesh" : options.name);
+            !filled.ok()) {
             return filled.error();
         }
         if (Result<void> described = describe(*impl, facts->vertices, "mesh"); !described.ok()) {
