@@ -4,6 +4,7 @@
 #include "cpu/batch_check.h"
 #include "cpu/kernel.h"
 #include "cpu/occupancy_cache.h"
+#include "cpu/outputs.h"
 #include "cpu/thread_pool.h"
 
 #include <algorithm>
@@ -60,6 +61,9 @@ class Run {
             pair += static_cast<std::uint32_t>(item.world_from_object.size());
             tasks_ += item.world_from_object.size() * parts;
         }
+        if (detector.desc.outputs.any()) {
+            outputs_.emplace(batch, detector.desc, pairs, detector.pool.threads());
+        }
     }
 
     void count() {
@@ -69,9 +73,16 @@ class Run {
         }
         detector_.pool.run(threads, [this](std::uint32_t thread) {
             for (std::uint64_t task = next_++; task < tasks_; task = next_++) {
-                runTask(task, *detector_.scratches[thread]);
+                runTask(task, thread);
             }
         });
+    }
+
+    /// Once counted.
+    void finishOutputs(BatchAnswer& answer) {
+        if (outputs_) {
+            outputs_->finish(answer);
+        }
     }
 
     [[nodiscard]] std::vector<PairAnswer> answers() const {
@@ -87,13 +98,14 @@ class Run {
     }
 
   private:
-    void runTask(std::uint64_t task, Scratch& scratch) noexcept {
+    void runTask(std::uint64_t task, std::uint32_t thread) noexcept {
         const auto after =
             std::upper_bound(items_.begin(), items_.end(), task,
                              [](std::uint64_t t, const ItemFacts& facts) { return t < facts.firstTask; });
         // Items without poses have no task: the last that begins at or before it has some.
         const ItemFacts& facts = *(after - 1);
-        const BatchItem& item = batch_.items[static_cast<std::size_t>(after - items_.begin()) - 1];
+        const std::size_t number = static_cast<std::size_t>(after - items_.begin()) - 1;
+        const BatchItem& item = batch_.items[number];
         const std::uint64_t within = task - facts.firstTask;
         const auto pose = static_cast<std::size_t>(within / facts.parts);
         std::atomic<std::uint64_t>& count = counts_[facts.firstPair + pose];
@@ -117,7 +129,10 @@ class Run {
                           .clusterBegin = static_cast<std::uint32_t>(clusters * part / facts.parts),
                           .clusterEnd = static_cast<std::uint32_t>(clusters * (part + 1) / facts.parts),
                           .stopAtFirst = detector_.desc.stopAtFirst};
-        count.fetch_add(countSurvivors(job, scratch), std::memory_order_relaxed);
+        const std::uint64_t survivors =
+            outputs_ ? outputs_->collect(job, number, facts.firstPair + static_cast<std::uint32_t>(pose), thread)
+                     : countSurvivors(job, *detector_.scratches[thread]);
+        count.fetch_add(survivors, std::memory_order_relaxed);
     }
 
     [[nodiscard]] PairAnswer answer(std::uint32_t pair, std::uint32_t item, std::uint32_t pose) const {
@@ -138,6 +153,7 @@ class Run {
     ViewFacts view_;
     std::vector<ItemFacts> items_;
     std::vector<std::atomic<std::uint64_t>> counts_;
+    std::optional<OutputRun> outputs_;
     std::uint64_t tasks_ = 0;
     std::atomic<std::uint64_t> next_{0};
 };
@@ -151,8 +167,11 @@ Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
-        if (desc.projection != Projection::View || desc.outputs.any()) {
+        if (desc.projection != Projection::View) {
             return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
+        }
+        if (Result<void> outputs = checkOutputs(desc); !outputs.ok()) {
+            return outputs.error();
         }
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
         return Detector(std::make_unique<DetectorImpl>(desc, desc.threads == 0 ? processors : desc.threads));
@@ -166,10 +185,14 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
         if (!pairs.ok()) {
             return pairs.error();
         }
+        if (Result<void> labels = checkLabelMaps(batch, impl_->desc.outputs); !labels.ok()) {
+            return labels.error();
+        }
         Run run(batch, *impl_, *pairs);
         run.count();
         BatchAnswer answer;
         answer.pairs = run.answers();
+        run.finishOutputs(answer);
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

@@ -24,13 +24,15 @@ void addVertices(MeshImpl& mesh, const MeshView& data, std::span<const std::uint
     }
 }
 
-void addTriangles(MeshImpl& mesh, std::span<const std::array<std::uint8_t, 3>> triangles) {
+void addTriangles(MeshImpl& mesh, std::span<const std::array<std::uint8_t, 3>> triangles,
+                  std::span<const std::uint32_t> numbers) {
     const std::uint32_t padded = aligned(static_cast<std::uint32_t>(triangles.size()));
     for (std::size_t i = 0; i < padded; ++i) {
         const std::array<std::uint8_t, 3> corners = i < triangles.size() ? triangles[i] : std::array<std::uint8_t, 3>{};
         mesh.corner0.push_back(corners[0]);
         mesh.corner1.push_back(corners[1]);
         mesh.corner2.push_back(corners[2]);
+        mesh.numbers.push_back(i < numbers.size() ? numbers[i] : 0);
     }
 }
 
@@ -51,7 +53,8 @@ MeshImpl::MeshImpl(const MeshView& data, const MeshFacts& checked) : facts(check
         place.firstVertex = static_cast<std::uint32_t>(x.size());
         place.firstTriangle = static_cast<std::uint32_t>(corner0.size());
         addVertices(*this, data, std::span(split.vertices).subspan(cluster.firstVertex, cluster.vertexCount));
-        addTriangles(*this, std::span(split.corners).subspan(cluster.firstTriangle, cluster.triangleCount));
+        addTriangles(*this, std::span(split.corners).subspan(cluster.firstTriangle, cluster.triangleCount),
+                     std::span(split.triangles).subspan(cluster.firstTriangle, cluster.triangleCount));
         place.vertexCount = static_cast<std::uint32_t>(x.size()) - place.firstVertex;
         place.triangleCount = static_cast<std::uint32_t>(corner0.size()) - place.firstTriangle;
         clusters.push_back(place);
