@@ -54,9 +54,12 @@ struct TracedFragment {
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
 #define VOXTACT_SET_PAIRS 2
 #define VOXTACT_SET_MESH 3
+#define VOXTACT_SET_LABELS 4 // with outputs beside the counts
 // Bindings of VOXTACT_SET_PAIRS.
 #define VOXTACT_BINDING_TRANSFORMS 0
 #define VOXTACT_BINDING_RESULTS 1
+#define VOXTACT_BINDING_OUTPUT_PAIRS 2 // with outputs beside the counts
+#define VOXTACT_BINDING_OUTPUTS 3
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
@@ -66,6 +69,7 @@ struct TracedFragment {
 #define VOXTACT_CONSTANT_RANGE_TEST 0
 #define VOXTACT_CONSTANT_CARRY 1
 #define VOXTACT_CONSTANT_EXACT_FILTER 2
+#define VOXTACT_CONSTANT_OUTPUTS 16
 // Lanes of a work group of the compute path.
 #define VOXTACT_COMPUTE_GROUP 64
 

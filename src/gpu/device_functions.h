@@ -35,6 +35,7 @@ namespace voxtact {
     X(CmdDrawIndexed)                                                                                                  \
     X(CmdEndQuery)                                                                                                     \
     X(CmdEndRendering)                                                                                                 \
+    X(CmdFillBuffer)                                                                                                   \
     X(CmdPipelineBarrier2)                                                                                             \
     X(CmdPushConstants)                                                                                                \
     X(CmdResetQueryPool)                                                                                               \

@@ -4,6 +4,8 @@
 #include "gpu/memory.h"
 #include "voxtact/scene.h"
 
+#include <vector>
+
 namespace voxtact {
 
 struct VolumeImpl {
@@ -46,5 +48,20 @@ struct MeshImpl {
     Buffer buffer{}; ///< positions, then indices; empty when wrapped
     Buffer staging{};
 };
+
+/// The format of a label map: numbers of labels.
+inline constexpr VkFormat kLabelFormat = VK_FORMAT_R16_UINT;
+
+struct LabelMapImpl {
+    ContextImpl& context;
+    Grid grid{};
+    std::shared_ptr<const std::vector<std::int32_t>> values{}; ///< shared with the Results that are still to be read
+    Image image{};
+    Buffer staging{};
+    DescriptorSet descriptors{};
+};
+
+/// A set of ContextImpl::labelSetLayout.
+[[nodiscard]] Result<DescriptorSet> makeLabelSet(ContextImpl& context, VkImageView view, const char* name);
 
 } // namespace voxtact
