@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "detect/compute.h"
 #include "detect/batch.h"
+#include "detect/outputs.h"
 #include "exact.h"
 #include "gpu/scene_impl.h"
 
 #include "voxtact_shaders/compute_comp.h"
+#include "voxtact_shaders/compute_outputs_comp.h"
 
 #include <algorithm>
 
@@ -25,12 +27,16 @@ std::uint32_t indexBytes(const MeshImpl& mesh) {
 
 } // namespace
 
-Result<ComputePass> ComputePass::create(ContextImpl& context, Filter filter) {
-    ComputePass pass(context, filter);
-    const ShaderConstant constant{VOXTACT_CONSTANT_EXACT_FILTER, filter == Filter::Exact ? 1U : 0U};
+Result<ComputePass> ComputePass::create(ContextImpl& context, Filter filter, const Outputs& outputs) {
+    ComputePass pass(context, filter, outputs.any());
+    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_EXACT_FILTER, filter == Filter::Exact ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(outputs)}};
     const std::string name = std::string("compute ") + toString(filter);
     Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(context, spirv::compute_comp, {&constant, 1}, name.c_str());
+        outputs.any() ? makeComputePipeline(context, spirv::compute_outputs_comp, constants,
+                                            context.computeOutputLayout, (name + " outputs").c_str())
+                      : makeComputePipeline(context, spirv::compute_comp, std::span(constants).first(1),
+                                            context.computeLayout, name.c_str());
     if (!pipeline.ok()) {
         return pipeline.error();
     }
@@ -80,9 +86,12 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
                              Boundary boundary, std::uint32_t firstPair, const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    const VkPipelineLayout layout = outputs_ ? context_->computeOutputLayout : context_->computeLayout;
     const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set,
-                                    results.descriptors.set, item.mesh->impl().descriptors.set};
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context_->computeLayout, 0, 4, sets, 0,
+                                    outputs_ ? results.outputs->descriptors.set : results.descriptors.set,
+                                    item.mesh->impl().descriptors.set,
+                                    outputs_ ? labelSetOf(item, *results.outputs) : VK_NULL_HANDLE};
+    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, outputs_ ? 5 : 4, sets, 0,
                              nullptr);
     shader::ComputeConstants constants = constantsOf(batch, item);
     constants.rangeTest = boundary == Boundary::Range ? 1 : 0;
@@ -90,8 +99,7 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
     const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
     for (std::uint32_t done = 0; done < pairs; done += std::min(atOnce, pairs - done)) {
         constants.firstPair = firstPair + done;
-        vk.CmdPushConstants(commandBuffer, context_->computeLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
-                            &constants);
+        vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
         vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, pairs - done), 1);
     }
 }

@@ -11,7 +11,7 @@ namespace voxtact {
 /// The pass of the counting method `compute`: a work group for every VOXTACT_COMPUTE_GROUP triangles of a pair.
 class ComputePass {
   public:
-    [[nodiscard]] static Result<ComputePass> create(ContextImpl& context, Filter filter);
+    [[nodiscard]] static Result<ComputePass> create(ContextImpl& context, Filter filter, const Outputs& outputs = {});
 
     /// What a checked batch can still ask too much of: a viewport or a mesh beyond what the pass can do.
     [[nodiscard]] Result<void> check(const Batch& batch) const;
@@ -29,7 +29,8 @@ class ComputePass {
     }
 
   private:
-    ComputePass(ContextImpl& context, Filter filter) noexcept : context_(&context), filter_(filter) {}
+    ComputePass(ContextImpl& context, Filter filter, bool outputs) noexcept
+        : context_(&context), filter_(filter), outputs_(outputs) {}
 
     void recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                     std::uint32_t firstPair, const ResultsImpl& results) const;
@@ -37,6 +38,7 @@ class ComputePass {
 
     ContextImpl* context_;
     Filter filter_;
+    bool outputs_;
     Owned<VkPipeline> pipeline_;
 };
 

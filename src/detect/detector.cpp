@@ -3,6 +3,7 @@
 #include "core/opaque_ranges.h"
 #include "detect/batch.h"
 #include "detect/compute.h"
+#include "detect/outputs.h"
 #include "detect/recording.h"
 #include "detect/view.h"
 #include "gpu/debug.h"
@@ -79,15 +80,19 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         if (Result<void> alive = c.alive(); !alive.ok()) {
             return alive.error();
         }
-        if (desc.projection != Projection::View || desc.outputs.any()) {
+        if (desc.projection != Projection::View) {
             return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
         }
         if (Result<void> method = checkMethod(context, desc.method); !method.ok()) {
             return method.error();
         }
+        if (Result<void> outputs = checkOutputs(c, desc); !outputs.ok()) {
+            return outputs.error();
+        }
         Result<std::unique_ptr<DetectorImpl>> impl =
-            desc.method == CountingMethod::Compute ? withPass(c, desc, ComputePass::create(c, desc.filter))
-                                                   : withPass(c, desc, ViewPass::create(c, desc.method, desc.filter));
+            desc.method == CountingMethod::Compute
+                ? withPass(c, desc, ComputePass::create(c, desc.filter, desc.outputs))
+                : withPass(c, desc, ViewPass::create(c, desc.method, desc.filter, desc.outputs));
         if (!impl.ok()) {
             return impl.error();
         }
@@ -114,6 +119,9 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                          "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
                              std::to_string(slot.maxPairs)};
         }
+        if (Result<void> outputs = checkOutputs(context, batch, impl_->desc.outputs, slot); !outputs.ok()) {
+            return outputs;
+        }
         if (const auto* compute = std::get_if<ComputePass>(&impl_->pass)) {
             if (Result<void> checked = compute->check(batch); !checked.ok()) {
                 return checked;
@@ -121,6 +129,9 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         }
         slot.pairs = *pairs;
         slot.readBackRecorded = false;
+        if (slot.outputs) {
+            slot.outputs->recorded = impl_->desc.outputs;
+        }
         const Label label(context, commandBuffer, labelOf(impl_->desc, *pairs).c_str());
         if (*pairs == 0) {
             return {};

@@ -2,12 +2,16 @@
 #include "detect/view.h"
 #include "detect/batch.h"
 #include "detect/counting.h"
+#include "detect/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
 
 #include "voxtact_shaders/view_atomic_frag.h"
 #include "voxtact_shaders/view_frag.h"
+#include "voxtact_shaders/view_outputs_atomic_frag.h"
+#include "voxtact_shaders/view_outputs_frag.h"
+#include "voxtact_shaders/view_outputs_subgroup_frag.h"
 #include "voxtact_shaders/view_subgroup_frag.h"
 #include "voxtact_shaders/view_trace_frag.h"
 #include "voxtact_shaders/view_vert.h"
@@ -16,14 +20,17 @@ namespace voxtact {
 
 namespace {
 
-std::span<const std::uint32_t> fragmentSpirv(CountingMethod method) {
+std::span<const std::uint32_t> fragmentSpirv(CountingMethod method, bool outputs) {
+    const auto either = [outputs](std::span<const std::uint32_t> without, std::span<const std::uint32_t> with) {
+        return outputs ? with : without;
+    };
     if (countsByQuery(method)) {
-        return spirv::view_frag;
+        return either(spirv::view_frag, spirv::view_outputs_frag);
     }
     if (method == CountingMethod::Subgroup) {
-        return spirv::view_subgroup_frag;
+        return either(spirv::view_subgroup_frag, spirv::view_outputs_subgroup_frag);
     }
-    return spirv::view_atomic_frag;
+    return either(spirv::view_atomic_frag, spirv::view_outputs_atomic_frag);
 }
 
 } // namespace
@@ -34,7 +41,8 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
         for (std::uint32_t carry = 0; carry < (withCarry ? 2U : 1U); ++carry) {
             const ShaderConstant constants[] = {{VOXTACT_CONSTANT_RANGE_TEST, rangeTest},
                                                 {VOXTACT_CONSTANT_CARRY, carry},
-                                                {VOXTACT_CONSTANT_EXACT_FILTER, filter_ == Filter::Exact ? 1U : 0U}};
+                                                {VOXTACT_CONSTANT_EXACT_FILTER, filter_ == Filter::Exact ? 1U : 0U},
+                                                {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(outputs_)}};
             const std::string variant = "view " + name + " " + toString(filter_) +
                                         (rangeTest != 0 ? " range" : " clamp") + (carry != 0 ? " carry" : "");
             Result<Owned<VkPipeline>> pipeline =
@@ -48,10 +56,12 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
     return {};
 }
 
-Result<ViewPass> ViewPass::create(ContextImpl& context, CountingMethod method, Filter filter) {
+Result<ViewPass> ViewPass::create(ContextImpl& context, CountingMethod method, Filter filter, const Outputs& outputs) {
     ViewPass pass(context, method, filter);
+    pass.outputs_ = outputs;
+    const std::string name = toString(method) + std::string(outputs.any() ? " outputs" : "");
     if (Result<void> made =
-            pass.makePipelines(fragmentSpirv(method), context.rasterLayout, !countsByQuery(method), toString(method));
+            pass.makePipelines(fragmentSpirv(method, outputs.any()), pass.layout(), !countsByQuery(method), name);
         !made.ok()) {
         return made.error();
     }
@@ -67,6 +77,10 @@ Result<ViewPass> ViewPass::createTrace(ContextImpl& context, Filter filter, VkPi
     return pass;
 }
 
+VkPipelineLayout ViewPass::layout() const noexcept {
+    return outputs_.any() ? context_->rasterOutputLayout : context_->rasterLayout;
+}
+
 bool ViewPass::eachAlone() const noexcept {
     return countsByQuery(method_) && context_->flushAfterQuery;
 }
@@ -77,8 +91,9 @@ void ViewPass::bindBatch(VkCommandBuffer commandBuffer, const View& view, const 
     const VkRect2D area{{0, 0}, {view.width, view.height}};
     vk.CmdSetViewport(commandBuffer, 0, 1, &viewport);
     vk.CmdSetScissor(commandBuffer, 0, 1, &area);
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, context_->rasterLayout, VOXTACT_SET_PAIRS,
-                             1, &results.descriptors.set, 0, nullptr);
+    const VkDescriptorSet set = outputs_.any() ? results.outputs->descriptors.set : results.descriptors.set;
+    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_PAIRS, 1, &set, 0,
+                             nullptr);
 }
 
 void ViewPass::beginRendering(VkCommandBuffer commandBuffer, const View& view) const {
@@ -96,11 +111,15 @@ void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, con
     const auto& variants = pipelines_[boundary == Boundary::Range ? 1 : 0];
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, variants[carry ? 1 : 0].get());
     const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set};
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, context_->rasterLayout, VOXTACT_SET_VOLUME,
-                             2, sets, 0, nullptr);
+    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_VOLUME, 2, sets, 0,
+                             nullptr);
+    if (outputs_.any()) {
+        const VkDescriptorSet labels = labelSetOf(item, *results.outputs);
+        vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_LABELS, 1,
+                                 &labels, 0, nullptr);
+    }
     const shader::ItemConstants constants = itemConstants(item, filter_, batch.threshold);
-    vk.CmdPushConstants(commandBuffer, context_->rasterLayout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
-                        &constants);
+    vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
     const MeshImpl& mesh = item.mesh->impl();
     vk.CmdBindVertexBuffers2(commandBuffer, 0, 1, &mesh.vertices, &mesh.vertexOffset, nullptr, &mesh.vertexStride);
     if (mesh.indices != VK_NULL_HANDLE) {

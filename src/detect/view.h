@@ -14,7 +14,8 @@ namespace voxtact {
 /// counting methods of the raster path.
 class ViewPass {
   public:
-    [[nodiscard]] static Result<ViewPass> create(ContextImpl& context, CountingMethod method, Filter filter);
+    [[nodiscard]] static Result<ViewPass> create(ContextImpl& context, CountingMethod method, Filter filter,
+                                                 const Outputs& outputs = {});
     /// The same draws with a fragment shader that lists survivors instead of counting them. `layout` extends
     /// ContextImpl::rasterLayout by sets that the caller binds.
     [[nodiscard]] static Result<ViewPass> createTrace(ContextImpl& context, Filter filter, VkPipelineLayout layout);
@@ -46,6 +47,8 @@ class ViewPass {
 
     [[nodiscard]] Result<void> makePipelines(std::span<const std::uint32_t> fragmentSpirv, VkPipelineLayout layout,
                                              bool withCarry, const std::string& name);
+    /// What sets are bound with.
+    [[nodiscard]] VkPipelineLayout layout() const noexcept;
     /// Whether each pair is a rendering of its own, flushed before the next: see ContextImpl::flushAfterQuery.
     [[nodiscard]] bool eachAlone() const noexcept;
     void bindBatch(VkCommandBuffer commandBuffer, const View& view, const ResultsImpl& results) const;
@@ -59,6 +62,7 @@ class ViewPass {
     ContextImpl* context_;
     CountingMethod method_;
     Filter filter_;
+    Outputs outputs_{};
     std::array<std::array<Owned<VkPipeline>, 2>, 2> pipelines_; ///< [range test][carry]; no carry for queries
 };
 
