@@ -27,11 +27,13 @@ namespace voxtact::shader {
 #define FIELD_FUNCTION template <class Field>
 #define FIELD const Field &field,
 #define PASS_FIELD field,
+#define OUTPUT_PAIR const OutputPair&
 #define OPACITY_AT(pair, at) field.opacity(pair, at)
 #else
 #define FIELD_FUNCTION
 #define FIELD
 #define PASS_FIELD
+#define OUTPUT_PAIR OutputPair
 #define OPACITY_AT(pair, at) contactOpacity(pair, at)
 #endif
 
@@ -152,7 +154,7 @@ EXACT ContactVector contactUnit(ContactVector direction) {
 }
 
 /// Central difference of the opacity along one axis: `step` is not zero along that one alone. `centre` within [0,1]^3.
-FIELD_FUNCTION EXACT float contactSlope(FIELD OutputPair pair, ContactVector centre, ContactVector step) {
+FIELD_FUNCTION EXACT float contactSlope(FIELD OUTPUT_PAIR pair, ContactVector centre, ContactVector step) {
     ContactVector above = contactClamp(contactAlong(centre, step, 1.0f));
     ContactVector below = contactClamp(contactAlong(centre, step, -1.0f));
     PRECISE float spanX = above.x - below.x;
@@ -171,7 +173,7 @@ EXACT float contactStep(float voxel, float farthest, float scale) {
 }
 
 /// The gradient of the opacity in texture space, by differences over `scale` voxels to each side.
-FIELD_FUNCTION EXACT ContactVector contactGradient(FIELD OutputPair pair, ContactVector centre, float scale) {
+FIELD_FUNCTION EXACT ContactVector contactGradient(FIELD OUTPUT_PAIR pair, ContactVector centre, float scale) {
     ContactVector gradient = contactVector(0.0f, 0.0f, 0.0f);
     for (int axis = 0; axis < 3; ++axis) {
         float along = contactStep(pair.voxel[axis], pair.farthest[axis], scale);
@@ -187,7 +189,7 @@ FIELD_FUNCTION EXACT ContactVector contactGradient(FIELD OutputPair pair, Contac
 
 /// Against a gradient in texture space: a unit vector in world space, or zero. A gradient is a covector, so it is the
 /// transpose of texture_from_world that takes it to world space.
-EXACT ContactVector contactOutward(OutputPair pair, ContactVector gradient) {
+EXACT ContactVector contactOutward(OUTPUT_PAIR pair, ContactVector gradient) {
     vec4 x = pair.texture_from_world[0];
     vec4 y = pair.texture_from_world[1];
     vec4 z = pair.texture_from_world[2];
@@ -201,7 +203,7 @@ EXACT bool contactIsZero(ContactVector vector) {
 }
 
 /// The normal at a texture coordinate, world space; zero where no step finds a difference.
-FIELD_FUNCTION EXACT ContactVector contactNormal(FIELD OutputPair pair, ContactVector at) {
+FIELD_FUNCTION EXACT ContactVector contactNormal(FIELD OUTPUT_PAIR pair, ContactVector at) {
     ContactVector centre = contactClamp(at);
     ContactVector normal = contactVector(0.0f, 0.0f, 0.0f);
     float scale = 1.0f;
@@ -216,12 +218,12 @@ EXACT bool contactInDomain(ContactVector at) {
     return exactInDomain(at.x) && exactInDomain(at.y) && exactInDomain(at.z);
 }
 
-FIELD_FUNCTION EXACT bool contactOpaque(FIELD OutputPair pair, ContactVector at) {
+FIELD_FUNCTION EXACT bool contactOpaque(FIELD OUTPUT_PAIR pair, ContactVector at) {
     return contactInDomain(at) && OPACITY_AT(pair, contactClamp(at)) >= pair.item.threshold;
 }
 
 /// mm along the normal from a texture coordinate to where it is not opaque any more, or out of the image.
-FIELD_FUNCTION EXACT float contactDepth(FIELD OutputPair pair, ContactVector at, ContactVector normal) {
+FIELD_FUNCTION EXACT float contactDepth(FIELD OUTPUT_PAIR pair, ContactVector at, ContactVector normal) {
     if (contactIsZero(normal)) {
         return pair.maxDepth;
     }
@@ -266,6 +268,7 @@ EXACT uint contactVoxel(float coordinate, uint size) {
 #undef FIELD_FUNCTION
 #undef FIELD
 #undef PASS_FIELD
+#undef OUTPUT_PAIR
 #undef OPACITY_AT
 static_assert(sizeof(OutputPair) == 272 && sizeof(OutputPair) % 16 == 0 && offsetof(OutputPair, item) == 176);
 } // namespace voxtact::shader

@@ -51,9 +51,9 @@ inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
 
 /// Room for the outputs beside the counts, over all pairs of a batch. The bounds have room for maxPairs.
 struct OutputRoom {
-    std::uint64_t triangles = 0;                  ///< the sum over the pairs of the triangles of their meshes
-    std::uint64_t labels = 0;                     ///< the sum over the pairs of the labels of their label maps
-    std::uint32_t contacts = kDefaultContactRoom; ///< a longer list is cut
+    std::uint64_t triangles = 0; ///< for the output triangles: the sum over the pairs of those of their meshes
+    std::uint64_t labels = 0;    ///< for the output labels: the sum over the pairs of those of their label maps
+    std::uint32_t contacts = kDefaultContactRoom; ///< for the output contacts; a longer list is cut
 };
 
 struct ResultsDesc {
