@@ -64,20 +64,12 @@ Cell cellOf(const LocalizeWay& way, const LocalizeResult& result, std::size_t co
     }
 }
 
-Json rowJson(const LocalizeWay& way, const LocalizeResult& result) {
-    Json row = Json::object();
-    for (std::size_t column = 0; column < kColumns.size(); ++column) {
-        std::visit(
-            [&](const auto& value) {
-                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
-                    row[kColumns[column]] = nullptr;
-                } else {
-                    row[kColumns[column]] = value;
-                }
-            },
-            cellOf(way, result, column));
-    }
-    return row;
+Table tableOf(const LocalizeResult& result) {
+    Table table;
+    table.columns = kColumns;
+    table.rows = result.ways.size();
+    table.cell = [&result](std::size_t row, std::size_t column) { return cellOf(result.ways[row], result, column); };
+    return table;
 }
 
 std::vector<std::string> sentences(const LocalizeResult& result) {
@@ -106,10 +98,7 @@ Json localizeJson(const CompareOptions& options, const CompareData& data, const 
     json["summary"] = sentences(result);
     json["agrees"] = !result.failedPose.has_value();
     json["poses"] = result.poseNumbers;
-    json["ways"] = Json::array();
-    for (const LocalizeWay& way : result.ways) {
-        json["ways"].push_back(rowJson(way, result));
-    }
+    json["ways"] = rowsJson(tableOf(result));
     json["not_certified"] = Json::array();
     for (const WrongTriangle& wrong : result.wrong) {
         json["not_certified"].push_back({{"pose", wrong.pose},
@@ -130,11 +119,7 @@ void writeLocalize(std::ostream& out, const CompareOptions& options, const Compa
         out << localizeJson(options, data, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
         return;
     }
-    Table table;
-    table.columns = kColumns;
-    table.rows = result.ways.size();
-    table.cell = [&](std::size_t row, std::size_t column) { return cellOf(result.ways[row], result, column); };
-    writeTable(out, format, table);
+    writeTable(out, format, tableOf(result));
     for (const std::string& sentence : sentences(result)) {
         out << "# " << sentence << '\n';
     }
