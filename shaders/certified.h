@@ -2,9 +2,9 @@
 // The projection `conservative`: whether a triangle has an opaque point in a voxel cell, decided with bounds. One text
 // for GLSL and C++, in the manner of exact.h, so that device and host say the same of every fragment.
 //
-// Along a triangle the trilinear interpolant of a cell is a polynomial of degree three in the barycentric coordinates: it
-// stays within the range of its Bernstein coefficients (Farin, "Triangular Bernstein-Bezier patches", 1986), which are
-// means of the interpolant at mixed coordinates of the corners (its polar form, Ramshaw, "Blossoming", 1987).
+// Along a triangle the trilinear interpolant of a cell is a polynomial of degree three in the barycentric coordinates:
+// it stays within the range of its Bernstein coefficients (Farin, "Triangular Bernstein-Bezier patches", 1986), which
+// are means of the interpolant at mixed coordinates of the corners (its polar form, Ramshaw, "Blossoming", 1987).
 #ifndef VOXTACT_CERTIFIED_H
 #define VOXTACT_CERTIFIED_H
 
@@ -144,8 +144,8 @@ EXACT VoxelPoint certifiedWitness(OpacityTable table, CertifiedCell cell, Certif
         if (opacityFrom >= table.threshold || opacityTo >= table.threshold) {
             return opacityFrom >= opacityTo ? from : to;
         }
-        const VoxelPoint middle = voxelPoint(exactLerp(from.x, to.x, 0.5f), exactLerp(from.y, to.y, 0.5f),
-                                             exactLerp(from.z, to.z, 0.5f));
+        const VoxelPoint middle =
+            voxelPoint(exactLerp(from.x, to.x, 0.5f), exactLerp(from.y, to.y, 0.5f), exactLerp(from.z, to.z, 0.5f));
         const float entry = certifiedInterpolate(cell, middle.x, middle.y, middle.z);
         const bool lower = entry >= entryFrom && mayBeOpaque(table, entryFrom, entry);
         if (lower) {
@@ -173,8 +173,7 @@ EXACT bool certifiedAllUnsafe(CertifiedCell cell, CertifiedPiece piece) {
 /// none of it can be.
 EXACT bool certifiedHopeless(CertifiedCell cell, CertifiedPiece piece, CertifiedRange range) {
     PRECISE float width = range.hi - range.lo;
-    const bool sampled =
-        certifiedSafe(cell, piece.a) && certifiedSafe(cell, piece.b) && certifiedSafe(cell, piece.c);
+    const bool sampled = certifiedSafe(cell, piece.a) && certifiedSafe(cell, piece.b) && certifiedSafe(cell, piece.c);
     return (!(width > cell.margin) && sampled) || certifiedAllUnsafe(cell, piece);
 }
 
@@ -327,8 +326,8 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
 
 /// A fragment's verdict. Expects a cell that may have an opaque point. `witness` is in voxel space, set where it is
 /// certain.
-EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTriangle triangle, CertifiedCell cell, int x,
-                            int y, int z, OUT(VoxelPoint) witness) {
+EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTriangle triangle, CertifiedCell cell,
+                            int x, int y, int z, OUT(VoxelPoint) witness) {
     const VoxelPoint origin = voxelPoint(float(x), float(y), float(z));
     witness = origin;
     const bool full = certifiedCellAllOpaque(table, cell);

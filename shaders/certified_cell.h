@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The projection `conservative`: a voxel cell with what is certain of its interpolant, and the part of a triangle in it.
+// The projection `conservative`: a voxel cell with what is certain of its interpolant, and the part of a triangle in
+// it.
 #ifndef VOXTACT_CERTIFIED_CELL_H
 #define VOXTACT_CERTIFIED_CELL_H
 
@@ -29,7 +30,7 @@ namespace voxtact::shader {
 /// A cell, its corners' scalars as entry coordinates, and what is certain of them.
 struct CertifiedCell {
     float x000, x100, x010, x110, x001, x101, x011, x111; // the entry coordinate at corner (x, y, z)
-    float least, greatest;     // of these
+    float least, greatest;                                // of these
     VoxelPoint lo, hi;         // the part of the cell in the domain, relative to the cell's corner: within [0, 1]
     VoxelPoint safeLo, safeHi; // points in this box are in the domain whatever their displacement
     float pointError;          // of an entry coordinate at a point of the cell

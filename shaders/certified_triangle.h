@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The projection `conservative`: points and triangles in voxel space, how far rounding may have moved them, and the cells
-// that they may pass through.
+// The projection `conservative`: points and triangles in voxel space, how far rounding may have moved them, and the
+// cells that they may pass through.
 //
 // Voxel space: u = t * n - 0.5 along each axis, t being the texture coordinate and n the voxels: voxel i's centre is at
 // i, cell i reaches from i to i + 1, and the domain from -0.5 to n - 0.5.
@@ -123,10 +123,12 @@ EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex
     const VoxelPoint a = vertex0.point;
     const VoxelPoint b = vertex1.point;
     const VoxelPoint c = vertex2.point;
-    const VoxelPoint lo = voxelPoint(certifiedMin(a.x, certifiedMin(b.x, c.x)), certifiedMin(a.y, certifiedMin(b.y, c.y)),
-                                     certifiedMin(a.z, certifiedMin(b.z, c.z)));
-    const VoxelPoint hi = voxelPoint(certifiedMax(a.x, certifiedMax(b.x, c.x)), certifiedMax(a.y, certifiedMax(b.y, c.y)),
-                                     certifiedMax(a.z, certifiedMax(b.z, c.z)));
+    const VoxelPoint lo =
+        voxelPoint(certifiedMin(a.x, certifiedMin(b.x, c.x)), certifiedMin(a.y, certifiedMin(b.y, c.y)),
+                   certifiedMin(a.z, certifiedMin(b.z, c.z)));
+    const VoxelPoint hi =
+        voxelPoint(certifiedMax(a.x, certifiedMax(b.x, c.x)), certifiedMax(a.y, certifiedMax(b.y, c.y)),
+                   certifiedMax(a.z, certifiedMax(b.z, c.z)));
     const float side = voxelLength(voxelDifference(hi, lo));
     PRECISE float reach = side + 2.0f;
     PRECISE float shift = CERTIFIED_CLIP_ERROR * reach;
@@ -162,17 +164,16 @@ EXACT float certifiedExtent(vec4 row, VoxelPoint radius) {
 /// and its delta is no larger.
 EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair, CertifiedBox box) {
     // Halves first: the sum of two large floats may overflow.
-    const VoxelPoint centre = voxelPoint(box.loX * 0.5f + box.hiX * 0.5f, box.loY * 0.5f + box.hiY * 0.5f,
-                                         box.loZ * 0.5f + box.hiZ * 0.5f);
+    const VoxelPoint centre =
+        voxelPoint(box.loX * 0.5f + box.hiX * 0.5f, box.loY * 0.5f + box.hiY * 0.5f, box.loZ * 0.5f + box.hiZ * 0.5f);
     const VoxelPoint radius = voxelPoint(certifiedMax(box.hiX - centre.x, centre.x - box.loX),
                                          certifiedMax(box.hiY - centre.y, centre.y - box.loY),
                                          certifiedMax(box.hiZ - centre.z, centre.z - box.loZ));
     const CertifiedVertex middle = certifiedVertex(pair, centre.x, centre.y, centre.z);
     // The farthest point's error; rounding of the centre and of the radius, and clipping, within its multiple.
-    const VoxelPoint farthest =
-        voxelPoint(certifiedFarther(box.loX, box.hiX, pair.reference[0]),
-                   certifiedFarther(box.loY, box.hiY, pair.reference[1]),
-                   certifiedFarther(box.loZ, box.hiZ, pair.reference[2]));
+    const VoxelPoint farthest = voxelPoint(certifiedFarther(box.loX, box.hiX, pair.reference[0]),
+                                           certifiedFarther(box.loY, box.hiY, pair.reference[1]),
+                                           certifiedFarther(box.loZ, box.hiZ, pair.reference[2]));
     const float error = exactDot(pair.error, farthest.x, farthest.y, farthest.z);
     const VoxelPoint extent = voxelPoint(certifiedExtent(pair.voxel_from_reference[0], radius),
                                          certifiedExtent(pair.voxel_from_reference[1], radius),
@@ -184,9 +185,12 @@ EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair,
     CertifiedBounds bounds;
     bounds.delta = delta;
     bounds.usable = delta <= CERTIFIED_MOST_DELTA;
-    certifiedCells(middle.point.x - extent.x, middle.point.x + extent.x, delta, item.sizeX, bounds.firstX, bounds.lastX);
-    certifiedCells(middle.point.y - extent.y, middle.point.y + extent.y, delta, item.sizeY, bounds.firstY, bounds.lastY);
-    certifiedCells(middle.point.z - extent.z, middle.point.z + extent.z, delta, item.sizeZ, bounds.firstZ, bounds.lastZ);
+    certifiedCells(middle.point.x - extent.x, middle.point.x + extent.x, delta, item.sizeX, bounds.firstX,
+                   bounds.lastX);
+    certifiedCells(middle.point.y - extent.y, middle.point.y + extent.y, delta, item.sizeY, bounds.firstY,
+                   bounds.lastY);
+    certifiedCells(middle.point.z - extent.z, middle.point.z + extent.z, delta, item.sizeZ, bounds.firstZ,
+                   bounds.lastZ);
     return bounds;
 }
 
@@ -214,8 +218,8 @@ EXACT CertifiedTriangle certifiedTriangle(VoxelPoint a, VoxelPoint b, VoxelPoint
     return triangle;
 }
 
-/// Whether the triangle's plane certainly misses a cube of voxel space, given by its centre and radius, half its side. Only for
-/// cubes that meet the cells of the triangle.
+/// Whether the triangle's plane certainly misses a cube of voxel space, given by its centre and radius, half its side.
+/// Only for cubes that meet the cells of the triangle.
 EXACT bool certifiedPlaneMisses(CertifiedTriangle triangle, VoxelPoint centre, float radius) {
     const VoxelPoint from = voxelDifference(centre, triangle.corner0);
     PRECISE float x = from.x * triangle.normal.x;
