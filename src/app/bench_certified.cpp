@@ -149,28 +149,6 @@ Result<std::vector<Mat4>> makePoses(const std::string& kind, const BenchOptions&
     });
 }
 
-/// Counts what an engine misses and has too much. Says where one that must agree does not.
-std::string judge(std::span<const EngineAnswer> certified, std::span<const EngineAnswer> answers, BenchRow& row) {
-    std::string disagreement;
-    for (std::size_t i = 0; i < certified.size(); ++i) {
-        const EngineAnswer& truth = certified[i];
-        const EngineAnswer& answer = answers[i];
-        const bool none = !truth.hit && !truth.possible;
-        row.contacts += truth.hit ? 1 : 0;
-        row.untouched += none ? 1 : 0;
-        row.missed += truth.hit && !answer.hit ? 1 : 0;
-        row.wrong += none && answer.hit ? 1 : 0;
-        const std::uint64_t expected = row.engine.question == "count" ? truth.count : truth.hit ? 1 : 0;
-        if (row.engine.certified && disagreement.empty() &&
-            (answer.hit != truth.hit || answer.possible != truth.possible || answer.count != expected)) {
-            disagreement = row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name +
-                           " " + row.engine.question + " says " + std::to_string(answer.count) + ", it must be " +
-                           std::to_string(expected);
-        }
-    }
-    return disagreement;
-}
-
 /// Runs every engine once: its answers are judged, and say how long a sample is.
 Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kind, BenchResult& result) {
     std::vector<EngineAnswer> certified;
@@ -204,7 +182,7 @@ Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kin
                      .poses = kind,
                      .engine = engine->facts(),
                      .pairs = one.poses.size()};
-        const std::string disagreement = judge(certified, answers, row);
+        const std::string disagreement = judgeEngine(certified, answers, row);
         if (result.disagreement.empty()) {
             result.disagreement = disagreement;
         }

@@ -11,7 +11,7 @@ namespace voxtact::app {
 struct LocalizeWay {
     std::string name;
     std::string unchecked{}; ///< why it was not run; empty: it was
-    bool byView = true;    ///< finds what the camera sees, which all such ways must agree on
+    bool byView = true;      ///< finds what the camera sees, which all such ways must agree on
     std::vector<std::vector<TouchedTriangle>> found{}; ///< of each pose, by triangle
     std::uint64_t triangles = 0;                       ///< found
     std::uint64_t missed = 0;                          ///< certified, and not found
@@ -40,6 +40,9 @@ struct LocalizeResult {
     std::vector<std::string> notes;
     std::uint32_t triangles = 0; ///< of the mesh
 };
+
+/// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
+void judgeLocalize(LocalizeResult& result);
 
 /// `voxtact compare --localize`.
 [[nodiscard]] Outcome runLocalize(const CompareOptions& given, const CLI::App& parser);
