@@ -17,9 +17,9 @@ struct EngineAnswer {
 };
 
 struct EngineFacts {
-    std::string name;          ///< "cpu", "compute", "query", "fcl-float", "fcl-double"
-    std::string projection;    ///< "conservative", "view"; "octree" for FCL
-    std::string question;      ///< "yes/no", "count"
+    std::string name{};        ///< "cpu", "compute", "query", "fcl-float", "fcl-double"
+    std::string projection{};  ///< "conservative", "view"; "octree" for FCL
+    std::string question{};    ///< "yes/no", "count"
     std::uint32_t threads = 1; ///< of the host; 0: the device's work
     bool certified = false;    ///< must answer as every other certified engine does
     std::size_t ratioTo = 0;   ///< number of the engine that its times are held against; not after it

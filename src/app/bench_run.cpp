@@ -155,28 +155,6 @@ Result<std::vector<Mat4>> makePoses(const std::string& kind, const BenchOptions&
     });
 }
 
-/// Counts what an engine misses and has too much. Says where one that must agree does not.
-std::string judge(std::span<const EngineAnswer> certified, std::span<const EngineAnswer> answers, BenchRow& row) {
-    std::string disagreement;
-    for (std::size_t i = 0; i < certified.size(); ++i) {
-        const EngineAnswer& truth = certified[i];
-        const EngineAnswer& answer = answers[i];
-        const bool none = !truth.hit && !truth.possible;
-        row.contacts += truth.hit ? 1 : 0;
-        row.untouched += none ? 1 : 0;
-        row.missed += truth.hit && !answer.hit ? 1 : 0;
-        row.wrong += none && answer.hit ? 1 : 0;
-        const std::uint64_t expected = row.engine.question == "yes/no" ? (truth.hit ? 1 : 0) : truth.count;
-        if (row.engine.certified && disagreement.empty() &&
-            (answer.hit != truth.hit || answer.possible != truth.possible || answer.count != expected)) {
-            disagreement = row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name +
-                           " " + row.engine.question + " says " + std::to_string(answer.count) + ", it must be " +
-                           std::to_string(expected);
-        }
-    }
-    return disagreement;
-}
-
 /// Says where an engine does not count as the one that it must count as.
 std::string compareCounts(std::span<const EngineAnswer> bare, std::span<const EngineAnswer> answers,
                           const BenchRow& row) {
@@ -224,7 +202,7 @@ Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kin
                      .poses = kind,
                      .engine = engine->facts(),
                      .pairs = one.poses.size()};
-        std::string disagreement = judge(certified, answers, row);
+        std::string disagreement = judgeEngine(certified, answers, row);
         if (disagreement.empty() && row.engine.sameCounts) {
             disagreement = compareCounts(all[row.engine.ratioTo], answers, row);
         }
