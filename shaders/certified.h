@@ -102,6 +102,14 @@ EXACT bool certifiedSafe(CertifiedCell cell, VoxelPoint at) {
            at.z >= cell.safeLo.z && at.z <= cell.safeHi.z;
 }
 
+/// Whether a point of the cell proves a touch: it is certainly in the domain, and opaque. `entry` is the interpolant
+/// there.
+EXACT bool certifiedPointProves(OpacityTable table, CertifiedCell cell, VoxelPoint at, float entry) {
+    PRECISE float below = entry - cell.margin;
+    PRECISE float above = entry + cell.margin;
+    return certifiedSafe(cell, at) && certainlyAllOpaque(table, below, above);
+}
+
 EXACT void certifiedSample(CertifiedCell cell, VoxelPoint at, float entry, INOUT(CertifiedSamples) samples) {
     if (!certifiedSafe(cell, at)) {
         return;
@@ -117,18 +125,12 @@ EXACT void certifiedSample(CertifiedCell cell, VoxelPoint at, float entry, INOUT
     samples.some = true;
 }
 
-/// Whether the samples prove a touch: one of them is opaque, or an opaque scalar lies between two of them (the
-/// triangle within the domain is connected and the interpolant continuous).
-EXACT bool certifiedProof(OpacityTable table, CertifiedSamples samples, float margin) {
-    if (!samples.some) {
-        return false;
-    }
-    PRECISE float loBelow = samples.lo - margin;
-    PRECISE float loAbove = samples.lo + margin;
-    PRECISE float hiBelow = samples.hi - margin;
-    PRECISE float hiAbove = samples.hi + margin;
-    return certainlyAllOpaque(table, loBelow, loAbove) || certainlyAllOpaque(table, hiBelow, hiAbove) ||
-           certainlySomeOpaque(table, loAbove, hiBelow);
+/// Whether the samples prove a touch together: an opaque scalar lies between two of them (the triangle within the
+/// domain is connected and the interpolant continuous).
+EXACT bool certifiedCrossingProves(OpacityTable table, CertifiedSamples samples, float margin) {
+    PRECISE float above = samples.lo + margin;
+    PRECISE float below = samples.hi - margin;
+    return samples.some && certainlySomeOpaque(table, above, below);
 }
 
 /// A point on the way from one sample to the other that is as opaque as the table has between them: the witness.
@@ -235,10 +237,22 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
         if (!mayBeOpaque(table, lo, hi)) {
             continue;
         }
+        if (certifiedPointProves(table, cell, piece.a, range.atA)) {
+            witness = piece.a;
+            return CERTIFIED_CERTAIN;
+        }
+        if (certifiedPointProves(table, cell, piece.b, range.atB)) {
+            witness = piece.b;
+            return CERTIFIED_CERTAIN;
+        }
+        if (certifiedPointProves(table, cell, piece.c, range.atC)) {
+            witness = piece.c;
+            return CERTIFIED_CERTAIN;
+        }
         certifiedSample(cell, piece.a, range.atA, samples);
         certifiedSample(cell, piece.b, range.atB, samples);
         certifiedSample(cell, piece.c, range.atC, samples);
-        if (certifiedProof(table, samples, cell.margin)) {
+        if (certifiedCrossingProves(table, samples, cell.margin)) {
             witness = certifiedWitness(table, cell, samples);
             return CERTIFIED_CERTAIN;
         }
@@ -347,6 +361,13 @@ EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTri
     const int verdict = certifiedDecide(table, cell, item.resolution, polygon, count, within);
     witness = voxelPoint(origin.x + within.x, origin.y + within.y, origin.z + within.z);
     return verdict;
+}
+
+/// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a
+/// delta that is not less than the triangle's: certifiedFragment() then finds the same.
+EXACT bool certifiedVertexProves(OpacityTable table, CertifiedCell cell, VoxelPoint vertex, int x, int y, int z) {
+    const VoxelPoint at = voxelDifference(vertex, voxelPoint(float(x), float(y), float(z)));
+    return certifiedPointProves(table, cell, at, certifiedInterpolate(cell, at.x, at.y, at.z));
 }
 
 #ifdef __cplusplus

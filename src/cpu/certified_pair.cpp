@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 namespace voxtact::cpu {
 
@@ -39,21 +40,85 @@ template <class Kept> class Decider {
         : job_(job), voxels_(voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()) {}
 
     CertifiedTally run() {
-        job_.mesh.tree.descend(
-            job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); },
-            [this](std::uint32_t run) {
+        if (job_.stopAtFirst) {
+            probeAndDecide();
+        } else {
+            descend([this](std::uint32_t run) {
                 decideRun(run);
-                return !done();
+                return true;
             });
+        }
         return tally_;
     }
 
   private:
     [[nodiscard]] bool done() const { return job_.stopAtFirst && tally_.certain > 0; }
 
+    template <class Visit> void descend(const Visit& visit) {
+        job_.mesh.tree.descend(
+            job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); }, visit);
+    }
+
+    /// A vertex in opaque matter is found sooner than a fragment is decided, so all runs are probed before any is
+    /// decided.
+    void probeAndDecide() {
+        std::vector<std::uint32_t> runs;
+        descend([&](std::uint32_t run) {
+            runs.push_back(run);
+            probeRun(run);
+            return !done();
+        });
+        for (std::size_t i = 0; i < runs.size() && !done(); ++i) {
+            decideRun(runs[i]);
+        }
+    }
+
+    void probeRun(std::uint32_t run) {
+        if (!delta_.usable) {
+            return;
+        }
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = beginRun(run);
+        for (std::size_t at = first; at < first + kRunTriangles && mesh.numbers[at] != kNoTriangle; ++at) {
+            for (const std::uint8_t corner : {mesh.corner0[at], mesh.corner1[at], mesh.corner2[at]}) {
+                if (!probed_[corner]) {
+                    probed_[corner] = true;
+                    if (vertexProves(vertices_.at(corner).point)) {
+                        tally_.certain = 1;
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool vertexProves(const VoxelPoint& vertex) const {
+        const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
+        std::array<std::int32_t, 3> cell{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float at = voxelAlong(vertex, static_cast<int>(axis));
+            if (!(at >= -0.5F && at <= static_cast<float>(size[axis]) - 0.5F)) {
+                return false;
+            }
+            cell[axis] = std::min(at < 0 ? -1 : static_cast<std::int32_t>(at), size[axis] - 1);
+        }
+        const CellBox box{cell, cell};
+        const std::array<std::int32_t, 3> brick = box.bricks().lo;
+        if (!job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber(brick))) {
+            return false;
+        }
+        const BrickCells& known = job_.occupancy.cells(job_.volume, brick);
+        if (!known.any(box.within(brick))) {
+            return false;
+        }
+        const shader::CertifiedCell here = shader::certifiedCell(item_, cornersOf(cell[0], cell[1], cell[2], known),
+                                                                 cell[0], cell[1], cell[2], delta_.delta);
+        return shader::certifiedVertexProves(table_, here, vertex, cell[0], cell[1], cell[2]);
+    }
+
     /// Whether the triangles in a box of object space may pass through a brick that may have an opaque point.
-    [[nodiscard]] bool mayTouch(const RunBox& box) const {
-        const shader::CertifiedBounds bounds = shader::certifiedBoxBounds(
+    [[nodiscard]] bool mayTouch(const RunBox& box) {
+        const shader::CertifiedBounds& bounds = delta_ = shader::certifiedBoxBounds(
             item_, job_.transform, {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]});
         const CellBox cells = cellsOf(bounds);
         if (cells.empty()) {
@@ -64,15 +129,21 @@ template <class Kept> class Decider {
                              : job_.occupancy.mayBeOpaque(cells.bricks());
     }
 
-    void decideRun(std::uint32_t run) {
-        const MeshImpl& mesh = job_.mesh;
+    /// The number of the run's first triangle in the mesh's arrays; its vertices are then at hand.
+    std::size_t beginRun(std::uint32_t run) {
         const std::uint32_t cluster = run / ClusterTree::kRunsOfCluster;
-        const ClusterPlace& place = mesh.clusters[cluster];
+        const ClusterPlace& place = job_.mesh.clusters[cluster];
         if (cluster != transformed_) {
             transform(place);
             transformed_ = cluster;
+            probed_.fill(false);
         }
-        const std::size_t first = place.firstTriangle + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+        return place.firstTriangle + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+    }
+
+    void decideRun(std::uint32_t run) {
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = beginRun(run);
         for (std::size_t at = first; at < first + kRunTriangles && !done(); ++at) {
             if (mesh.numbers[at] == kNoTriangle) {
                 return;
@@ -166,23 +237,28 @@ template <class Kept> class Decider {
         }
     }
 
-    void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
-                    const BrickCells& known) {
+    [[nodiscard]] shader::CertifiedCorners cornersOf(std::int32_t x, std::int32_t y, std::int32_t z,
+                                                     const BrickCells& known) const {
         const auto& stride = job_.volume.image.stride;
         const Kept* at = voxels_ + (x + 1) + (y + 1) * stride[1] + (z + 1) * stride[2];
         const auto stored = [&](std::int64_t offset) { return storedValue(at[offset]); };
-        const shader::CertifiedCorners corners{stored(0),
-                                               stored(1),
-                                               stored(stride[1]),
-                                               stored(stride[1] + 1),
-                                               stored(stride[2]),
-                                               stored(stride[2] + 1),
-                                               stored(stride[2] + stride[1]),
-                                               stored(stride[2] + stride[1] + 1),
-                                               known.wideLo,
-                                               known.wideHi};
+        return {stored(0),
+                stored(1),
+                stored(stride[1]),
+                stored(stride[1] + 1),
+                stored(stride[2]),
+                stored(stride[2] + 1),
+                stored(stride[2] + stride[1]),
+                stored(stride[2] + stride[1] + 1),
+                known.wideLo,
+                known.wideHi};
+    }
+
+    void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
+                    const BrickCells& known) {
         VoxelPoint witness{};
-        const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
+        const shader::CertifiedCell cell =
+            shader::certifiedCell(item_, cornersOf(x, y, z, known), x, y, z, triangle.delta);
         const int verdict = shader::certifiedFragment(table_, item_, triangle, cell, x, y, z, witness);
         if (verdict == CERTIFIED_CERTAIN) {
             ++tally_.certain;
@@ -203,6 +279,8 @@ template <class Kept> class Decider {
     std::uint32_t number_ = 0; ///< of the triangle at hand
     Vertices vertices_;        ///< of cluster `transformed_`
     std::uint32_t transformed_ = 0xffffffffU;
+    std::array<bool, kMostVertices> probed_{}; ///< of the same cluster
+    shader::CertifiedBounds delta_{};          ///< of the box that was looked at last; not less than its triangles'
 };
 
 } // namespace

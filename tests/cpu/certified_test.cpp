@@ -5,6 +5,7 @@
 // A failure names its case. To run that one alone: VOXTACT_TEST_SEED=<seed> VOXTACT_TEST_CASE=<number>
 // voxtact_cpu_tests --gtest_filter='*AgainstTheOracle/0'
 #include "certified_judge.h"
+#include "cpu/engine_fixture.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -147,6 +148,26 @@ TEST_P(Certified, AgainstTheOracle) {
     EXPECT_GT(share.hits, share.cases / 10) << "a test that hits nothing proves nothing";
     EXPECT_GT(share.cases - share.hits, share.cases / 10);
     EXPECT_LE(static_cast<double>(share.possible), kMostPossible * static_cast<double>(share.cases));
+}
+
+TEST(CertifiedYesNo, IsTheVerdictOfTheCount) {
+    constexpr std::uint64_t kCases = 6000;
+    const std::uint64_t seed = testSeed();
+    cpu::Detector count = take(cpu::Detector::create(
+        {.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
+    cpu::Detector yesNo = take(
+        cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+    std::size_t hits = 0;
+    for (std::uint64_t number = 0; number < kCases && !testing::Test::HasFailure(); ++number) {
+        const CertifiedCase c = makeCertifiedCase(seed, number);
+        const PairAnswer all = take(askEngine(count, c)).pair;
+        const PairAnswer first = take(askEngine(yesNo, c)).pair;
+        EXPECT_EQ(first.hit, all.hit) << "seed " << seed << ", case " << number << ", " << toString(c.kind);
+        EXPECT_EQ(first.possible, all.possible) << "seed " << seed << ", case " << number << ", " << toString(c.kind);
+        EXPECT_EQ(first.count, all.hit ? 1U : 0U);
+        hits += all.hit ? 1U : 0U;
+    }
+    EXPECT_GT(hits, kCases / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, Certified, testing::Range<std::size_t>(0, kParts));
