@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect_run.h"
 #include "app/inputs.h"
+#include "app/pair_rows.h"
 #include "app/progress.h"
 #include "voxtact/detector.h"
 
@@ -28,6 +29,7 @@ struct DetectTools {
     const DetectInputs& inputs;
     const Session& session;
     const std::vector<Mesh>& meshes;
+    const DetectorDesc& desc;
     PairPipeline& pipeline;
     Progress& progress;
 };
@@ -41,7 +43,9 @@ Result<void> detectVolume(const DetectTools& tools, std::uint32_t index, DetectR
         return data.error();
     }
     const QueueAccess queue = tools.session.device.queueAccess();
-    const Result<Volume> volume = Volume::upload(tools.session.context, queue, data->view(), {.name = source.c_str()});
+    const Result<Volume> volume =
+        Volume::upload(tools.session.context, queue, data->view(),
+                       {.name = source.c_str(), .bricks = tools.desc.projection == Projection::Conservative});
     if (!volume.ok()) {
         return volume.error();
     }
@@ -52,18 +56,37 @@ Result<void> detectVolume(const DetectTools& tools, std::uint32_t index, DetectR
     if (!transferFunction.ok()) {
         return blameTable(transferFunction.error());
     }
+    const std::vector<SelectedPoses> selected = selectPoses(options, tools.inputs, data->grid);
     std::vector<BatchItem> items;
-    for (const Mesh& mesh : tools.meshes) {
-        items.push_back({&mesh, &*volume, &*transferFunction, tools.inputs.poses});
+    for (std::size_t mesh = 0; mesh < selected.size(); ++mesh) {
+        items.push_back({&tools.meshes[mesh], &*volume, &*transferFunction, selected[mesh].world_from_object});
     }
+    std::uint64_t progress = run.rows.size();
+    PairAnswer untouched;
+    untouched.exactness = exactness(tools.desc.method);
+    untouched.method = tools.desc.method;
+    untouched.projection = tools.desc.projection;
+    PairRows rows(options, tools.inputs, selected, index, untouched, run);
     const auto begun = std::chrono::steady_clock::now();
     Result<void> done =
         tools.pipeline.run({items, settings.view, options.transferFunction.threshold}, [&](const TimedAnswer& timed) {
-            run.rows.push_back({index, timed});
-            tools.progress.update(run.rows.size());
+            rows.add(timed);
+            tools.progress.update(++progress);
         });
     run.wallMilliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
     return done;
+}
+
+DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
+    DetectorDesc desc;
+    desc.method = method;
+    desc.projection = *options.method.projection;
+    desc.filter = options.method.filter.value_or(defaultFilter(method));
+    desc.boundary = options.method.boundary;
+    desc.outputs = options.extra.outputs();
+    desc.samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel);
+    desc.resolution = options.method.resolution.value_or(kDefaultResolution);
+    return desc;
 }
 
 } // namespace
@@ -71,15 +94,16 @@ Result<void> detectVolume(const DetectTools& tools, std::uint32_t index, DetectR
 Result<void> detectOnDevice(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
                             CountingMethod method, DetectRun& run) {
     const PhysicalDevice& physical = session.device.physical();
-    if (Result<void> fits = checkViewport(options.view.size, session.context.maxViewport(), "'" + physical.name + "'");
+    if (Result<void> fits =
+            usesView(*options.method.projection)
+                ? checkViewport(options.view.size, session.context.maxViewport(), "'" + physical.name + "'")
+                : Result<void>();
         !fits.ok()) {
         return fits;
     }
     run.device = physical.name;
     run.driver = physical.driver;
-    const Result<Detector> detector = Detector::create(
-        session.context, {method, options.method.projection, options.method.filter.value_or(defaultFilter(method)),
-                          options.method.boundary});
+    const Result<Detector> detector = Detector::create(session.context, descOf(options, method));
     if (!detector.ok()) {
         return detector.error();
     }
@@ -102,7 +126,7 @@ Result<void> detectOnDevice(const DetectOptions& options, const DetectInputs& in
         return pipeline.error();
     }
     Progress progress(options.progress, "voxtact detect: pairs", pairsOfVolume * options.volumes.size());
-    const DetectTools tools{options, inputs, session, meshes, *pipeline, progress};
+    const DetectTools tools{options, inputs, session, meshes, detector->desc(), *pipeline, progress};
     for (std::uint32_t index = 0; index < options.volumes.size(); ++index) {
         if (Result<void> done = detectVolume(tools, index, run); !done.ok()) {
             return done;
