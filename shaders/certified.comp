@@ -7,6 +7,9 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#ifdef OUTPUTS
+#extension GL_EXT_samplerless_texture_functions : require
+#endif
 #include "shared.h"
 #include "voxtact/pair_result.h"
 
@@ -17,6 +20,7 @@ layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
 layout(set = VOXTACT_SET_VOLUME, binding = VOXTACT_BINDING_BRICKS, std430) readonly buffer Bricks {
     vec4 bricks[]; // lo, hi, wideLo, wideHi
 };
+layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
 layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = VOXTACT_BINDING_EXTREMES, std430) readonly buffer Extremes {
     float extremes[];
 };
@@ -35,6 +39,10 @@ const bool kCarry = true;
 #include "certified.h"
 #include "count.glsl"
 #include "mesh.glsl"
+#ifdef OUTPUTS
+#include "survives.glsl"
+#include "outputs.glsl"
+#endif
 
 const int kMostCellsOfALane = 27;
 const int kBrickSide = 1 << VOXTACT_BRICK_SHIFT;
@@ -106,6 +114,7 @@ CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
                             storedAt(cell + ivec3(1, 1, 1)), range.z, range.w);
 }
 
+/// `number` is that of the triangle.
 void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single) {
     const vec3 centre = vec3(cell) + 0.5;
     if (!single && certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), 0.5)) {
@@ -121,6 +130,10 @@ void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range,
         certifiedFragment(opacities(), constants.item, triangle, known, cell.x, cell.y, cell.z, witness);
     if (verdict == CERTIFIED_CERTAIN) {
         ++survivors;
+#ifdef OUTPUTS
+        const VoxelPoint at = certifiedTexture(constants.item, witness);
+        emitSurvivor(pair, number, vec3(at.x, at.y, at.z));
+#endif
     } else if (verdict == CERTIFIED_UNDECIDED) {
         undecided = true;
     }

@@ -645,6 +645,14 @@ EXACT bool certifiedRangeMayBeOpaque(OpacityTable table, CertifiedItem item, flo
     return certifiedMayBeOpaque(table, certifiedMin(first, second), certifiedMax(first, second), error);
 }
 
+/// The texture coordinate of a point of voxel space.
+EXACT VoxelPoint certifiedTexture(CertifiedItem item, VoxelPoint point) {
+    PRECISE float x = (point.x + 0.5f) * exactReciprocal(float(item.sizeX));
+    PRECISE float y = (point.y + 0.5f) * exactReciprocal(float(item.sizeY));
+    PRECISE float z = (point.z + 0.5f) * exactReciprocal(float(item.sizeZ));
+    return voxelPoint(x, y, z);
+}
+
 /// The range of an axis that a triangle's part in a cell lies in, relative to the cell's corner.
 EXACT void certifiedPart(float a, float b, float c, float delta, float cellLo, float cellHi, OUT(float) lo,
                          OUT(float) hi) {

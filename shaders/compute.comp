@@ -7,6 +7,9 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#ifdef OUTPUTS
+#extension GL_EXT_samplerless_texture_functions : require
+#endif
 #include "shared.h"
 #include "voxtact/pair_result.h"
 
@@ -32,6 +35,11 @@ const bool kCarry = true;
 #include "count.glsl"
 #include "dominant.h"
 #include "mesh.glsl"
+#ifdef OUTPUTS
+#include "outputs.glsl"
+uint pairAtWork;
+uint triangleAtWork;
+#endif
 
 /// A piece is a triangle, or one triangle of the fan that clipping made of it: triangle * 8 + number in the fan.
 #define MOST_PIECES (EXACT_MAX_CORNERS - 2)
@@ -72,7 +80,13 @@ int piecesOf(PairTransform transform, uint triangle, inout ExactCorner corners[E
 uint countPixel(ExactTriangle piece, int x, int y) {
     vec3 coordinate;
     const bool covered = exactFragment(piece, x, y, coordinate.x, coordinate.y, coordinate.z);
-    return covered && survives(coordinate, constants.item, constants.rangeTest != 0, kExactFilter) ? 1u : 0u;
+    const bool survivor = covered && survives(coordinate, constants.item, constants.rangeTest != 0, kExactFilter);
+#ifdef OUTPUTS
+    if (survivor) {
+        emitSurvivor(pairAtWork, triangleAtWork, coordinate);
+    }
+#endif
+    return survivor ? 1u : 0u;
 }
 
 /// Every step-th pixel of the piece's box, from `first` on.
@@ -87,6 +101,9 @@ uint countPixels(ExactTriangle piece, int first, int step) {
 }
 
 uint countTriangle(PairTransform transform, uint triangle) {
+#ifdef OUTPUTS
+    triangleAtWork = triangle;
+#endif
     ExactCorner corners[EXACT_MAX_CORNERS];
     const int pieces = piecesOf(transform, triangle, corners);
     uint survivors = 0;
@@ -106,6 +123,9 @@ uint countTriangle(PairTransform transform, uint triangle) {
 
 /// A queued piece, set up again by every lane: cheaper than keeping it.
 uint countQueued(PairTransform transform, uint entry) {
+#ifdef OUTPUTS
+    triangleAtWork = entry / 8;
+#endif
     ExactCorner corners[EXACT_MAX_CORNERS];
     piecesOf(transform, entry / 8, corners);
     const int number = int(entry % 8);
@@ -123,6 +143,9 @@ void main() {
     barrier();
     const uint view = constants.firstTransform + gl_WorkGroupID.y;
     const uint pair = view / kViews;
+#ifdef OUTPUTS
+    pairAtWork = pair;
+#endif
     const uint triangle = gl_GlobalInvocationID.x;
     const PairTransform transform = transforms[view];
     uint survivors = triangle < constants.triangleCount ? countTriangle(transform, triangle) : 0;

@@ -117,6 +117,7 @@ struct CertifiedConstants {
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
 #define VOXTACT_SET_PAIRS 2
 #define VOXTACT_SET_MESH 3
+#define VOXTACT_SET_LABELS 4 // with outputs beside the counts
 // Bindings of VOXTACT_SET_VOLUME, beside the image at 0.
 #define VOXTACT_BINDING_BRICKS 1
 // Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/table_extremes.h.
@@ -124,6 +125,8 @@ struct CertifiedConstants {
 // Bindings of VOXTACT_SET_PAIRS.
 #define VOXTACT_BINDING_TRANSFORMS 0
 #define VOXTACT_BINDING_RESULTS 1
+#define VOXTACT_BINDING_OUTPUT_PAIRS 2 // with outputs beside the counts
+#define VOXTACT_BINDING_OUTPUTS 3
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
@@ -136,6 +139,7 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_VIEWS 3
 #define VOXTACT_CONSTANT_DOMINANT_AXIS 4
 #define VOXTACT_CONSTANT_STOP_AT_FIRST 5
+#define VOXTACT_CONSTANT_OUTPUTS 16
 // Where the push constants of dominant.vert begin: room for those of the fragment program is before them.
 #define VOXTACT_OFFSET_DOMINANT 96
 // Lanes of a work group of the compute path.

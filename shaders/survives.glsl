@@ -23,12 +23,15 @@ float exactStored(vec3 coordinate, float unit) {
     return exactLerp(exactLerp(v00, v10, y.weight), exactLerp(v01, v11, y.weight), z.weight);
 }
 
-float exactOpacity(vec3 coordinate, ItemConstants item) {
-    const vec3 inside = vec3(exactClamp(coordinate.x), exactClamp(coordinate.y), exactClamp(coordinate.z));
-    const ExactCell entry = exactEntry(exactStored(inside, item.storedUnit), item.scalarScale, item.scalarBias,
-                                       textureSize(transferFunction, 0));
+float exactTable(float stored, ItemConstants item) {
+    const ExactCell entry = exactEntry(stored, item.scalarScale, item.scalarBias, textureSize(transferFunction, 0));
     return exactLerp(texelFetch(transferFunction, entry.below, 0).r, texelFetch(transferFunction, entry.above, 0).r,
                      entry.weight);
+}
+
+float exactOpacity(vec3 coordinate, ItemConstants item) {
+    const vec3 inside = vec3(exactClamp(coordinate.x), exactClamp(coordinate.y), exactClamp(coordinate.z));
+    return exactTable(exactStored(inside, item.storedUnit), item);
 }
 
 float hardwareOpacity(vec3 coordinate, ItemConstants item) {

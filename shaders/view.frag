@@ -9,6 +9,9 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #endif
+#ifdef OUTPUTS
+#extension GL_EXT_samplerless_texture_functions : require
+#endif
 #include "shared.h"
 
 layout(constant_id = VOXTACT_CONSTANT_RANGE_TEST) const bool kRangeTest = true;
@@ -23,6 +26,9 @@ layout(location = 0) in vec3 textureCoordinate;
 layout(location = 1) flat in uint pair;
 
 #include "survives.glsl"
+#ifdef OUTPUTS
+#include "outputs.glsl"
+#endif
 
 #if defined(COUNT_ATOMIC) || defined(COUNT_SUBGROUP)
 #include "voxtact/pair_result.h"
@@ -63,6 +69,11 @@ void countSubgroup(bool survivor) {
 
 void main() {
     const bool survivor = survives(textureCoordinate, item, kRangeTest, kExactFilter);
+#ifdef OUTPUTS
+    if (survivor) {
+        emitSurvivor(pair, uint(gl_PrimitiveID), textureCoordinate);
+    }
+#endif
 #if defined(COUNT_SUBGROUP)
     countSubgroup(survivor);
 #elif defined(COUNT_ATOMIC)

@@ -30,7 +30,7 @@ struct PairAnswer {
 struct BatchAnswer {
     std::vector<PairAnswer> pairs;
     std::vector<TouchedTriangle> triangles; ///< by pair, then by triangle
-    std::vector<Contact> contacts;          ///< by pair, then by triangle
+    std::vector<Contact> contacts;          ///< by pair, then by triangle, then by position
     std::uint64_t contactsFound = 0;        ///< more than contacts.size(): the list was cut, arbitrarily
     std::vector<std::optional<Box>> bounds; ///< world, of each pair; nothing where it has no survivor
     std::vector<LabelCount> labels;         ///< by pair, then by label

@@ -27,6 +27,9 @@ struct ContactResult {
     VOXTACT_UINT label; ///< number of the label in LabelData::values; 0 without a label map
 };
 
+/// The bits of the float behind a word of Results::bounds().
+#define VOXTACT_BOUND_BITS(word) (((word)&0x80000000u) != 0u ? (word) ^ 0x80000000u : ~(word))
+
 #ifdef __cplusplus
 #undef VOXTACT_UINT
 static_assert(sizeof(ContactResult) == 48);

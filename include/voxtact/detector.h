@@ -47,11 +47,29 @@ struct Batch {
     double threshold = kDefaultThreshold; ///< 0..1
 };
 
+inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
+
+/// Room for the outputs beside the counts, over all pairs of a batch. The bounds have room for maxPairs.
+struct OutputRoom {
+    std::uint64_t triangles = 0; ///< for the output triangles: the sum over the pairs of those of their meshes
+    std::uint64_t labels = 0;    ///< for the output labels: the sum over the pairs of those of their label maps
+    std::uint32_t contacts = kDefaultContactRoom; ///< for the output contacts; a longer list is cut
+};
+
 struct ResultsDesc {
     std::uint32_t maxPairs = 1;
     bool readBack = true;    ///< a host-visible copy is kept, for cmdReadBack() and read()
     bool timestamps = false; ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
+    std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
+};
+
+/// A part of a device buffer: where a descriptor of it begins, and how many bytes it has. The offset is a multiple of
+/// 256. The buffer is null where there is nothing.
+struct BufferRange {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = 0;
 };
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
@@ -71,7 +89,28 @@ class Results {
     /// maxPairs PairResults; usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST; for the next pass on the device.
     [[nodiscard]] VOXTACT_API VkBuffer buffer() const noexcept;
 
-    /// Records a copy of the results to host memory. Call it after cmdDetect(), outside a render pass.
+    /// The outputs beside the counts on the device, for the next pass: what the detector of the batch recorded last was
+    /// made for; the other parts hold nothing of use. All are of one buffer with the usage of buffer(), ready for
+    /// readers when buffer() is, and each is as large as there was room for. Pairs follow each other in their order.
+    ///
+    /// triangleCounts(): a uint for each triangle of each pair, its survivors. Those of a pair begin after as many as
+    /// the pairs before it have triangles.
+    [[nodiscard]] VOXTACT_API BufferRange triangleCounts() const noexcept;
+    /// A bit for each triangle of each pair, in uints, lowest first: whether it has survivors. Each pair begins with a
+    /// uint of its own.
+    [[nodiscard]] VOXTACT_API BufferRange triangleMask() const noexcept;
+    /// Four uints: contacts that were found, low and high word; the room; 0. Then the list, of ContactResult in
+    /// contact_result.h: as many as were found, or as there is room for.
+    [[nodiscard]] VOXTACT_API BufferRange contacts() const noexcept;
+    /// Six uints for each pair; all 0 where it has no survivor. Decoded by uintBitsToFloat(VOXTACT_BOUND_BITS(word)),
+    /// of contact_result.h, they are -lo.x, -lo.y, -lo.z, hi.x, hi.y and hi.z of its box; world, mm.
+    [[nodiscard]] VOXTACT_API BufferRange bounds() const noexcept;
+    /// A uint for each label of the label map of each pair, by number: its survivors, modulo 2^32. Those of a pair
+    /// begin after as many as the pairs before it have labels.
+    [[nodiscard]] VOXTACT_API BufferRange labelCounts() const noexcept;
+
+    /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
+    /// render pass.
     ///   expects  the results as cmdDetect() leaves them
     ///   leaves   the host copy readable once the submission is complete
     ///   queries  not affected; bound state: none is lost
@@ -79,6 +118,9 @@ class Results {
     /// The host copy. The caller knows that the submission with cmdReadBack() is complete (its fence or semaphore).
     /// Valid until the next cmdReadBack() executes, or the Results end.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read();
+    /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
+    /// times. What its detector was not made for is left empty. The same is expected as by read().
+    [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
     /// Device time between the start and the end of cmdDetect()'s commands, when `timestamps` was asked for and the
     /// submission is complete. NotReady otherwise.
     [[nodiscard]] VOXTACT_API Result<double> gpuMilliseconds();
@@ -106,6 +148,8 @@ class ResultRing {
     [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
     /// The results of a completed frame. NotReady when its slot was never used, or has been taken by a later frame.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read(std::uint64_t frame);
+    /// The same for Results::readOutputs().
+    [[nodiscard]] VOXTACT_API Result<void> readOutputs(std::uint64_t frame, BatchAnswer& answer);
 
   private:
     struct Slot {
@@ -113,6 +157,8 @@ class ResultRing {
         std::uint64_t frame = 0;
         bool used = false;
     };
+    /// The slot that holds a frame.
+    [[nodiscard]] Result<Results*> find(std::uint64_t frame);
     std::vector<Slot> slots_;
 };
 
@@ -120,7 +166,9 @@ class ResultRing {
 /// Thread-safety: cmdDetect is const and safe from any thread with different command buffers and Results.
 class Detector {
   public:
-    /// Unsupported, with the missing feature named, when the device cannot do the method.
+    /// Unsupported, with the missing feature or limit named, when the device cannot do the method or the outputs. The
+    /// outputs need fragmentStoresAndAtomics and geometryShader with the methods of the rasteriser, and five bound
+    /// descriptor sets (maxBoundDescriptorSets) with all.
     [[nodiscard]] VOXTACT_API static Result<Detector> create(const Context& context, const DetectorDesc& desc);
     VOXTACT_API Detector(Detector&&) noexcept;
     VOXTACT_API Detector& operator=(Detector&&) noexcept;
@@ -140,10 +188,13 @@ class Detector {
     ///                    buffer() are waited for
     ///   leaves           Results::buffer() available and visible to TRANSFER read, and to shader reads in all stages
     ///   queries          no occlusion query may be active
-    ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3),
-    ///                    push constants, vertex binding 0, index buffer, dynamic viewport and scissor; for the method
-    ///                    compute instead: compute pipeline, descriptor sets 0..3 of the compute bind point, push
-    ///                    constants
+    ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3; with
+    ///                    outputs: 0..4), push constants, vertex binding 0, index buffer, dynamic viewport and scissor;
+    ///                    for the method compute instead: compute pipeline, descriptor sets 0..3 of the compute bind
+    ///                    point (0..4 with outputs), push constants
+    ///
+    /// With outputs, batches are refused that the Results have no room for (the list of contacts is cut instead), and
+    /// with the output labels, items without a label map. The Results keep what readOutputs() needs of the batch.
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
@@ -162,8 +213,10 @@ class Detector {
 /// Thread-safety: none; one thread at a time.
 class BlockingDetector {
   public:
+    /// A list of contacts is cut beyond `mostContacts`.
     [[nodiscard]] VOXTACT_API static Result<BlockingDetector> create(const Context& context, const DetectorDesc& desc,
-                                                                     const QueueAccess& queue);
+                                                                     const QueueAccess& queue,
+                                                                     std::uint32_t mostContacts = kDefaultContactRoom);
     VOXTACT_API BlockingDetector(BlockingDetector&&) noexcept;
     VOXTACT_API BlockingDetector& operator=(BlockingDetector&&) noexcept;
     VOXTACT_API ~BlockingDetector();

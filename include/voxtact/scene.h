@@ -4,6 +4,7 @@
 #include "voxtact/context.h"
 #include "voxtact/data.h"
 #include "voxtact/edit.h"
+#include "voxtact/labels.h"
 
 #include <optional>
 
@@ -28,7 +29,7 @@ namespace voxtact {
 struct VolumeImpl;
 struct TransferFunctionImpl;
 struct MeshImpl;
-class LabelMap;
+struct LabelMapImpl;
 
 /// An image of the caller's.
 struct WrappedVolume {
@@ -221,6 +222,33 @@ class Mesh {
   private:
     explicit Mesh(std::unique_ptr<MeshImpl> impl) noexcept;
     std::unique_ptr<MeshImpl> impl_;
+};
+
+/// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels.
+class LabelMap {
+  public:
+    /// Refuses what checkGrid() refuses, a wrong number of indices, indices and values that makeLabels() would not
+    /// make, and a map beyond the device's limits (which limit, how large).
+    [[nodiscard]] VOXTACT_API static Result<LabelMap> create(const Context& context, const LabelData& data,
+                                                             const char* name = nullptr);
+    [[nodiscard]] VOXTACT_API static Result<LabelMap> upload(const Context& context, const QueueAccess& queue,
+                                                             const LabelData& data, const char* name = nullptr);
+    VOXTACT_API LabelMap(LabelMap&&) noexcept;
+    VOXTACT_API LabelMap& operator=(LabelMap&&) noexcept;
+    VOXTACT_API ~LabelMap();
+
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    VOXTACT_API void releaseStaging() noexcept;
+
+    [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
+    /// The labels, by their numbers.
+    [[nodiscard]] VOXTACT_API std::span<const std::int32_t> values() const noexcept;
+
+    [[nodiscard]] LabelMapImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit LabelMap(std::unique_ptr<LabelMapImpl> impl) noexcept;
+    std::unique_ptr<LabelMapImpl> impl_;
 };
 
 } // namespace voxtact

@@ -2,11 +2,12 @@
 #include "cpu/certified_run.h"
 #include "core/certified_constants.h"
 #include "cpu/certified_pair.h"
+#include "cpu/outputs.h"
 #include "cpu/tasks.h"
 
-#include <algorithm>
 #include <atomic>
 #include <memory>
+#include <optional>
 
 namespace voxtact::cpu {
 
@@ -44,7 +45,10 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
             occupancies.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold, desc.resolution));
     }
     std::vector<PairTally> tallies(pairs);
-    std::vector<std::vector<TouchedTriangle>> touched(pool.threads());
+    std::optional<OutputRun> outputs;
+    if (desc.outputs.any()) {
+        outputs.emplace(batch, desc, pairs, pool.threads());
+    }
     const Tasks tasks(batch, pairs, pool.threads());
     tasks.run(pool, [&](const Task& task, std::uint32_t thread) {
         PairTally& tally = tallies[task.pair];
@@ -53,21 +57,24 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
         }
         const BatchItem& item = batch.items[task.item];
         const VolumeImpl& volume = item.volume->impl();
-        CertifiedSink sink;
-        if (desc.outputs.triangles) {
-            sink = [&, thread](std::uint32_t triangle, const shader::VoxelPoint&) {
-                std::vector<TouchedTriangle>& list = touched[thread];
-                if (list.empty() || list.back().pair != task.pair || list.back().triangle != triangle) {
-                    list.push_back({task.pair, triangle, 0});
-                }
-                ++list.back().count;
-            };
+        const CertifiedJob job{item.mesh->impl(),
+                               volume,
+                               *ofItem[task.item],
+                               certifiedPair(volume.grid, volume.texture_from_world, item.world_from_object[task.pose]),
+                               task.clusterBegin,
+                               task.clusterEnd,
+                               desc.stopAtFirst};
+        CertifiedTally found;
+        if (outputs) {
+            outputs->collect(task.item, task.pair, thread, [&](OutputRun::Sink& sink) {
+                found = decide(job, [&](std::uint32_t triangle, const shader::VoxelPoint& witness) {
+                    const shader::VoxelPoint at = certifiedTexture(job.occupancy.item(), witness);
+                    sink.add(triangle, {at.x, at.y, at.z});
+                });
+            });
+        } else {
+            found = decide(job);
         }
-        const CertifiedTally found =
-            decide({item.mesh->impl(), volume, *ofItem[task.item],
-                    certifiedPair(volume.grid, volume.texture_from_world, item.world_from_object[task.pose]),
-                    task.clusterBegin, task.clusterEnd, desc.stopAtFirst},
-                   sink);
         tally.certain.fetch_add(found.certain, std::memory_order_relaxed);
         if (found.undecided) {
             tally.undecided.store(true, std::memory_order_relaxed);
@@ -81,13 +88,9 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
             answer.pairs.push_back(answerOf(tallies[pair], {i, pose, pair}, desc.stopAtFirst));
         }
     }
-    for (const std::vector<TouchedTriangle>& list : touched) {
-        answer.triangles.insert(answer.triangles.end(), list.begin(), list.end());
+    if (outputs) {
+        outputs->finish(answer);
     }
-    // All fragments of a triangle are in one task: no triangle is in the list twice.
-    std::sort(answer.triangles.begin(), answer.triangles.end(), [](const TouchedTriangle& a, const TouchedTriangle& b) {
-        return a.pair != b.pair ? a.pair < b.pair : a.triangle < b.triangle;
-    });
     return answer;
 }
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/certified_constants.h"
 #include "core/guard.h"
-#include "core/pair_transform.h"
 #include "core/projection.h"
 #include "cpu/batch_check.h"
 #include "cpu/certified_run.h"
-#include "cpu/kernel.h"
-#include "cpu/occupancy.h"
-#include "cpu/occupancy_cache.h"
-#include "cpu/thread_pool.h"
+#include "cpu/count_run.h"
+#include "cpu/outputs.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -27,155 +23,16 @@ struct DetectorImpl {
     DetectorDesc desc;
     ThreadPool pool;
     std::vector<ScratchPointer> scratches;
-    OccupancyCache<Occupancy, 1> occupancies;
+    Occupancies occupancies;
     CertifiedOccupancies certified;
 };
 
 namespace {
 
-/// A pair is split only where its parts keep a thread busy for longer than it takes to wake it.
-constexpr std::uint32_t kFewestClusters = 16;
-/// Parts a thread, so that unequal ones even out.
-constexpr std::uint32_t kPartsPerThread = 4;
-
-struct ItemFacts {
-    std::shared_ptr<const Occupancy> occupancy;
-    ViewFacts view;
-    std::uint32_t firstPair;
-    std::uint32_t parts; ///< of each of its pairs
-    std::uint64_t firstTask;
-};
-
-/// A batch cut into tasks that threads take one by one.
-class Run {
-  public:
-    Run(const Batch& batch, DetectorImpl& detector, std::uint32_t pairs)
-        : batch_(batch), detector_(detector), cameras_(detector.desc.projection, batch.view), counts_(pairs) {
-        const std::uint32_t wanted = detector.pool.threads() == 1 || pairs == 0
-                                         ? 1
-                                         : std::max(detector.pool.threads() * kPartsPerThread / pairs, 1U);
-        std::uint32_t pair = 0;
-        for (const BatchItem& item : batch.items) {
-            const std::size_t clusters = item.mesh->impl().clusters.size();
-            const auto most = static_cast<std::uint32_t>(std::max<std::size_t>(clusters / kFewestClusters, 1));
-            const std::uint32_t parts = std::min(wanted, most);
-            items_.push_back(
-                {detector.occupancies.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold),
-                 viewOf(item), pair, parts, tasks_});
-            pair += static_cast<std::uint32_t>(item.world_from_object.size());
-            tasks_ += item.world_from_object.size() * parts;
-        }
-    }
-
-    void count() {
-        const auto threads = static_cast<std::uint32_t>(std::min<std::uint64_t>(detector_.pool.threads(), tasks_));
-        if (threads == 0) {
-            return;
-        }
-        detector_.pool.run(threads, [this](std::uint32_t thread) {
-            for (std::uint64_t task = next_++; task < tasks_; task = next_++) {
-                runTask(task, *detector_.scratches[thread]);
-            }
-        });
-    }
-
-    [[nodiscard]] std::vector<PairAnswer> answers() const {
-        std::vector<PairAnswer> out;
-        out.reserve(counts_.size());
-        for (std::size_t i = 0; i < items_.size(); ++i) {
-            for (std::size_t pose = 0; pose < batch_.items[i].world_from_object.size(); ++pose) {
-                const auto pair = static_cast<std::uint32_t>(out.size());
-                out.push_back(answer(pair, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(pose)));
-            }
-        }
-        return out;
-    }
-
-  private:
-    [[nodiscard]] ViewFacts viewOf(const BatchItem& item) const {
-        const DetectorDesc& desc = detector_.desc;
-        View view = batch_.view;
-        if (desc.projection == Projection::DominantAxis) {
-            view.width = static_cast<std::uint32_t>(dominantSide(item.volume->grid(), desc.samplesPerVoxel));
-            view.height = view.width;
-        }
-        return {view, desc.boundary != Boundary::Clamp};
-    }
-
-    void runTask(std::uint64_t task, Scratch& scratch) noexcept {
-        const auto after =
-            std::upper_bound(items_.begin(), items_.end(), task,
-                             [](std::uint64_t t, const ItemFacts& facts) { return t < facts.firstTask; });
-        // Items without poses have no task: the last that begins at or before it has some.
-        const ItemFacts& facts = *(after - 1);
-        const BatchItem& item = batch_.items[static_cast<std::size_t>(after - items_.begin()) - 1];
-        const std::uint64_t within = task - facts.firstTask;
-        const auto pose = static_cast<std::size_t>(within / facts.parts);
-        std::atomic<std::uint64_t>& count = counts_[facts.firstPair + pose];
-        for (const Mat4& clip_from_world : cameras_.clip_from_world()) {
-            if (facts.occupancy->nothingOpaque() ||
-                (detector_.desc.stopAtFirst && count.load(std::memory_order_relaxed) > 0)) {
-                return;
-            }
-            const std::uint64_t survivors =
-                countPart(item, facts, clip_from_world, item.world_from_object[pose], within % facts.parts, scratch);
-            count.fetch_add(survivors, std::memory_order_relaxed);
-        }
-    }
-
-    /// One part of a pair, seen once.
-    [[nodiscard]] std::uint64_t countPart(const BatchItem& item, const ItemFacts& facts, const Mat4& clip_from_world,
-                                          const Mat4& world_from_object, std::uint64_t part,
-                                          Scratch& scratch) const noexcept {
-        const MeshImpl& mesh = item.mesh->impl();
-        const VolumeImpl& volume = item.volume->impl();
-        const shader::PairTransform transform =
-            pairTransform(clip_from_world, world_from_object, volume.texture_from_world);
-        const shader::DominantGrid grid = dominantGrid(volume.grid);
-        const std::uint64_t clusters = mesh.clusters.size();
-        const PairJob job{.mesh = mesh,
-                          .volume = volume,
-                          .occupancy = *facts.occupancy,
-                          .view = facts.view,
-                          .transform = transform,
-                          .dominantAxis = detector_.desc.projection == Projection::DominantAxis ? &grid : nullptr,
-                          .orthographic = isOrthographic(transform),
-                          .cull = CullForms(mesh, transform),
-                          .clusterBegin = static_cast<std::uint32_t>(clusters * part / facts.parts),
-                          .clusterEnd = static_cast<std::uint32_t>(clusters * (part + 1) / facts.parts),
-                          .stopAtFirst = detector_.desc.stopAtFirst};
-        return countSurvivors(job, scratch);
-    }
-
-    [[nodiscard]] PairAnswer answer(std::uint32_t pair, std::uint32_t item, std::uint32_t pose) const {
-        const bool first = detector_.desc.stopAtFirst;
-        const std::uint64_t count = counts_[pair].load(std::memory_order_relaxed);
-        return {.pair = pair,
-                .item = item,
-                .pose = pose,
-                .hit = count > 0,
-                .count = first && count > 0 ? 1 : count,
-                .exactness = first ? Exactness::LowerBound : Exactness::Exact,
-                .method = CountingMethod::Cpu,
-                .projection = detector_.desc.projection};
-    }
-
-    const Batch& batch_;
-    DetectorImpl& detector_;
-    Cameras cameras_;
-    std::vector<ItemFacts> items_;
-    std::vector<std::atomic<std::uint64_t>> counts_;
-    std::uint64_t tasks_ = 0;
-    std::atomic<std::uint64_t> next_{0};
-};
-
 Result<void> checkProjection(const DetectorDesc& desc) {
     if (std::ranges::find(projections(), desc.projection) == projections().end()) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "there is no projection number " + std::to_string(static_cast<std::uint32_t>(desc.projection))};
-    }
-    if (desc.projection != Projection::Conservative && desc.outputs.any()) {
-        return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
     }
     if (Result<void> samples = checkSamples(desc.samplesPerVoxel); !samples.ok()) {
         return samples;
@@ -195,6 +52,9 @@ Result<Detector> Detector::create(const DetectorDesc& desc) {
         if (Result<void> projection = checkProjection(desc); !projection.ok()) {
             return projection.error();
         }
+        if (Result<void> outputs = checkOutputs(desc); !outputs.ok()) {
+            return outputs.error();
+        }
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
         return Detector(std::make_unique<DetectorImpl>(desc, desc.threads == 0 ? processors : desc.threads));
     });
@@ -207,14 +67,14 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
         if (!pairs.ok()) {
             return pairs.error();
         }
-        BatchAnswer answer;
-        if (impl_->desc.projection == Projection::Conservative) {
-            answer = runCertified(batch, *pairs, impl_->desc, impl_->pool, impl_->certified);
-        } else {
-            Run run(batch, *impl_, *pairs);
-            run.count();
-            answer.pairs = run.answers();
+        if (Result<void> labels = checkLabelMaps(batch, impl_->desc.outputs); !labels.ok()) {
+            return labels.error();
         }
+        DetectorImpl& impl = *impl_;
+        BatchAnswer answer =
+            impl.desc.projection == Projection::Conservative
+                ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)
+                : runCounts(batch, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

@@ -53,6 +53,36 @@ std::int32_t brickOf(float coordinate, float slack, std::int32_t size) {
     return std::clamp(static_cast<std::int32_t>(std::floor(shifted)) + 1, 0, size) >> kBrickShift;
 }
 
+/// What a box of texture coordinates meets.
+BrickClass boxClass(const PairJob& job, const Range (&ranges)[3]) {
+    BrickBox box;
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(ranges[axis].lo > -kLargest && ranges[axis].hi < kLargest)) {
+            return kMixedBrick;
+        }
+        if (job.view.rangeTest && (ranges[axis].hi < 0 || ranges[axis].lo > 1)) {
+            return kClearBrick;
+        }
+        inside = inside && ranges[axis].lo >= 0 && ranges[axis].hi <= 1;
+        const std::int32_t size = job.volume.image.size[axis];
+        const float slack = 0x1p-14F + static_cast<float>(size) * 0x1p-22F;
+        box.lo[axis] = brickOf(ranges[axis].lo, -slack, size);
+        box.hi[axis] = brickOf(ranges[axis].hi, slack, size);
+    }
+    const BrickClass found = job.occupancy.within(box);
+    return found == kOpaqueBrick && job.view.rangeTest && !inside ? kMixedBrick : found;
+}
+
+/// The values that a form takes over a cluster's box, and what they may be off.
+Range overCluster(const Form& form, const MeshImpl& mesh, std::size_t cluster) {
+    const float centre = form.x * mesh.centreX[cluster] + form.y * mesh.centreY[cluster] +
+                         form.z * mesh.centreZ[cluster] + form.constant;
+    const float half = std::abs(form.x) * mesh.halfX[cluster] + std::abs(form.y) * mesh.halfY[cluster] +
+                       std::abs(form.z) * mesh.halfZ[cluster] + form.margin;
+    return {centre - half, centre + half};
+}
+
 } // namespace
 
 std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone, ExactTriangle (&out)[EXACT_MAX_CORNERS]) {
@@ -89,23 +119,26 @@ BrickClass triangleClass(const PairJob& job, const ExactTriangle& triangle) noex
     const Range ranges[3] = {coordinates(triangle, triangle.tx, triangle.ux, triangle.vx, ratio),
                              coordinates(triangle, triangle.ty, triangle.uy, triangle.vy, ratio),
                              coordinates(triangle, triangle.tz, triangle.uz, triangle.vz, ratio)};
-    BrickBox box;
-    bool inside = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!(ranges[axis].lo > -kLargest && ranges[axis].hi < kLargest)) {
-            return kMixedBrick;
-        }
-        if (job.view.rangeTest && (ranges[axis].hi < 0 || ranges[axis].lo > 1)) {
-            return kClearBrick;
-        }
-        inside = inside && ranges[axis].lo >= 0 && ranges[axis].hi <= 1;
-        const std::int32_t size = job.volume.image.size[axis];
-        const float slack = 0x1p-14F + static_cast<float>(size) * 0x1p-22F;
-        box.lo[axis] = brickOf(ranges[axis].lo, -slack, size);
-        box.hi[axis] = brickOf(ranges[axis].hi, slack, size);
+    return boxClass(job, ranges);
+}
+
+bool isClear(const PairJob& job, std::size_t cluster) noexcept {
+    if (!job.cull.usable) {
+        return false;
     }
-    const BrickClass found = job.occupancy.within(box);
-    return found == kOpaqueBrick && job.view.rangeTest && !inside ? kMixedBrick : found;
+    for (const Form& form : job.cull.outside) {
+        if (overCluster(form, job.mesh, cluster).hi < 0) {
+            return true;
+        }
+    }
+    // Perspective would make coordinates off by more than the margin.
+    if (!job.orthographic) {
+        return false;
+    }
+    const Range ranges[3] = {overCluster(job.cull.texture[0], job.mesh, cluster),
+                             overCluster(job.cull.texture[1], job.mesh, cluster),
+                             overCluster(job.cull.texture[2], job.mesh, cluster)};
+    return boxClass(job, ranges) == kClearBrick;
 }
 
 } // namespace voxtact::cpu

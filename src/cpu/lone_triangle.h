@@ -18,4 +18,7 @@ namespace voxtact::cpu {
 /// not known.
 [[nodiscard]] BrickClass triangleClass(const PairJob& job, const shader::ExactTriangle& triangle) noexcept;
 
+/// Whether a cluster certainly has no survivor: nothing of it is in the view volume, or it meets nothing opaque.
+[[nodiscard]] bool isClear(const PairJob& job, std::size_t cluster) noexcept;
+
 } // namespace voxtact::cpu

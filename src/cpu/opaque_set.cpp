@@ -114,11 +114,15 @@ class Walk {
 
 } // namespace
 
-bool isOpaque(std::span<const float> table, const shader::ItemConstants& constants, float stored) noexcept {
+float opacityOf(std::span<const float> table, const shader::ItemConstants& constants, float stored) noexcept {
     const shader::ExactCell entry =
         shader::exactEntry(stored, constants.scalarScale, constants.scalarBias, static_cast<int>(table.size()));
     return shader::exactLerp(table[static_cast<std::size_t>(entry.below)], table[static_cast<std::size_t>(entry.above)],
-                             entry.weight) >= constants.threshold;
+                             entry.weight);
+}
+
+bool isOpaque(std::span<const float> table, const shader::ItemConstants& constants, float stored) noexcept {
+    return opacityOf(table, constants, stored) >= constants.threshold;
 }
 
 OpaqueSet::OpaqueSet(std::span<const float> table, const shader::ItemConstants& constants)

@@ -39,6 +39,8 @@ class OpaqueSet {
 };
 
 /// The verdict on one stored value.
+[[nodiscard]] float opacityOf(std::span<const float> table, const shader::ItemConstants& constants,
+                              float stored) noexcept;
 [[nodiscard]] bool isOpaque(std::span<const float> table, const shader::ItemConstants& constants,
                             float stored) noexcept;
 

@@ -27,11 +27,11 @@ bool fitsOffsets(const StoredImage& image) noexcept {
     return image.bytes.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
 }
 
-bool sampleIsOpaque(const StoredImage& image, const Occupancy& occupancy, float x, float y, float z) noexcept {
+float storedAt(const StoredImage& image, float x, float y, float z) noexcept {
     const PaddedCell cellX = paddedCell(x, image.size[0]);
     const PaddedCell cellY = paddedCell(y, image.size[1]);
     const PaddedCell cellZ = paddedCell(z, image.size[2]);
-    const float stored = image.visit([&](const auto* voxels) {
+    return image.visit([&](const auto* voxels) {
         const auto* first = voxels + cellX.index + cellY.index * image.stride[1] + cellZ.index * image.stride[2];
         const auto row = [&](const auto* at) {
             return shader::exactLerp(storedValue(at[0]), storedValue(at[1]), cellX.weight);
@@ -41,7 +41,10 @@ bool sampleIsOpaque(const StoredImage& image, const Occupancy& occupancy, float 
         };
         return shader::exactLerp(layer(first), layer(first + image.stride[2]), cellZ.weight);
     });
-    return isOpaque(occupancy.table(), occupancy.constants(), stored);
+}
+
+bool sampleIsOpaque(const StoredImage& image, const Occupancy& occupancy, float x, float y, float z) noexcept {
+    return isOpaque(occupancy.table(), occupancy.constants(), storedAt(image, x, y, z));
 }
 
 } // namespace voxtact::cpu

@@ -30,6 +30,25 @@ std::uint64_t pairsOf(const Batch& batch) {
     return pairs;
 }
 
+/// What to make the Results with where those at hand have no room for a batch. What was large enough stays so.
+std::optional<ResultsDesc> largerFor(const Batch& batch, const ResultsDesc& desc,
+                                     const std::optional<Results>& results) {
+    const std::uint64_t pairs = pairsOf(batch);
+    const OutputRoom needed = desc.room ? roomFor(batch) : OutputRoom{};
+    if (results && results->maxPairs() >= pairs &&
+        (!desc.room || (desc.room->triangles >= needed.triangles && desc.room->labels >= needed.labels))) {
+        return std::nullopt;
+    }
+    ResultsDesc wanted = desc;
+    wanted.maxPairs = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(pairs, results ? results->maxPairs() : kFewestPairs, UINT32_MAX));
+    if (wanted.room) {
+        wanted.room->triangles = std::max(wanted.room->triangles, needed.triangles);
+        wanted.room->labels = std::max(wanted.room->labels, needed.labels);
+    }
+    return wanted;
+}
+
 std::vector<PairAnswer> unpackAll(std::span<const PairResult> results) {
     std::vector<PairAnswer> out;
     out.reserve(results.size());
@@ -47,7 +66,7 @@ BlockingDetector& BlockingDetector::operator=(BlockingDetector&&) noexcept = def
 BlockingDetector::~BlockingDetector() = default;
 
 Result<BlockingDetector> BlockingDetector::create(const Context& context, const DetectorDesc& desc,
-                                                  const QueueAccess& queue) {
+                                                  const QueueAccess& queue, std::uint32_t mostContacts) {
     return guard([&]() -> Result<BlockingDetector> {
         Result<Detector> detector = Detector::create(context, desc);
         if (!detector.ok()) {
@@ -60,6 +79,9 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         ResultsDesc resultsDesc;
         resultsDesc.timestamps = context.impl().timestampBits(queue.family) > 0;
         resultsDesc.queueFamily = queue.family;
+        if (desc.outputs.any()) {
+            resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
+        }
         return BlockingDetector(std::make_unique<State>(
             State{context.impl(), std::move(*detector), std::move(*submitter), resultsDesc, std::nullopt}));
     });
@@ -69,15 +91,13 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
     return guard([&]() -> Result<BatchAnswer> {
         const auto start = std::chrono::steady_clock::now();
         State& s = *state_;
-        const std::uint64_t pairs = pairsOf(batch);
-        if (!s.results || s.results->maxPairs() < pairs) {
-            s.resultsDesc.maxPairs =
-                static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, kFewestPairs, UINT32_MAX));
-            Result<Results> larger = Results::create(s.context, s.resultsDesc);
+        if (const std::optional<ResultsDesc> wanted = largerFor(batch, s.resultsDesc, s.results)) {
+            Result<Results> larger = Results::create(s.context, *wanted);
             if (!larger.ok()) {
                 return larger.error();
             }
             s.results = std::move(*larger);
+            s.resultsDesc = *wanted;
         }
         const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
         if (!commandBuffer.ok()) {
@@ -98,6 +118,9 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         }
         BatchAnswer answer;
         answer.pairs = unpackAll(*results);
+        if (Result<void> outputs = s.results->readOutputs(answer); !outputs.ok()) {
+            return outputs.error();
+        }
         if (const Result<double> milliseconds = s.results->gpuMilliseconds(); milliseconds.ok()) {
             answer.gpuMilliseconds = *milliseconds;
         }

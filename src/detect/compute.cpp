@@ -2,10 +2,12 @@
 #include "detect/compute.h"
 #include "core/projection.h"
 #include "detect/batch.h"
+#include "detect/outputs.h"
 #include "exact.h"
 #include "gpu/scene_impl.h"
 
 #include "voxtact_shaders/compute_comp.h"
+#include "voxtact_shaders/compute_outputs_comp.h"
 
 #include <algorithm>
 
@@ -17,9 +19,14 @@ Result<ComputePass> ComputePass::create(ContextImpl& context, const DetectorDesc
         {VOXTACT_CONSTANT_EXACT_FILTER, desc.filter == Filter::Exact ? 1U : 0U},
         {VOXTACT_CONSTANT_VIEWS, viewsPerPair(desc.projection)},
         {VOXTACT_CONSTANT_DOMINANT_AXIS, desc.projection == Projection::DominantAxis ? 1U : 0U},
+        {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)},
     };
     const std::string name = std::string("compute ") + toString(desc.projection) + " " + toString(desc.filter);
-    Result<Owned<VkPipeline>> pipeline = makeComputePipeline(context, spirv::compute_comp, constants, name.c_str());
+    Result<Owned<VkPipeline>> pipeline =
+        desc.outputs.any() ? makeComputePipeline(context, spirv::compute_outputs_comp, constants,
+                                                 context.computeOutputLayout, (name + " outputs").c_str())
+                           : makeComputePipeline(context, spirv::compute_comp, std::span(constants).first(3),
+                                                 context.computeLayout, name.c_str());
     if (!pipeline.ok()) {
         return pipeline.error();
     }
@@ -65,10 +72,7 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
                              Boundary boundary, std::uint32_t firstPair, const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set,
-                                    results.descriptors.set, item.mesh->impl().descriptors.set};
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context_->computeLayout, 0, 4, sets, 0,
-                             nullptr);
+    const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
     shader::ComputeConstants constants = constantsOf(batch, item);
     constants.rangeTest = boundary == Boundary::Range ? 1 : 0;
     const std::uint32_t viewsOfPair = viewsPerPair(desc_.projection);
@@ -76,8 +80,7 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
     const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
     for (std::uint32_t done = 0; done < views; done += std::min(atOnce, views - done)) {
         constants.firstTransform = viewsOfPair * firstPair + done;
-        vk.CmdPushConstants(commandBuffer, context_->computeLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
-                            &constants);
+        vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
         vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, views - done), 1);
     }
 }

@@ -2,9 +2,11 @@
 #include "detect/conservative.h"
 #include "core/certified_constants.h"
 #include "detect/batch.h"
+#include "detect/outputs.h"
 #include "gpu/scene_impl.h"
 
 #include "voxtact_shaders/certified_comp.h"
+#include "voxtact_shaders/certified_outputs_comp.h"
 
 #include <algorithm>
 
@@ -12,9 +14,13 @@ namespace voxtact {
 
 Result<ConservativePass> ConservativePass::create(ContextImpl& context, const DetectorDesc& desc) {
     ConservativePass pass(context, desc);
-    const ShaderConstant constant{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U};
+    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)}};
     Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(context, spirv::certified_comp, {&constant, 1}, "compute conservative");
+        desc.outputs.any() ? makeComputePipeline(context, spirv::certified_outputs_comp, constants,
+                                                 context.computeOutputLayout, "compute conservative outputs")
+                           : makeComputePipeline(context, spirv::certified_comp, std::span(constants).first(1),
+                                                 context.computeLayout, "compute conservative");
     if (!pipeline.ok()) {
         return pipeline.error();
     }
@@ -64,17 +70,13 @@ void ConservativePass::recordItem(VkCommandBuffer commandBuffer, const Batch& ba
                                   std::uint32_t firstPair, const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set,
-                                    results.descriptors.set, item.mesh->impl().descriptors.set};
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context_->computeLayout, 0, 4, sets, 0,
-                             nullptr);
+    const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
     shader::CertifiedConstants constants = constantsOf(batch, item);
     const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
     const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
     for (std::uint32_t done = 0; done < pairs; done += std::min(atOnce, pairs - done)) {
         constants.firstPair = firstPair + done;
-        vk.CmdPushConstants(commandBuffer, context_->computeLayout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
-                            &constants);
+        vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
         vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, pairs - done), 1);
     }
 }

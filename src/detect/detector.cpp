@@ -6,6 +6,7 @@
 #include "detect/batch.h"
 #include "detect/compute.h"
 #include "detect/conservative.h"
+#include "detect/outputs.h"
 #include "detect/recording.h"
 #include "detect/view.h"
 #include "gpu/debug.h"
@@ -86,9 +87,6 @@ Result<void> checkProjection(const ContextImpl& context, const DetectorDesc& des
         return Error{ErrorCode::InvalidArgument, 0,
                      "there is no projection number " + std::to_string(static_cast<std::uint32_t>(desc.projection))};
     }
-    if (desc.outputs.any()) {
-        return Error{ErrorCode::Unsupported, 0, std::string("the projection ") + toString(desc.projection)};
-    }
     if (desc.projection == Projection::Conservative && desc.method != CountingMethod::Compute) {
         return Error{ErrorCode::InvalidArgument, 0,
                      std::string("the projection conservative is answered by the counting methods compute and cpu, "
@@ -148,6 +146,9 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         if (Result<void> projection = checkProjection(c, desc); !projection.ok()) {
             return projection.error();
         }
+        if (Result<void> outputs = checkOutputs(c, desc); !outputs.ok()) {
+            return outputs.error();
+        }
         Result<std::unique_ptr<DetectorImpl>> impl =
             desc.projection == Projection::Conservative ? withPass(c, desc, ConservativePass::create(c, desc))
             : desc.method == CountingMethod::Compute    ? withPass(c, desc, ComputePass::create(c, desc))
@@ -184,11 +185,17 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                          "the batch has " + std::to_string(views) + " views, the Results have room for " +
                              std::to_string(slot.maxTransforms) + " within the device's maxStorageBufferRange"};
         }
+        if (Result<void> outputs = checkOutputs(context, batch, impl_->desc.outputs, slot); !outputs.ok()) {
+            return outputs;
+        }
         if (Result<void> checked = checkPass(impl_->pass, batch); !checked.ok()) {
             return checked;
         }
         slot.pairs = *pairs;
         slot.readBackRecorded = false;
+        if (slot.outputs) {
+            slot.outputs->recorded = impl_->desc.outputs;
+        }
         const Label label(context, commandBuffer, labelOf(impl_->desc, *pairs).c_str());
         if (*pairs == 0) {
             return {};

@@ -3,11 +3,10 @@
 #include "core/certified_constants.h"
 #include "core/projection.h"
 #include "detect/batch.h"
+#include "detect/buffer_update.h"
 #include "detect/counting.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
-
-#include <array>
 
 namespace voxtact {
 
@@ -17,52 +16,16 @@ constexpr VkPipelineStageFlags2 kShaders = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT
                                            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 
-/// vkCmdUpdateBuffer takes at most 65536 bytes.
-constexpr std::size_t kTransformsAtOnce = 512;
-constexpr std::size_t kResultsAtOnce = 1024;
-static_assert(kTransformsAtOnce * sizeof(shader::PairTransform) <= 65536);
-static_assert(kResultsAtOnce * sizeof(PairResult) <= 65536);
-
 std::uint32_t howOf(const DetectorDesc& desc) {
     return static_cast<std::uint32_t>(desc.method) | static_cast<std::uint32_t>(desc.projection) << 8U |
            static_cast<std::uint32_t>(desc.stopAtFirst ? Exactness::LowerBound : exactness(desc.method)) << 16U;
 }
 
-/// Collects records of one type and updates a buffer with as many at once as Vulkan takes.
-template <class Record, std::size_t AtOnce> class BufferUpdate {
-  public:
-    BufferUpdate(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer buffer)
-        : context_(context), commandBuffer_(commandBuffer), buffer_(buffer) {}
-
-    void add(const Record& record) {
-        records_[pending_++] = record;
-        if (pending_ == AtOnce) {
-            finish();
-        }
-    }
-    void finish() {
-        if (pending_ > 0) {
-            context_.vk.CmdUpdateBuffer(commandBuffer_, buffer_, written_ * sizeof(Record), pending_ * sizeof(Record),
-                                        records_.data());
-            written_ += pending_;
-            pending_ = 0;
-        }
-    }
-
-  private:
-    const ContextImpl& context_;
-    VkCommandBuffer commandBuffer_;
-    VkBuffer buffer_;
-    std::array<Record, AtOnce> records_;
-    std::size_t pending_ = 0;
-    VkDeviceSize written_ = 0;
-};
-
 /// The transforms that the vertex shader reads.
 void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                       const ResultsImpl& results, Projection projection) {
     const Cameras cameras(projection, batch.view);
-    BufferUpdate<shader::PairTransform, kTransformsAtOnce> update(context, commandBuffer, results.transforms.get());
+    BufferUpdate<shader::PairTransform> update(context, commandBuffer, results.transforms.get());
     for (const BatchItem& item : batch.items) {
         for (const Mat4& world_from_object : item.world_from_object) {
             for (const Mat4& clip_from_world : cameras.clip_from_world()) {
@@ -77,7 +40,7 @@ void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer,
 void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                           const ResultsImpl& results) {
     static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::PairTransform), "they share a buffer");
-    BufferUpdate<shader::CertifiedPair, kTransformsAtOnce> update(context, commandBuffer, results.transforms.get());
+    BufferUpdate<shader::CertifiedPair> update(context, commandBuffer, results.transforms.get());
     for (const BatchItem& item : batch.items) {
         const VolumeImpl& volume = item.volume->impl();
         for (const Mat4& world_from_object : item.world_from_object) {
@@ -90,7 +53,7 @@ void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuf
 /// Results with a count of zero that say which pair they are.
 void recordEmptyResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                         const ResultsImpl& results, std::uint32_t how) {
-    BufferUpdate<PairResult, kResultsAtOnce> update(context, commandBuffer, results.results.get());
+    BufferUpdate<PairResult> update(context, commandBuffer, results.results.get());
     std::uint32_t pair = 0;
     for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
         for (std::uint32_t pose = 0; pose < batch.items[item].world_from_object.size(); ++pose) {
@@ -131,6 +94,9 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
         recordTransforms(context, commandBuffer, batch, results, desc.projection);
     }
     recordEmptyResults(context, commandBuffer, batch, results, howOf(desc));
+    if (desc.outputs.any()) {
+        recordOutputs(context, commandBuffer, batch, *results.outputs);
+    }
     if (countsByQuery(desc.method)) {
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);
     }

@@ -35,8 +35,8 @@ Result<Results*> ResultRing::begin(std::uint64_t frame) {
     });
 }
 
-Result<std::span<const PairResult>> ResultRing::read(std::uint64_t frame) {
-    return guard([&]() -> Result<std::span<const PairResult>> {
+Result<Results*> ResultRing::find(std::uint64_t frame) {
+    return guard([&]() -> Result<Results*> {
         Slot& slot = slots_[frame % slots_.size()];
         if (!slot.used || slot.frame < frame) {
             return Error{ErrorCode::NotReady, 0, "frame " + std::to_string(frame) + " was never begun"};
@@ -47,8 +47,18 @@ Result<std::span<const PairResult>> ResultRing::read(std::uint64_t frame) {
                              std::to_string(slot.frame) + ": a ring of " + std::to_string(slots_.size()) +
                              " keeps that many frames"};
         }
-        return slot.results.read();
+        return &slot.results;
     });
+}
+
+Result<std::span<const PairResult>> ResultRing::read(std::uint64_t frame) {
+    const Result<Results*> results = find(frame);
+    return results.ok() ? (*results)->read() : results.error();
+}
+
+Result<void> ResultRing::readOutputs(std::uint64_t frame, BatchAnswer& answer) {
+    const Result<Results*> results = find(frame);
+    return results.ok() ? (*results)->readOutputs(answer) : results.error();
 }
 
 } // namespace voxtact

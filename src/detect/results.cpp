@@ -119,6 +119,16 @@ Error notReady(const char* text) {
     return {ErrorCode::NotReady, 0, text};
 }
 
+Result<void> checkReadable(const ResultsImpl& results) {
+    if (Result<void> alive = results.context.alive(); !alive.ok()) {
+        return alive;
+    }
+    if (!results.readBackRecorded) {
+        return notReady("cmdReadBack() was not recorded after the last cmdDetect()");
+    }
+    return {};
+}
+
 } // namespace
 
 Results::Results(std::unique_ptr<ResultsImpl> impl) noexcept : impl_(std::move(impl)) {}
@@ -148,6 +158,14 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
             if (Result<void> made = make(*impl); !made.ok()) {
                 return made.error();
             }
+        }
+        if (desc.room) {
+            Result<std::unique_ptr<OutputStore>> outputs =
+                makeOutputStore(c, desc, impl->transforms.get(), impl->results.get());
+            if (!outputs.ok()) {
+                return outputs.error();
+            }
+            impl->outputs = std::move(*outputs);
         }
         return Results(std::move(impl));
     });
@@ -181,6 +199,9 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
                 VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
         const VkBufferCopy region{0, 0, VkDeviceSize{r.pairs} * sizeof(PairResult)};
         r.context.vk.CmdCopyBuffer(commandBuffer, r.results.get(), r.readBack.get(), 1, &region);
+        if (r.outputs) {
+            copyOutputs(r.context, commandBuffer, *r.outputs);
+        }
         barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                 VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
         return {};
@@ -190,16 +211,35 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
 Result<std::span<const PairResult>> Results::read() {
     return guard([&]() -> Result<std::span<const PairResult>> {
         const ResultsImpl& r = *impl_;
-        if (Result<void> alive = r.context.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (!r.readBackRecorded) {
-            return notReady("cmdReadBack() was not recorded after the last cmdDetect()");
+        if (Result<void> readable = checkReadable(r); !readable.ok()) {
+            return readable.error();
         }
         if (Result<void> visible = invalidate(r.context, r.readBack); !visible.ok()) {
             return visible.error();
         }
         return std::span(static_cast<const PairResult*>(r.readBack.mapped), r.pairs);
+    });
+}
+
+Result<void> Results::readOutputs(BatchAnswer& answer) {
+    return guard([&]() -> Result<void> {
+        const ResultsImpl& r = *impl_;
+        if (Result<void> readable = checkReadable(r); !readable.ok()) {
+            return readable;
+        }
+        answer.triangles.clear();
+        answer.contacts.clear();
+        answer.contactsFound = 0;
+        answer.bounds.clear();
+        answer.labels.clear();
+        if (r.outputs == nullptr || r.pairs == 0) {
+            return {};
+        }
+        if (Result<void> visible = invalidate(r.context, r.outputs->readBack); !visible.ok()) {
+            return visible;
+        }
+        unpackOutputs(*r.outputs, answer);
+        return {};
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "detect/output_store.h"
 #include "gpu/memory.h"
 #include "voxtact/detector.h"
 
@@ -19,6 +20,7 @@ struct ResultsImpl {
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
+    std::unique_ptr<OutputStore> outputs{}; ///< null without room for outputs
 };
 
 } // namespace voxtact

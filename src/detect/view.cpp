@@ -3,6 +3,7 @@
 #include "core/projection.h"
 #include "detect/batch.h"
 #include "detect/counting.h"
+#include "detect/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
@@ -10,6 +11,9 @@
 #include "voxtact_shaders/dominant_vert.h"
 #include "voxtact_shaders/view_atomic_frag.h"
 #include "voxtact_shaders/view_frag.h"
+#include "voxtact_shaders/view_outputs_atomic_frag.h"
+#include "voxtact_shaders/view_outputs_frag.h"
+#include "voxtact_shaders/view_outputs_subgroup_frag.h"
 #include "voxtact_shaders/view_subgroup_frag.h"
 #include "voxtact_shaders/view_trace_frag.h"
 #include "voxtact_shaders/view_vert.h"
@@ -20,14 +24,17 @@ namespace voxtact {
 
 namespace {
 
-std::span<const std::uint32_t> fragmentSpirv(CountingMethod method) {
+std::span<const std::uint32_t> fragmentSpirv(CountingMethod method, bool outputs) {
+    const auto either = [outputs](std::span<const std::uint32_t> without, std::span<const std::uint32_t> with) {
+        return outputs ? with : without;
+    };
     if (countsByQuery(method)) {
-        return spirv::view_frag;
+        return either(spirv::view_frag, spirv::view_outputs_frag);
     }
     if (method == CountingMethod::Subgroup) {
-        return spirv::view_subgroup_frag;
+        return either(spirv::view_subgroup_frag, spirv::view_outputs_subgroup_frag);
     }
-    return spirv::view_atomic_frag;
+    return either(spirv::view_atomic_frag, spirv::view_outputs_atomic_frag);
 }
 
 } // namespace
@@ -40,6 +47,7 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
                 {VOXTACT_CONSTANT_RANGE_TEST, rangeTest},
                 {VOXTACT_CONSTANT_CARRY, carry},
                 {VOXTACT_CONSTANT_EXACT_FILTER, desc_.filter == Filter::Exact ? 1U : 0U},
+                {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc_.outputs)},
                 {VOXTACT_CONSTANT_VIEWS, viewsPerPair(desc_.projection)}};
             const std::string variant = toString(desc_.projection) + (" " + name) + " " + toString(desc_.filter) +
                                         (rangeTest != 0 ? " range" : " clamp") + (carry != 0 ? " carry" : "");
@@ -65,8 +73,10 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
 
 Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc) {
     ViewPass pass(context, desc);
-    if (Result<void> made = pass.makePipelines(fragmentSpirv(desc.method), pass.layout(), !countsByQuery(desc.method),
-                                               toString(desc.method));
+    const bool outputs = desc.outputs.any();
+    const std::string name = toString(desc.method) + std::string(outputs ? " outputs" : "");
+    if (Result<void> made = pass.makePipelines(fragmentSpirv(desc.method, outputs), pass.layout(),
+                                               !countsByQuery(desc.method), name);
         !made.ok()) {
         return made.error();
     }
@@ -87,6 +97,9 @@ bool ViewPass::eachAlone() const noexcept {
 }
 
 VkPipelineLayout ViewPass::layout() const noexcept {
+    if (desc_.outputs.any()) {
+        return context_->rasterOutputLayout;
+    }
     return dominantAxis() ? context_->dominantLayout : context_->rasterLayout;
 }
 
@@ -100,8 +113,9 @@ VkExtent2D ViewPass::largestViewport(const Batch& batch) const noexcept {
 }
 
 void ViewPass::bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const {
+    const VkDescriptorSet set = desc_.outputs.any() ? results.outputs->descriptors.set : results.descriptors.set;
     context_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_PAIRS, 1,
-                                       &results.descriptors.set, 0, nullptr);
+                                       &set, 0, nullptr);
 }
 
 void ViewPass::bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const {
@@ -143,6 +157,11 @@ void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, con
     const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set};
     vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_VOLUME, 2, sets, 0,
                              nullptr);
+    if (desc_.outputs.any()) {
+        const VkDescriptorSet labels = labelSetOf(item, *results.outputs);
+        vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_LABELS, 1,
+                                 &labels, 0, nullptr);
+    }
     const shader::ItemConstants constants = itemConstants(item, desc_.filter, batch.threshold);
     vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
     bindMesh(commandBuffer, item);

@@ -45,6 +45,8 @@ class ViewPass {
 
     [[nodiscard]] Result<void> makePipelines(std::span<const std::uint32_t> fragmentSpirv, VkPipelineLayout layout,
                                              bool withCarry, const std::string& name);
+    /// What sets are bound with.
+    [[nodiscard]] VkPipelineLayout layout() const noexcept;
     /// Whether each pair is a rendering of its own, flushed before the next: see ContextImpl::flushAfterQuery.
     [[nodiscard]] bool eachAlone() const noexcept;
     [[nodiscard]] bool dominantAxis() const noexcept { return desc_.projection == Projection::DominantAxis; }

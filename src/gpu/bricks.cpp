@@ -17,7 +17,7 @@ Result<void> makePipeline(ContextImpl& context) {
     if (context.brickPipeline) {
         return {};
     }
-    Result<Owned<VkPipeline>> pipeline = makeComputePipeline(context, spirv::bricks_comp, {}, "bricks");
+    Result<Owned<VkPipeline>> pipeline = makeComputePipeline(context, spirv::bricks_comp, {}, context.computeLayout, "bricks");
     if (!pipeline.ok()) {
         return pipeline.error();
     }

@@ -51,19 +51,23 @@ Result<void> makeSampler(ContextImpl& context) {
     return {};
 }
 
-Result<void> makeSetLayout(ContextImpl& context, SetIndex index, std::span<const VkDescriptorSetLayoutBinding> bindings,
-                           const char* name) {
+Result<void> makeSetLayout(ContextImpl& context, VkDescriptorSetLayout& layout,
+                           std::span<const VkDescriptorSetLayoutBinding> bindings, const char* name) {
     VkDescriptorSetLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     info.pBindings = bindings.data();
-    VkDescriptorSetLayout& layout = context.setLayouts[static_cast<std::size_t>(index)];
     if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &layout);
         result != VK_SUCCESS) {
         return context.failure(result, "making a descriptor set layout");
     }
     nameObject(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
     return {};
+}
+
+Result<void> makeSetLayout(ContextImpl& context, SetIndex index, std::span<const VkDescriptorSetLayoutBinding> bindings,
+                           const char* name) {
+    return makeSetLayout(context, context.setLayouts[static_cast<std::size_t>(index)], bindings, name);
 }
 
 Result<void> makeSetLayouts(ContextImpl& context) {
@@ -105,12 +109,12 @@ Result<void> makeSetLayouts(ContextImpl& context) {
     return makeSetLayout(context, SetIndex::Mesh, mesh, "mesh set layout");
 }
 
-Result<void> makeLayout(ContextImpl& context, std::uint32_t sets, std::span<const VkPushConstantRange> constants,
-                        VkPipelineLayout& layout, const char* name) {
+Result<void> makeLayout(ContextImpl& context, std::span<const VkDescriptorSetLayout> sets,
+                        std::span<const VkPushConstantRange> constants, VkPipelineLayout& layout, const char* name) {
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = sets;
-    info.pSetLayouts = context.setLayouts.data();
+    info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
+    info.pSetLayouts = sets.data();
     info.pushConstantRangeCount = static_cast<std::uint32_t>(constants.size());
     info.pPushConstantRanges = constants.data();
     if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
@@ -121,34 +125,83 @@ Result<void> makeLayout(ContextImpl& context, std::uint32_t sets, std::span<cons
     return {};
 }
 
+/// The second is that of the projection dominant-axis alone.
+constexpr VkPushConstantRange kRasterConstants[] = {
+    {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
+    {VK_SHADER_STAGE_VERTEX_BIT, VOXTACT_OFFSET_DOMINANT, sizeof(shader::DominantConstants)},
+};
+constexpr VkPushConstantRange kComputeConstants[] = {
+    {VK_SHADER_STAGE_COMPUTE_BIT, 0, std::max(sizeof(shader::ComputeConstants), sizeof(shader::CertifiedConstants))},
+};
+
 Result<void> makeLayouts(ContextImpl& context) {
-    const VkPushConstantRange raster[] = {
-        {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
-        {VK_SHADER_STAGE_VERTEX_BIT, VOXTACT_OFFSET_DOMINANT, sizeof(shader::DominantConstants)},
+    const std::span<const VkDescriptorSetLayout> sets(context.setLayouts);
+    if (Result<void> made = makeLayout(context, sets.first(VOXTACT_SET_PAIRS + 1), std::span(kRasterConstants).first(1),
+                                       context.rasterLayout, "raster pipeline layout");
+        !made.ok()) {
+        return made;
+    }
+    if (Result<void> made = makeLayout(context, sets.first(VOXTACT_SET_MESH + 1), kRasterConstants,
+                                       context.dominantLayout, "dominant-axis pipeline layout");
+        !made.ok()) {
+        return made;
+    }
+    return makeLayout(context, sets.first(VOXTACT_SET_MESH + 1), kComputeConstants, context.computeLayout,
+                      "compute pipeline layout");
+}
+
+Result<void> makeOutputSetLayouts(ContextImpl& context) {
+    constexpr VkShaderStageFlags kWriters = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+    constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | kWriters;
+    constexpr VkDescriptorSetLayoutBinding kPairs[] = {
+        {VOXTACT_BINDING_TRANSFORMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
+        {VOXTACT_BINDING_RESULTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kWriters, nullptr},
+        {VOXTACT_BINDING_OUTPUT_PAIRS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kWriters, nullptr},
+        {VOXTACT_BINDING_OUTPUTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kWriters, nullptr},
     };
-    const VkPushConstantRange compute{VK_SHADER_STAGE_COMPUTE_BIT, 0, std::max(sizeof(shader::ComputeConstants), sizeof(shader::CertifiedConstants))};
-    if (Result<void> made =
-            makeLayout(context, VOXTACT_SET_PAIRS + 1, {raster, 1}, context.rasterLayout, "raster pipeline layout");
+    if (Result<void> made = makeSetLayout(context, context.outputSetLayout, kPairs, "output set layout"); !made.ok()) {
+        return made;
+    }
+    constexpr VkDescriptorSetLayoutBinding kLabels{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, kWriters, nullptr};
+    return makeSetLayout(context, context.labelSetLayout, {&kLabels, 1}, "label set layout");
+}
+
+Result<void> makeOutputLayouts(ContextImpl& context) {
+    if (Result<void> made = makeOutputSetLayouts(context); !made.ok()) {
+        return made;
+    }
+    if (context.limits.maxBoundDescriptorSets < kOutputSets ||
+        context.limits.maxPerStageDescriptorStorageBuffers < kOutputStorageBuffers) {
+        return {};
+    }
+    const VkDescriptorSetLayout sets[] = {context.setLayouts[VOXTACT_SET_VOLUME],
+                                          context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], context.outputSetLayout,
+                                          context.setLayouts[VOXTACT_SET_MESH], context.labelSetLayout};
+    static_assert(std::size(sets) == kOutputSets && kOutputSets == VOXTACT_SET_LABELS + 1);
+    if (Result<void> made = makeLayout(context, sets, kRasterConstants, context.rasterOutputLayout,
+                                       "raster pipeline layout with outputs");
         !made.ok()) {
         return made;
     }
-    if (Result<void> made =
-            makeLayout(context, VOXTACT_SET_MESH + 1, raster, context.dominantLayout, "dominant-axis pipeline layout");
-        !made.ok()) {
-        return made;
-    }
-    return makeLayout(context, VOXTACT_SET_MESH + 1, {&compute, 1}, context.computeLayout, "compute pipeline layout");
+    return makeLayout(context, sets, kComputeConstants, context.computeOutputLayout,
+                      "compute pipeline layout with outputs");
 }
 
 } // namespace
 
 ContextImpl::~ContextImpl() {
-    for (const VkPipelineLayout layout : {rasterLayout, dominantLayout, computeLayout}) {
+    for (const VkPipelineLayout layout :
+         {rasterLayout, dominantLayout, computeLayout, rasterOutputLayout, computeOutputLayout}) {
         if (layout != VK_NULL_HANDLE) {
             vk.DestroyPipelineLayout(device, layout, allocator);
         }
     }
     for (const VkDescriptorSetLayout layout : setLayouts) {
+        if (layout != VK_NULL_HANDLE) {
+            vk.DestroyDescriptorSetLayout(device, layout, allocator);
+        }
+    }
+    for (const VkDescriptorSetLayout layout : {outputSetLayout, labelSetLayout}) {
         if (layout != VK_NULL_HANDLE) {
             vk.DestroyDescriptorSetLayout(device, layout, allocator);
         }
@@ -218,7 +271,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->methods = std::move(report.methods);
         impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
         readProperties(*impl);
-        for (const auto make : {makeSampler, makeSetLayouts, makeLayouts}) {
+        for (const auto make : {makeSampler, makeSetLayouts, makeLayouts, makeOutputLayouts}) {
             if (Result<void> made = make(*impl); !made.ok()) {
                 return made.error();
             }

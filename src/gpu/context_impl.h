@@ -14,6 +14,11 @@ namespace voxtact {
 /// The descriptor sets of every pass: each object of the scene owns its own set, so that recording allocates nothing.
 enum class SetIndex : std::uint32_t { Volume = 0, TransferFunction = 1, Pairs = 2, Mesh = 3 };
 
+/// What the pipeline layouts with outputs need of the limits: bound sets, and storage buffers that a stage sees in
+/// them.
+inline constexpr std::uint32_t kOutputSets = 5;
+inline constexpr std::uint32_t kOutputStorageBuffers = 8;
+
 struct ContextImpl {
     DeviceFunctions vk;
     VkInstance instance = VK_NULL_HANDLE;
@@ -44,6 +49,11 @@ struct ContextImpl {
     std::mutex onDemandMutex; ///< of the two below, which are made for the first object that needs them
     Owned<VkPipeline> brickPipeline;
     Buffer nothing; ///< emptyBuffer()
+    /// The same with outputs beside the counts: VOXTACT_SET_PAIRS has two more bindings, and there is a set more.
+    VkDescriptorSetLayout outputSetLayout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout labelSetLayout = VK_NULL_HANDLE;
+    VkPipelineLayout rasterOutputLayout = VK_NULL_HANDLE; ///< null where the device's limits do not allow for it
+    VkPipelineLayout computeOutputLayout = VK_NULL_HANDLE;
 
     std::atomic<bool> lost{false};
 

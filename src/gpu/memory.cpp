@@ -239,15 +239,27 @@ Result<DescriptorSet> makeDescriptorSet(ContextImpl& context, VkDescriptorSetLay
     return out;
 }
 
-void writeImage(ContextImpl& context, VkDescriptorSet set, VkImageView view, VkImageLayout layout) {
-    const VkDescriptorImageInfo image{context.sampler, view, layout};
+namespace {
+
+void writeImage(ContextImpl& context, VkDescriptorSet set, VkDescriptorType type, const VkDescriptorImageInfo& image) {
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
     write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.descriptorType = type;
     write.pImageInfo = &image;
     context.vk.UpdateDescriptorSets(context.device, 1, &write, 0, nullptr);
+}
+
+} // namespace
+
+void writeImage(ContextImpl& context, VkDescriptorSet set, VkImageView view, VkImageLayout layout) {
+    writeImage(context, set, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {context.sampler, view, layout});
+}
+
+void writeSampledImage(ContextImpl& context, VkDescriptorSet set, VkImageView view) {
+    writeImage(context, set, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+               {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 
 void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer,

@@ -103,6 +103,8 @@ struct DescriptorSet {
                                                       std::span<const VkDescriptorPoolSize> sizes, const char* name);
 /// Writes a combined image sampler at binding 0.
 void writeImage(ContextImpl& context, VkDescriptorSet set, VkImageView view, VkImageLayout layout);
+/// Writes a sampled image at binding 0, readable by every shader.
+void writeSampledImage(ContextImpl& context, VkDescriptorSet set, VkImageView view);
 /// Writes a storage buffer, from its start on.
 void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer,
                  VkDeviceSize range = VK_WHOLE_SIZE);

@@ -142,7 +142,8 @@ Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterP
 }
 
 Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
-                                              std::span<const ShaderConstant> constants, const char* name) {
+                                              std::span<const ShaderConstant> constants, VkPipelineLayout layout,
+                                              const char* name) {
     Result<Owned<VkShaderModule>> module = makeModule(context, spirv);
     if (!module.ok()) {
         return module.error();
@@ -152,7 +153,7 @@ Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<co
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, module->get());
     info.stage.pSpecializationInfo = &specialization.info;
-    info.layout = context.computeLayout;
+    info.layout = layout;
     VkPipeline handle = VK_NULL_HANDLE;
     if (const VkResult result = context.vk.CreateComputePipelines(context.device, context.pipelineCache, 1, &info,
                                                                   context.allocator, &handle);

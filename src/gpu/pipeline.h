@@ -30,9 +30,8 @@ struct RasterPipelineDesc {
 /// and far planes clip.
 [[nodiscard]] Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc);
 
-/// A compute pipeline. Layout: ContextImpl::computeLayout.
 [[nodiscard]] Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
                                                             std::span<const ShaderConstant> constants,
-                                                            const char* name);
+                                                            VkPipelineLayout layout, const char* name);
 
 } // namespace voxtact

@@ -18,8 +18,11 @@ constexpr std::array kRequirements{
     Requirement{"dynamicRendering", kVulkan13, true, "nothing works: every pass is a dynamic rendering"},
     Requirement{"synchronization2", kVulkan13, true, "nothing works: every barrier is a VkDependencyInfo"},
     Requirement{"occlusionQueryPrecise", kCore, false, "no counting method query"},
-    Requirement{"fragmentStoresAndAtomics", kCore, false, "no counting methods atomic and subgroup"},
-    Requirement{"geometryShader", kCore, false, "no list of surviving fragments (gl_PrimitiveID needs it)"},
+    Requirement{"fragmentStoresAndAtomics", kCore, false,
+                "no counting methods atomic and subgroup, and no outputs beside the counts by the rasteriser"},
+    Requirement{
+        "geometryShader", kCore, false,
+        "no outputs beside the counts by the rasteriser, and no list of surviving fragments (gl_PrimitiveID needs it)"},
     Requirement{"shaderInt64", kCore, false, "no counting method compute"},
 };
 

@@ -4,6 +4,8 @@
 #include "gpu/memory.h"
 #include "voxtact/scene.h"
 
+#include <vector>
+
 namespace voxtact {
 
 struct VolumeImpl {
@@ -55,5 +57,20 @@ struct MeshImpl {
     std::uint32_t clusterWord = 0;
     Buffer staging{};
 };
+
+/// The format of a label map: numbers of labels.
+inline constexpr VkFormat kLabelFormat = VK_FORMAT_R16_UINT;
+
+struct LabelMapImpl {
+    ContextImpl& context;
+    Grid grid{};
+    std::shared_ptr<const std::vector<std::int32_t>> values{}; ///< shared with the Results that are still to be read
+    Image image{};
+    Buffer staging{};
+    DescriptorSet descriptors{};
+};
+
+/// A set of ContextImpl::labelSetLayout.
+[[nodiscard]] Result<DescriptorSet> makeLabelSet(ContextImpl& context, VkImageView view, const char* name);
 
 } // namespace voxtact

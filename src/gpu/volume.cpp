@@ -4,12 +4,12 @@
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"
+#include "gpu/image_limits.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 #include "gpu/texels.h"
 #include "shared.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -67,33 +67,6 @@ Result<void> checkFormat(const ContextImpl& context, VkFormat format, const char
         return Error{ErrorCode::Unsupported, 0,
                      std::string("the device cannot filter the format of ") + type + " voxels (VkFormat " +
                          std::to_string(format) + ") linearly"};
-    }
-    return {};
-}
-
-Result<void> checkLimits(ContextImpl& context, const VolumeView& data, VkFormat format, VkImageUsageFlags usage) {
-    constexpr const char* kAxes[] = {"x", "y", "z"};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (data.grid.size[axis] > context.limits.maxImageDimension3D) {
-            return Error{ErrorCode::LimitExceeded, 0,
-                         "the volume has " + std::to_string(data.grid.size[axis]) + " voxels along " + kAxes[axis] +
-                             ", the device's maxImageDimension3D is " +
-                             std::to_string(context.limits.maxImageDimension3D)};
-        }
-    }
-    VkImageFormatProperties properties{};
-    const VkResult result = context.vk.GetPhysicalDeviceImageFormatProperties(
-        context.physicalDevice, format, VK_IMAGE_TYPE_3D, VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
-    if (result != VK_SUCCESS) {
-        return context.failure(result, "asking for the limits of a 3D image");
-    }
-    const VkDeviceSize bytes = voxelCount(data.grid) * bytesPerVoxel(data.type);
-    const VkDeviceSize most = std::min(properties.maxResourceSize, context.maxAllocation);
-    if (bytes > most) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     "the volume has " + std::to_string(bytes) +
-                         " bytes, the device's largest image (maxResourceSize, maxMemoryAllocationSize) has " +
-                         std::to_string(most)};
     }
     return {};
 }
@@ -216,7 +189,9 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         if (Result<void> checked = checkFormat(c, format, toString(data.type)); !checked.ok()) {
             return checked.error();
         }
-        if (Result<void> limits = checkLimits(c, data, format, usageOf(options)); !limits.ok()) {
+        if (Result<void> limits = checkImageLimits(c, data.grid, format, usageOf(options), bytesPerVoxel(data.type),
+                                                   "the volume");
+            !limits.ok()) {
             return limits.error();
         }
         const Result<ValueRange> range = checkVolume(data);

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/outputs.h"
+#include "core/output_pair.h"
+#include "core/pair_transform.h"
+#include "core/sort_contacts.h"
+#include "cpu/lone_triangle.h"
+#include "cpu/scalar_sample.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <tuple>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using namespace shader;
+
+/// The opacity of a volume under a transfer function, as contact.h wants it.
+struct HostField {
+    const StoredImage& image;
+    const std::vector<float>& table;
+    const ItemConstants& constants;
+
+    [[nodiscard]] float stored(const ContactVector& inside) const {
+        return storedAt(image, inside.x, inside.y, inside.z);
+    }
+    [[nodiscard]] float opacityOf(float stored) const {
+        return cpu::opacityOf(table, constants, stored);
+    }
+    [[nodiscard]] float opacity(const OutputPair&, const ContactVector& inside) const {
+        return opacityOf(stored(inside));
+    }
+};
+
+Vec3 widened(const ContactVector& vector) {
+    return {vector.x, vector.y, vector.z};
+}
+
+/// The number of the label 0 stands for an index beyond the values, which makeLabels() does not make.
+std::uint32_t labelNumber(const OutputPair& pair, const LabelData& labels, const ContactVector& at) {
+    const ContactVector place =
+        contactTransform(pair.label_from_texture[0], pair.label_from_texture[1], pair.label_from_texture[2], at);
+    const std::size_t x = contactVoxel(place.x, pair.labelSizeX);
+    const std::size_t y = contactVoxel(place.y, pair.labelSizeY);
+    const std::size_t z = contactVoxel(place.z, pair.labelSizeZ);
+    if (x >= pair.labelSizeX || y >= pair.labelSizeY || z >= pair.labelSizeZ) {
+        return pair.outsideLabel;
+    }
+    const std::uint32_t number = labels.indices[(z * pair.labelSizeY + y) * pair.labelSizeX + x];
+    return number < pair.labelCount ? number : pair.outsideLabel;
+}
+
+/// The fragments of some clusters of one pair.
+template <class Survivor> class Fragments {
+  public:
+    Fragments(const PairJob& job, float threshold, const Survivor& survivor)
+        : job_(job), threshold_(threshold), survivor_(survivor) {}
+
+    std::uint64_t visit() {
+        for (std::uint32_t cluster = job_.clusterBegin; cluster < job_.clusterEnd; ++cluster) {
+            if (!isClear(job_, cluster)) {
+                visitCluster(cluster);
+            }
+        }
+        return survivors_;
+    }
+
+  private:
+    void visitCluster(std::uint32_t cluster) {
+        const ClusterPlace& place = job_.mesh.clusters[cluster];
+        for (std::uint32_t i = place.firstTriangle; i < place.firstTriangle + place.triangleCount; ++i) {
+            ExactTriangle pieces[EXACT_MAX_CORNERS];
+            const std::size_t count = setUpLone(job_, {cluster, i}, pieces);
+            for (std::size_t piece = 0; piece < count; ++piece) {
+                visitPiece(pieces[piece], job_.mesh.numbers[i]);
+            }
+        }
+    }
+
+    void visitPiece(const ExactTriangle& piece, std::uint32_t triangle) {
+        if (triangleClass(job_, piece) == kClearBrick) {
+            return;
+        }
+        const RowSpans spans(piece);
+        for (std::int32_t row = 0; row < spans.rows(); ++row) {
+            const RowSpan span = spans.span(row);
+            for (std::int32_t column = span.first; column <= span.last; ++column) {
+                ContactVector at{};
+                exactFragment(piece, piece.minX + column, piece.minY + row, at.x, at.y, at.z);
+                if (survives(at)) {
+                    ++survivors_;
+                    survivor_(triangle, at);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool survives(const ContactVector& at) const {
+        if (job_.view.rangeTest && !contactInDomain(at)) {
+            return false;
+        }
+        const HostField field{job_.volume.image, job_.occupancy.table(), job_.occupancy.constants()};
+        return field.opacityOf(field.stored(contactClamp(at))) >= threshold_;
+    }
+
+    const PairJob& job_;
+    float threshold_;
+    const Survivor& survivor_;
+    std::uint64_t survivors_ = 0;
+};
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Box kNoBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+void grow(Box& box, const Box& by) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(box.lo[axis], by.lo[axis]);
+        box.hi[axis] = std::max(box.hi[axis], by.hi[axis]);
+    }
+}
+
+} // namespace
+
+OutputRun::Sink::Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread)
+    : run_(run), item_(run.items_[item]), pair_(pair), found_(run.found_[thread]), box_(kNoBox) {
+    if (run.outputs_.labels) {
+        histogram_.resize(item_.labels->values.size());
+    }
+}
+
+void OutputRun::Sink::add(std::uint32_t triangle, const ContactVector& at) {
+    any_ = true;
+    if (run_.outputs_.triangles) {
+        std::vector<TouchedTriangle>& list = found_.triangles;
+        if (list.empty() || list.back().pair != pair_ || list.back().triangle != triangle) {
+            list.push_back({pair_, triangle, 0});
+        }
+        ++list.back().count;
+    }
+    const auto& rows = item_.pair.world_from_texture;
+    const Vec3 position = widened(contactTransform(rows[0], rows[1], rows[2], at));
+    if (run_.outputs_.bounds) {
+        grow(box_, {position, position});
+    }
+    const std::uint32_t label = item_.labels == nullptr ? 0 : labelNumber(item_.pair, *item_.labels, at);
+    if (run_.outputs_.labels) {
+        ++histogram_[label];
+    }
+    if (run_.outputs_.contacts && run_.contacts_.fetch_add(1, std::memory_order_relaxed) < run_.mostContacts_) {
+        addContact(at, position, triangle, label);
+    }
+}
+
+void OutputRun::Sink::addContact(const ContactVector& at, const Vec3& position, std::uint32_t triangle,
+                                 std::uint32_t label) {
+    const HostField field{*item_.image, *item_.table, item_.pair.item};
+    const float stored = field.stored(contactClamp(at));
+    const ContactVector normal = contactNormal(field, item_.pair, at);
+    const float scaled = stored * item_.pair.valueScale;
+    found_.contacts.push_back({.pair = pair_,
+                               .triangle = triangle,
+                               .position = position,
+                               .normal = widened(normal),
+                               .depth = contactDepth(field, item_.pair, at, normal),
+                               .value = scaled + item_.pair.valueBias,
+                               .opacity = field.opacityOf(stored),
+                               .label = item_.labels == nullptr ? 0 : item_.labels->values[label]});
+}
+
+void OutputRun::Sink::publish() {
+    if (run_.outputs_.bounds && any_) {
+        found_.boxes.emplace_back(pair_, box_);
+    }
+    for (std::size_t label = 0; label < histogram_.size(); ++label) {
+        if (histogram_[label] > 0) {
+            found_.labels.push_back({pair_, item_.labels->values[label], histogram_[label]});
+        }
+    }
+}
+
+Result<void> checkOutputs(const DetectorDesc& desc) {
+    if (desc.outputs.any() && desc.stopAtFirst) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "DetectorDesc::stopAtFirst finds one survivor, the outputs need all of them"};
+    }
+    return voxtact::checkOutputs(desc.outputs);
+}
+
+Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs) {
+    if (!outputs.labels && !outputs.contacts) {
+        return {};
+    }
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        const LabelData* labels = batch.items[i].labels;
+        const std::string which = "batch item " + std::to_string(i);
+        if (labels == nullptr && outputs.labels) {
+            return Error{ErrorCode::InvalidArgument, 0, which + " has no label map, which the output labels needs"};
+        }
+        if (labels == nullptr) {
+            continue;
+        }
+        if (Result<void> checked = checkLabelValues(*labels); !checked.ok()) {
+            return Error{ErrorCode::InvalidArgument, 0, which + ": " + checked.error().text};
+        }
+    }
+    return {};
+}
+
+OutputRun::OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t pairs, std::uint32_t threads)
+    : outputs_(desc.outputs), mostContacts_(desc.mostContacts), pairs_(pairs), found_(threads) {
+    for (const BatchItem& item : batch.items) {
+        const VolumeImpl& volume = item.volume->impl();
+        const ItemConstants constants =
+            itemConstants(1, volume.storedIntercept, item.transferFunction->impl().domain, batch.threshold);
+        const LabelData* labels = outputs_.labels || outputs_.contacts ? item.labels : nullptr;
+        items_.push_back(
+            {outputPair(volume.grid, volume.texture_from_world, constants, 1, volume.storedIntercept, outputs_),
+             labels, &volume.image, &item.transferFunction->impl().table});
+        if (labels != nullptr) {
+            addLabelMap(items_.back().pair, volume.grid, labels->grid, labels->values);
+        }
+    }
+}
+
+void OutputRun::collect(std::size_t item, std::uint32_t pair, std::uint32_t thread,
+                        const std::function<void(Sink&)>& body) noexcept {
+    try {
+        Sink sink(*this, item, pair, thread);
+        body(sink);
+        sink.publish();
+    } catch (const std::bad_alloc&) {
+        outOfMemory_.store(true, std::memory_order_relaxed);
+    }
+}
+
+std::uint64_t OutputRun::collect(const PairJob& job, std::size_t item, std::uint32_t pair,
+                                 std::uint32_t thread) noexcept {
+    std::uint64_t survivors = 0;
+    collect(item, pair, thread, [&](Sink& sink) {
+        const auto add = [&sink](std::uint32_t triangle, const ContactVector& at) { sink.add(triangle, at); };
+        survivors = Fragments(job, items_[item].pair.item.threshold, add).visit();
+    });
+    return survivors;
+}
+
+void OutputRun::mergeTriangles(BatchAnswer& answer) const {
+    std::vector<TouchedTriangle> parts;
+    for (const Found& found : found_) {
+        parts.insert(parts.end(), found.triangles.begin(), found.triangles.end());
+    }
+    std::sort(parts.begin(), parts.end(), [](const TouchedTriangle& a, const TouchedTriangle& b) {
+        return std::tie(a.pair, a.triangle) < std::tie(b.pair, b.triangle);
+    });
+    for (const TouchedTriangle& part : parts) {
+        // A triangle comes more than once where a pair is seen more than once.
+        if (!answer.triangles.empty() && answer.triangles.back().pair == part.pair &&
+            answer.triangles.back().triangle == part.triangle) {
+            answer.triangles.back().count += part.count;
+        } else {
+            answer.triangles.push_back(part);
+        }
+    }
+}
+
+void OutputRun::mergeBoxes(BatchAnswer& answer) const {
+    answer.bounds.resize(pairs_);
+    for (const Found& found : found_) {
+        for (const auto& [pair, box] : found.boxes) {
+            std::optional<Box>& whole = answer.bounds[pair];
+            if (!whole) {
+                whole = box;
+            }
+            grow(*whole, box);
+        }
+    }
+}
+
+void OutputRun::mergeLabels(BatchAnswer& answer) const {
+    std::vector<LabelCount> parts;
+    for (const Found& found : found_) {
+        parts.insert(parts.end(), found.labels.begin(), found.labels.end());
+    }
+    std::sort(parts.begin(), parts.end(), [](const LabelCount& a, const LabelCount& b) {
+        return std::tie(a.pair, a.label) < std::tie(b.pair, b.label);
+    });
+    for (const LabelCount& part : parts) {
+        if (!answer.labels.empty() && answer.labels.back().pair == part.pair &&
+            answer.labels.back().label == part.label) {
+            answer.labels.back().count += part.count;
+        } else {
+            answer.labels.push_back(part);
+        }
+    }
+}
+
+void OutputRun::finish(BatchAnswer& answer) {
+    if (outOfMemory_.load(std::memory_order_relaxed)) {
+        throw std::bad_alloc();
+    }
+    for (const Found& found : found_) {
+        answer.contacts.insert(answer.contacts.end(), found.contacts.begin(), found.contacts.end());
+    }
+    mergeTriangles(answer);
+    sortContacts(answer.contacts);
+    answer.contactsFound = contacts_.load(std::memory_order_relaxed);
+    if (outputs_.bounds) {
+        mergeBoxes(answer);
+    }
+    mergeLabels(answer);
+}
+
+} // namespace voxtact::cpu

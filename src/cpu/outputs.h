@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "contact.h"
+#include "cpu/pair_job.h"
+#include "voxtact/cpu.h"
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// Refuses outputs that the host engine cannot do, and a maximal depth that is not a positive number.
+[[nodiscard]] Result<void> checkOutputs(const DetectorDesc& desc);
+/// Refuses a label map that is not there where labels are asked for, or is none.
+[[nodiscard]] Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs);
+
+/// The outputs beside the counts of one batch, in the arithmetic of exact.h and contact.h. Threads share the pairs, and
+/// the triangles of a pair.
+class OutputRun {
+  public:
+    class Sink;
+
+    OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t pairs, std::uint32_t threads);
+
+    /// Survivors of the job's clusters, every fragment one after the other, after whose outputs were taken. No two calls
+    /// at a time with the same thread, nor two with the same cluster of a pair.
+    std::uint64_t collect(const PairJob& job, std::size_t item, std::uint32_t pair, std::uint32_t thread) noexcept;
+    /// `body` is called with a Sink for some survivors of a pair, found by somebody else. As collect().
+    void collect(std::size_t item, std::uint32_t pair, std::uint32_t thread,
+                 const std::function<void(Sink&)>& body) noexcept;
+    /// Once all threads are done. Throws std::bad_alloc where one of them had no memory.
+    void finish(BatchAnswer& answer);
+
+  private:
+    /// What one thread has found.
+    struct Found {
+        std::vector<TouchedTriangle> triangles;
+        std::vector<Contact> contacts;
+        std::vector<std::pair<std::uint32_t, Box>> boxes; ///< of parts of pairs
+        std::vector<LabelCount> labels;                   ///< of parts of pairs
+    };
+    /// What is the same for all pairs of an item.
+    struct ItemOutputs {
+        shader::OutputPair pair;
+        const LabelData* labels;
+        const StoredImage* image;
+        const std::vector<float>* table;
+    };
+
+    void mergeTriangles(BatchAnswer& answer) const;
+    void mergeBoxes(BatchAnswer& answer) const;
+    void mergeLabels(BatchAnswer& answer) const;
+
+    Outputs outputs_;
+    std::uint32_t mostContacts_;
+    std::uint32_t pairs_;
+    std::vector<ItemOutputs> items_;
+    std::vector<Found> found_; ///< by thread
+    std::atomic<std::uint64_t> contacts_{0};
+    std::atomic<bool> outOfMemory_{false};
+};
+
+/// Takes the outputs of survivors of one pair.
+class OutputRun::Sink {
+  public:
+    Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread);
+
+    /// Texture space; in the domain, unless coordinates are clamped.
+    void add(std::uint32_t triangle, const shader::ContactVector& at);
+    /// Once all were added.
+    void publish();
+
+  private:
+    void addContact(const shader::ContactVector& at, const Vec3& position, std::uint32_t triangle,
+                    std::uint32_t label);
+
+    OutputRun& run_;
+    const ItemOutputs& item_;
+    std::uint32_t pair_;
+    Found& found_;
+    bool any_ = false;
+    Box box_;
+    std::vector<std::uint64_t> histogram_;
+};
+
+} // namespace voxtact::cpu

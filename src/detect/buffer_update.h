@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "gpu/context_impl.h"
+
+#include <array>
+
+namespace voxtact {
+
+/// vkCmdUpdateBuffer takes at most 65536 bytes.
+inline constexpr std::size_t kMostUpdateBytes = 65536;
+
+/// Collects records of one type and updates a buffer from its start with as many at once as Vulkan takes.
+template <class Record> class BufferUpdate {
+  public:
+    BufferUpdate(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer buffer)
+        : context_(context), commandBuffer_(commandBuffer), buffer_(buffer) {}
+
+    void add(const Record& record) {
+        records_[pending_++] = record;
+        if (pending_ == records_.size()) {
+            finish();
+        }
+    }
+    void finish() {
+        if (pending_ > 0) {
+            context_.vk.CmdUpdateBuffer(commandBuffer_, buffer_, written_ * sizeof(Record), pending_ * sizeof(Record),
+                                        records_.data());
+            written_ += pending_;
+            pending_ = 0;
+        }
+    }
+
+  private:
+    const ContextImpl& context_;
+    VkCommandBuffer commandBuffer_;
+    VkBuffer buffer_;
+    std::array<Record, kMostUpdateBytes / sizeof(Record)> records_;
+    std::size_t pending_ = 0;
+    VkDeviceSize written_ = 0;
+};
+
+} // namespace voxtact

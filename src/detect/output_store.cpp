@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "detect/output_store.h"
+#include "detect/results_impl.h"
+#include "gpu/context_impl.h"
+#include "gpu/scene_impl.h"
+
+namespace voxtact {
+
+namespace {
+
+/// Bytes; no device has a larger minStorageBufferOffsetAlignment.
+constexpr std::uint64_t kAlignment = 256;
+constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+
+std::uint64_t aligned(std::uint64_t word) {
+    constexpr std::uint64_t kWords = kAlignment / kWord;
+    return (word + kWords - 1) / kWords * kWords;
+}
+
+OutputLayout layoutOf(const OutputRoom& room, std::uint64_t pairs) {
+    OutputLayout layout;
+    layout.triangles = aligned(layout.bounds + pairs * OUTPUT_BOUND_WORDS);
+    layout.mask = aligned(layout.triangles + room.triangles);
+    // Each pair begins with a word of its own.
+    layout.labels = aligned(layout.mask + room.triangles / 32 + pairs);
+    layout.contacts = aligned(layout.labels + room.labels);
+    layout.end = layout.contacts + OUTPUT_HEADER_WORDS + std::uint64_t{room.contacts} * OUTPUT_CONTACT_WORDS;
+    return layout;
+}
+
+Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
+    const std::uint64_t most = context.limits.maxStorageBufferRange;
+    // Sums of larger ones could overflow.
+    const bool huge = desc.room->triangles > most || desc.room->labels > most;
+    if (huge || layoutOf(*desc.room, desc.maxPairs).end * kWord > most) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the outputs of " + std::to_string(desc.maxPairs) + " pairs with room for " +
+                         std::to_string(desc.room->triangles) + " triangles, " + std::to_string(desc.room->labels) +
+                         " labels and " + std::to_string(desc.room->contacts) +
+                         " contacts are beyond the device's maxStorageBufferRange, " + std::to_string(most)};
+    }
+    if (std::uint64_t{desc.maxPairs} * sizeof(shader::OutputPair) > most) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the outputs of " + std::to_string(desc.maxPairs) + " pairs need a buffer of " +
+                         std::to_string(std::uint64_t{desc.maxPairs} * sizeof(shader::OutputPair)) +
+                         " bytes, the device's maxStorageBufferRange is " + std::to_string(most)};
+    }
+    return {};
+}
+
+Result<void> makeBuffers(ContextImpl& context, const ResultsDesc& desc, OutputStore& out) {
+    const VkDeviceSize bytes = out.layout.end * kWord;
+    constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    Result<Buffer> pairs = makeBuffer(context, VkDeviceSize{desc.maxPairs} * sizeof(shader::OutputPair), kTo,
+                                      MemoryUse::Device, "output pairs");
+    if (!pairs.ok()) {
+        return pairs.error();
+    }
+    out.pairs = std::move(*pairs);
+    Result<Buffer> words =
+        makeBuffer(context, bytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "outputs");
+    if (!words.ok()) {
+        return words.error();
+    }
+    out.words = std::move(*words);
+    if (desc.readBack) {
+        Result<Buffer> readBack =
+            makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "outputs on the host");
+        if (!readBack.ok()) {
+            return readBack.error();
+        }
+        out.readBack = std::move(*readBack);
+    }
+    return {};
+}
+
+Result<void> makeNoLabels(ContextImpl& context, OutputStore& out) {
+    ImageDesc desc;
+    desc.format = kLabelFormat;
+    Result<Image> image = makeImage(context, desc, "the place of a label map", "no label map");
+    if (!image.ok()) {
+        return image.error();
+    }
+    out.noLabels = std::move(*image);
+    Result<DescriptorSet> set = makeLabelSet(context, out.noLabels.view.get(), "no label map");
+    if (!set.ok()) {
+        return set.error();
+    }
+    out.noLabelsSet = std::move(*set);
+    return {};
+}
+
+Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer transforms, VkBuffer results) {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.outputSetLayout, {&size, 1}, "pairs with outputs");
+    if (!set.ok()) {
+        return set.error();
+    }
+    out.descriptors = std::move(*set);
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, transforms);
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, results);
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_OUTPUT_PAIRS, out.pairs.get());
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_OUTPUTS, out.words.get());
+    return {};
+}
+
+BufferRange rangeOf(const OutputStore& store, std::uint64_t first, std::uint64_t words) {
+    if (words == 0) {
+        return {};
+    }
+    return {store.words.get(), first * kWord, words * kWord};
+}
+
+} // namespace
+
+Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc, VkBuffer transforms,
+                                                     VkBuffer results) {
+    if (Result<void> checked = checkRoom(context, desc); !checked.ok()) {
+        return checked.error();
+    }
+    auto out = std::make_unique<OutputStore>();
+    out->maxPairs = desc.maxPairs;
+    out->room = *desc.room;
+    out->layout = layoutOf(*desc.room, desc.maxPairs);
+    if (Result<void> made = makeBuffers(context, desc, *out); !made.ok()) {
+        return made.error();
+    }
+    if (Result<void> made = makeNoLabels(context, *out); !made.ok()) {
+        return made.error();
+    }
+    if (Result<void> made = makeDescriptors(context, *out, transforms, results); !made.ok()) {
+        return made.error();
+    }
+    return out;
+}
+
+OutputRoom roomFor(const Batch& batch) noexcept {
+    OutputRoom room{.contacts = 0};
+    for (const BatchItem& item : batch.items) {
+        const std::uint64_t pairs = item.world_from_object.size();
+        room.triangles += item.mesh == nullptr ? 0 : pairs * item.mesh->triangles();
+        room.labels += item.labels == nullptr ? 0 : pairs * item.labels->values().size();
+    }
+    return room;
+}
+
+VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noexcept {
+    return item.labels == nullptr ? store.noLabelsSet.set : item.labels->impl().descriptors.set;
+}
+
+BufferRange Results::triangleCounts() const noexcept {
+    const OutputStore* store = impl_->outputs.get();
+    return store == nullptr ? BufferRange{} : rangeOf(*store, store->layout.triangles, store->room.triangles);
+}
+
+BufferRange Results::triangleMask() const noexcept {
+    const OutputStore* store = impl_->outputs.get();
+    if (store == nullptr || store->room.triangles == 0) {
+        return {};
+    }
+    return rangeOf(*store, store->layout.mask, store->room.triangles / 32 + store->maxPairs);
+}
+
+BufferRange Results::contacts() const noexcept {
+    const OutputStore* store = impl_->outputs.get();
+    return store == nullptr ? BufferRange{}
+                            : rangeOf(*store, store->layout.contacts, store->layout.end - store->layout.contacts);
+}
+
+BufferRange Results::bounds() const noexcept {
+    const OutputStore* store = impl_->outputs.get();
+    return store == nullptr
+               ? BufferRange{}
+               : rangeOf(*store, store->layout.bounds, std::uint64_t{store->maxPairs} * OUTPUT_BOUND_WORDS);
+}
+
+BufferRange Results::labelCounts() const noexcept {
+    const OutputStore* store = impl_->outputs.get();
+    return store == nullptr ? BufferRange{} : rangeOf(*store, store->layout.labels, store->room.labels);
+}
+
+} // namespace voxtact

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "contact.h"
+#include "gpu/memory.h"
+#include "voxtact/detector.h"
+
+#include <memory>
+
+namespace voxtact {
+
+/// Where the parts of an outputs buffer begin, in words. Each part begins where a descriptor may.
+struct OutputLayout {
+    std::uint64_t bounds = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t mask = 0;
+    std::uint64_t labels = 0;
+    std::uint64_t contacts = 0;
+    std::uint64_t end = 0;
+};
+
+/// What readOutputs() needs of a batch item.
+struct OutputItem {
+    std::uint32_t pairs = 0;
+    std::uint32_t triangles = 0;
+    std::shared_ptr<const std::vector<std::int32_t>> labels{}; ///< null: no label map
+};
+
+/// The outputs of a Results that has room for them.
+struct OutputStore {
+    std::uint32_t maxPairs = 0;
+    OutputRoom room{};
+    OutputLayout layout{};
+    Buffer pairs{};                  ///< maxPairs OutputPairs
+    Buffer words{};                  ///< everything that shaders write, by `layout`
+    Buffer readBack{};               ///< the host's copy of it; empty when not asked for
+    Image noLabels{};                ///< a single voxel that stands in where an item has no label map; never read
+    DescriptorSet noLabelsSet{};     ///< of it
+    DescriptorSet descriptors{};     ///< as VOXTACT_SET_PAIRS
+    Outputs recorded{};              ///< of the detector of the batch recorded last
+    std::vector<OutputItem> items{}; ///< of that batch
+};
+
+/// Refuses room beyond the device's limits (which limit, how large).
+[[nodiscard]] Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc,
+                                                                   VkBuffer transforms, VkBuffer results);
+
+/// Room that a batch needs, its contacts aside. Null meshes and label maps need none.
+[[nodiscard]] OutputRoom roomFor(const Batch& batch) noexcept;
+
+/// Records the clearing of what the outputs of a batch go to, and what the shaders need to know of its pairs. Between
+/// the barriers of prepareResults(). Remembers the batch for unpackOutputs().
+void recordOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch, OutputStore& store);
+
+/// Records the copies of the outputs of the batch recorded last to the host. Between the barriers of cmdReadBack().
+void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, const OutputStore& store);
+
+/// From the host's copy.
+void unpackOutputs(const OutputStore& store, BatchAnswer& answer);
+
+/// The set that VOXTACT_SET_LABELS is bound to.
+[[nodiscard]] VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noexcept;
+
+} // namespace voxtact

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/image_limits.h"
+
+#include <algorithm>
+
+namespace voxtact {
+
+Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage, std::size_t bytesOfVoxel,
+                              const std::string& what) {
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (grid.size[axis] > context.limits.maxImageDimension3D) {
+            return Error{ErrorCode::LimitExceeded, 0,
+                         what + " has " + std::to_string(grid.size[axis]) + " voxels along " + kAxes[axis] +
+                             ", the device's maxImageDimension3D is " +
+                             std::to_string(context.limits.maxImageDimension3D)};
+        }
+    }
+    VkImageFormatProperties properties{};
+    const VkResult result = context.vk.GetPhysicalDeviceImageFormatProperties(
+        context.physicalDevice, format, VK_IMAGE_TYPE_3D, VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
+    if (result != VK_SUCCESS) {
+        return context.failure(result, "asking for the limits of a 3D image");
+    }
+    const VkDeviceSize bytes = voxelCount(grid) * bytesOfVoxel;
+    const VkDeviceSize most = std::min(properties.maxResourceSize, context.maxAllocation);
+    if (bytes > most) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     what + " has " + std::to_string(bytes) +
+                         " bytes, the device's largest image (maxResourceSize, maxMemoryAllocationSize) has " +
+                         std::to_string(most)};
+    }
+    return {};
+}
+
+} // namespace voxtact

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "core/output_pair.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "gpu/image_limits.h"
+#include "gpu/scene_impl.h"
+#include "gpu/submit.h"
+
+#include <cstring>
+
+namespace voxtact {
+
+namespace {
+
+VkExtent3D extentOf(const Grid& grid) {
+    return {grid.size[0], grid.size[1], grid.size[2]};
+}
+
+Result<void> fillMap(LabelMapImpl& map, const LabelData& data, const char* name) {
+    ContextImpl& context = map.context;
+    ImageDesc desc;
+    desc.format = kLabelFormat;
+    desc.extent = extentOf(data.grid);
+    Result<Image> image = makeImage(context, desc, "the label map", name);
+    if (!image.ok()) {
+        return image.error();
+    }
+    map.image = std::move(*image);
+    const VkDeviceSize bytes = data.indices.size() * sizeof data.indices[0];
+    Result<Buffer> staging =
+        makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "label map staging");
+    if (!staging.ok()) {
+        return staging.error();
+    }
+    map.staging = std::move(*staging);
+    std::memcpy(map.staging.mapped, data.indices.data(), bytes);
+    if (Result<void> flushed = flush(context, map.staging); !flushed.ok()) {
+        return flushed;
+    }
+    Result<DescriptorSet> set = makeLabelSet(context, map.image.view.get(), name);
+    if (!set.ok()) {
+        return set.error();
+    }
+    map.descriptors = std::move(*set);
+    return {};
+}
+
+} // namespace
+
+Result<DescriptorSet> makeLabelSet(ContextImpl& context, VkImageView view, const char* name) {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.labelSetLayout, {&size, 1}, name);
+    if (set.ok()) {
+        writeSampledImage(context, set->set, view);
+    }
+    return set;
+}
+
+LabelMap::LabelMap(std::unique_ptr<LabelMapImpl> impl) noexcept : impl_(std::move(impl)) {}
+LabelMap::LabelMap(LabelMap&&) noexcept = default;
+LabelMap& LabelMap::operator=(LabelMap&&) noexcept = default;
+LabelMap::~LabelMap() = default;
+
+Result<LabelMap> LabelMap::create(const Context& context, const LabelData& data, const char* name) {
+    return guard([&]() -> Result<LabelMap> {
+        ContextImpl& c = context.impl();
+        if (Result<void> alive = c.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        if (Result<void> checked = checkLabels(data); !checked.ok()) {
+            return checked.error();
+        }
+        if (Result<void> limits = checkImageLimits(c, data.grid, kLabelFormat, ImageDesc{}.usage, sizeof data.indices[0], "the label map");
+            !limits.ok()) {
+            return limits.error();
+        }
+        auto impl = std::make_unique<LabelMapImpl>(LabelMapImpl{.context = c, .grid = data.grid});
+        impl->values = std::make_shared<const std::vector<std::int32_t>>(data.values);
+        if (Result<void> filled = fillMap(*impl, data, name == nullptr ? "label map" : name); !filled.ok()) {
+            return filled.error();
+        }
+        return LabelMap(std::move(impl));
+    });
+}
+
+Result<LabelMap> LabelMap::upload(const Context& context, const QueueAccess& queue, const LabelData& data,
+                                  const char* name) {
+    return guard([&] { return uploaded(context.impl(), queue, create(context, data, name)); });
+}
+
+Result<void> LabelMap::cmdUpload(VkCommandBuffer commandBuffer) {
+    return guard([&]() -> Result<void> {
+        if (!impl_->staging.buffer) {
+            return notUploadable("label map");
+        }
+        const Label label(impl_->context, commandBuffer, "voxtact label map upload");
+        cmdFillImage(impl_->context, commandBuffer, impl_->staging.get(), impl_->image.image.get(),
+                     extentOf(impl_->grid));
+        return {};
+    });
+}
+
+void LabelMap::releaseStaging() noexcept {
+    impl_->staging = {};
+}
+
+const Grid& LabelMap::grid() const noexcept {
+    return impl_->grid;
+}
+
+std::span<const std::int32_t> LabelMap::values() const noexcept {
+    return *impl_->values;
+}
+
+} // namespace voxtact

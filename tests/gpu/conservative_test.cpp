@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The projection `conservative` on the device: the same fragments as on the host, which the certified oracle judges.
+#include "gpu_fixture.h"
+
+#include "cpu/certified_scenes.h"
+#include "support/scenes.h"
+#include "voxtact/builtin.h"
+#include "voxtact/cpu.h"
+
+#include <gmock/gmock.h>
+
+#include <iostream>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr DetectorDesc kDevice{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+
+/// The same scene on the device and on the host.
+struct Sides {
+    Volume volume;
+    TransferFunction function;
+    Mesh mesh;
+    cpu::Volume hostVolume;
+    cpu::TransferFunction hostFunction;
+    cpu::Mesh hostMesh;
+
+    Sides(const Context& context, const QueueAccess& queue, const VolumeView& image, const TransferFunctionDesc& table,
+          const MeshView& triangles, bool clusters)
+        : volume(take(Volume::upload(context, queue, image, {.bricks = true}))),
+          function(take(TransferFunction::upload(context, queue, table))),
+          mesh(take(Mesh::upload(context, queue, triangles, {.clusters = clusters}))),
+          hostVolume(take(cpu::Volume::create(image))), hostFunction(take(cpu::TransferFunction::create(table))),
+          hostMesh(take(cpu::Mesh::create(triangles))) {}
+
+    [[nodiscard]] BatchItem item(std::span<const Mat4> poses) const { return {&mesh, &volume, &function, poses}; }
+    [[nodiscard]] cpu::BatchItem hostItem(std::span<const Mat4> poses) const {
+        return {&hostMesh, &hostVolume, &hostFunction, poses};
+    }
+};
+
+cpu::Detector hostDetector(bool stopAtFirst = false) {
+    return take(cpu::Detector::create({.stopAtFirst = stopAtFirst, .projection = Projection::Conservative}));
+}
+
+void expectSame(const PairAnswer& device, const PairAnswer& host, const std::string& which) {
+    EXPECT_EQ(device.count, host.count) << which;
+    EXPECT_EQ(device.hit, host.hit) << which;
+    EXPECT_EQ(device.possible, host.possible) << which;
+    EXPECT_EQ(device.exactness, host.exactness) << which;
+    EXPECT_EQ(device.projection, Projection::Conservative) << which;
+}
+
+class ConservativeTest : public GpuTest {};
+
+TEST_F(ConservativeTest, IsTheHostBitForBitOnRandomCases) {
+    constexpr std::uint64_t kCases = 300;
+    const std::uint64_t seed = testSeed();
+    BlockingDetector device = detector(kDevice);
+    cpu::Detector host = hostDetector();
+    std::size_t hits = 0;
+    std::size_t possible = 0;
+    for (std::uint64_t number = 0; number < kCases && !HasFailure(); ++number) {
+        const CertifiedCase c = makeCertifiedCase(seed, number);
+        const cpu::OraclePair pair = c.scene.pair();
+        const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, number % 2 == 0);
+        const std::span poses(&c.scene.world_from_object, 1);
+        const BatchItem item = sides.item(poses);
+        const cpu::BatchItem hostItem = sides.hostItem(poses);
+        const BatchAnswer onDevice = take(device.detect({{&item, 1}, {}, c.scene.threshold}));
+        const BatchAnswer onHost = take(host.detect({{&hostItem, 1}, {}, c.scene.threshold}));
+        expectSame(onDevice.pairs[0], onHost.pairs[0],
+                   "seed " + std::to_string(seed) + ", case " + std::to_string(number) + ", " + toString(c.kind));
+        hits += onHost.pairs[0].hit ? 1U : 0U;
+        possible += onHost.pairs[0].possible ? 1U : 0U;
+    }
+    std::cout << "  " << kCases << " cases: " << hits << " hits, " << possible << " possible\n";
+    EXPECT_GT(hits, kCases / 10);
+}
+
+TEST_F(ConservativeTest, IsTheHostBitForBitOnAHead) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData head = take(makeBuiltinVolume("head:64"));
+    const MeshData scalpel = take(makeScalpel());
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const TransferFunctionDesc table{points, {0, 255}, kDefaultTableSize};
+    const std::vector<Mat4> poses = randomPoses(head.grid, 12, 1, random);
+    for (const bool clusters : {false, true}) {
+        const Sides sides(context(), queue(), head.view(), table, scalpel.view(), clusters);
+        const BatchItem item = sides.item(poses);
+        const cpu::BatchItem hostItem = sides.hostItem(poses);
+        for (const bool stopAtFirst : {false, true}) {
+            DetectorDesc desc = kDevice;
+            desc.stopAtFirst = stopAtFirst;
+            const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, kDefaultThreshold}));
+            const BatchAnswer onHost = take(hostDetector(stopAtFirst).detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+            std::size_t hits = 0;
+            for (std::size_t i = 0; i < poses.size(); ++i) {
+                expectSame(onDevice.pairs[i], onHost.pairs[i],
+                           "seed " + std::to_string(seed) + ", pose " + std::to_string(i));
+                hits += onHost.pairs[i].hit ? 1U : 0U;
+            }
+            EXPECT_GT(hits, 0U) << seed;
+        }
+    }
+}
+
+TEST_F(ConservativeTest, RefusesWhatItCannotAnswer) {
+    DetectorDesc query = kDevice;
+    query.method = CountingMethod::Query;
+    EXPECT_THAT(Detector::create(context(), query).error().text, HasSubstr("compute and cpu"));
+    DetectorDesc coarse = kDevice;
+    coarse.resolution = 2;
+    EXPECT_THAT(Detector::create(context(), coarse).error().text, HasSubstr("resolution 2"));
+    EXPECT_FALSE(
+        Detector::create(context(), {.method = CountingMethod::Compute, .stopAtFirst = true}).ok());
+
+    const VolumeData image = take(makeBuiltinVolume("sphere:16"));
+    const MeshData triangles = take(makeEllipsoid(100));
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const Volume volume = upload(image);
+    const Mesh mesh = upload(triangles);
+    const TransferFunction function = upload(points, {0, 255});
+    const Mat4 pose = identity();
+    const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
+    EXPECT_THAT(detector(kDevice).detect({{&item, 1}, {}, 0.5}).error().text, HasSubstr("bricks"));
+}
+
+} // namespace
+} // namespace voxtact::test
