@@ -7,8 +7,6 @@ namespace voxtact::app {
 
 namespace {
 
-/// Bytes for the answers beside the counts of all batches in flight.
-constexpr std::uint64_t kMostOutputBytes = std::uint64_t{256} << 20U;
 /// On the device, on the host, and unpacked.
 constexpr std::uint64_t kBytesOfTriangle = sizeof(std::uint32_t) * 2 + sizeof(TouchedTriangle);
 constexpr std::uint64_t kBytesOfLabel = sizeof(std::uint32_t) * 2 + sizeof(LabelCount);
@@ -122,14 +120,18 @@ Result<void> resolveOptions(DetectOptions& options) {
     return checkExtra(options);
 }
 
+std::uint64_t mostTriangles(const DetectInputs& inputs) {
+    std::uint64_t most = 0;
+    for (const MeshData& mesh : inputs.meshes) {
+        most = std::max<std::uint64_t>(most, mesh.indices.size() / 3);
+    }
+    return most;
+}
+
 std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t copies) {
     std::uint64_t bytes = sizeof(Row);
     if (options.extra.outputs().triangles) {
-        std::size_t most = 0;
-        for (const MeshData& mesh : inputs.meshes) {
-            most = std::max(most, mesh.indices.size() / 3);
-        }
-        bytes += most * kBytesOfTriangle;
+        bytes += mostTriangles(inputs) * kBytesOfTriangle;
     }
     if (inputs.labels) {
         bytes += inputs.labels->values.size() * kBytesOfLabel;

@@ -107,6 +107,11 @@ struct VolumeSettings {
 /// Refuses a viewport beyond `most`, which is what `who` can do.
 [[nodiscard]] Result<void> checkViewport(const VkExtent2D& size, const VkExtent2D& most, const std::string& who);
 
+/// Bytes for the answers beside the counts of all batches in flight.
+constexpr std::uint64_t kMostOutputBytes = std::uint64_t{256} << 20U;
+
+/// Of the largest mesh.
+[[nodiscard]] std::uint64_t mostTriangles(const DetectInputs& inputs);
 /// Pairs of a batch or submission: as many as --batch says, or fewer where the answers beside the counts would take
 /// too much memory. `copies` of them are in flight.
 [[nodiscard]] std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& inputs,
