@@ -71,10 +71,9 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
             return labels.error();
         }
         DetectorImpl& impl = *impl_;
-        BatchAnswer answer =
-            impl.desc.projection == Projection::Conservative
-                ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)
-                : runCounts(batch, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
+        BatchAnswer answer = impl.desc.projection == Projection::Conservative
+                                 ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)
+                                 : runCounts(batch, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

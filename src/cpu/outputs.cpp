@@ -26,9 +26,7 @@ struct HostField {
     [[nodiscard]] float stored(const ContactVector& inside) const {
         return storedAt(image, inside.x, inside.y, inside.z);
     }
-    [[nodiscard]] float opacityOf(float stored) const {
-        return cpu::opacityOf(table, constants, stored);
-    }
+    [[nodiscard]] float opacityOf(float stored) const { return cpu::opacityOf(table, constants, stored); }
     [[nodiscard]] float opacity(const OutputPair&, const ContactVector& inside) const {
         return opacityOf(stored(inside));
     }
@@ -216,8 +214,8 @@ OutputRun::OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t
             itemConstants(1, volume.storedIntercept, item.transferFunction->impl().domain, batch.threshold);
         const LabelData* labels = outputs_.labels || outputs_.contacts ? item.labels : nullptr;
         items_.push_back(
-            {outputPair(volume.grid, volume.texture_from_world, constants, 1, volume.storedIntercept, outputs_),
-             labels, &volume.image, &item.transferFunction->impl().table});
+            {outputPair(volume.grid, volume.texture_from_world, constants, 1, volume.storedIntercept, outputs_), labels,
+             &volume.image, &item.transferFunction->impl().table});
         if (labels != nullptr) {
             addLabelMap(items_.back().pair, volume.grid, labels->grid, labels->values);
         }

@@ -24,8 +24,8 @@ class OutputRun {
 
     OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t pairs, std::uint32_t threads);
 
-    /// Survivors of the job's clusters, every fragment one after the other, after whose outputs were taken. No two calls
-    /// at a time with the same thread, nor two with the same cluster of a pair.
+    /// Survivors of the job's clusters, every fragment one after the other, after whose outputs were taken. No two
+    /// calls at a time with the same thread, nor two with the same cluster of a pair.
     std::uint64_t collect(const PairJob& job, std::size_t item, std::uint32_t pair, std::uint32_t thread) noexcept;
     /// `body` is called with a Sink for some survivors of a pair, found by somebody else. As collect().
     void collect(std::size_t item, std::uint32_t pair, std::uint32_t thread,
@@ -73,8 +73,7 @@ class OutputRun::Sink {
     void publish();
 
   private:
-    void addContact(const shader::ContactVector& at, const Vec3& position, std::uint32_t triangle,
-                    std::uint32_t label);
+    void addContact(const shader::ContactVector& at, const Vec3& position, std::uint32_t triangle, std::uint32_t label);
 
     OutputRun& run_;
     const ItemOutputs& item_;

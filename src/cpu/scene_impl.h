@@ -55,7 +55,7 @@ struct MeshImpl {
     std::vector<ClusterPlace> clusters;
     std::vector<float> x, y, z;                          ///< vertices, cluster by cluster; the padding repeats the last
     std::vector<std::uint8_t> corner0, corner1, corner2; ///< of triangles: vertices of the cluster; padding: all 0
-    std::vector<std::uint32_t> numbers; ///< of triangles in the mesh; of the padding: kNoTriangle
+    std::vector<std::uint32_t> numbers;                  ///< of triangles in the mesh; of the padding: kNoTriangle
     /// Centres and half sides of the clusters' boxes, padded to kMeshAlignment. Rounded outward.
     std::vector<float> centreX, centreY, centreZ, halfX, halfY, halfZ;
     ClusterTree tree;

@@ -75,8 +75,8 @@ Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc
     ViewPass pass(context, desc);
     const bool outputs = desc.outputs.any();
     const std::string name = toString(desc.method) + std::string(outputs ? " outputs" : "");
-    if (Result<void> made = pass.makePipelines(fragmentSpirv(desc.method, outputs), pass.layout(),
-                                               !countsByQuery(desc.method), name);
+    if (Result<void> made =
+            pass.makePipelines(fragmentSpirv(desc.method, outputs), pass.layout(), !countsByQuery(desc.method), name);
         !made.ok()) {
         return made.error();
     }

@@ -50,7 +50,6 @@ class ViewPass {
     /// Whether each pair is a rendering of its own, flushed before the next: see ContextImpl::flushAfterQuery.
     [[nodiscard]] bool eachAlone() const noexcept;
     [[nodiscard]] bool dominantAxis() const noexcept { return desc_.projection == Projection::DominantAxis; }
-    [[nodiscard]] VkPipelineLayout layout() const noexcept;
     [[nodiscard]] VkExtent2D largestViewport(const Batch& batch) const noexcept;
     void bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const;
     void bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const;

@@ -17,7 +17,8 @@ Result<void> makePipeline(ContextImpl& context) {
     if (context.brickPipeline) {
         return {};
     }
-    Result<Owned<VkPipeline>> pipeline = makeComputePipeline(context, spirv::bricks_comp, {}, context.computeLayout, "bricks");
+    Result<Owned<VkPipeline>> pipeline =
+        makeComputePipeline(context, spirv::bricks_comp, {}, context.computeLayout, "bricks");
     if (!pipeline.ok()) {
         return pipeline.error();
     }

@@ -5,8 +5,8 @@
 
 namespace voxtact {
 
-Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage, std::size_t bytesOfVoxel,
-                              const std::string& what) {
+Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage,
+                              std::size_t bytesOfVoxel, const std::string& what) {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (grid.size[axis] > context.limits.maxImageDimension3D) {

@@ -71,7 +71,8 @@ Result<LabelMap> LabelMap::create(const Context& context, const LabelData& data,
         if (Result<void> checked = checkLabels(data); !checked.ok()) {
             return checked.error();
         }
-        if (Result<void> limits = checkImageLimits(c, data.grid, kLabelFormat, ImageDesc{}.usage, sizeof data.indices[0], "the label map");
+        if (Result<void> limits = checkImageLimits(c, data.grid, kLabelFormat, ImageDesc{}.usage,
+                                                   sizeof data.indices[0], "the label map");
             !limits.ok()) {
             return limits.error();
         }

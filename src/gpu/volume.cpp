@@ -189,8 +189,8 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         if (Result<void> checked = checkFormat(c, format, toString(data.type)); !checked.ok()) {
             return checked.error();
         }
-        if (Result<void> limits = checkImageLimits(c, data.grid, format, usageOf(options), bytesPerVoxel(data.type),
-                                                   "the volume");
+        if (Result<void> limits =
+                checkImageLimits(c, data.grid, format, usageOf(options), bytesPerVoxel(data.type), "the volume");
             !limits.ok()) {
             return limits.error();
         }

@@ -108,6 +108,61 @@ TEST_F(ConservativeTest, IsTheHostBitForBitOnAHead) {
     }
 }
 
+void expectSameOutputs(const BatchAnswer& device, const BatchAnswer& host) {
+    ASSERT_EQ(device.triangles.size(), host.triangles.size());
+    for (std::size_t i = 0; i < host.triangles.size(); ++i) {
+        EXPECT_EQ(device.triangles[i].triangle, host.triangles[i].triangle);
+        EXPECT_EQ(device.triangles[i].count, host.triangles[i].count);
+    }
+    ASSERT_EQ(device.contacts.size(), host.contacts.size());
+    EXPECT_EQ(device.contactsFound, host.contactsFound);
+    for (std::size_t i = 0; i < host.contacts.size(); ++i) {
+        EXPECT_EQ(device.contacts[i].triangle, host.contacts[i].triangle);
+        EXPECT_EQ(device.contacts[i].position, host.contacts[i].position);
+        EXPECT_EQ(device.contacts[i].value, host.contacts[i].value);
+        EXPECT_EQ(device.contacts[i].opacity, host.contacts[i].opacity);
+        EXPECT_NEAR(device.contacts[i].depth, host.contacts[i].depth, 1e-3);
+    }
+    ASSERT_EQ(device.bounds.size(), host.bounds.size());
+    for (std::size_t i = 0; i < host.bounds.size(); ++i) {
+        ASSERT_EQ(device.bounds[i].has_value(), host.bounds[i].has_value());
+        if (host.bounds[i]) {
+            EXPECT_EQ(device.bounds[i]->lo, host.bounds[i]->lo);
+            EXPECT_EQ(device.bounds[i]->hi, host.bounds[i]->hi);
+        }
+    }
+}
+
+TEST_F(ConservativeTest, OutputsAreTheHosts) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData head = take(makeBuiltinVolume("head:48"));
+    const MeshData scalpel = take(makeScalpel());
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const Sides sides(context(), queue(), head.view(), {points, {0, 255}, kDefaultTableSize}, scalpel.view(), true);
+    const std::vector<Mat4> poses = randomPoses(head.grid, 4, 1, random);
+    const BatchItem item = sides.item(poses);
+    const cpu::BatchItem hostItem = sides.hostItem(poses);
+    constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
+    DetectorDesc desc = kDevice;
+    desc.outputs = kOutputs;
+    const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, kDefaultThreshold}));
+    const BatchAnswer onHost =
+        take(take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = kOutputs}))
+                 .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+    ASSERT_FALSE(onHost.contacts.empty()) << seed;
+    expectSameOutputs(onDevice, onHost);
+    std::uint64_t counted = 0;
+    for (const PairAnswer& pair : onHost.pairs) {
+        counted += pair.count;
+    }
+    EXPECT_EQ(onHost.contactsFound, counted);
+    // A witness is opaque up to the rounding of its place.
+    for (const Contact& contact : onHost.contacts) {
+        EXPECT_GE(contact.opacity, kDefaultThreshold - 1e-3) << seed;
+    }
+}
+
 TEST_F(ConservativeTest, RefusesWhatItCannotAnswer) {
     DetectorDesc query = kDevice;
     query.method = CountingMethod::Query;
