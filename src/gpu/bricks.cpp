@@ -13,6 +13,12 @@ namespace {
 
 /// The brick pass's pipeline, made for the first volume with bricks.
 Result<void> makePipeline(ContextImpl& context) {
+    if (context.computeLayout == VK_NULL_HANDLE) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "bricks cannot be had on this device: its maxPerStageDescriptorStorageBuffers is " +
+                         std::to_string(context.limits.maxPerStageDescriptorStorageBuffers) + ", " +
+                         std::to_string(kComputeStorageBuffers) + " are needed"};
+    }
     const std::lock_guard lock(context.onDemandMutex);
     if (context.brickPipeline) {
         return {};

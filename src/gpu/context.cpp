@@ -146,6 +146,9 @@ Result<void> makeLayouts(ContextImpl& context) {
         !made.ok()) {
         return made;
     }
+    if (context.limits.maxPerStageDescriptorStorageBuffers < kComputeStorageBuffers) {
+        return {};
+    }
     return makeLayout(context, sets.first(VOXTACT_SET_MESH + 1), kComputeConstants, context.computeLayout,
                       "compute pipeline layout");
 }

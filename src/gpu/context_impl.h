@@ -44,7 +44,7 @@ struct ContextImpl {
     std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex
     VkPipelineLayout rasterLayout = VK_NULL_HANDLE;    ///< sets 0 to 2, and ItemConstants for the fragment stage
     VkPipelineLayout dominantLayout = VK_NULL_HANDLE;  ///< all sets, ItemConstants, and DominantConstants for vertices
-    VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets, and ComputeConstants
+    VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets; null where the device's limits do not allow for it
 
     std::mutex onDemandMutex; ///< of the two below, which are made for the first object that needs them
     Owned<VkPipeline> brickPipeline;

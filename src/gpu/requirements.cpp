@@ -67,7 +67,7 @@ void checkHandles(const ContextDesc& desc, CheckReport& report) {
 }
 
 /// What only the loader and the device can say; needs all handles.
-SubgroupSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
+DeviceSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
     DeviceFunctions functions;
     const char* absent = functions.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
     if (absent != nullptr) {
@@ -93,7 +93,8 @@ SubgroupSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
     };
     return {has(VK_SHADER_STAGE_FRAGMENT_BIT,
                 VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
-            has(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)};
+            has(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT),
+            properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers};
 }
 
 /// One thing that a method needs, and what to say when it is not there.
@@ -113,17 +114,20 @@ MethodSupport support(CountingMethod method, std::initializer_list<Need> needs) 
     return out;
 }
 
-std::vector<MethodSupport> methodSupport(const EnabledFeatures& enabled, const SubgroupSupport& subgroup) {
+static_assert(kComputeStorageBuffers == 6, "methodSupport() says so");
+
+std::vector<MethodSupport> methodSupport(const EnabledFeatures& enabled, const DeviceSupport& device) {
     const Need stores{enabled.fragmentStoresAndAtomics, "fragmentStoresAndAtomics is not enabled"};
     return {
         support(CountingMethod::Query, {{enabled.occlusionQueryPrecise, "occlusionQueryPrecise is not enabled"}}),
         support(CountingMethod::QueryAny, {}),
         support(CountingMethod::Atomic, {stores}),
         support(CountingMethod::Subgroup,
-                {stores, {subgroup.fragmentBallotAndShuffle, "the fragment stage has no subgroup ballot and shuffle"}}),
+                {stores, {device.fragmentBallotAndShuffle, "the fragment stage has no subgroup ballot and shuffle"}}),
         support(CountingMethod::Compute,
                 {{enabled.shaderInt64, "shaderInt64 is not enabled"},
-                 {subgroup.computeArithmetic, "the compute stage has no subgroup arithmetic"}}),
+                 {device.computeArithmetic, "the compute stage has no subgroup arithmetic"},
+                 {device.computeBuffers, "maxPerStageDescriptorStorageBuffers is below 6"}}),
     };
 }
 
@@ -193,10 +197,10 @@ CheckReport check(const ContextDesc& desc) {
     const bool has[] = {enabled.dynamicRendering,         enabled.synchronization2, enabled.occlusionQueryPrecise,
                         enabled.fragmentStoresAndAtomics, enabled.geometryShader,   enabled.shaderInt64};
     static_assert(std::size(has) == kRequirements.size());
-    SubgroupSupport subgroup;
+    DeviceSupport device;
     if (desc.getInstanceProcAddr != nullptr && desc.instance != VK_NULL_HANDLE && desc.device != VK_NULL_HANDLE &&
         desc.physicalDevice != VK_NULL_HANDLE) {
-        subgroup = checkDevice(desc, report);
+        device = checkDevice(desc, report);
     }
     for (std::size_t i = 0; i < kRequirements.size(); ++i) {
         const Requirement& requirement = kRequirements[i];
@@ -213,7 +217,7 @@ CheckReport check(const ContextDesc& desc) {
                                         " is not enabled: " + requirement.without);
         }
     }
-    report.methods = methodSupport(enabled, subgroup);
+    report.methods = methodSupport(enabled, device);
     return report;
 }
 

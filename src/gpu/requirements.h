@@ -16,11 +16,16 @@ struct EnabledFeatures {
     bool geometryShader = false;
 };
 
-/// What no feature struct says: the subgroup operations of the stages.
-struct SubgroupSupport {
-    bool fragmentBallotAndShuffle = false;
+/// What no feature struct says.
+struct DeviceSupport {
+    bool fragmentBallotAndShuffle = false; ///< subgroup operations of the stages
     bool computeArithmetic = false;
+    bool computeBuffers = false; ///< kComputeStorageBuffers in the compute stage
 };
+
+/// Storage buffers of the compute stage: bricks, the table's extremes, transforms, results, vertices, indices. Vulkan
+/// promises four.
+inline constexpr std::uint32_t kComputeStorageBuffers = 6;
 
 /// Null reads as nothing enabled.
 [[nodiscard]] EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept;
