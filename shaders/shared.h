@@ -81,8 +81,8 @@ struct TracedFragment {
 struct CertifiedPair {
     vec4 reference;               // a point of object space near the volume; w is 0
     vec4 voxel_from_reference[3]; // rows: voxel space from object space less the reference. Voxel i's centre is at i
-    vec4 error; // of a transformed vertex, (x, y, z) from the reference, in voxels along each axis:
-                // error * (|x|, |y|, |z|, 1)
+    vec4 error;                   // of a transformed vertex, (x, y, z) from the reference, in voxels along each axis:
+                                  // error * (|x|, |y|, |z|, 1)
 };
 
 /// What it needs of one batch item. The entry coordinate of a stored value (see opacity_ranges.h) is

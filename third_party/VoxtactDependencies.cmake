@@ -35,6 +35,13 @@ if(VOXTACT_BUILD_APP)
   find_file(VOXTACT_CHART_LICENCE copyright PATHS /usr/share/doc/libjs-chart.js NO_DEFAULT_PATH)
   find_package(CLI11 CONFIG REQUIRED)
   find_path(VOXTACT_VOLK_INCLUDE_DIR volk.h REQUIRED)
+  # FCL is what `bench` compares with, where it is found.
+  find_package(octomap QUIET)
+  find_package(fcl QUIET)
+  set(VOXTACT_WITH_FCL OFF)
+  if(TARGET fcl AND TARGET octomap)
+    set(VOXTACT_WITH_FCL ON)
+  endif()
 endif()
 
 if(VOXTACT_BUILD_TESTS)

@@ -6,6 +6,7 @@
 /// One function a subcommand: adds it, with its options, to the program.
 namespace voxtact::app {
 
+[[nodiscard]] Command addBench(CLI::App& program);
 [[nodiscard]] Command addCompare(CLI::App& program);
 [[nodiscard]] Command addDetect(CLI::App& program);
 [[nodiscard]] Command addDevices(CLI::App& program);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
+#include "app/compare_localize.h"
 #include "app/compare_output.h"
 #include "app/compare_timing.h"
 #include "app/progress.h"
@@ -27,13 +28,18 @@ Times, after a warm-up. wall_ms is of a batch of pairs, gpu_ms the device's part
 waited for alone, which is the paper's way, over all poses. Mode pipelined: a batch a submission, three in flight (cpu:
 a batch a call). Poses go round, so that none is warm in a cache.
 
+With --localize instead: which triangles touch, by the paper's two ways (an occlusion query a triangle; one a leaf of
+an OBB tree that meets the volume's box, or what its bricks hold), by the fragments of one pass, and by bounds, which
+miss none. The ways that look through the camera must agree, triangle by triangle; otherwise the exit status is 3.
+
 Columns of CSV: sweep,method,mode,batch,width,height,triangles,fragments (survivors of a pair, on average),samples,
 wall_ms_median,wall_ms_p10,wall_ms_p90,gpu_ms_median,pairs_per_s,fragments_per_s; then comments with what was found.
 
 Examples:
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel
   voxtact compare --volume head.nii.gz --mesh tool.stl --poses poses.txt --format json --output compare.json
-  voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --report report.html)";
+  voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --report report.html
+  voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --localize)";
 
 struct Bench {
     const CompareOptions& options;
@@ -49,16 +55,6 @@ struct Bench {
         return [this] { progress.update(++steps); };
     }
 };
-
-Result<void> checkViewport(const Session& session, const VkExtent2D& size) {
-    const VkExtent2D most = session.context.maxViewport();
-    if (size.width <= most.width && size.height <= most.height &&
-        std::max(size.width, size.height) <= cpu::kMaxViewport) {
-        return {};
-    }
-    return badArgument("--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                       " is beyond what '" + session.device.physical().name + "' can do");
-}
 
 /// A runner for each method that is wanted and can be had; the others are told.
 Result<Runners> makeRunners(const Session& session, const CompareOptions& options, const Surroundings& surroundings,
@@ -237,6 +233,9 @@ Result<void> checkPaths(const CompareOptions& options) {
 }
 
 Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
+    if (given.localize) {
+        return runLocalize(given, parser);
+    }
     CompareOptions options = given;
     options.command = commandLine(parser);
     if (!options.report.empty() && !options.sweepsGiven) {

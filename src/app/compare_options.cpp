@@ -129,7 +129,13 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
             [](const std::string& text) { return std::strtod(text.c_str(), nullptr) > 0 ? "" : "it is not above 0"; });
     parser.add_flag("--keep-going", options.keepGoing,
                     "when methods disagree, time them and write the outputs all the same; the exit status stays 3");
+    CLI::Option* localize =
+        parser.add_flag("--localize", options.localize,
+                        "which triangles touch, by each way to tell, instead; 8 poses and 3 repeats unless given");
     addPath(parser, "--report", options.report, "an HTML page with charts, in one file, for reading without a network");
+    for (const char* other : {"--methods", "--oracle", "--sweep", "--report"}) {
+        localize->excludes(other);
+    }
     addDeviceOptions(parser, options.device);
     addOutputOptions(parser, options.output);
     addProgressOption(parser, options.progress);

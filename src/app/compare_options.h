@@ -30,6 +30,7 @@ struct CompareOptions {
     std::uint32_t repeats = 7;
     double timeLimit = 15; ///< seconds, of each sweep
     bool keepGoing = false;
+    bool localize = false; ///< which triangles touch, instead of how many fragments survive
     DeviceChoice device;
     OutputOptions output;
     std::filesystem::path report;

@@ -14,28 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Six significant digits: more would be noise.
-double rounded(double value) {
-    if (value == 0 || !std::isfinite(value)) {
-        return 0;
-    }
-    const double parts = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
-    return std::round(value * parts) / parts;
-}
-
-Json machineJson(const Machine& machine) {
-    return {{"device", machine.device},
-            {"device_type", machine.deviceType},
-            {"driver", machine.driver},
-            {"driver_version", machine.driverVersion},
-            {"api", machine.api},
-            {"cpu", machine.cpu},
-            {"cpu_threads", machine.cpuThreads},
-            {"voxtact", programVersion()},
-            {"git_revision", gitRevision()},
-            {"hardware_filter", machine.filter}};
-}
-
 Json spreadJson(const std::vector<double>& samples) {
     if (samples.empty()) {
         return nullptr;
@@ -125,20 +103,6 @@ Json oracleJson(const CompareResult& result) {
     return json;
 }
 
-Json sceneJson(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
-    return {{"volume", options.volumes.front()},
-            {"voxels", data.volume.grid.size},
-            {"voxel_type", toString(data.volume.type)},
-            {"mesh", options.meshes.sources.front()},
-            {"triangles", result.triangles},
-            {"poses", data.poses.size()},
-            {"poses_from",
-             options.view.poses.empty() ? "random, seed " + std::to_string(options.seed) : options.view.poses.string()},
-            {"width", data.view.width},
-            {"height", data.view.height},
-            {"threshold", options.transferFunction.threshold}};
-}
-
 Cell cellOf(const Series& series, std::size_t column) {
     const auto spread = [](const std::vector<double>& samples, double Spread::*part) {
         return samples.empty() ? Cell() : Cell(rounded(spreadOf(samples).*part));
@@ -180,10 +144,66 @@ Cell cellOf(const Series& series, std::size_t column) {
 
 } // namespace
 
+double rounded(double value) {
+    if (value == 0 || !std::isfinite(value)) {
+        return 0;
+    }
+    const double parts = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+    return std::round(value * parts) / parts;
+}
+
+Json machineJson(const Machine& machine) {
+    return {{"device", machine.device},
+            {"device_type", machine.deviceType},
+            {"driver", machine.driver},
+            {"driver_version", machine.driverVersion},
+            {"api", machine.api},
+            {"cpu", machine.cpu},
+            {"cpu_threads", machine.cpuThreads},
+            {"voxtact", programVersion()},
+            {"git_revision", gitRevision()},
+            {"hardware_filter", machine.filter}};
+}
+
+Json sceneJson(const CompareOptions& options, const CompareData& data, std::uint32_t triangles) {
+    return {{"volume", options.volumes.front()},
+            {"voxels", data.volume.grid.size},
+            {"voxel_type", toString(data.volume.type)},
+            {"mesh", options.meshes.sources.front()},
+            {"triangles", triangles},
+            {"poses", data.poses.size()},
+            {"poses_from",
+             options.view.poses.empty() ? "random, seed " + std::to_string(options.seed) : options.view.poses.string()},
+            {"width", data.view.width},
+            {"height", data.view.height},
+            {"threshold", options.transferFunction.threshold}};
+}
+
+std::vector<std::string> allNotes(const Machine& machine, const std::vector<std::string>& more) {
+    std::vector<std::string> notes = machine.notes;
+    notes.insert(notes.end(), more.begin(), more.end());
+    return notes;
+}
+
+void writeMachine(std::ostream& out, const Machine& machine, const std::vector<std::string>& notes) {
+    if (!machine.device.empty()) {
+        out << "# device " << machine.device << ", driver " << machine.driver << " " << machine.driverVersion << ", ";
+    } else {
+        out << "# no device, ";
+    }
+    out << "cpu " << machine.cpu << ", " << machine.cpuThreads << " threads\n";
+    if (!machine.filter.empty()) {
+        out << "# " << machine.filter << '\n';
+    }
+    for (const std::string& note : allNotes(machine, notes)) {
+        out << "# " << note << '\n';
+    }
+}
+
 Json compareJson(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
     Json json{{"voxtact", programVersion()}, {"git_revision", gitRevision()}, {"command", options.command}};
     json["machine"] = machineJson(result.machine);
-    json["scene"] = sceneJson(options, data, result);
+    json["scene"] = sceneJson(options, data, result.triangles);
     json["summary"] = summarize(result);
     json["agrees"] = result.firstFailure() == nullptr;
     json["methods"] = Json::array();
@@ -208,10 +228,7 @@ Json compareJson(const CompareOptions& options, const CompareData& data, const C
     for (const Series& series : result.series) {
         json["series"].push_back(seriesJson(series, result.machine));
     }
-    json["notes"] = result.machine.notes;
-    for (const std::string& note : result.notes) {
-        json["notes"].push_back(note);
-    }
+    json["notes"] = allNotes(result.machine, result.notes);
     return json;
 }
 
@@ -232,15 +249,7 @@ void writeCompare(std::ostream& out, const CompareOptions& options, const Compar
     for (const std::string& sentence : summarize(result)) {
         out << "# " << sentence << '\n';
     }
-    out << "# device " << result.machine.device << ", driver " << result.machine.driver << " "
-        << result.machine.driverVersion << ", cpu " << result.machine.cpu << ", " << result.machine.cpuThreads
-        << " threads\n";
-    out << "# " << result.machine.filter << '\n';
-    for (const std::vector<std::string>* notes : {&result.machine.notes, &result.notes}) {
-        for (const std::string& note : *notes) {
-            out << "# " << note << '\n';
-        }
-    }
+    writeMachine(out, result.machine, result.notes);
 }
 
 } // namespace voxtact::app

@@ -9,6 +9,16 @@
 
 namespace voxtact::app {
 
+/// Six significant digits: more would be noise.
+[[nodiscard]] double rounded(double value);
+[[nodiscard]] nlohmann::ordered_json machineJson(const Machine& machine);
+[[nodiscard]] nlohmann::ordered_json sceneJson(const CompareOptions& options, const CompareData& data,
+                                               std::uint32_t triangles);
+/// Those of the machine, then these.
+[[nodiscard]] std::vector<std::string> allNotes(const Machine& machine, const std::vector<std::string>& more);
+/// Comment lines: what it was measured on, and the notes.
+void writeMachine(std::ostream& out, const Machine& machine, const std::vector<std::string>& notes);
+
 /// What was found, in plain English, a sentence each: the agreement, then the speed.
 [[nodiscard]] std::vector<std::string> summarize(const CompareResult& result);
 

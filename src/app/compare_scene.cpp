@@ -124,14 +124,29 @@ Result<CompareData> readCompareData(const CompareOptions& options) {
     return data;
 }
 
+Result<void> checkViewport(const Session& session, const VkExtent2D& size) {
+    const VkExtent2D most = session.context.maxViewport();
+    if (size.width <= most.width && size.height <= most.height &&
+        std::max(size.width, size.height) <= cpu::kMaxViewport) {
+        return {};
+    }
+    return badArgument("--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                       " is beyond what '" + session.device.physical().name + "' can do");
+}
+
+Machine describeHost() {
+    Machine machine;
+    machine.cpu = cpuName();
+    machine.cpuThreads = std::max(1U, std::thread::hardware_concurrency());
+    return machine;
+}
+
 Machine describeMachine(const Session& session, ScalarType type) {
     const PhysicalDevice& physical = session.device.physical();
-    Machine machine;
+    Machine machine = describeHost();
     machine.device = physical.name;
     machine.deviceType = deviceTypeName(physical.type);
     machine.api = apiVersionText(physical.apiVersion);
-    machine.cpu = cpuName();
-    machine.cpuThreads = std::max(1U, std::thread::hardware_concurrency());
     describeDriver(session, machine);
     machine.eightBitFilter = machine.llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
     machine.filter =

@@ -30,6 +30,9 @@ struct CompareData {
 
 [[nodiscard]] Result<CompareData> readCompareData(const CompareOptions& options);
 
+/// Refuses a viewport beyond what the device or the host can do.
+[[nodiscard]] Result<void> checkViewport(const Session& session, const VkExtent2D& size);
+
 /// What the numbers were measured on.
 struct Machine {
     std::string device;
@@ -45,6 +48,8 @@ struct Machine {
     std::vector<std::string> notes; ///< what to know when reading the times
 };
 
+/// Without a device.
+[[nodiscard]] Machine describeHost();
 [[nodiscard]] Machine describeMachine(const Session& session, ScalarType type);
 
 /// A mesh on both sides.

@@ -153,6 +153,14 @@ std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+Json rowJson(const Table& table, std::size_t row) {
+    Json object = Json::object();
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+        object[table.columns[column]] = toJson(table.cell(row, column));
+    }
+    return object;
+}
+
 void writeJson(std::ostream& out, const Table& table) {
     out << "{\n";
     for (const auto& [name, cell] : table.facts) {
@@ -160,11 +168,7 @@ void writeJson(std::ostream& out, const Table& table) {
     }
     out << "\"rows\": [";
     for (std::size_t row = 0; row < table.rows; ++row) {
-        Json object = Json::object();
-        for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            object[table.columns[column]] = toJson(table.cell(row, column));
-        }
-        out << (row == 0 ? "\n" : ",\n") << dump(object);
+        out << (row == 0 ? "\n" : ",\n") << dump(rowJson(table, row));
     }
     out << "\n]";
     if (!table.timing.empty()) {
@@ -207,6 +211,14 @@ Result<void> deliverFrom(const std::vector<Delivery>& deliveries, std::size_t ne
 }
 
 } // namespace
+
+Json rowsJson(const Table& table) {
+    Json rows = Json::array();
+    for (std::size_t row = 0; row < table.rows; ++row) {
+        rows.push_back(rowJson(table, row));
+    }
+    return rows;
+}
 
 void writeTable(std::ostream& out, Format format, const Table& table) {
     switch (format) {

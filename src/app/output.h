@@ -3,6 +3,8 @@
 
 #include "voxtact/result.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -45,6 +47,9 @@ struct Table {
 
 /// JSON is one object: the facts, "rows" (an array of an object a row), "timing".
 void writeTable(std::ostream& out, Format format, const Table& table);
+
+/// An array of an object a row, as in "rows".
+[[nodiscard]] nlohmann::ordered_json rowsJson(const Table& table);
 
 /// Where a command's output goes.
 struct OutputOptions {

@@ -4,6 +4,7 @@
 #include "voxtact/data.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace voxtact::app {
@@ -13,5 +14,16 @@ namespace voxtact::app {
 /// arithmetic. The mesh must have a vertex and the grid must be one that checkGrid() accepts.
 [[nodiscard]] std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                             std::uint64_t seed);
+
+/// How far around the onset of contact, in voxels (the smallest spacing).
+inline constexpr double kOnsetInside = 0.75;
+inline constexpr double kOnsetOutside = 0.25;
+
+/// `count` rigid poses around the onset of contact: a pose as above that touches is moved in a random direction until
+/// it no longer does (bisected), and from there by a uniformly random length, kOnsetInside back to kOnsetOutside on.
+/// `touches` says whether a pose does. InvalidArgument where too few do to begin with.
+[[nodiscard]] Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
+                                                   std::uint64_t seed,
+                                                   const std::function<Result<bool>(const Mat4&)>& touches);
 
 } // namespace voxtact::app

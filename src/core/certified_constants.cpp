@@ -99,8 +99,8 @@ shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_w
             place += element * static_cast<double>(reference[column]);
             magnitude += rows.magnitude[4 * column + row] * std::abs(static_cast<double>(reference[column]));
             out.voxel_from_reference[row][column] = static_cast<float>(element);
-            worst[column] = std::max(worst[column], kFloatError * std::abs(element) +
-                                                        kDoubleError * rows.magnitude[4 * column + row]);
+            worst[column] = std::max(worst[column],
+                                     kFloatError * std::abs(element) + kDoubleError * rows.magnitude[4 * column + row]);
         }
         out.voxel_from_reference[row][3] = static_cast<float>(place);
         worst[3] = std::max(worst[3], kFloatError * std::abs(place) + kDoubleError * magnitude);

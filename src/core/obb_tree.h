@@ -32,7 +32,7 @@ struct ObbTree {
 /// Top down: the axes of each box by principalAxes(), split at the mean of the centroids along its longest side, or a
 /// shorter one, and in halves where all centroids are alike (Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996,
 /// section 4). The same mesh gives the same tree. Expects a mesh that checkMesh() accepts.
-[[nodiscard]] ObbTree makeObbTree(const MeshView& mesh);
+[[nodiscard]] VOXTACT_API ObbTree makeObbTree(const MeshView& mesh);
 
 /// Whether a node's box under an affine matrix, which may stretch and shear, meets a closed box (lo <= hi); "texture"
 /// for the space that it is mostly asked in. Separating axes (section 5 of the same paper), with margins for rounding:

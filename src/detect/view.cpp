@@ -143,8 +143,8 @@ void ViewPass::beginRendering(VkCommandBuffer commandBuffer, VkExtent2D viewport
     context_->vk.CmdBeginRendering(commandBuffer, &info);
 }
 
-void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
-                          std::uint32_t firstPair, const ResultsImpl& results) const {
+void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item,
+                        Boundary boundary) const {
     const DeviceFunctions& vk = context_->vk;
     const VkExtent2D extent = viewportOf(desc_, batch, item);
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
@@ -165,8 +165,13 @@ void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, con
     const shader::ItemConstants constants = itemConstants(item, desc_.filter, batch.threshold);
     vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
     bindMesh(commandBuffer, item);
+}
+
+void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
+                          std::uint32_t firstPair, const ResultsImpl& results) const {
+    bindItem(commandBuffer, batch, item, boundary);
     if (countsByQuery(desc_.method)) {
-        recordQueries(commandBuffer, extent, item, firstPair, results);
+        recordQueries(commandBuffer, viewportOf(desc_, batch, item), item, firstPair, results);
     } else {
         draw(commandBuffer, item, firstPair, static_cast<std::uint32_t>(item.world_from_object.size()));
     }
@@ -174,21 +179,49 @@ void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, con
 
 void ViewPass::recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item,
                              std::uint32_t firstPair, const ResultsImpl& results) const {
-    const DeviceFunctions& vk = context_->vk;
     const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
-    const VkQueryControlFlags flags = desc_.method == CountingMethod::Query ? VK_QUERY_CONTROL_PRECISE_BIT : 0;
     for (std::uint32_t pair = firstPair; pair < firstPair + pairs; ++pair) {
-        if (eachAlone()) {
-            beginRendering(commandBuffer, viewport);
-        }
-        vk.CmdBeginQuery(commandBuffer, results.occlusion.get(), pair, flags);
+        beginQuery(commandBuffer, viewport, results.occlusion.get(), pair);
         draw(commandBuffer, item, pair, 1);
-        vk.CmdEndQuery(commandBuffer, results.occlusion.get(), pair);
-        if (eachAlone()) {
-            vk.CmdEndRendering(commandBuffer);
-            barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, 0,
-                    VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, 0);
-        }
+        endQuery(commandBuffer, results.occlusion.get(), pair);
+    }
+}
+
+void ViewPass::recordTriangles(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
+                               std::span<const std::uint32_t> triangles, VkQueryPool queries) const {
+    const BatchItem& item =
+        *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });
+    const VkExtent2D viewport = viewportOf(desc_, batch, item);
+    bindPairs(commandBuffer, results);
+    bindItem(commandBuffer, batch, item, Boundary::Range);
+    if (!eachAlone()) {
+        beginRendering(commandBuffer, viewport);
+    }
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        beginQuery(commandBuffer, viewport, queries, i);
+        drawTriangle(commandBuffer, item, triangles[i]);
+        endQuery(commandBuffer, queries, i);
+    }
+    if (!eachAlone()) {
+        context_->vk.CmdEndRendering(commandBuffer);
+    }
+}
+
+void ViewPass::beginQuery(VkCommandBuffer commandBuffer, VkExtent2D viewport, VkQueryPool queries,
+                          std::uint32_t query) const {
+    if (eachAlone()) {
+        beginRendering(commandBuffer, viewport);
+    }
+    const VkQueryControlFlags flags = desc_.method == CountingMethod::Query ? VK_QUERY_CONTROL_PRECISE_BIT : 0;
+    context_->vk.CmdBeginQuery(commandBuffer, queries, query, flags);
+}
+
+void ViewPass::endQuery(VkCommandBuffer commandBuffer, VkQueryPool queries, std::uint32_t query) const {
+    context_->vk.CmdEndQuery(commandBuffer, queries, query);
+    if (eachAlone()) {
+        context_->vk.CmdEndRendering(commandBuffer);
+        barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, 0,
+                VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT, 0);
     }
 }
 
@@ -200,6 +233,14 @@ void ViewPass::draw(VkCommandBuffer commandBuffer, const BatchItem& item, std::u
         context_->vk.CmdDraw(commandBuffer, 3 * mesh.triangleCount, views * pairs, 0, views * firstPair);
     } else {
         context_->vk.CmdDrawIndexed(commandBuffer, 3 * mesh.triangleCount, views * pairs, 0, 0, views * firstPair);
+    }
+}
+
+void ViewPass::drawTriangle(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t triangle) const {
+    if (item.mesh->impl().indices == VK_NULL_HANDLE) {
+        context_->vk.CmdDraw(commandBuffer, 3, 1, 3 * triangle, 0);
+    } else {
+        context_->vk.CmdDrawIndexed(commandBuffer, 3, 1, 3 * triangle, 0, 0);
     }
 }
 

@@ -40,6 +40,11 @@ class ViewPass {
         }
     }
 
+    /// Of a checked batch of one pair, some triangles of the mesh, each alone in a query: number i of `queries`, which
+    /// are reset, has the survivors of triangles[i]. For methods that count by query; tests the range.
+    void recordTriangles(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
+                         std::span<const std::uint32_t> triangles, VkQueryPool queries) const;
+
   private:
     ViewPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
@@ -54,10 +59,14 @@ class ViewPass {
     void bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const;
     void bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const;
     void beginRendering(VkCommandBuffer commandBuffer, VkExtent2D viewport) const;
+    void bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary) const;
     void recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                     std::uint32_t firstPair, const ResultsImpl& results) const;
     void recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item,
                        std::uint32_t firstPair, const ResultsImpl& results) const;
+    void beginQuery(VkCommandBuffer commandBuffer, VkExtent2D viewport, VkQueryPool queries, std::uint32_t query) const;
+    void endQuery(VkCommandBuffer commandBuffer, VkQueryPool queries, std::uint32_t query) const;
+    void drawTriangle(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t triangle) const;
     void draw(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstPair, std::uint32_t pairs) const;
 
     ContextImpl* context_;

@@ -124,10 +124,9 @@ std::vector<MethodSupport> methodSupport(const EnabledFeatures& enabled, const D
         support(CountingMethod::Atomic, {stores}),
         support(CountingMethod::Subgroup,
                 {stores, {device.fragmentBallotAndShuffle, "the fragment stage has no subgroup ballot and shuffle"}}),
-        support(CountingMethod::Compute,
-                {{enabled.shaderInt64, "shaderInt64 is not enabled"},
-                 {device.computeArithmetic, "the compute stage has no subgroup arithmetic"},
-                 {device.computeBuffers, "maxPerStageDescriptorStorageBuffers is below 6"}}),
+        support(CountingMethod::Compute, {{enabled.shaderInt64, "shaderInt64 is not enabled"},
+                                          {device.computeArithmetic, "the compute stage has no subgroup arithmetic"},
+                                          {device.computeBuffers, "maxPerStageDescriptorStorageBuffers is below 6"}}),
     };
 }
 

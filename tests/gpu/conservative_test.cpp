@@ -170,8 +170,7 @@ TEST_F(ConservativeTest, RefusesWhatItCannotAnswer) {
     DetectorDesc coarse = kDevice;
     coarse.resolution = 2;
     EXPECT_THAT(Detector::create(context(), coarse).error().text, HasSubstr("resolution 2"));
-    EXPECT_FALSE(
-        Detector::create(context(), {.method = CountingMethod::Compute, .stopAtFirst = true}).ok());
+    EXPECT_FALSE(Detector::create(context(), {.method = CountingMethod::Compute, .stopAtFirst = true}).ok());
 
     const VolumeData image = take(makeBuiltinVolume("sphere:16"));
     const MeshData triangles = take(makeEllipsoid(100));

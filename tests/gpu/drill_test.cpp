@@ -77,8 +77,7 @@ TEST_F(DrillTest, TheHitIsGoneWhenTheOracleSaysSo) {
     const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
     const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, {&pose, 1}};
 
-    BlockingDetector device =
-        detector({.method = CountingMethod::Compute, .projection = Projection::Conservative});
+    BlockingDetector device = detector({.method = CountingMethod::Compute, .projection = Projection::Conservative});
     BlockingDetector samples = detector({.method = CountingMethod::Atomic, .filter = Filter::Exact});
     cpu::Detector host =
         take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.contacts = true}}));
@@ -100,7 +99,8 @@ TEST_F(DrillTest, TheHitIsGoneWhenTheOracleSaysSo) {
         // Samples see less than bounds, never more.
         EXPECT_TRUE(!seen.hit || onDevice.hit || onDevice.possible) << steps;
         EXPECT_EQ(onHost.contacts.size(), onHost.contactsFound);
-        std::cout << "  step " << steps << ": " << onDevice.count << " fragments certain, " << seen.count << " sampled\n";
+        std::cout << "  step " << steps << ": " << onDevice.count << " fragments certain, " << seen.count
+                  << " sampled\n";
         touching = onDevice.hit;
         if (touching) {
             const std::vector<Ball> balls = around(onHost.contacts, 1.75 * data.grid.spacing[0]);

@@ -17,12 +17,15 @@ std::uint32_t fakeDeviceVersion = VK_API_VERSION_1_3;
 const char* fakeAbsent = nullptr;
 constexpr VkShaderStageFlags kBothStages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 VkShaderStageFlags fakeSubgroupStages = kBothStages;
+constexpr std::uint32_t kManyBuffers = 16;
+std::uint32_t fakeStorageBuffers = kManyBuffers;
 
 void VKAPI_PTR doNothing() {}
 
 void VKAPI_PTR fakeProperties(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
     properties->properties.apiVersion = fakeDeviceVersion;
     std::strcpy(properties->properties.deviceName, "fake");
+    properties->properties.limits.maxPerStageDescriptorStorageBuffers = fakeStorageBuffers;
     auto* subgroup = static_cast<VkPhysicalDeviceSubgroupProperties*>(properties->pNext);
     if (subgroup != nullptr && subgroup->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
         subgroup->supportedStages = fakeSubgroupStages;
@@ -54,6 +57,7 @@ class RequirementsTest : public testing::Test {
         fakeDeviceVersion = VK_API_VERSION_1_3;
         fakeAbsent = nullptr;
         fakeSubgroupStages = kBothStages;
+        fakeStorageBuffers = kManyBuffers;
         desc_.getInstanceProcAddr = &fakeLoader;
         // Never dereferenced: the fake loader's functions take no notice of them.
         desc_.instance = reinterpret_cast<VkInstance>(std::uintptr_t{1});
@@ -113,6 +117,14 @@ TEST_F(RequirementsTest, SubgroupOperationsCostMethods) {
     }
     fakeSubgroupStages = 0;
     EXPECT_THAT(check(desc_).methods.back().reason, HasSubstr("the compute stage has no subgroup arithmetic"));
+}
+
+TEST_F(RequirementsTest, FewStorageBuffersCostCompute) {
+    fakeStorageBuffers = 4; // Vulkan promises no more
+    for (const MethodSupport& method : check(desc_).methods) {
+        EXPECT_EQ(method.available, method.method != CountingMethod::Compute) << method.reason;
+    }
+    EXPECT_THAT(check(desc_).methods.back().reason, HasSubstr("maxPerStageDescriptorStorageBuffers"));
 }
 
 TEST_F(RequirementsTest, SingleFeatureStructsAreRead) {

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The projection `conservative`: a voxel cell with what is certain of its interpolant, and the part of a triangle in
+// it.
+#ifndef VOXTACT_CERTIFIED_CELL_H
+#define VOXTACT_CERTIFIED_CELL_H
+
+#include "certified_triangle.h"
+#include "opacity_ranges.h"
+
+/// A triangle that six planes clip has at most this many corners.
+#define CERTIFIED_MAX_CORNERS 9
+/// Of the largest terms of an entry coordinate: how far its computation may be off, interpolation included.
+#define CERTIFIED_VALUE_ERROR 1.9073486328125e-6f
+
+#ifdef __cplusplus
+#define EXACT inline
+#define PRECISE
+#define OUT(type) type&
+#define INOUT(type) type&
+#define ARRAY(type, name, count) type(&name)[count]
+namespace voxtact::shader {
+#else
+#define EXACT
+#define PRECISE precise
+#define OUT(type) out type
+#define INOUT(type) inout type
+#define ARRAY(type, name, count) inout type name[count]
+#endif
+
+/// A cell, its corners' scalars as entry coordinates, and what is certain of them.
+struct CertifiedCell {
+    float x000, x100, x010, x110, x001, x101, x011, x111; // the entry coordinate at corner (x, y, z)
+    float least, greatest;                                // of these
+    VoxelPoint lo, hi;         // the part of the cell in the domain, relative to the cell's corner: within [0, 1]
+    VoxelPoint safeLo, safeHi; // points in this box are in the domain whatever their displacement
+    float pointError;          // of an entry coordinate at a point of the cell
+    float margin;              // the same, the displacement of the point included
+};
+
+/// The part of cell `cell` of an axis that is in the domain, and the box in which a displaced point stays there.
+EXACT void certifiedDomain(int cell, int size, float delta, OUT(float) lo, OUT(float) hi, OUT(float) safeLo,
+                           OUT(float) safeHi) {
+    PRECISE float twice = delta + delta;
+    PRECISE float below = 0.5f + twice;
+    PRECISE float above = 0.5f - twice;
+    lo = cell < 0 ? 0.5f : 0.0f;
+    hi = cell == size - 1 ? 0.5f : 1.0f;
+    safeLo = cell < 0 ? below : -1.0f;
+    safeHi = cell == size - 1 ? above : 2.0f;
+}
+
+/// How far entry coordinates of stored values between `lo` and `hi` may be off: conversion and interpolation.
+EXACT float certifiedPointError(CertifiedItem item, float lo, float hi) {
+    PRECISE float below = lo - item.storedReference;
+    PRECISE float above = hi - item.storedReference;
+    const float farthest = certifiedMax(certifiedAbs(below), certifiedAbs(above));
+    PRECISE float scaled = certifiedAbs(item.entryScale) * farthest;
+    PRECISE float terms = scaled + certifiedAbs(item.entryBias);
+    PRECISE float error = terms * CERTIFIED_VALUE_ERROR;
+    return error;
+}
+
+/// What a displacement of two `delta` along each axis adds to it. No partial derivative of the interpolant is larger
+/// than the range of the voxels around.
+EXACT float certifiedMargin(CertifiedItem item, float pointError, float wideLo, float wideHi, float delta) {
+    PRECISE float range = wideHi - wideLo;
+    PRECISE float entries = certifiedAbs(item.entryScale) * range;
+    PRECISE float shifted = entries * delta;
+    PRECISE float part = shifted * 8.0f;
+    PRECISE float margin = pointError + part;
+    return margin;
+}
+
+/// The entry coordinate of a stored value.
+EXACT float certifiedEntry(CertifiedItem item, float stored) {
+    PRECISE float from = stored - item.storedReference;
+    PRECISE float scaled = from * item.entryScale;
+    PRECISE float entry = scaled + item.entryBias;
+    return entry;
+}
+
+/// Clips a polygon to one side of a plane across an axis: point * sign >= limit * sign. Returns the corners left.
+EXACT int certifiedClipPlane(ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count, int axis, float limit,
+                             bool above) {
+    float distances[CERTIFIED_MAX_CORNERS];
+    float least = 0.0f;
+    float greatest = -1.0f;
+    for (int i = 0; i < count; ++i) {
+        const float place = voxelAlong(corners[i], axis);
+        PRECISE float distance = above ? place - limit : limit - place;
+        distances[i] = distance;
+        least = certifiedMin(least, distance);
+        greatest = certifiedMax(greatest, distance);
+    }
+    if (!(least < 0.0f)) {
+        return count;
+    }
+    if (!(greatest >= 0.0f)) {
+        return 0;
+    }
+    VoxelPoint kept[CERTIFIED_MAX_CORNERS];
+    int keptCount = 0;
+    for (int i = 0; i < count; ++i) {
+        const int after = i + 1 < count ? i + 1 : 0;
+        const bool insideHere = distances[i] >= 0.0f;
+        const bool insideNext = distances[after] >= 0.0f;
+        if (insideHere && keptCount < CERTIFIED_MAX_CORNERS) {
+            kept[keptCount++] = corners[i];
+        }
+        if (insideHere != insideNext && keptCount < CERTIFIED_MAX_CORNERS) {
+            // From inside to outside, whichever comes first.
+            const int inside = insideHere ? i : after;
+            const int outside = insideHere ? after : i;
+            PRECISE float span = distances[inside] - distances[outside];
+            PRECISE float weight = distances[inside] * exactReciprocal(span);
+            const VoxelPoint from = corners[inside];
+            const VoxelPoint to = corners[outside];
+            kept[keptCount++] = voxelPoint(exactLerp(from.x, to.x, weight), exactLerp(from.y, to.y, weight),
+                                           exactLerp(from.z, to.z, weight));
+        }
+    }
+    for (int i = 0; i < keptCount; ++i) {
+        corners[i] = kept[i];
+    }
+    return keptCount;
+}
+
+EXACT float certifiedClamp(float value, float lo, float hi) {
+    return value >= lo ? (value <= hi ? value : hi) : lo;
+}
+
+/// The part of a triangle in a cell: a polygon whose points are displaced by less than twice the triangle's delta, in
+/// `corners`, relative to the cell's corner and within the cell. Returns the number of corners; 0: the triangle does
+/// not pass through the cell.
+EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell, VoxelPoint origin,
+                        ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS)) {
+    corners[0] = voxelDifference(triangle.corner0, origin);
+    corners[1] = voxelDifference(triangle.corner1, origin);
+    corners[2] = voxelDifference(triangle.corner2, origin);
+    int count = 3;
+    for (int axis = 0; axis < 3; ++axis) {
+        PRECISE float lo = voxelAlong(cell.lo, axis) - triangle.delta;
+        PRECISE float hi = voxelAlong(cell.hi, axis) + triangle.delta;
+        count = certifiedClipPlane(corners, count, axis, lo, true);
+        count = certifiedClipPlane(corners, count, axis, hi, false);
+    }
+    for (int i = 0; i < count; ++i) {
+        corners[i] = voxelPoint(certifiedClamp(corners[i].x, cell.lo.x, cell.hi.x),
+                                certifiedClamp(corners[i].y, cell.lo.y, cell.hi.y),
+                                certifiedClamp(corners[i].z, cell.lo.z, cell.hi.z));
+    }
+    return count;
+}
+
+/// The interpolant at a point of the cell, as an entry coordinate.
+EXACT float certifiedInterpolate(CertifiedCell cell, float x, float y, float z) {
+    const float v00 = exactLerp(cell.x000, cell.x100, x);
+    const float v10 = exactLerp(cell.x010, cell.x110, x);
+    const float v01 = exactLerp(cell.x001, cell.x101, x);
+    const float v11 = exactLerp(cell.x011, cell.x111, x);
+    return exactLerp(exactLerp(v00, v10, y), exactLerp(v01, v11, y), z);
+}
+
+/// The stored values at the corners of a cell, and the range of those around its brick.
+struct CertifiedCorners {
+    float s000, s100, s010, s110, s001, s101, s011, s111; // at corner (x, y, z)
+    float wideLo, wideHi;
+};
+
+EXACT CertifiedCell certifiedCell(CertifiedItem item, CertifiedCorners corners, int x, int y, int z, float delta) {
+    CertifiedCell cell;
+    cell.x000 = certifiedEntry(item, corners.s000);
+    cell.x100 = certifiedEntry(item, corners.s100);
+    cell.x010 = certifiedEntry(item, corners.s010);
+    cell.x110 = certifiedEntry(item, corners.s110);
+    cell.x001 = certifiedEntry(item, corners.s001);
+    cell.x101 = certifiedEntry(item, corners.s101);
+    cell.x011 = certifiedEntry(item, corners.s011);
+    cell.x111 = certifiedEntry(item, corners.s111);
+    cell.least = certifiedMin(certifiedMin(certifiedMin(cell.x000, cell.x100), certifiedMin(cell.x010, cell.x110)),
+                              certifiedMin(certifiedMin(cell.x001, cell.x101), certifiedMin(cell.x011, cell.x111)));
+    cell.greatest = certifiedMax(certifiedMax(certifiedMax(cell.x000, cell.x100), certifiedMax(cell.x010, cell.x110)),
+                                 certifiedMax(certifiedMax(cell.x001, cell.x101), certifiedMax(cell.x011, cell.x111)));
+    certifiedDomain(x, item.sizeX, delta, cell.lo.x, cell.hi.x, cell.safeLo.x, cell.safeHi.x);
+    certifiedDomain(y, item.sizeY, delta, cell.lo.y, cell.hi.y, cell.safeLo.y, cell.safeHi.y);
+    certifiedDomain(z, item.sizeZ, delta, cell.lo.z, cell.hi.z, cell.safeLo.z, cell.safeHi.z);
+    cell.pointError = certifiedPointError(item, corners.wideLo, corners.wideHi);
+    cell.margin = certifiedMargin(item, cell.pointError, corners.wideLo, corners.wideHi, delta);
+    return cell;
+}
+
+/// Whether some entry coordinate from `lo` to `hi` may be opaque, each of which may be off by `error`.
+EXACT bool certifiedMayBeOpaque(OpacityTable table, float lo, float hi, float error) {
+    PRECISE float below = lo - error;
+    PRECISE float above = hi + error;
+    return mayBeOpaque(table, below, above);
+}
+
+/// Whether some point of the cell may be opaque.
+EXACT bool certifiedCellMayBeOpaque(OpacityTable table, CertifiedCell cell) {
+    return certifiedMayBeOpaque(table, cell.least, cell.greatest, cell.pointError);
+}
+
+/// Whether some sample of stored values from `lo` to `hi` may be opaque: of a brick.
+EXACT bool certifiedRangeMayBeOpaque(OpacityTable table, CertifiedItem item, float lo, float hi) {
+    const float first = certifiedEntry(item, lo);
+    const float second = certifiedEntry(item, hi);
+    const float error = certifiedPointError(item, lo, hi);
+    return certifiedMayBeOpaque(table, certifiedMin(first, second), certifiedMax(first, second), error);
+}
+
+#ifdef __cplusplus
+#undef EXACT
+#undef PRECISE
+#undef OUT
+#undef INOUT
+#undef ARRAY
+} // namespace voxtact::shader
+#endif
+
+#endif

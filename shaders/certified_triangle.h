@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// The projection `conservative`: points and triangles in voxel space, how far rounding may have moved them, and the
+// cells that they may pass through.
+//
+// Voxel space: u = t * n - 0.5 along each axis, t being the texture coordinate and n the voxels: voxel i's centre is at
+// i, cell i reaches from i to i + 1, and the domain from -0.5 to n - 0.5.
+#ifndef VOXTACT_CERTIFIED_TRIANGLE_H
+#define VOXTACT_CERTIFIED_TRIANGLE_H
+
+#include "exact.h"
+
+/// Of the longest side of a triangle, in voxels: how far clipping and moving to a cell's corner may shift its points.
+#define CERTIFIED_CLIP_ERROR 3.814697265625e-6f
+/// Beyond this many voxels of displacement nothing is certain.
+#define CERTIFIED_MOST_DELTA 0.125f
+/// Voxels. Farther than any image reaches, and than any vertex whose error is below CERTIFIED_MOST_DELTA.
+#define CERTIFIED_FARTHEST 1.0e30f
+
+#ifdef __cplusplus
+#define EXACT inline
+#define PRECISE
+#define OUT(type) type&
+#define INOUT(type) type&
+#define ARRAY(type, name, count) type(&name)[count]
+namespace voxtact::shader {
+#else
+#define EXACT
+#define PRECISE precise
+#define OUT(type) out type
+#define INOUT(type) inout type
+#define ARRAY(type, name, count) inout type name[count]
+#endif
+
+/// A point or a vector of voxel space.
+struct VoxelPoint {
+    float x, y, z;
+};
+
+EXACT float certifiedMin(float a, float b) {
+    return b < a ? b : a;
+}
+EXACT float certifiedMax(float a, float b) {
+    return b > a ? b : a;
+}
+EXACT float certifiedAbs(float a) {
+    return a < 0.0f ? -a : a;
+}
+
+EXACT VoxelPoint voxelPoint(float x, float y, float z) {
+    VoxelPoint point;
+    point.x = x;
+    point.y = y;
+    point.z = z;
+    return point;
+}
+
+EXACT VoxelPoint voxelDifference(VoxelPoint a, VoxelPoint b) {
+    PRECISE float x = a.x - b.x;
+    PRECISE float y = a.y - b.y;
+    PRECISE float z = a.z - b.z;
+    return voxelPoint(x, y, z);
+}
+
+EXACT float voxelAlong(VoxelPoint point, int axis) {
+    return axis == 0 ? point.x : (axis == 1 ? point.y : point.z);
+}
+
+/// The largest component.
+EXACT float voxelLength(VoxelPoint vector) {
+    return certifiedMax(certifiedAbs(vector.x), certifiedMax(certifiedAbs(vector.y), certifiedAbs(vector.z)));
+}
+
+/// A vertex in voxel space, and how far it may be off along each axis.
+struct CertifiedVertex {
+    VoxelPoint point;
+    float error;
+};
+
+/// A triangle in voxel space.
+struct CertifiedTriangle {
+    VoxelPoint corner0, corner1, corner2;
+    VoxelPoint normal; // not a unit vector
+    float reach;       // its longest side along an axis, and two voxels
+    float delta;       // voxels by which its points, and pieces of it, may be displaced along each axis
+};
+
+/// The cells that a triangle may pass through.
+struct CertifiedBounds {
+    int firstX, firstY, firstZ; // inclusive; none: last < first
+    int lastX, lastY, lastZ;
+    float delta;
+    bool usable; // false: delta is too large, or not a number, for any fragment to be decided
+};
+
+EXACT CertifiedVertex certifiedVertex(CertifiedPair pair, float x, float y, float z) {
+    PRECISE float fromX = x - pair.reference[0];
+    PRECISE float fromY = y - pair.reference[1];
+    PRECISE float fromZ = z - pair.reference[2];
+    CertifiedVertex vertex;
+    vertex.point = voxelPoint(exactDot(pair.voxel_from_reference[0], fromX, fromY, fromZ),
+                              exactDot(pair.voxel_from_reference[1], fromX, fromY, fromZ),
+                              exactDot(pair.voxel_from_reference[2], fromX, fromY, fromZ));
+    vertex.error = exactDot(pair.error, certifiedAbs(fromX), certifiedAbs(fromY), certifiedAbs(fromZ));
+    return vertex;
+}
+
+/// The cells of an axis that a triangle from `lo` to `hi` may meet. NaN meets all.
+EXACT void certifiedCells(float lo, float hi, float delta, int size, OUT(int) first, OUT(int) last) {
+    PRECISE float from = lo - delta;
+    PRECISE float to = hi + delta;
+    const float end = float(size) - 0.5f;
+    if (to < -0.5f || from > end) {
+        first = 0;
+        last = -1;
+        return;
+    }
+    first = from >= 0.0f ? (from < float(size - 1) ? int(floor(from)) : size - 1) : -1;
+    last = to < float(size - 1) ? (to >= 0.0f ? int(floor(to)) : -1) : size - 1;
+}
+
+EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex0, CertifiedVertex vertex1,
+                                      CertifiedVertex vertex2) {
+    const VoxelPoint a = vertex0.point;
+    const VoxelPoint b = vertex1.point;
+    const VoxelPoint c = vertex2.point;
+    const VoxelPoint lo =
+        voxelPoint(certifiedMin(a.x, certifiedMin(b.x, c.x)), certifiedMin(a.y, certifiedMin(b.y, c.y)),
+                   certifiedMin(a.z, certifiedMin(b.z, c.z)));
+    const VoxelPoint hi =
+        voxelPoint(certifiedMax(a.x, certifiedMax(b.x, c.x)), certifiedMax(a.y, certifiedMax(b.y, c.y)),
+                   certifiedMax(a.z, certifiedMax(b.z, c.z)));
+    const float side = voxelLength(voxelDifference(hi, lo));
+    PRECISE float reach = side + 2.0f;
+    PRECISE float shift = CERTIFIED_CLIP_ERROR * reach;
+    PRECISE float error01 = vertex0.error + vertex1.error;
+    PRECISE float error012 = error01 + vertex2.error;
+    PRECISE float delta = certifiedMax(vertex0.error, certifiedMax(vertex1.error, vertex2.error)) + shift;
+    // The sum is not finite where one of them is not: the maximum may pass over a NaN.
+    delta = error012 <= CERTIFIED_FARTHEST ? delta : CERTIFIED_FARTHEST;
+    CertifiedBounds bounds;
+    bounds.delta = delta;
+    bounds.usable = delta <= CERTIFIED_MOST_DELTA;
+    certifiedCells(lo.x, hi.x, delta, item.sizeX, bounds.firstX, bounds.lastX);
+    certifiedCells(lo.y, hi.y, delta, item.sizeY, bounds.firstY, bounds.lastY);
+    certifiedCells(lo.z, hi.z, delta, item.sizeZ, bounds.firstZ, bounds.lastZ);
+    return bounds;
+}
+
+/// A box of object space.
+struct CertifiedBox {
+    float loX, loY, loZ;
+    float hiX, hiY, hiZ;
+};
+
+EXACT float certifiedFarther(float lo, float hi, float from) {
+    return certifiedMax(certifiedAbs(lo - from), certifiedAbs(hi - from));
+}
+
+EXACT float certifiedExtent(vec4 row, VoxelPoint radius) {
+    return certifiedAbs(row[0]) * radius.x + certifiedAbs(row[1]) * radius.y + certifiedAbs(row[2]) * radius.z;
+}
+
+/// The cells that the triangles in a box of object space may pass through: those of certifiedBounds() are among them,
+/// and its delta is no larger.
+EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair, CertifiedBox box) {
+    // Halves first: the sum of two large floats may overflow.
+    const VoxelPoint centre =
+        voxelPoint(box.loX * 0.5f + box.hiX * 0.5f, box.loY * 0.5f + box.hiY * 0.5f, box.loZ * 0.5f + box.hiZ * 0.5f);
+    const VoxelPoint radius = voxelPoint(certifiedMax(box.hiX - centre.x, centre.x - box.loX),
+                                         certifiedMax(box.hiY - centre.y, centre.y - box.loY),
+                                         certifiedMax(box.hiZ - centre.z, centre.z - box.loZ));
+    const CertifiedVertex middle = certifiedVertex(pair, centre.x, centre.y, centre.z);
+    // The farthest point's error; rounding of the centre and of the radius, and clipping, within its multiple.
+    const VoxelPoint farthest = voxelPoint(certifiedFarther(box.loX, box.hiX, pair.reference[0]),
+                                           certifiedFarther(box.loY, box.hiY, pair.reference[1]),
+                                           certifiedFarther(box.loZ, box.hiZ, pair.reference[2]));
+    const float error = exactDot(pair.error, farthest.x, farthest.y, farthest.z);
+    const VoxelPoint extent = voxelPoint(certifiedExtent(pair.voxel_from_reference[0], radius),
+                                         certifiedExtent(pair.voxel_from_reference[1], radius),
+                                         certifiedExtent(pair.voxel_from_reference[2], radius));
+    PRECISE float reach = 4.0f * voxelLength(extent) + 4.0f;
+    PRECISE float shift = reach * CERTIFIED_CLIP_ERROR;
+    PRECISE float delta = 4.0f * error + shift;
+    delta = delta <= CERTIFIED_FARTHEST ? delta : CERTIFIED_FARTHEST;
+    CertifiedBounds bounds;
+    bounds.delta = delta;
+    bounds.usable = delta <= CERTIFIED_MOST_DELTA;
+    certifiedCells(middle.point.x - extent.x, middle.point.x + extent.x, delta, item.sizeX, bounds.firstX,
+                   bounds.lastX);
+    certifiedCells(middle.point.y - extent.y, middle.point.y + extent.y, delta, item.sizeY, bounds.firstY,
+                   bounds.lastY);
+    certifiedCells(middle.point.z - extent.z, middle.point.z + extent.z, delta, item.sizeZ, bounds.firstZ,
+                   bounds.lastZ);
+    return bounds;
+}
+
+EXACT CertifiedTriangle certifiedTriangle(VoxelPoint a, VoxelPoint b, VoxelPoint c, float delta) {
+    CertifiedTriangle triangle;
+    triangle.corner0 = a;
+    triangle.corner1 = b;
+    triangle.corner2 = c;
+    triangle.delta = delta;
+    const VoxelPoint u = voxelDifference(b, a);
+    const VoxelPoint v = voxelDifference(c, a);
+    PRECISE float side = certifiedMax(voxelLength(u), certifiedMax(voxelLength(v), voxelLength(voxelDifference(c, b))));
+    PRECISE float reach = side + 2.0f;
+    triangle.reach = reach;
+    PRECISE float uyvz = u.y * v.z;
+    PRECISE float uzvy = u.z * v.y;
+    PRECISE float uzvx = u.z * v.x;
+    PRECISE float uxvz = u.x * v.z;
+    PRECISE float uxvy = u.x * v.y;
+    PRECISE float uyvx = u.y * v.x;
+    PRECISE float nx = uyvz - uzvy;
+    PRECISE float ny = uzvx - uxvz;
+    PRECISE float nz = uxvy - uyvx;
+    triangle.normal = voxelPoint(nx, ny, nz);
+    return triangle;
+}
+
+/// Whether the triangle's plane certainly misses a cube of voxel space, given by its centre and radius, half its side.
+/// Only for cubes that meet the cells of the triangle.
+EXACT bool certifiedPlaneMisses(CertifiedTriangle triangle, VoxelPoint centre, float radius) {
+    const VoxelPoint from = voxelDifference(centre, triangle.corner0);
+    PRECISE float x = from.x * triangle.normal.x;
+    PRECISE float y = from.y * triangle.normal.y;
+    PRECISE float z = from.z * triangle.normal.z;
+    PRECISE float xy = x + y;
+    PRECISE float distance = xy + z;
+    PRECISE float sizeXY = certifiedAbs(triangle.normal.x) + certifiedAbs(triangle.normal.y);
+    PRECISE float size = sizeXY + certifiedAbs(triangle.normal.z);
+    PRECISE float margin = radius + triangle.delta;
+    PRECISE float extent = margin * size;
+    // The plane is measured from corner 0, which is within `far` of the cube's centre. Each component of the normal is
+    // off by less than 2^-21 reach^2, the sum of products by as much again.
+    PRECISE float square = triangle.reach * triangle.reach;
+    PRECISE float twice = radius + radius;
+    PRECISE float far = triangle.reach + twice;
+    PRECISE float cube = square * far;
+    PRECISE float error = cube * CERTIFIED_CLIP_ERROR;
+    PRECISE float most = extent + error;
+    return certifiedAbs(distance) > most;
+}
+
+#ifdef __cplusplus
+#undef EXACT
+#undef PRECISE
+#undef OUT
+#undef INOUT
+#undef ARRAY
+} // namespace voxtact::shader
+#endif
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// voxtact bench: engines side by side, checked and timed.
+#include "cli_fixture.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+class BenchTest : public CliDeviceTest {
+  protected:
+    /// A scene that takes a moment, and what is added.
+    static Arguments bench(const std::string& poses, const std::string& repetitions, const Arguments& more = {}) {
+        Arguments all{"bench",   "--certified", "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:500",
+                      "--poses", poses,         "--repetitions", repetitions};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    static Arguments opaque(Arguments all) {
+        all.insert(all.end(), {"--opacity", "40:0,80:1"});
+        return all;
+    }
+    static Json json(Arguments all) {
+        all.insert(all.end(), {"--format", "json"});
+        return Json::parse(output(all));
+    }
+    static std::vector<Json> rowsOf(const Json& result, const std::string& engine, const std::string& question) {
+        std::vector<Json> found;
+        for (const Json& row : result["rows"]) {
+            if (row["engine"] == engine && row["question"] == question && row["projection"] != "view") {
+                found.push_back(row);
+            }
+        }
+        return found;
+    }
+};
+
+TEST_F(BenchTest, EveryCertifiedEngineMissesNothing) {
+    const Json result = json(opaque(bench("24", "2")));
+    EXPECT_EQ(result["scene"]["volume"], "builtin:head:32");
+    for (const char* fact : {"device", "driver", "cpu", "cpu_threads"}) {
+        EXPECT_TRUE(result["machine"].contains(fact)) << fact;
+    }
+    EXPECT_EQ(rowsOf(result, "cpu", "yes/no").size(), 4U) << "one thread and all, two sets of poses";
+    EXPECT_EQ(rowsOf(result, "cpu", "count").size(), 2U);
+    EXPECT_EQ(rowsOf(result, "compute", "yes/no").size(), 2U);
+    EXPECT_EQ(rowsOf(result, "compute", "count").size(), 2U);
+    for (const Json& row : result["rows"]) {
+        EXPECT_EQ(row["pairs"], 24);
+        EXPECT_EQ(row["samples"], 2);
+        EXPECT_GT(row["contacts"], 0);
+        EXPECT_GT(row["pairs_per_s_min"], 0);
+        EXPECT_LE(row["pairs_per_s_min"], row["pairs_per_s"]);
+        EXPECT_LE(row["pairs_per_s"], row["pairs_per_s_max"]);
+        if (row["projection"] == "conservative") {
+            EXPECT_EQ(row["missed_percent"], 0) << row;
+            EXPECT_EQ(row["false_percent"], 0) << row;
+        }
+    }
+    EXPECT_EQ(result["summary"].size(), VOXTACT_WITH_FCL != 0 ? 4U : 0U);
+    EXPECT_EQ(result["rows"][0]["wall_ratio"], 1);
+    EXPECT_EQ(result["rows"][0]["cpu_ratio_max"], 1);
+}
+
+TEST_F(BenchTest, FclIsThereOrTheTableSaysWhy) {
+    const std::string text = output(opaque(bench("8", "1", {"--format", "text"})));
+    EXPECT_THAT(text, HasSubstr(VOXTACT_WITH_FCL != 0 ? "fcl-float" : "# FCL: not built in"));
+    const Json result = json(opaque(bench("100", "1")));
+    for (const Json& row : rowsOf(result, "fcl-double", "yes/no")) {
+        // Voxels are the cubes around the points that the interpolant runs through: near contact it is another shape.
+        EXPECT_LT(row["missed_percent"], row["poses"] == "large" ? 20 : 80) << row;
+        EXPECT_LT(row["false_percent"], row["poses"] == "large" ? 30 : 101) << row;
+    }
+}
+
+TEST_F(BenchTest, AnisotropicObliqueVolumes) {
+    output({"make", "volume", "builtin:ct:24", path("ct.nii.gz")});
+    const Json result = json({"bench", "--certified", "--volume", path("ct.nii.gz"), "--mesh", "builtin:ellipsoid:200",
+                              "--opacity", "100:0,200:1", "--poses", "40", "--repetitions", "1"});
+    for (const Json& row : rowsOf(result, "fcl-float", "yes/no")) {
+        EXPECT_LT(row["missed_percent"], 50) << row;
+    }
+    if (VOXTACT_WITH_FCL != 0) {
+        EXPECT_THAT(result["notes"].dump(), HasSubstr("no cubes"));
+    }
+}
+
+TEST_F(BenchTest, CsvIsTheSameSceneForTheSameSeed) {
+    const auto lines = linesOf(output(opaque(bench("8", "1", {"--seed", "5"}))));
+    const auto again = linesOf(output(opaque(bench("8", "1", {"--seed", "5"}))));
+    EXPECT_EQ(lines.front(),
+              "mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,"
+              "samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,"
+              "pairs_per_cpu_s_max,wall_ratio,wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max");
+    ASSERT_EQ(lines.size(), again.size());
+    for (std::size_t i = 1; i < lines.size() && !lines[i].starts_with("#"); ++i) {
+        const auto one = fieldsOf(lines[i]);
+        const auto other = fieldsOf(again[i]);
+        ASSERT_EQ(one.size(), 24U);
+        EXPECT_TRUE(std::equal(one.begin(), one.begin() + 11, other.begin())) << lines[i] << "\n" << again[i];
+    }
+}
+
+TEST_F(BenchTest, WithoutADeviceTheHostIsMeasured) {
+    const RunOptions none{.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
+    const std::string text = output(opaque(bench("8", "1")), none);
+    EXPECT_THAT(text, AllOf(HasSubstr("# no device"), HasSubstr("conservative"), Not(HasSubstr("compute"))));
+    EXPECT_THAT(refused(1, bench("8", "1", {"--device", "0"}), none), Not(testing::IsEmpty()));
+}
+
+TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {
+    EXPECT_THAT(refused(2, {"bench"}), AllOf(HasSubstr("say what to measure"), HasSubstr("--certified")));
+    EXPECT_THAT(refused(2, bench("8", "1", {"--volume", "builtin:sphere"})), HasSubstr("one --volume"));
+    EXPECT_THAT(refused(2, bench("8", "0")), HasSubstr("--repetitions"));
+    EXPECT_THAT(refused(2, bench("none.txt", "1")), HasSubstr("--poses"));
+    EXPECT_THAT(refused(2, bench("8", "1", {"--mesh", "builtin:spoon"})), HasSubstr("spoon"));
+    EXPECT_THAT(refused(1, bench("8", "1", {"--output", path("none/out.csv")})), HasSubstr("does not exist"));
+    EXPECT_EQ(filesInFolder(), 0U);
+    // Nothing is opaque: no pose touches.
+    EXPECT_THAT(refused(2, bench("2", "1", {"--opacity", "0:0,255:0"})),
+                HasSubstr("no poses around the onset of contact: of 200 random poses only 0 touch"));
+}
+
+} // namespace
+} // namespace voxtact::test
