@@ -114,8 +114,8 @@ EXACT void certifiedCells(float lo, float hi, float delta, int size, OUT(int) fi
         last = -1;
         return;
     }
-    first = from >= 0.0f ? (from < float(size - 1) ? int(floor(from)) : size - 1) : -1;
-    last = to < float(size - 1) ? (to >= 0.0f ? int(floor(to)) : -1) : size - 1;
+    first = from >= 0.0f ? (from < float(size - 1) ? int(from) : size - 1) : -1;
+    last = to < float(size - 1) ? (to >= 0.0f ? int(to) : -1) : size - 1;
 }
 
 EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex0, CertifiedVertex vertex1,

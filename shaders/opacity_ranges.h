@@ -20,6 +20,16 @@ namespace voxtact::shader {
 /// More than the rounding of one interpolation between two opacities.
 #define OPACITY_ERROR 4.76837158203125e-7f
 
+/// The largest integer that is not above `x`, and the smallest that is not below it. Expects what fits an integer.
+EXACT int wholeBelow(float x) {
+    const int cut = int(x);
+    return float(cut) > x ? cut - 1 : cut;
+}
+EXACT int wholeAbove(float x) {
+    const int cut = int(x);
+    return float(cut) < x ? cut + 1 : cut;
+}
+
 /// The table's extremes (core/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that name.
 struct OpacityTable {
     int size;
@@ -71,9 +81,8 @@ EXACT float opacityEntry(OpacityTable table, float x, float instead) {
 
 /// The opacity at a coordinate of [0, N-1], within OPACITY_ERROR.
 EXACT float opacityAt(OpacityTable table, float x) {
-    PRECISE float below = floor(x);
-    PRECISE float weight = x - below;
-    const int first = int(below);
+    const int first = wholeBelow(x);
+    PRECISE float weight = x - float(first);
     const int second = first + 1 < table.size ? first + 1 : first;
     return exactLerp(opacityExtreme(table, first), opacityExtreme(table, second), weight);
 }
@@ -82,13 +91,13 @@ EXACT float opacityAt(OpacityTable table, float x) {
 EXACT bool mayBeOpaque(OpacityTable table, float lo, float hi) {
     const float from = opacityEntry(table, lo, 0.0f);
     const float to = opacityEntry(table, hi, float(table.size - 1));
-    const int first = int(floor(from));
-    const int last = -int(floor(-to));
+    const int first = wholeBelow(from);
+    const int last = wholeAbove(to);
     if (!(opacityMaximum(table, first, last) >= table.threshold)) {
         return false;
     }
-    const int inner = -int(floor(-from));
-    const int outer = int(floor(to));
+    const int inner = wholeAbove(from);
+    const int outer = wholeBelow(to);
     if (inner <= outer && opacityMaximum(table, inner, outer) >= table.threshold) {
         return true;
     }
@@ -103,13 +112,13 @@ EXACT bool certainlyAllOpaque(OpacityTable table, float lo, float hi) {
     }
     const float from = opacityEntry(table, lo, 0.0f);
     const float to = opacityEntry(table, hi, 0.0f);
-    const int first = int(floor(from));
-    const int last = -int(floor(-to));
+    const int first = wholeBelow(from);
+    const int last = wholeAbove(to);
     if (opacityMinimum(table, first, last) >= table.threshold) {
         return true;
     }
-    const int inner = -int(floor(-from));
-    const int outer = int(floor(to));
+    const int inner = wholeAbove(from);
+    const int outer = wholeBelow(to);
     if (inner <= outer && !(opacityMinimum(table, inner, outer) >= table.threshold)) {
         return false;
     }
@@ -124,8 +133,8 @@ EXACT bool certainlySomeOpaque(OpacityTable table, float lo, float hi) {
     }
     const float from = opacityEntry(table, lo, 0.0f);
     const float to = opacityEntry(table, hi, 0.0f);
-    const int inner = -int(floor(-from));
-    const int outer = int(floor(to));
+    const int inner = wholeAbove(from);
+    const int outer = wholeBelow(to);
     if (inner <= outer && opacityMaximum(table, inner, outer) >= table.threshold) {
         return true;
     }

@@ -21,17 +21,27 @@ misses that it calls contacts. Poses at large, and poses around the onset of con
 outside. Default scene: builtin:scalpel:3068 and builtin:ellipsoid:49998 against builtin:head:256 with --opacity
 "40:0,80:1". Exit status 3 when engines that must agree do not.
 
+--outputs: what each projection costs beside the view, by the host and by the methods of the device, and what each of
+the outputs (touched triangles, bounds, labels, contacts) costs beside the bare count of the same method and projection.
+Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
+scene: builtin:scalpel:3068 against builtin:head:128.
+
 Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,
-wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max; medians, and of the ratios to the first engine of
-the same scene in the same round.
+wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max; medians, and of the ratios of pairs a second to
+the first engine of the same scene in the same round (--outputs: projections to the view by the same method, outputs to
+the bare count).
 
 Examples:
   voxtact bench --certified
+  voxtact bench --outputs --repetitions 3
   voxtact bench --certified --volume head.nii.gz --mesh tool.stl --format json --output bench.json)";
 
 void addOptions(CLI::App& parser, BenchOptions& options) {
-    parser.add_flag("--certified", options.certified, "yes or no, and counts, that miss no contact");
+    CLI::Option* certified =
+        parser.add_flag("--certified", options.certified, "yes or no, and counts, that miss no contact");
+    parser.add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
+        ->excludes(certified);
     addVolumeOption(parser, options.volumes);
     parser.get_option("--volume")->required(false);
     addMeshOptions(parser, options.meshes);
@@ -48,10 +58,11 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
     options.command = commandLine(parser);
-    if (options.certified) {
-        return runBenchCertified(options);
+    if (!options.certified && !options.outputs) {
+        return {kExitArguments, "say what to measure: --certified or --outputs; see voxtact bench --help"};
     }
-    return {kExitArguments, "say what to measure; there is: --certified; see voxtact bench --help"};
+    options.mode = options.outputs ? BenchMode::Outputs : BenchMode::Certified;
+    return runBenchEngines(options);
 }
 
 } // namespace

@@ -9,8 +9,16 @@
 
 namespace voxtact::app {
 
+/// What `voxtact bench` can measure.
+enum class BenchMode {
+    Certified, ///< the certified answer beside the view and FCL
+    Outputs,   ///< what each projection and each output costs beside the bare count
+};
+
 struct BenchOptions {
-    bool certified = false;           ///< the mode: --certified
+    bool certified = false; ///< one of the two is given
+    bool outputs = false;
+    BenchMode mode = BenchMode::Certified;
     std::vector<std::string> volumes; ///< none: the mode's own scene
     MeshOptions meshes;               ///< the same
     TransferFunctionOptions transferFunction;
@@ -23,7 +31,7 @@ struct BenchOptions {
     std::string command; ///< what reproduces the run
 };
 
-/// `voxtact bench --certified`.
-[[nodiscard]] Outcome runBenchCertified(const BenchOptions& options);
+/// All modes: engines side by side, checked and timed.
+[[nodiscard]] Outcome runBenchEngines(const BenchOptions& options);
 
 } // namespace voxtact::app

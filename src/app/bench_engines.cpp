@@ -2,6 +2,7 @@
 #include "app/bench_engines.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace voxtact::app {
@@ -26,7 +27,8 @@ class HostEngine final : public Engine {
         : Engine(std::move(facts)), volume_(volume), mesh_(mesh), detector_(std::move(detector)) {}
 
     Result<std::vector<EngineAnswer>> run(std::span<const Mat4> poses) override {
-        const cpu::BatchItem item{&mesh_.host, &volume_.host, &volume_.hostFunction, poses};
+        const cpu::BatchItem item{&mesh_.host, &volume_.host, &volume_.hostFunction, poses,
+                                  volume_.labels.values.empty() ? nullptr : &volume_.labels};
         const Result<BatchAnswer> answer = detector_.detect({{&item, 1}, volume_.view, volume_.threshold});
         if (!answer.ok()) {
             return answer.error();
@@ -47,7 +49,8 @@ class DeviceEngine final : public Engine {
         : Engine(std::move(facts)), volume_(volume), mesh_(mesh), detector_(std::move(detector)) {}
 
     Result<std::vector<EngineAnswer>> run(std::span<const Mat4> poses) override {
-        const BatchItem item{&*mesh_.device, &*volume_.device, &*volume_.deviceFunction, poses};
+        const BatchItem item{&*mesh_.device, &*volume_.device, &*volume_.deviceFunction, poses,
+                             volume_.deviceLabels ? &*volume_.deviceLabels : nullptr};
         const Result<BatchAnswer> answer = detector_.detect({{&item, 1}, volume_.view, volume_.threshold});
         if (!answer.ok()) {
             return answer.error();
@@ -81,28 +84,54 @@ class FclEngine final : public Engine {
 
 using Engines = std::vector<std::unique_ptr<Engine>>;
 
-Result<void> addHost(const BenchVolume& volume, const BenchMesh& mesh, const cpu::DetectorDesc& desc,
-                     Engines& engines) {
+/// What an engine answers: the count, and the output beside it.
+std::string questionOf(bool yesNo, const Outputs& outputs) {
+    return yesNo               ? kYesNo
+           : outputs.triangles ? "count, triangles"
+           : outputs.bounds    ? "count, bounds"
+           : outputs.labels    ? "count, labels"
+           : outputs.contacts  ? "count, contacts"
+                               : kCount;
+}
+
+Result<void> addHost(const BenchVolume& volume, const BenchMesh& mesh, const cpu::DetectorDesc& desc, Engines& engines,
+                     std::size_t ratioTo = 0, bool sameCounts = false) {
     Result<cpu::Detector> detector = cpu::Detector::create(desc);
     if (!detector.ok()) {
         return detector.error();
     }
-    EngineFacts facts{toString(CountingMethod::Cpu), toString(desc.projection), desc.stopAtFirst ? kYesNo : kCount,
-                      detector->threads(), desc.projection == Projection::Conservative};
+    EngineFacts facts{toString(CountingMethod::Cpu),
+                      toString(desc.projection),
+                      questionOf(desc.stopAtFirst, desc.outputs),
+                      detector->threads(),
+                      desc.projection == Projection::Conservative,
+                      ratioTo,
+                      sameCounts};
     engines.push_back(std::make_unique<HostEngine>(std::move(facts), volume, mesh, std::move(*detector)));
     return {};
 }
 
 Result<void> addDevice(const Session& session, const BenchVolume& volume, const BenchMesh& mesh,
-                       const DetectorDesc& desc, Engines& engines) {
+                       const DetectorDesc& desc, Engines& engines, std::size_t ratioTo = 0, bool sameCounts = false) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     if (!detector.ok()) {
         return detector.error();
     }
-    EngineFacts facts{toString(desc.method), toString(desc.projection), desc.stopAtFirst ? kYesNo : kCount, 0,
-                      desc.projection == Projection::Conservative};
+    EngineFacts facts{toString(desc.method),
+                      toString(desc.projection),
+                      questionOf(desc.stopAtFirst, desc.outputs),
+                      0,
+                      desc.projection == Projection::Conservative,
+                      ratioTo,
+                      sameCounts};
     engines.push_back(std::make_unique<DeviceEngine>(std::move(facts), volume, mesh, std::move(*detector)));
     return {};
+}
+
+bool isAvailable(const Session& session, CountingMethod method) {
+    return std::ranges::any_of(session.context.methods(), [method](const MethodSupport& support) {
+        return support.method == method && support.available;
+    });
 }
 
 /// Those whose method the device can do.
@@ -112,10 +141,7 @@ Result<void> addDevices(const Session& session, const BenchVolume& volume, const
     DetectorDesc yesNo = all;
     yesNo.stopAtFirst = true;
     for (const DetectorDesc& desc : {yesNo, all, DetectorDesc{.method = CountingMethod::Query}}) {
-        const bool available = std::ranges::any_of(session.context.methods(), [&desc](const MethodSupport& support) {
-            return support.method == desc.method && support.available;
-        });
-        if (!available) {
+        if (!isAvailable(session, desc.method)) {
             continue;
         }
         if (Result<void> added = addDevice(session, volume, mesh, desc, engines); !added.ok()) {
@@ -137,6 +163,55 @@ Result<void> addFcl(const BenchVolume& volume, const BenchMesh& mesh, Engines& e
     return {};
 }
 
+constexpr std::array kOneOutput{Outputs{.triangles = true}, Outputs{.bounds = true}, Outputs{.labels = true},
+                                Outputs{.contacts = true}};
+
+/// Projections of the host, and then outputs in two of them.
+Result<void> addHostOutputs(const BenchVolume& volume, const BenchMesh& mesh, Engines& engines) {
+    constexpr std::array kOrder{Projection::View, Projection::Conservative, Projection::TwoView,
+                                Projection::DominantAxis};
+    for (const Projection projection : kOrder) {
+        if (Result<void> added = addHost(volume, mesh, {.projection = projection}, engines); !added.ok()) {
+            return added;
+        }
+    }
+    for (std::size_t bare : {std::size_t{0}, std::size_t{1}}) {
+        for (const Outputs& outputs : kOneOutput) {
+            if (Result<void> added =
+                    addHost(volume, mesh, {.projection = kOrder[bare], .outputs = outputs}, engines, bare, true);
+                !added.ok()) {
+                return added;
+            }
+        }
+    }
+    return {};
+}
+
+/// Projections of a method of the device, and then the outputs in one of them.
+Result<void> addDeviceOutputs(const Session& session, const BenchVolume& volume, const BenchMesh& mesh,
+                              CountingMethod method, Projection withOutputs, Engines& engines) {
+    const std::size_t view = engines.size();
+    std::size_t bare = view;
+    for (const Projection projection : projections()) {
+        if (projection == Projection::Conservative && method != CountingMethod::Compute) {
+            continue;
+        }
+        bare = projection == withOutputs ? engines.size() : bare;
+        const DetectorDesc desc{.method = method, .projection = projection, .filter = defaultFilter(method)};
+        if (Result<void> added = addDevice(session, volume, mesh, desc, engines, view); !added.ok()) {
+            return added;
+        }
+    }
+    for (const Outputs& outputs : kOneOutput) {
+        const DetectorDesc desc{
+            .method = method, .projection = withOutputs, .filter = defaultFilter(method), .outputs = outputs};
+        if (Result<void> added = addDevice(session, volume, mesh, desc, engines, bare, true); !added.ok()) {
+            return added;
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 Result<void> uploadVolume(const Session& session, BenchVolume& volume) {
@@ -149,6 +224,13 @@ Result<void> uploadVolume(const Session& session, BenchVolume& volume) {
         TransferFunction::upload(session.context, queue, {volume.points, volume.domain, volume.tableSize});
     if (!table.ok()) {
         return table.error();
+    }
+    if (!volume.labels.values.empty()) {
+        Result<LabelMap> labels = LabelMap::upload(session.context, queue, volume.labels);
+        if (!labels.ok()) {
+            return labels.error();
+        }
+        volume.deviceLabels.emplace(std::move(*labels));
     }
     volume.device.emplace(std::move(*image));
     volume.deviceFunction.emplace(std::move(*table));
@@ -183,6 +265,27 @@ Result<Engines> makeEngines(const BenchVolume& volume, const BenchMesh& mesh, co
     }
     if (volume.fcl) {
         if (Result<void> added = addFcl(volume, mesh, engines); !added.ok()) {
+            return added.error();
+        }
+    }
+    return engines;
+}
+
+Result<Engines> makeOutputEngines(const BenchVolume& volume, const BenchMesh& mesh, const Session* session) {
+    Engines engines;
+    if (Result<void> added = addHostOutputs(volume, mesh, engines); !added.ok()) {
+        return added.error();
+    }
+    constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
+        {CountingMethod::Query, Projection::View},
+        {CountingMethod::Atomic, Projection::View},
+        {CountingMethod::Compute, Projection::Conservative},
+    };
+    for (const auto& [method, withOutputs] : kOfDevice) {
+        if (session == nullptr || !isAvailable(*session, method)) {
+            continue;
+        }
+        if (Result<void> added = addDeviceOutputs(*session, volume, mesh, method, withOutputs, engines); !added.ok()) {
             return added.error();
         }
     }

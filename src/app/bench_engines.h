@@ -17,11 +17,13 @@ struct EngineAnswer {
 };
 
 struct EngineFacts {
-    std::string name;          ///< "cpu", "compute", "query", "fcl-float", "fcl-double"
-    std::string projection;    ///< "conservative", "view"; "octree" for FCL
-    std::string question;      ///< "yes/no", "count"
+    std::string name{};        ///< "cpu", "compute", "query", "fcl-float", "fcl-double"
+    std::string projection{};  ///< "conservative", "view"; "octree" for FCL
+    std::string question{};    ///< "yes/no", "count"
     std::uint32_t threads = 1; ///< of the host; 0: the device's work
     bool certified = false;    ///< must answer as every other certified engine does
+    std::size_t ratioTo = 0;   ///< number of the engine that its times are held against; not after it
+    bool sameCounts = false;   ///< must count as that one does
 };
 
 /// One way to answer for a mesh against a volume.
@@ -54,6 +56,8 @@ struct BenchVolume {
     std::optional<Volume> device;
     std::optional<TransferFunction> deviceFunction;
     std::optional<FclVolume> fcl;
+    LabelData labels{}; ///< for the mode --outputs: a label for each octant
+    std::optional<LabelMap> deviceLabels{};
 };
 
 struct BenchMesh {
@@ -71,5 +75,10 @@ struct BenchMesh {
 /// one thread, the second the host's count. `session` may be null: no engines of a device.
 [[nodiscard]] Result<std::vector<std::unique_ptr<Engine>>> makeEngines(const BenchVolume& volume, const BenchMesh& mesh,
                                                                        const Session* session);
+
+/// The projections, and the outputs beside the counts. The first is the host's count in the view, the second the host's
+/// in the projection conservative. Otherwise as makeEngines().
+[[nodiscard]] Result<std::vector<std::unique_ptr<Engine>>>
+makeOutputEngines(const BenchVolume& volume, const BenchMesh& mesh, const Session* session);
 
 } // namespace voxtact::app

@@ -256,22 +256,9 @@ bool before(const TouchedTriangle& a, const TouchedTriangle& b) {
     return a.triangle < b.triangle;
 }
 
-/// Counts what each way misses and has too much, against the certified set.
-void holdAgainstCertified(LocalizeResult& result) {
-    const LocalizeWay& certified = result.ways[kCertified];
-    for (LocalizeWay& way : result.ways) {
-        for (std::size_t pose = 0; pose < way.found.size(); ++pose) {
-            std::vector<TouchedTriangle> both;
-            std::ranges::set_intersection(certified.found[pose], way.found[pose], std::back_inserter(both), before);
-            way.missed += certified.found[pose].size() - both.size();
-            way.wrong += way.found[pose].size() - both.size();
-        }
-    }
-}
-
 /// What the way of most queries found that is not certified: the other ones are the same, or the run fails.
 Result<void> listWrong(Ways& ways, const CompareData& data, LocalizeResult& result) {
-    const LocalizeWay& certified = result.ways[kCertified];
+    const LocalizeWay& certified = result.ways.back();
     for (std::size_t pose = 0; pose < data.poses.size(); ++pose) {
         std::vector<TouchedTriangle> extra;
         std::ranges::set_difference(result.ways.front().found[pose], certified.found[pose], std::back_inserter(extra),
@@ -285,38 +272,6 @@ Result<void> listWrong(Ways& ways, const CompareData& data, LocalizeResult& resu
         }
     }
     return {};
-}
-
-std::string textOf(const std::vector<TouchedTriangle>& found, std::uint32_t triangle) {
-    const auto at = std::ranges::lower_bound(found, triangle, {}, &TouchedTriangle::triangle);
-    return std::to_string(at == found.end() || at->triangle != triangle ? 0 : at->count);
-}
-
-/// The first pose and triangle on which a way of the view has other fragments than the first of them.
-void judge(LocalizeResult& result) {
-    const LocalizeWay& first = result.ways.front();
-    for (std::size_t pose = 0; pose < first.found.size(); ++pose) {
-        for (const LocalizeWay& way : result.ways) {
-            if (!way.byView || !way.unchecked.empty()) {
-                continue;
-            }
-            std::vector<TouchedTriangle> apart;
-            std::ranges::set_symmetric_difference(first.found[pose], way.found[pose], std::back_inserter(apart),
-                                                  [](const TouchedTriangle& a, const TouchedTriangle& b) {
-                                                      return std::pair(a.triangle, a.count) <
-                                                             std::pair(b.triangle, b.count);
-                                                  });
-            if (apart.empty()) {
-                continue;
-            }
-            const std::uint32_t triangle = apart.front().triangle;
-            result.failedPose = result.poseNumbers[pose];
-            result.failure = "triangle " + std::to_string(triangle) + ": " + first.name + " " +
-                             textOf(first.found[pose], triangle) + ", " + way.name + " " +
-                             textOf(way.found[pose], triangle) + " fragments";
-            return;
-        }
-    }
 }
 
 Result<void> localizeAll(const CompareOptions& options, const CompareData& data, const Session& session,
@@ -334,8 +289,7 @@ Result<void> localizeAll(const CompareOptions& options, const CompareData& data,
     if (Result<void> found = findAll(*ways, options, data, result); !found.ok()) {
         return found;
     }
-    holdAgainstCertified(result);
-    judge(result);
+    judgeLocalize(result);
     return listWrong(*ways, data, result);
 }
 

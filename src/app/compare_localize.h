@@ -41,6 +41,9 @@ struct LocalizeResult {
     std::uint32_t triangles = 0; ///< of the mesh
 };
 
+/// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
+void judgeLocalize(LocalizeResult& result);
+
 /// `voxtact compare --localize`.
 [[nodiscard]] Outcome runLocalize(const CompareOptions& given, const CLI::App& parser);
 

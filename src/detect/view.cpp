@@ -143,8 +143,8 @@ void ViewPass::beginRendering(VkCommandBuffer commandBuffer, VkExtent2D viewport
     context_->vk.CmdBeginRendering(commandBuffer, &info);
 }
 
-void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item,
-                        Boundary boundary) const {
+void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
+                        const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
     const VkExtent2D extent = viewportOf(desc_, batch, item);
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
@@ -169,7 +169,7 @@ void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const
 
 void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                           std::uint32_t firstPair, const ResultsImpl& results) const {
-    bindItem(commandBuffer, batch, item, boundary);
+    bindItem(commandBuffer, batch, item, boundary, results);
     if (countsByQuery(desc_.method)) {
         recordQueries(commandBuffer, viewportOf(desc_, batch, item), item, firstPair, results);
     } else {
@@ -193,7 +193,7 @@ void ViewPass::recordTriangles(VkCommandBuffer commandBuffer, const Batch& batch
         *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });
     const VkExtent2D viewport = viewportOf(desc_, batch, item);
     bindPairs(commandBuffer, results);
-    bindItem(commandBuffer, batch, item, Boundary::Range);
+    bindItem(commandBuffer, batch, item, Boundary::Range, results);
     if (!eachAlone()) {
         beginRendering(commandBuffer, viewport);
     }

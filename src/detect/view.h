@@ -59,7 +59,8 @@ class ViewPass {
     void bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const;
     void bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const;
     void beginRendering(VkCommandBuffer commandBuffer, VkExtent2D viewport) const;
-    void bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary) const;
+    void bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
+                  const ResultsImpl& results) const;
     void recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                     std::uint32_t firstPair, const ResultsImpl& results) const;
     void recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item,

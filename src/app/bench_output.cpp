@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench_certified.h"
+#include "app/bench_run.h"
 
 #include "app/compare_output.h"
 #include "app/version.h"
@@ -117,7 +117,10 @@ void writeBench(std::ostream& out, const BenchOptions& options, const BenchResul
         return;
     }
     writeTable(out, format, tableOf(result, format));
-    out << "# volume " << result.volume << ", ratios to the first engine of each scene, round by round\n";
+    out << "# volume " << result.volume
+        << (options.mode == BenchMode::Outputs ? ", ratios of projections to the view by the same method, of outputs "
+                                                 "to the bare count, round by round\n"
+                                               : ", ratios to the first engine of each scene, round by round\n");
     for (const std::string& sentence : sentences(result)) {
         out << "# " << sentence << '\n';
     }

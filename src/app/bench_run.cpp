@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench_certified.h"
+#include "app/bench_run.h"
 
 #include "app/inputs.h"
 #include "app/progress.h"
@@ -17,10 +17,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Engines = std::vector<std::unique_ptr<Engine>>;
 
-constexpr const char* kVolume = "builtin:head:256";
 constexpr std::array<const char*, 2> kMeshes{"builtin:scalpel:3068", "builtin:ellipsoid:49998"};
 constexpr const char* kOpacity = "40:0,80:1";
 constexpr std::size_t kCounting = 1; ///< the engine that the others are held against: it knows what is possible
+/// The large scene is for engines that skip what cannot touch.
+const char* defaultVolume(BenchMode mode) {
+    return mode == BenchMode::Outputs ? "builtin:head:128" : "builtin:head:256";
+}
+
 /// Seconds of a sample: repeated up to the one, cut beyond the other.
 constexpr double kShortest = 0.03;
 constexpr double kLongest = 1.0;
@@ -89,7 +93,9 @@ Result<BenchVolume> loadBenchVolume(const BenchOptions& options, const std::stri
                        .hostFunction = std::move(*function),
                        .device = std::nullopt,
                        .deviceFunction = std::nullopt,
-                       .fcl = std::nullopt};
+                       .fcl = std::nullopt,
+                       .labels = {},
+                       .deviceLabels = std::nullopt};
 }
 
 Result<BenchMesh> loadBenchMesh(const BenchOptions& options, const std::string& source) {
@@ -149,26 +155,17 @@ Result<std::vector<Mat4>> makePoses(const std::string& kind, const BenchOptions&
     });
 }
 
-/// Counts what an engine misses and has too much. Says where one that must agree does not.
-std::string judge(std::span<const EngineAnswer> certified, std::span<const EngineAnswer> answers, BenchRow& row) {
-    std::string disagreement;
-    for (std::size_t i = 0; i < certified.size(); ++i) {
-        const EngineAnswer& truth = certified[i];
-        const EngineAnswer& answer = answers[i];
-        const bool none = !truth.hit && !truth.possible;
-        row.contacts += truth.hit ? 1 : 0;
-        row.untouched += none ? 1 : 0;
-        row.missed += truth.hit && !answer.hit ? 1 : 0;
-        row.wrong += none && answer.hit ? 1 : 0;
-        const std::uint64_t expected = row.engine.question == "count" ? truth.count : truth.hit ? 1 : 0;
-        if (row.engine.certified && disagreement.empty() &&
-            (answer.hit != truth.hit || answer.possible != truth.possible || answer.count != expected)) {
-            disagreement = row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name +
-                           " " + row.engine.question + " says " + std::to_string(answer.count) + ", it must be " +
-                           std::to_string(expected);
+/// Says where an engine does not count as the one that it must count as.
+std::string compareCounts(std::span<const EngineAnswer> bare, std::span<const EngineAnswer> answers,
+                          const BenchRow& row) {
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+        if (bare[i].count != answers[i].count) {
+            return row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name + " " +
+                   row.engine.projection + " " + row.engine.question + " counts " + std::to_string(answers[i].count) +
+                   ", without the output it is " + std::to_string(bare[i].count);
         }
     }
-    return disagreement;
+    return {};
 }
 
 /// Runs every engine once: its answers are judged, and say how long a sample is.
@@ -186,6 +183,7 @@ Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kin
         return first.error();
     }
     one.firstRow = result.rows.size();
+    std::vector<std::vector<EngineAnswer>> all;
     for (const std::unique_ptr<Engine>& engine : *one.engines) {
         std::vector<EngineAnswer> answers;
         const Result<Times> took = timed([&]() -> Result<void> {
@@ -204,10 +202,14 @@ Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kin
                      .poses = kind,
                      .engine = engine->facts(),
                      .pairs = one.poses.size()};
-        const std::string disagreement = judge(certified, answers, row);
+        std::string disagreement = judgeEngine(certified, answers, row);
+        if (disagreement.empty() && row.engine.sameCounts) {
+            disagreement = compareCounts(all[row.engine.ratioTo], answers, row);
+        }
         if (result.disagreement.empty()) {
             result.disagreement = disagreement;
         }
+        all.push_back(std::move(answers));
         result.rows.push_back(std::move(row));
         const double fits = static_cast<double>(one.poses.size()) * std::min(1.0, kLongest / took->wall);
         one.some.push_back(std::min(one.poses.size(), std::max(kFewestPoses, static_cast<std::size_t>(fits))));
@@ -218,8 +220,6 @@ Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kin
 
 /// A sample of every engine, one after the other.
 Result<void> timeRound(const Case& one, BenchResult& result) {
-    double wall = 0;
-    double cpu = 0;
     for (std::size_t i = 0; i < one.engines->size(); ++i) {
         const auto poses = std::span(one.poses).first(one.some[i]);
         const Result<Times> took = timed([&]() -> Result<void> {
@@ -237,17 +237,20 @@ Result<void> timeRound(const Case& one, BenchResult& result) {
         const auto pairs = static_cast<double>(poses.size() * one.passes[i]);
         row.wallRate.push_back(pairs / took->wall);
         row.cpuRate.push_back(pairs / took->cpu);
-        if (i == 0) {
-            wall = row.wallRate.back();
-            cpu = row.cpuRate.back();
-        }
-        row.wallRatio.push_back(row.wallRate.back() / wall);
-        row.cpuRatio.push_back(row.cpuRate.back() / cpu);
+        const BenchRow& beside = result.rows[one.firstRow + row.engine.ratioTo];
+        row.wallRatio.push_back(row.wallRate.back() / beside.wallRate.back());
+        row.cpuRatio.push_back(row.cpuRate.back() / beside.cpuRate.back());
     }
     return {};
 }
 
-/// Both sets of poses of a mesh: verified, then timed.
+/// Around the onset of contact there are hardly any survivors to have outputs of.
+std::span<const char* const> kindsOf(BenchMode mode) {
+    static constexpr std::array kKinds{"large", "onset"};
+    return std::span(kKinds).first(mode == BenchMode::Outputs ? 1 : 2);
+}
+
+/// The sets of poses of a mesh: verified, then timed.
 Result<void> benchMesh(const BenchOptions& options, const BenchVolume& volume, const std::string& source,
                        const Session* session, const std::function<void()>& step, BenchResult& result) {
     Result<BenchMesh> mesh = loadBenchMesh(options, source);
@@ -259,11 +262,13 @@ Result<void> benchMesh(const BenchOptions& options, const BenchVolume& volume, c
             return uploaded;
         }
     }
-    const Result<Engines> engines = makeEngines(volume, *mesh, session);
+    const bool outputs = options.mode == BenchMode::Outputs;
+    const Result<Engines> engines =
+        outputs ? makeOutputEngines(volume, *mesh, session) : makeEngines(volume, *mesh, session);
     if (!engines.ok()) {
         return engines.error();
     }
-    for (const char* kind : {"large", "onset"}) {
+    for (const char* kind : kindsOf(options.mode)) {
         Result<std::vector<Mat4>> poses = makePoses(kind, options, volume, *mesh, *engines->front());
         if (!poses.ok()) {
             return poses.error();
@@ -283,19 +288,43 @@ Result<void> benchMesh(const BenchOptions& options, const BenchVolume& volume, c
 }
 
 std::vector<std::string> meshesOf(const BenchOptions& options) {
-    return options.meshes.sources.empty() ? std::vector<std::string>(kMeshes.begin(), kMeshes.end())
-                                          : options.meshes.sources;
+    if (!options.meshes.sources.empty()) {
+        return options.meshes.sources;
+    }
+    return {kMeshes.begin(), kMeshes.begin() + (options.mode == BenchMode::Outputs ? 1 : kMeshes.size())};
+}
+
+/// A label for each octant.
+LabelData octants(const Grid& grid) {
+    LabelData labels{grid, {}, {0, 1, 2, 3, 4, 5, 6, 7}};
+    labels.indices.reserve(voxelCount(grid));
+    for (std::uint32_t z = 0; z < grid.size[2]; ++z) {
+        for (std::uint32_t y = 0; y < grid.size[1]; ++y) {
+            for (std::uint32_t x = 0; x < grid.size[0]; ++x) {
+                const int octant =
+                    (2 * x >= grid.size[0] ? 1 : 0) + (2 * y >= grid.size[1] ? 2 : 0) + (2 * z >= grid.size[2] ? 4 : 0);
+                labels.indices.push_back(static_cast<std::uint16_t>(octant));
+            }
+        }
+    }
+    return labels;
 }
 
 Result<void> benchAll(const BenchOptions& options, const Session* session, BenchVolume& volume, BenchResult& result) {
+    if (options.mode == BenchMode::Outputs) {
+        volume.labels = octants(volume.data.grid);
+    }
     if (session != nullptr) {
         if (Result<void> uploaded = uploadVolume(*session, volume); !uploaded.ok()) {
             return uploaded;
         }
     }
-    addFcl(volume, result);
+    if (options.mode == BenchMode::Certified) {
+        addFcl(volume, result);
+    }
     const std::vector<std::string> meshes = meshesOf(options);
-    Progress progress(options.progress, "voxtact bench", std::uint64_t{2} * options.repetitions * meshes.size());
+    Progress progress(options.progress, "voxtact bench",
+                      kindsOf(options.mode).size() * options.repetitions * meshes.size());
     std::uint64_t steps = 0;
     for (const std::string& mesh : meshes) {
         if (Result<void> done = benchMesh(
@@ -309,7 +338,7 @@ Result<void> benchAll(const BenchOptions& options, const Session* session, Bench
 
 } // namespace
 
-Outcome runBenchCertified(const BenchOptions& options) {
+Outcome runBenchEngines(const BenchOptions& options) {
     if (options.volumes.size() > 1) {
         return badArgument("one --volume is enough, not several");
     }
@@ -317,7 +346,7 @@ Outcome runBenchCertified(const BenchOptions& options) {
         return writable.error();
     }
     BenchResult result;
-    result.volume = options.volumes.empty() ? kVolume : options.volumes.front();
+    result.volume = options.volumes.empty() ? defaultVolume(options.mode) : options.volumes.front();
     std::shared_ptr<const ValidationMessages> messages;
     {
         const Result<std::optional<Session>> opened = openBenchSession(options, result);

@@ -10,10 +10,10 @@ namespace voxtact::app {
 
 /// One engine on one set of poses of one mesh.
 struct BenchRow {
-    std::string mesh;
+    std::string mesh{};
     std::uint32_t triangles = 0;
-    std::string poses; ///< "large", "onset"
-    EngineFacts engine;
+    std::string poses{}; ///< "large", "onset"
+    EngineFacts engine{};
     std::uint64_t pairs = 0;
     std::uint64_t contacts = 0;      ///< certified
     std::uint64_t untouched = 0;     ///< certified too; the rest is possible
@@ -33,6 +33,10 @@ struct BenchResult {
     std::vector<std::string> notes;
     std::string disagreement; ///< of engines that must agree; empty: there is none
 };
+
+/// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.
+[[nodiscard]] std::string judgeEngine(std::span<const EngineAnswer> certified, std::span<const EngineAnswer> answers,
+                                      BenchRow& row);
 
 void writeBench(std::ostream& out, const BenchOptions& options, const BenchResult& result);
 
