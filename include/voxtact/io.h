@@ -3,9 +3,11 @@
 
 #include "voxtact/data.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -70,6 +72,18 @@ VOXTACT_API Result<void> writePoses(const std::filesystem::path& path, std::span
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path);
 /// The same as "v:a,v:a,...".
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> parseOpacity(std::string_view text);
+
+/// What a label of a label map is called.
+struct LabelName {
+    std::int32_t label = 0;
+    std::string name;
+};
+
+/// One label a line: `number name`, and whatever follows; `#` comments and empty lines. This is what lies beside label
+/// maps of MRIcron, and FreeSurfer's colour tables. In the order of the file. Errors name the line. Refuses numbers
+/// that are not whole or beyond an int32, a line without a name, a number with two different names, and a file without
+/// a label.
+[[nodiscard]] VOXTACT_API Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path);
 
 /// Calls `write` with a stream (classic locale) on a temporary file beside `path`, and renames it to `path` when
 /// everything went well; otherwise the temporary file is removed and `path` is as it was. A link is followed, an

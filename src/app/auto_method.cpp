@@ -131,6 +131,13 @@ Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits, 
     return AutoChoice{*method, measured->fresh ? choiceNote(*measured, limits, *method) : ""};
 }
 
+CountingMethod conservativeMethod(const Session& session, const AutoLimits& limits) {
+    const VkPhysicalDeviceType type = session.device.physical().type;
+    const bool gpu = type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU || type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
+    const bool onDevice = !limits.host || (gpu && session.context.supports(CountingMethod::Compute));
+    return onDevice ? CountingMethod::Compute : CountingMethod::Cpu;
+}
+
 std::string noDeviceNote(const Error& reason) {
     const bool named = reason.text.find("mesa-vulkan-drivers") != std::string::npos;
     return "auto chose cpu, the host: " + reason.text +

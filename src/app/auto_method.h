@@ -41,6 +41,10 @@ struct AutoChoice {
 /// fastest() of measuredMethods().
 [[nodiscard]] Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits, bool keep);
 
+/// For the projection conservative, which only compute and cpu do: the device where it is a GPU that can, or where the
+/// host may not be chosen.
+[[nodiscard]] CountingMethod conservativeMethod(const Session& session, const AutoLimits& limits);
+
 /// What to say when the host stands in because no device can be used.
 [[nodiscard]] std::string noDeviceNote(const Error& reason);
 

@@ -13,40 +13,42 @@ namespace {
 constexpr const char* kFooter =
     R"(--volume and --mesh may be given several times. One row a pair: every pose of every mesh against every volume. Columns:
   pose,mesh,volume             number of the pose in its file from 0; the sources as they were given
-  hit,count                    1 when at least one fragment survives; how many do
-  exact                        1: the count is exact; 0: only zero or not zero is known (query-any)
+  hit,count                    1 (yes) when at least one fragment survives; how many do; 2 (possible), with
+                               conservative: nothing certain, but fragments that could not be decided
+  exact                        1: the count is exact; 0: at least so many (query-any: zero or not zero is known)
   method,projection            what the count comes from
+  triangles (--triangles)      how many triangles have survivors
+  contacts,depth (--contacts)  how many contacts there are, and the deepest in mm
+  labels (--labels)            survivors by label, most first: Frontal_Sup_L:12;Precentral_L:3
+  min_x,...,max_z (--bounds)   world box of the survivors in mm
   gpu_ms,wall_ms (--timing)    device time, and time from the start of recording to the results in host memory, of
                                the row's submission divided by its pairs. Submissions overlap: the last line
                                '# pairs= wall_ms= pairs_per_s=' has the time of all. Reading files, uploads and making
                                pipelines are not included; there is no warm-up. With --batch 1 each pair is submitted
                                and waited for alone. With --count cpu gpu_ms is 0.
+Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY.
 
 Examples:
   voxtact detect --volume builtin:head:128 --mesh builtin:scalpel
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --opacity "40:0,80:1" --format json
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --count atomic --timing --batch 1
-  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel --count cpu)";
-
-/// What cannot go together with a method, found before anything is read.
-Result<void> checkMethodOptions(const DetectOptions& options) {
-    if (options.method.count != CountingMethod::Cpu) {
-        return {};
-    }
-    if (options.method.filter == Filter::Hardware) {
-        return badArgument("--filter hardware: the counting method cpu has no device's sampler; it filters exact only");
-    }
-    if (options.device.validate) {
-        return badArgument("--validate: the counting method cpu uses no Vulkan, there is nothing to validate; leave "
-                           "out one of the two");
-    }
-    return {};
-}
+  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel --count cpu
+  voxtact detect --volume head.nii.gz --mesh tool.stl --labels atlas.nii.gz --contacts contacts.ply)";
 
 AutoLimits autoLimits(const DetectOptions& options) {
     // Who names a device, or wants Vulkan validated, wants it used.
     const bool host = options.device.wanted.empty() && !options.device.validate;
     return {options.method.filter, options.view.size, host && options.method.filter != Filter::Hardware};
+}
+
+Result<AutoChoice> choose(const DetectOptions& options, const Session& session, const AutoLimits& limits) {
+    if (options.method.count) {
+        return AutoChoice{*options.method.count, {}};
+    }
+    if (options.method.projection == Projection::Conservative) {
+        return AutoChoice{conservativeMethod(session, limits), {}};
+    }
+    return autoMethod(session, limits, !options.device.validate);
 }
 
 /// By the device that the options name; by the host where they, or the want of a device, say so.
@@ -64,9 +66,7 @@ Result<void> detect(const DetectOptions& options, const DetectInputs& inputs, De
         const Result<Session> session = openSession(options.device);
         if (session.ok()) {
             messages = session->instance.messages();
-            const Result<AutoChoice> choice = options.method.count
-                                                  ? AutoChoice{*options.method.count, {}}
-                                                  : autoMethod(*session, limits, !options.device.validate);
+            const Result<AutoChoice> choice = choose(options, *session, limits);
             if (!choice.ok()) {
                 return choice.error();
             }
@@ -85,12 +85,23 @@ Result<void> detect(const DetectOptions& options, const DetectInputs& inputs, De
     return detectOnHost(options, inputs, run);
 }
 
-Outcome runDetect(const DetectOptions& options) {
-    if (const Result<void> usable = checkMethodOptions(options); !usable.ok()) {
+/// A list that was cut is still a good run, with fewer contacts than there are.
+void noteContacts(const DetectOptions& options, DetectRun& run) {
+    if (run.contactsFound > run.contacts.size()) {
+        run.notes.push_back(options.extra.contacts.string() + ": " + std::to_string(run.contacts.size()) + " of " +
+                            std::to_string(run.contactsFound) + " contacts were kept (--most-contacts " +
+                            std::to_string(options.extra.contactRoom()) + ")");
+    }
+}
+
+Outcome runDetect(DetectOptions options) {
+    if (const Result<void> usable = resolveOptions(options); !usable.ok()) {
         return usable.error();
     }
-    if (const Result<void> writable = checkOutput(options.output.path); !writable.ok()) {
-        return writable.error();
+    for (const std::filesystem::path& path : {options.output.path, options.extra.triangles, options.extra.contacts}) {
+        if (const Result<void> writable = checkOutput(path); !writable.ok()) {
+            return writable.error();
+        }
     }
     const Result<DetectInputs> inputs = readDetectInputs(options);
     if (!inputs.ok()) {
@@ -106,17 +117,30 @@ Outcome runDetect(const DetectOptions& options) {
             return invalid;
         }
     }
-    const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
-        writeTable(out, options.output.format(), makeDetectTable(options, run));
-        return {};
-    });
-    if (!written.ok()) {
+    if (const Result<void> written = writeDetectOutputs(options, *inputs, run); !written.ok()) {
         return written.error();
     }
+    noteContacts(options, run);
     for (const std::string& note : run.notes) {
         printNote(note);
     }
     return {};
+}
+
+void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
+    addPath(parser, "--triangles", options.triangles, "a CSV file for the touched triangles: pose,triangle,count");
+    addPath(parser, "--contacts", options.contacts,
+            "a .csv or .ply file for the places where survivors are, with normal and depth; see below");
+    addNumber(
+        parser, "--max-depth", [&options](double depth) { options.maxDepth = depth; },
+        "mm, how far a contact's depth is followed", [](double depth) { return depth > 0; }, "above 0", "10");
+    addWholeNumber(
+        parser, "--most-contacts", [&options](std::uint32_t most) { options.mostContacts = most; }, {.least = 1},
+        "contacts that are kept; a longer list is cut, with a note", kDefaultMostContacts);
+    addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
+    addPath(parser, "--label-names", options.labelNames,
+            "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
+    parser.add_flag("--bounds", options.bounds, "adds the world box of the survivors to each row");
 }
 
 } // namespace
@@ -130,6 +154,7 @@ Command addDetect(CLI::App& program) {
     addTransferFunctionOptions(*parser, options->transferFunction);
     addViewOptions(*parser, options->view);
     addMethodOptions(*parser, options->method);
+    addExtraOptions(*parser, options->extra);
     addWholeNumber(*parser, "--batch", options->batch, 1, "pairs a submission");
     parser->add_flag("--timing", options->timing, "adds gpu_ms and wall_ms to each row, and a last line; see below");
     addDeviceOptions(*parser, options->device);

@@ -2,6 +2,7 @@
 #include "app/batch_cutter.h"
 #include "app/detect_run.h"
 #include "app/inputs.h"
+#include "app/pair_rows.h"
 #include "app/progress.h"
 #include "voxtact/cpu.h"
 
@@ -25,8 +26,9 @@ struct HostTools {
     Progress& progress;
 };
 
-Result<void> runBatch(const HostTools& tools, const cpu::Batch& batch, std::uint32_t volume, DetectRun& run) {
-    BatchCutter<cpu::BatchItem> cutter(batch.items, tools.options.batch);
+/// `progress` is what the volumes before this one have done.
+Result<void> runBatch(const HostTools& tools, const cpu::Batch& batch, PairRows& rows, std::uint64_t progress) {
+    BatchCutter<cpu::BatchItem> cutter(batch.items, pairsPerBatch(tools.options, tools.inputs, 1));
     std::vector<cpu::BatchItem> items;
     std::vector<Piece> pieces;
     while (cutter.next(items, pieces)) {
@@ -41,9 +43,11 @@ Result<void> runBatch(const HostTools& tools, const cpu::Batch& batch, std::uint
             timed.answer = pair;
             timed.item = pieces[pair.item].item;
             timed.pose = pieces[pair.item].firstPose + pair.pose;
-            run.rows.push_back({volume, timed});
+            rows.add(timed);
         }
-        tools.progress.update(run.rows.size());
+        rows.addOutputs(*answer);
+        progress += answer->pairs.size();
+        tools.progress.update(progress);
     }
     return {};
 }
@@ -69,12 +73,19 @@ Result<void> detectVolume(const HostTools& tools, std::uint32_t index, DetectRun
     if (!transferFunction.ok()) {
         return transferFunction.error();
     }
+    const LabelData* labels = tools.inputs.labels ? &*tools.inputs.labels : nullptr;
+    const std::vector<SelectedPoses> selected = selectPoses(options, tools.inputs, data->grid);
     std::vector<cpu::BatchItem> items;
-    for (const cpu::Mesh& mesh : tools.meshes) {
-        items.push_back({&mesh, &*volume, &*transferFunction, tools.inputs.poses});
+    for (std::size_t mesh = 0; mesh < selected.size(); ++mesh) {
+        items.push_back({&tools.meshes[mesh], &*volume, &*transferFunction, selected[mesh].world_from_object, labels});
     }
+    const std::size_t before = run.rows.size();
+    PairAnswer untouched;
+    untouched.method = CountingMethod::Cpu;
+    untouched.projection = *options.method.projection;
+    PairRows rows(options, tools.inputs, selected, index, untouched, run);
     const auto begun = Clock::now();
-    Result<void> done = runBatch(tools, {items, settings.view, options.transferFunction.threshold}, index, run);
+    Result<void> done = runBatch(tools, {items, settings.view, options.transferFunction.threshold}, rows, before);
     run.wallMilliseconds += std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
     return done;
 }
@@ -84,7 +95,9 @@ Result<void> checkLimits(const DetectOptions& options) {
         return badArgument("--tf-size: " + std::to_string(options.transferFunction.tableSize) +
                            " is beyond what the counting method cpu can do, " + std::to_string(kMostTableEntries));
     }
-    return checkViewport(options.view.size, {cpu::kMaxViewport, cpu::kMaxViewport}, "the counting method cpu");
+    return !usesView(*options.method.projection)
+               ? Result<void>()
+               : checkViewport(options.view.size, {cpu::kMaxViewport, cpu::kMaxViewport}, "the counting method cpu");
 }
 
 } // namespace
@@ -93,7 +106,14 @@ Result<void> detectOnHost(const DetectOptions& options, const DetectInputs& inpu
     if (Result<void> possible = checkLimits(options); !possible.ok()) {
         return possible;
     }
-    Result<cpu::Detector> detector = cpu::Detector::create({.boundary = options.method.boundary});
+    const MethodOptions& method = options.method;
+    Result<cpu::Detector> detector =
+        cpu::Detector::create({.boundary = method.boundary,
+                               .projection = *method.projection,
+                               .outputs = options.extra.outputs(),
+                               .samplesPerVoxel = method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel),
+                               .resolution = method.resolution.value_or(kDefaultResolution),
+                               .mostContacts = options.extra.contactRoom()});
     if (!detector.ok()) {
         return detector.error();
     }

@@ -17,6 +17,23 @@ void noteValuesOutside(const ValueRange& domain, const ValueRange& data, const s
     }
 }
 
+Result<void> readLabels(const ExtraOptions& options, DetectInputs& inputs) {
+    if (options.labels.empty()) {
+        return {};
+    }
+    Result<LabelData> labels = loadLabels(options.labels);
+    if (!labels.ok()) {
+        return labels.error();
+    }
+    inputs.labels = std::move(*labels);
+    Result<std::map<std::int32_t, std::string>> names = loadLabelNames(options.labelNames, options.labels);
+    if (!names.ok()) {
+        return names.error();
+    }
+    inputs.labelNames = std::move(*names);
+    return {};
+}
+
 } // namespace
 
 Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
@@ -50,7 +67,15 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
         if (!mesh.ok()) {
             return mesh.error();
         }
+        const Result<MeshFacts> facts = checkMesh(mesh->view());
+        if (!facts.ok()) {
+            return facts.error();
+        }
+        inputs.bounds.push_back(facts->bounds);
         inputs.meshes.push_back(std::move(*mesh));
+    }
+    if (Result<void> labels = readLabels(options.extra, inputs); !labels.ok()) {
+        return labels.error();
     }
     return inputs;
 }

@@ -94,6 +94,46 @@ std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
     return {{domain.lo, 0}, {domain.hi, 1}};
 }
 
+Result<LabelData> loadLabels(const std::filesystem::path& path) {
+    const Result<VolumeData> volume = io::readVolume(path);
+    if (!volume.ok()) {
+        return fileFault(volume.error());
+    }
+    printNotes(path.string(), volume->notes);
+    Result<LabelData> labels = makeLabels(volume->view());
+    if (!labels.ok()) {
+        return Error{ErrorCode::Format, 0, "cannot use '" + path.string() + "' as a label map: " + labels.error().text};
+    }
+    return labels;
+}
+
+Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
+                                                           const std::filesystem::path& labels) {
+    std::filesystem::path path = names;
+    if (path.empty()) {
+        path = labels;
+        path.replace_extension(path.extension() == ".gz" ? "" : path.extension());
+        path += ".txt";
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(path, ignored)) {
+            return std::map<std::int32_t, std::string>{};
+        }
+    }
+    Result<std::vector<io::LabelName>> read = io::readLabelNames(path);
+    if (!read.ok() && names.empty()) {
+        printNote("labels have numbers only: " + read.error().text + " (--label-names names another file)");
+        return std::map<std::int32_t, std::string>{};
+    }
+    if (!read.ok()) {
+        return fileFault(read.error());
+    }
+    std::map<std::int32_t, std::string> byLabel;
+    for (io::LabelName& entry : *read) {
+        byLabel.emplace(entry.label, std::move(entry.name));
+    }
+    return byLabel;
+}
+
 Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path) {
     if (path.empty()) {
         return std::vector<Mat4>{identity()};

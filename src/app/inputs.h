@@ -3,7 +3,9 @@
 
 #include "app/shared_options.h"
 #include "voxtact/data.h"
+#include "voxtact/labels.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,13 @@ namespace voxtact::app {
 [[nodiscard]] ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data);
 /// Opacity from 0 to 1 over the domain.
 [[nodiscard]] std::vector<ControlPoint> defaultRamp(const ValueRange& domain);
+
+/// A label map. No `builtin:`.
+[[nodiscard]] Result<LabelData> loadLabels(const std::filesystem::path& path);
+/// The names of its labels: from `names`; where that is empty, from the file beside it that is called like it without
+/// .gz, and with .txt, if there is one that can be read.
+[[nodiscard]] Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
+                                                                         const std::filesystem::path& labels);
 
 /// The identity when there is no path.
 [[nodiscard]] Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path);

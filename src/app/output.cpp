@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/output.h"
 
+#include "app/outcome.h"
 #include "app/standard_streams.h"
 #include "core/text.h"
 #include "voxtact/io.h"
@@ -20,7 +21,32 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string cellText(const Cell& cell, std::string_view nothing) {
+std::string inQuotes(const std::string& field) {
+    std::string out = "\"";
+    for (const char c : field) {
+        out += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return out + '"';
+}
+
+/// Among names with counts behind colons, semicolons between them.
+std::string listName(const std::string& name) {
+    if (name.find_first_of(",;:\"\r\n") == std::string::npos) {
+        return name;
+    }
+    return inQuotes(name);
+}
+
+std::string listText(const std::vector<NamedCount>& counts) {
+    std::string text;
+    for (const NamedCount& entry : counts) {
+        text += (text.empty() ? "" : ";") + listName(entry.name) + ":" + std::to_string(entry.count);
+    }
+    return text;
+}
+
+/// As a field of CSV or, where there are words, of text.
+std::string cellText(const Cell& cell, std::string_view nothing, bool words = false) {
     if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
         return std::to_string(*whole);
     }
@@ -30,19 +56,13 @@ std::string cellText(const Cell& cell, std::string_view nothing) {
     if (const auto* text = std::get_if<std::string>(&cell)) {
         return *text;
     }
+    if (const auto* both = std::get_if<NumberWord>(&cell)) {
+        return words ? both->word : std::to_string(both->number);
+    }
+    if (const auto* counts = std::get_if<std::vector<NamedCount>>(&cell); counts != nullptr && !counts->empty()) {
+        return listText(*counts);
+    }
     return std::string(nothing);
-}
-
-/// RFC 4180.
-std::string quoted(const std::string& field) {
-    if (field.find_first_of(",\"\r\n") == std::string::npos) {
-        return field;
-    }
-    std::string out = "\"";
-    for (const char c : field) {
-        out += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return out + '"';
 }
 
 void writeTimingComment(std::ostream& out, const Table& table) {
@@ -63,11 +83,17 @@ void writeCsv(std::ostream& out, const Table& table) {
     out << '\n';
     for (std::size_t row = 0; row < table.rows; ++row) {
         for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            out << (column == 0 ? "" : ",") << quoted(cellText(table.cell(row, column), ""));
+            out << (column == 0 ? "" : ",") << csvField(cellText(table.cell(row, column), ""));
         }
         out << '\n';
     }
     writeTimingComment(out, table);
+}
+
+/// Numbers go to the right of their column.
+bool isRight(const Cell& cell) {
+    return std::holds_alternative<std::monostate>(cell) || std::holds_alternative<std::uint64_t>(cell) ||
+           std::holds_alternative<double>(cell);
 }
 
 void writeText(std::ostream& out, const Table& table) {
@@ -75,7 +101,7 @@ void writeText(std::ostream& out, const Table& table) {
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
         std::size_t width = table.columns[column].size();
         for (std::size_t row = 0; row < table.rows; ++row) {
-            width = std::max(width, cellText(table.cell(row, column), "-").size());
+            width = std::max(width, cellText(table.cell(row, column), "-", true).size());
         }
         widths.push_back(width);
     }
@@ -85,14 +111,14 @@ void writeText(std::ostream& out, const Table& table) {
         out << (column == 0 ? "" : "  ") << (right ? padding : "") << field << (right || last ? "" : padding);
     };
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
-        const bool right = table.rows > 0 && !std::holds_alternative<std::string>(table.cell(0, column));
+        const bool right = table.rows > 0 && isRight(table.cell(0, column));
         writeField(table.columns[column], column, right);
     }
     out << '\n';
     for (std::size_t row = 0; row < table.rows; ++row) {
         for (std::size_t column = 0; column < table.columns.size(); ++column) {
             const Cell cell = table.cell(row, column);
-            writeField(cellText(cell, "-"), column, !std::holds_alternative<std::string>(cell));
+            writeField(cellText(cell, "-", true), column, isRight(cell));
         }
         out << '\n';
     }
@@ -108,6 +134,16 @@ Json toJson(const Cell& cell) {
     }
     if (const auto* text = std::get_if<std::string>(&cell)) {
         return *text;
+    }
+    if (const auto* both = std::get_if<NumberWord>(&cell)) {
+        return both->number;
+    }
+    if (const auto* counts = std::get_if<std::vector<NamedCount>>(&cell)) {
+        Json list = Json::array();
+        for (const NamedCount& entry : *counts) {
+            list.push_back({{"label", entry.label}, {"name", entry.name}, {"count", entry.count}});
+        }
+        return list;
     }
     return nullptr;
 }
@@ -156,6 +192,24 @@ bool isSpecial(const fs::path& path) {
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+/// The deliveries from number `next` on, each written before the ones after it are put in their places.
+Result<void> deliverFrom(const std::vector<Delivery>& deliveries, std::size_t next) {
+    if (next == deliveries.size()) {
+        return {};
+    }
+    const Delivery& delivery = deliveries[next];
+    return deliver(delivery.path, [&](std::ostream& out) -> Result<void> {
+        if (Result<void> written = delivery.write(out); !written.ok()) {
+            return written;
+        }
+        errno = 0;
+        if (!out.flush()) {
+            return fileError(delivery.path, errno != 0 ? std::generic_category().message(errno) : "writing stopped");
+        }
+        return deliverFrom(deliveries, next + 1);
+    });
+}
+
 } // namespace
 
 Json rowsJson(const Table& table) {
@@ -202,6 +256,27 @@ Result<void> checkOutput(const fs::path& path) {
     return {};
 }
 
+Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& paths) {
+    for (auto one = paths.begin(); one != paths.end(); ++one) {
+        if (one->second.empty() || isSpecial(one->second)) {
+            continue;
+        }
+        std::error_code ignored;
+        const fs::path place = fs::weakly_canonical(fs::absolute(one->second), ignored);
+        for (auto other = paths.begin(); other != one; ++other) {
+            if (!other->second.empty() && fs::weakly_canonical(fs::absolute(other->second), ignored) == place) {
+                return badArgument(other->first + " and " + one->first + ": both are '" + one->second.string() +
+                                   "'; each needs a file of its own");
+            }
+        }
+    }
+    return {};
+}
+
+std::string csvField(const std::string& field) {
+    return field.find_first_of(",\"\r\n") == std::string::npos ? field : inQuotes(field);
+}
+
 Result<void> deliver(const fs::path& path, const std::function<Result<void>(std::ostream&)>& write) {
     if (path.empty()) {
         std::ostringstream text;
@@ -211,6 +286,13 @@ Result<void> deliver(const fs::path& path, const std::function<Result<void>(std:
         return writeStandardOutput(text.str());
     }
     return io::writeFile(path, write);
+}
+
+Result<void> deliverAll(std::vector<Delivery> deliveries) {
+    // The last is put in its place first. What is on standard output cannot be taken back, and may fail.
+    std::stable_partition(deliveries.begin(), deliveries.end(),
+                          [](const Delivery& delivery) { return !delivery.path.empty(); });
+    return deliverFrom(deliveries, 0);
 }
 
 } // namespace voxtact::app

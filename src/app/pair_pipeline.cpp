@@ -35,8 +35,8 @@ struct PairPipeline::State {
 
     Result<void> makeFlight(Flight& flight) const;
     Result<void> launch(Flight& flight, const Batch& part);
-    Result<void> land(Flight& flight, const Sink& sink);
-    Result<void> run(const Batch& batch, const Sink& sink);
+    Result<void> land(Flight& flight, const Sink& sink, const OutputSink& outputs);
+    Result<void> run(const Batch& batch, const Sink& sink, const OutputSink& outputs);
     void drain() noexcept;
 
     const VulkanDevice& device;
@@ -125,7 +125,7 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
     return {};
 }
 
-Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink) {
+Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink, const OutputSink& outputs) {
     const VolkDeviceTable& vk = device.table();
     VkResult result =
         vk.vkWaitForFences(device.handle(), 1, &flight.fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
@@ -157,10 +157,17 @@ Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink) {
         timed.pose = flight.pieces[timed.answer.item].firstPose + timed.answer.pose;
         sink(timed);
     }
+    if (desc.room) {
+        BatchAnswer answer;
+        if (Result<void> unpacked = results.readOutputs(flight.frame, answer); !unpacked.ok()) {
+            return unpacked;
+        }
+        outputs(answer);
+    }
     return {};
 }
 
-Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink) {
+Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink, const OutputSink& outputs) {
     BatchCutter<BatchItem> cutter(batch.items, desc.pairsPerSubmission);
     std::vector<BatchItem> items;
     std::vector<Piece> pieces;
@@ -169,7 +176,7 @@ Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink) {
     for (std::size_t landed = 0; more || landed < flights.size(); next = (next + 1) % flights.size()) {
         Flight& flight = flights[next];
         if (flight.pending) {
-            if (Result<void> done = land(flight, sink); !done.ok()) {
+            if (Result<void> done = land(flight, sink, outputs); !done.ok()) {
                 return done;
             }
         }
@@ -206,7 +213,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
     const ResultsDesc results{.maxPairs = how.pairsPerSubmission,
                               .readBack = true,
                               .timestamps = how.timestamps,
-                              .queueFamily = device.queueAccess().family};
+                              .queueFamily = device.queueAccess().family,
+                              .room = how.room};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     if (!ring.ok()) {
         return ring.error();
@@ -220,8 +228,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
     return PairPipeline(std::move(state));
 }
 
-Result<void> PairPipeline::run(const Batch& batch, const Sink& sink) {
-    Result<void> done = state_->run(batch, sink);
+Result<void> PairPipeline::run(const Batch& batch, const Sink& sink, const OutputSink& outputs) {
+    Result<void> done = state_->run(batch, sink, outputs);
     if (!done.ok()) {
         state_->drain();
     }

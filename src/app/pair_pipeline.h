@@ -25,6 +25,7 @@ struct PipelineDesc {
     std::uint32_t frames = 1; ///< submissions in flight; 1: submit and wait
     std::uint32_t pairsPerSubmission = 1;
     bool timestamps = false;
+    std::optional<OutputRoom> room = std::nullopt; ///< for a detector with outputs: of a submission
 };
 
 /// Any number of pairs, a bounded number at a time: the next submission is recorded while others are on the device.
@@ -32,6 +33,8 @@ struct PipelineDesc {
 class PairPipeline {
   public:
     using Sink = std::function<void(const TimedAnswer&)>;
+    /// The answers beside the counts of a submission, after all its pairs; `pair` counts from the first of these.
+    using OutputSink = std::function<void(const BatchAnswer&)>;
 
     /// The device, the context and the detector must outlive it.
     [[nodiscard]] static Result<PairPipeline> create(const VulkanDevice& device, const Context& context,
@@ -41,7 +44,8 @@ class PairPipeline {
     ~PairPipeline();
 
     /// All pairs of the batch, which may be larger than a submission. Waits for all; answers come in order.
-    [[nodiscard]] Result<void> run(const Batch& batch, const Sink& sink);
+    /// `outputs` is called where there is room for them, and may then not be empty.
+    [[nodiscard]] Result<void> run(const Batch& batch, const Sink& sink, const OutputSink& outputs = {});
 
     struct State;
 

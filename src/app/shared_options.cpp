@@ -40,36 +40,17 @@ std::string join(std::initializer_list<const char*> names) {
     return text;
 }
 
-bool contains(std::initializer_list<const char*> names, std::string_view name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// Refuses what is not in `available`; `planned` holds names that the contract knows and this version has not.
-void requireName(const char* option, const std::string& name, std::initializer_list<const char*> available,
-                 std::initializer_list<const char*> planned = {}) {
-    if (contains(available, name)) {
-        return;
+/// Refuses what is not in `available`.
+void requireName(const char* option, const std::string& name, std::initializer_list<const char*> available) {
+    if (std::find(available.begin(), available.end(), name) == available.end()) {
+        refuse(option, quote(name) + " is not known; there are: " + join(available));
     }
-    const char* why = contains(planned, name) ? " is not in this version" : " is not known";
-    refuse(option, quote(name) + why + "; there are: " + join(available));
 }
 
 /// An option whose text `parse` reads; it calls refuse() for what it cannot use.
 CLI::Option* addParsed(CLI::App& parser, const char* option, const std::function<void(const std::string&)>& parse,
                        const std::string& help, const char* type, const char* standard) {
     return parser.add_option_function<std::string>(option, parse, help)->type_name(type)->default_str(standard);
-}
-
-CLI::Option* addNumber(CLI::App& parser, const char* option, double& value, const std::string& help,
-                       const std::function<bool(double)>& usable, const char* range, const char* standard) {
-    const auto parse = [option, &value, usable, range](const std::string& text) {
-        const auto number = parseNumber<double>(text);
-        if (!number || !std::isfinite(*number) || !usable(*number)) {
-            refuse(option, quote(text) + " is not a number " + range);
-        }
-        value = *number;
-    };
-    return addParsed(parser, option, parse, help, "NUMBER", standard);
 }
 
 /// A shell variable that is not set must not silently mean the default.
@@ -89,6 +70,11 @@ VkExtent2D parseSize(const char* option, const std::string& text) {
     refuse(option, quote(text) + " is not WIDTHxHEIGHT in pixels, each at least 1");
 }
 
+/// What DetectorDesc::resolution may be.
+bool isResolution(double voxels) {
+    return voxels >= 1.0 / 4096 && voxels <= 1;
+}
+
 ValueRange parseDomain(const char* option, const std::string& text) {
     const std::size_t colon = text.find(':');
     if (colon != std::string::npos) {
@@ -103,16 +89,35 @@ ValueRange parseDomain(const char* option, const std::string& text) {
 
 } // namespace
 
+void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
+               const std::function<bool(double)>& usable, const char* range, const char* standard) {
+    const auto parse = [option, store, usable, range](const std::string& text) {
+        const auto number = parseNumber<double>(text);
+        if (!number || !std::isfinite(*number) || !usable(*number)) {
+            refuse(option, quote(text) + " is not a number " + range);
+        }
+        store(*number);
+    };
+    addParsed(parser, option, parse, help, "NUMBER", standard);
+}
+
+void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
+                    const WholeRange& range, const std::string& help, std::uint32_t standard) {
+    const auto parse = [option, store, range](const std::string& text) {
+        const auto number = parseNumber<std::uint32_t>(text);
+        if (!number || *number < range.least || *number > range.most) {
+            refuse(option, quote(text) + " is not a whole number from " + std::to_string(range.least) + " to " +
+                               std::to_string(range.most));
+        }
+        store(*number);
+    };
+    addParsed(parser, option, parse, help, "N", std::to_string(standard).c_str());
+}
+
 void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
                     const std::string& help) {
-    const auto parse = [option, &value, least](const std::string& text) {
-        const auto number = parseNumber<std::uint32_t>(text);
-        if (!number || *number < least) {
-            refuse(option, quote(text) + " is not a whole number from " + std::to_string(least) + " to 4294967295");
-        }
-        value = *number;
-    };
-    addParsed(parser, option, parse, help, "N", std::to_string(value).c_str());
+    addWholeNumber(
+        parser, option, [&value](std::uint32_t number) { value = number; }, {.least = least}, help, value);
 }
 
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help) {
@@ -146,8 +151,8 @@ void addMeshOptions(CLI::App& parser, MeshOptions& options) {
         },
         "what the coordinates of mesh files mean: lps or ras", "SPACE", "lps");
     addNumber(
-        parser, "--mesh-scale", options.scale, "millimetres in a unit of mesh files",
-        [](double scale) { return scale > 0; }, "above 0", "1");
+        parser, "--mesh-scale", [&options](double scale) { options.scale = scale; },
+        "millimetres in a unit of mesh files", [](double scale) { return scale > 0; }, "above 0", "1");
 }
 
 void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options) {
@@ -163,8 +168,9 @@ void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& optio
         "values that the table covers; default 0:255 for uint8, else the data's min and max", "LO:HI", "");
     addWholeNumber(parser, "--tf-size", options.tableSize, 2, "entries of the table");
     addNumber(
-        parser, "--threshold", options.threshold, "opacity from which a sample is opaque",
-        [](double threshold) { return threshold >= 0 && threshold <= 1; }, "from 0 to 1", "0.1");
+        parser, "--threshold", [&options](double threshold) { options.threshold = threshold; },
+        "opacity from which a sample is opaque", [](double threshold) { return threshold >= 0 && threshold <= 1; },
+        "from 0 to 1", "0.1");
 }
 
 void addViewOptions(CLI::App& parser, ViewOptions& options) {
@@ -173,7 +179,11 @@ void addViewOptions(CLI::App& parser, ViewOptions& options) {
     addPath(parser, "--camera", options.camera,
             "a clip_from_world matrix: 16 numbers, row by row; default: along world -z, framing the volume");
     addParsed(
-        parser, "--size", [&options](const std::string& text) { options.size = parseSize("--size", text); },
+        parser, "--size",
+        [&options](const std::string& text) {
+            options.size = parseSize("--size", text);
+            options.sizeGiven = true;
+        },
         "viewport in pixels", "WxH", "512x512");
 }
 
@@ -189,10 +199,24 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
         "METHOD", "auto");
     addParsed(
         parser, "--projection",
-        [](const std::string& name) {
-            requireName("--projection", name, {"view"}, {"two-view", "dominant-axis", "conservative"});
+        [&options](const std::string& name) {
+            requireName("--projection", name, {"view", "two-view", "dominant-axis", "conservative"});
+            options.projection = projectionFromName(name);
         },
-        "how a mesh becomes fragments: view", "P", "view");
+        "how a mesh becomes fragments: view (through the camera), two-view (and once more from the side), "
+        "dominant-axis "
+        "(each triangle from where it is largest), conservative (every voxel that it passes through, decided with "
+        "bounds: no contact is missed); default: conservative, and view for the methods and filters that cannot do it "
+        "(query, query-any, atomic, subgroup, --filter hardware)",
+        "P", "");
+    addWholeNumber(
+        parser, "--samples-per-voxel", [&options](std::uint32_t samples) { options.samplesPerVoxel = samples; },
+        {.least = 1, .most = kMostSamplesPerVoxel}, "dominant-axis: samples along a voxel's side",
+        kDefaultSamplesPerVoxel);
+    addNumber(
+        parser, "--resolution", [&options](double resolution) { options.resolution = resolution; },
+        "conservative: voxels, the length at which a piece of a triangle is not divided any more", isResolution,
+        "from 1/4096 to 1", "0.015625");
     addParsed(
         parser, "--filter",
         [&options](const std::string& name) {

@@ -46,11 +46,14 @@ struct ViewOptions {
     std::filesystem::path poses;
     std::filesystem::path camera;
     VkExtent2D size{512, 512};
+    bool sizeGiven = false;
 };
 
 struct MethodOptions {
-    std::optional<CountingMethod> count; ///< nothing: auto
-    Projection projection = Projection::View;
+    std::optional<CountingMethod> count;  ///< nothing: auto
+    std::optional<Projection> projection; ///< nothing: the one that the other options leave, see resolveMethod()
+    std::optional<std::uint32_t> samplesPerVoxel;
+    std::optional<double> resolution;
     std::optional<Filter> filter; ///< nothing: defaultFilter()
     Boundary boundary = Boundary::Auto;
 };
@@ -61,9 +64,19 @@ struct DeviceChoice {
     std::string cache; ///< a folder, "off", or empty: the user's cache folder
 };
 
-/// A whole number from `least`, as an option.
+struct WholeRange {
+    std::uint32_t least = 0;
+    std::uint32_t most = UINT32_MAX;
+};
+/// A whole number, as an option.
+void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
+                    const WholeRange& range, const std::string& help, std::uint32_t standard);
+/// The same into a variable that holds the default.
 void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
                     const std::string& help);
+/// A finite number that is `usable`, as an option; `range` says in words which are.
+void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
+               const std::function<bool(double)>& usable, const char* range, const char* standard);
 /// A path, as an option. An empty one (a shell variable that is not set) is refused.
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help);
 void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources);

@@ -47,7 +47,7 @@ TEST_F(ArgumentsTest, CommandsThatAreNot) {
 TEST_F(ArgumentsTest, UnknownOptionsNameTheHelp) {
     EXPECT_THAT(badDetect({"--treshold", "0.2"}),
                 AllOf(HasSubstr("voxtact detect: unknown argument '--treshold'"), HasSubstr("voxtact detect --help")));
-    EXPECT_THAT(badDetect({"--labels", "x.nii"}), HasSubstr("'--labels'"));
+    EXPECT_THAT(badDetect({"--label", "x.nii"}), HasSubstr("'--label'"));
     EXPECT_THAT(badDetect({"left-over"}), HasSubstr("'left-over'"));
     EXPECT_THAT(refused(2, {"devices", "--poses", "x"}), HasSubstr("voxtact devices: unknown argument '--poses'"));
     EXPECT_THAT(refused(2, {"--nonsense"}), HasSubstr("voxtact: unknown argument '--nonsense'"));
@@ -59,19 +59,72 @@ TEST_F(ArgumentsTest, WhatIsRequired) {
     EXPECT_THAT(refused(2, {"make", "mesh", "builtin:scalpel"}), HasSubstr("OUTPUT is required"));
 }
 
-TEST_F(ArgumentsTest, NamesNobodyKnowsAndNamesOfOtherVersions) {
+TEST_F(ArgumentsTest, NamesNobodyKnows) {
     EXPECT_THAT(badDetect({"--count", "fingers"}),
                 AllOf(HasSubstr("'fingers' is not known"),
                       HasSubstr("query, query-any, atomic, subgroup, compute, cpu, auto")));
-    for (const char* projection : {"two-view", "dominant-axis", "conservative"}) {
-        EXPECT_THAT(badDetect({"--projection", projection}),
-                    AllOf(HasSubstr("not in this version"), HasSubstr("view")));
-    }
+    EXPECT_THAT(badDetect({"--projection", "sideways"}),
+                AllOf(HasSubstr("'sideways' is not known"), HasSubstr("view, two-view, dominant-axis, conservative")));
     EXPECT_THAT(badDetect({"--filter", "nearest"}), AllOf(HasSubstr("nearest"), HasSubstr("hardware, exact")));
     EXPECT_THAT(badDetect({"--boundary", "wrap"}), HasSubstr("auto, range, clamp"));
     EXPECT_THAT(badDetect({"--format", "xml"}), HasSubstr("csv, json, text"));
     EXPECT_THAT(badDetect({"--progress", "always"}), HasSubstr("auto, never"));
     EXPECT_THAT(badDetect({"--mesh-space", "lpi"}), HasSubstr("lps, ras"));
+}
+
+TEST_F(ArgumentsTest, ProjectionsAndWhatGoesWithThem) {
+    for (const char* method : {"query", "query-any", "atomic", "subgroup"}) {
+        EXPECT_THAT(badDetect({"--projection", "conservative", "--count", method}),
+                    AllOf(HasSubstr(std::string("--count ") + method), HasSubstr("compute, cpu and auto")));
+    }
+    EXPECT_THAT(badDetect({"--projection", "conservative", "--filter", "hardware"}), HasSubstr("--filter hardware: "));
+    EXPECT_THAT(badDetect({"--boundary", "clamp"}), HasSubstr("--boundary clamp: the projection conservative"));
+    for (const char* projection : {"conservative", "dominant-axis"}) {
+        EXPECT_THAT(badDetect({"--projection", projection, "--size", "256x256"}),
+                    AllOf(HasSubstr("--size: "), HasSubstr(projection), HasSubstr("--projection view")));
+        EXPECT_THAT(badDetect({"--projection", projection, "--camera", "x.txt"}),
+                    AllOf(HasSubstr("--camera: "), HasSubstr(projection)));
+    }
+    EXPECT_THAT(badDetect({"--size", "256x256"}), AllOf(HasSubstr("--size: "), HasSubstr("conservative")));
+    EXPECT_THAT(badDetect({"--samples-per-voxel", "2"}),
+                AllOf(HasSubstr("--samples-per-voxel: "), HasSubstr("dominant-axis"), HasSubstr("conservative")));
+    EXPECT_THAT(badDetect({"--count", "query", "--resolution", "0.5"}),
+                AllOf(HasSubstr("--resolution: "), HasSubstr("view")));
+    for (const char* samples : {"0", "17", "1.5", ""}) {
+        EXPECT_THAT(badDetect({"--projection", "dominant-axis", "--samples-per-voxel", samples}),
+                    AllOf(HasSubstr("--samples-per-voxel"), HasSubstr("1 to 16")));
+    }
+    for (const char* resolution : {"0", "1.1", "0.0001", "nan", ""}) {
+        EXPECT_THAT(badDetect({"--resolution", resolution}), HasSubstr("--resolution"));
+    }
+}
+
+TEST_F(ArgumentsTest, OutputsBesideTheCounts) {
+    EXPECT_THAT(badDetect({"--contacts", path("c.txt")}), AllOf(HasSubstr("--contacts: "), HasSubstr(".csv or .ply")));
+    EXPECT_THAT(badDetect({"--contacts", path("c")}), HasSubstr("--contacts: "));
+    EXPECT_THAT(badDetect({"--max-depth", "3"}), AllOf(HasSubstr("--max-depth: "), HasSubstr("--contacts")));
+    EXPECT_THAT(badDetect({"--most-contacts", "3"}), AllOf(HasSubstr("--most-contacts: "), HasSubstr("--contacts")));
+    EXPECT_THAT(badDetect({"--label-names", "x"}), AllOf(HasSubstr("--label-names: "), HasSubstr("--labels")));
+    for (const char* depth : {"0", "-1", "inf", "x"}) {
+        EXPECT_THAT(badDetect({"--contacts", path("c.csv"), "--max-depth", depth}), HasSubstr("--max-depth"));
+    }
+    for (const char* most : {"0", "-1", "4294967296"}) {
+        EXPECT_THAT(badDetect({"--contacts", path("c.csv"), "--most-contacts", most}), HasSubstr("--most-contacts"));
+    }
+    EXPECT_EQ(filesInFolder(), 0U);
+}
+
+TEST_F(ArgumentsTest, OneFileForTwoOutputs) {
+    const std::string file = path("x.csv");
+    const std::string same = path("./x.csv");
+    EXPECT_THAT(badDetect({"--output", file, "--contacts", same}),
+                AllOf(HasSubstr("--output and --contacts: both are"), HasSubstr("x.csv")));
+    EXPECT_THAT(badDetect({"--triangles", file, "--contacts", same}), HasSubstr("--triangles and --contacts: "));
+    EXPECT_THAT(badDetect({"--triangles", file, "--output", file}), HasSubstr("--output and --triangles: "));
+    writeText(file, "as it was");
+    std::filesystem::create_symlink(file, path("link.csv"));
+    EXPECT_THAT(badDetect({"--triangles", file, "--contacts", path("link.csv")}), HasSubstr("both are"));
+    EXPECT_EQ(readText(file), "as it was");
 }
 
 TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
@@ -93,7 +146,8 @@ TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
 }
 
 TEST_F(ArgumentsTest, EmptyPathsAreNotTheDefault) {
-    for (const char* option : {"--poses", "--camera", "--transfer-function", "--output", "--device", "--cache"}) {
+    for (const char* option : {"--poses", "--camera", "--transfer-function", "--output", "--device", "--cache",
+                               "--triangles", "--contacts", "--labels", "--label-names"}) {
         EXPECT_THAT(badDetect({option, ""}), HasSubstr(option));
     }
     EXPECT_THAT(badDetect({"--mesh", ""}), HasSubstr("--mesh"));

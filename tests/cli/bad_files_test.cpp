@@ -39,7 +39,7 @@ TEST_F(BadFilesTest, MissingFilesAreNamed) {
     EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", path("no.stl")}),
                 HasSubstr(path("no.stl")));
     for (const char* option : {"--poses", "--camera", "--transfer-function"}) {
-        EXPECT_THAT(badDetect({option, path("no.txt")}), HasSubstr(path("no.txt")));
+        EXPECT_THAT(badDetect({"--projection", "view", option, path("no.txt")}), HasSubstr(path("no.txt")));
     }
 }
 
@@ -78,7 +78,7 @@ TEST_F(BadFilesTest, TransferFunctionsNameTheLine) {
 
 TEST_F(BadFilesTest, SingularCamera) {
     writeText(path("camera.txt"), "1 0 0 0 0 1 0 0 0 0 0 0 0 0 0 1\n");
-    EXPECT_THAT(badDetect({"--camera", path("camera.txt")}),
+    EXPECT_THAT(badDetect({"--projection", "view", "--camera", path("camera.txt")}),
                 AllOf(HasSubstr(path("camera.txt")), HasSubstr("singular")));
 }
 

@@ -25,7 +25,8 @@ class CacheTest : public CliDeviceTest {
     [[nodiscard]] fs::path folder() const { return path("xdg/voxtact"); }
 
     static Arguments automatic(const Arguments& more = {}) {
-        Arguments all{"--count", "auto"};
+        // Measured are the methods of the projections that all of them do.
+        Arguments all{"--count", "auto", "--projection", "view"};
         all.insert(all.end(), more.begin(), more.end());
         return detect(all);
     }

@@ -101,6 +101,53 @@ TEST_F(DetectTest, EveryMeshAgainstEveryVolume) {
     }
 }
 
+TEST_F(DetectTest, ProjectionsAndTheirDefaults) {
+    const auto projectionOf = [](const Arguments& arguments) { return rows(arguments).at(0).at(kProjection); };
+    const Arguments plain{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = plain;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    EXPECT_EQ(projectionOf(plain), "conservative");
+    for (const char* method : {"compute", "cpu", "auto"}) {
+        EXPECT_EQ(projectionOf(with({"--count", method})), "conservative");
+    }
+    for (const char* method : {"query", "query-any", "atomic"}) {
+        EXPECT_EQ(projectionOf(with({"--count", method})), "view");
+    }
+    EXPECT_EQ(projectionOf(with({"--filter", "exact"})), "conservative");
+    EXPECT_EQ(projectionOf(with({"--count", "compute", "--filter", "hardware"})), "view");
+    for (const char* projection : {"view", "two-view", "dominant-axis"}) {
+        for (const char* method : {"query", "compute", "cpu"}) {
+            EXPECT_EQ(projectionOf(with({"--count", method, "--projection", projection})), projection);
+        }
+    }
+    EXPECT_GT(onlyCount(with({"--projection", "dominant-axis", "--count", "cpu", "--samples-per-voxel", "4"})),
+              2 * onlyCount(with({"--projection", "dominant-axis", "--count", "cpu"})));
+}
+
+TEST_F(DetectTest, ConservativeIsTheSameOnDeviceAndHost) {
+    const std::string file = poses(12);
+    const Arguments plain{"detect",  "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500",
+                          "--poses", file,       "--resolution",    "0.0625"};
+    const auto by = [&](const char* method) {
+        Arguments all = plain;
+        all.insert(all.end(), {"--count", method});
+        std::vector<std::vector<std::string>> found = rows(all);
+        for (auto& row : found) {
+            EXPECT_EQ(row.at(kMethod), method);
+            row.at(kMethod).clear();
+        }
+        return found;
+    };
+    EXPECT_EQ(by("compute"), by("cpu"));
+    // Who names a device wants it used; otherwise a GPU is, and a CPU that acts as one is not.
+    Arguments device = plain;
+    device.insert(device.end(), {"--device", "0"});
+    EXPECT_EQ(rows(device).at(0).at(kMethod), "compute");
+}
+
 TEST_F(DetectTest, NoOverlapIsNoHit) {
     writeText(path("far.txt"), "1 0 0 1000 0 1 0 0 0 0 1 0 0 0 0 1\n");
     const auto far = rows(detect({"--poses", path("far.txt")}));
@@ -175,7 +222,8 @@ TEST_F(DetectTest, BoundaryVariantsAgreeWhereItIsTransparent) {
 
 TEST_F(DetectTest, MeshSpaceAndScale) {
     output({"make", "mesh", "builtin:scalpel:500", path("scalpel.ply")});
-    const Arguments file{"detect", "--volume", "builtin:head:32", "--mesh", path("scalpel.ply"), "--size", "256x256"};
+    const Arguments file{"detect",       "--volume", "builtin:head:32", "--mesh", path("scalpel.ply"),
+                         "--projection", "view",     "--size",          "256x256"};
     const auto with = [&](const Arguments& more) {
         Arguments all = file;
         all.insert(all.end(), more.begin(), more.end());

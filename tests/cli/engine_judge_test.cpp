@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What compare --localize and bench --certified make of answers that differ.
-#include "app/bench_certified.h"
+#include "app/bench_run.h"
 #include "app/compare_localize.h"
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ TEST_F(HostTest, CountsWithoutADriver) {
     const auto lines = linesOf(output(detect({"--count", "cpu"}), noDriver_));
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0], "pose,mesh,volume,hit,count,exact,method,projection");
-    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:32,1,[1-9][0-9]*,1,cpu,view"));
+    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:32,1,[1-9][0-9]*,1,cpu,conservative"));
 }
 
 TEST_F(HostTest, CountsWithoutALoader) {
@@ -88,7 +88,8 @@ TEST_F(HostTest, WhatItCannotDo) {
     };
     EXPECT_THAT(bad({"--filter", "hardware"}), HasSubstr("--filter hardware: the counting method cpu"));
     EXPECT_THAT(bad({"--validate"}), HasSubstr("--validate: the counting method cpu"));
-    EXPECT_THAT(bad({"--size", "99999x5"}), AllOf(HasSubstr("--size: 99999x5"), HasSubstr("16384x16384")));
+    EXPECT_THAT(bad({"--projection", "view", "--size", "99999x5"}),
+                AllOf(HasSubstr("--size: 99999x5"), HasSubstr("16384x16384")));
     EXPECT_THAT(bad({"--tf-size", "4000000000"}), HasSubstr("--tf-size"));
     EXPECT_EQ(output(detect({"--count", "cpu", "--filter", "exact"}), noDriver_),
               output(detect({"--count", "cpu"}), noDriver_));

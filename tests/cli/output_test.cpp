@@ -41,7 +41,10 @@ TEST_F(OutputTest, FormatsAgree) {
     EXPECT_EQ(wordsOf(text[0]), columns);
     for (std::size_t row = 0; row < 30; ++row) {
         const auto fields = fieldsOf(csv[row + 1]);
-        EXPECT_EQ(wordsOf(text[row + 1]), fields);
+        auto words = wordsOf(text[row + 1]);
+        EXPECT_EQ(words.at(3), fields.at(3) == "1" ? "yes" : "no");
+        words[3] = fields[3];
+        EXPECT_EQ(words, fields);
         for (std::size_t column = 0; column < columns.size(); ++column) {
             EXPECT_EQ(jsonText(json["rows"][row].at(columns[column])), fields[column]) << columns[column];
         }
