@@ -153,10 +153,10 @@ TEST_P(Certified, AgainstTheOracle) {
 TEST(CertifiedYesNo, IsTheVerdictOfTheCount) {
     constexpr std::uint64_t kCases = 6000;
     const std::uint64_t seed = testSeed();
-    cpu::Detector count = take(cpu::Detector::create(
-        {.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
-    cpu::Detector yesNo = take(
-        cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+    cpu::Detector count = take(
+        cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
+    cpu::Detector yesNo =
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
     std::size_t hits = 0;
     for (std::uint64_t number = 0; number < kCases && !testing::Test::HasFailure(); ++number) {
         const CertifiedCase c = makeCertifiedCase(seed, number);
