@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 
@@ -35,7 +36,8 @@ Colour colourAt(double share) {
     const double part = place - static_cast<double>(below);
     Colour colour{};
     for (std::size_t i = 0; i < colour.size(); ++i) {
-        colour[i] = static_cast<std::uint8_t>(kViridis[below][i] * (1 - part) + kViridis[below + 1][i] * part + 0.5);
+        colour[i] =
+            static_cast<std::uint8_t>(std::lround(kViridis[below][i] * (1 - part) + kViridis[below + 1][i] * part));
     }
     return colour;
 }
