@@ -45,10 +45,12 @@ TEST_P(ProjectionOutputsTest, AreTheSameOnDeviceAndHost) {
     const BatchAnswer host =
         take(take(cpu::Detector::create({.projection = GetParam(), .outputs = kOutputs, .samplesPerVoxel = kSamples}))
                  .detect({{&hostItem, 1}, view, kDefaultThreshold}));
-    const BatchAnswer compute = take(
-        detector(
-            {.method = CountingMethod::Compute, .projection = GetParam(), .filter = Filter::Exact, .outputs = kOutputs})
-            .detect({{&item, 1}, view, kDefaultThreshold}));
+    const BatchAnswer compute = take(detector({.method = CountingMethod::Compute,
+                                               .projection = GetParam(),
+                                               .filter = Filter::Exact,
+                                               .outputs = kOutputs,
+                                               .samplesPerVoxel = kSamples})
+                                         .detect({{&item, 1}, view, kDefaultThreshold}));
     ASSERT_FALSE(host.triangles.empty()) << seed;
     ASSERT_EQ(compute.triangles.size(), host.triangles.size()) << seed;
     for (std::size_t i = 0; i < host.triangles.size(); ++i) {
