@@ -175,14 +175,14 @@ EXACT float contactStep(float voxel, float farthest, float scale) {
 /// The gradient of the opacity in texture space, by differences over `scale` voxels to each side.
 FIELD_FUNCTION EXACT ContactVector contactGradient(FIELD OUTPUT_PAIR pair, ContactVector centre, float scale) {
     ContactVector gradient = contactVector(0.0f, 0.0f, 0.0f);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (uint axis = 0u; axis < 3u; ++axis) {
         float along = contactStep(pair.voxel[axis], pair.farthest[axis], scale);
         ContactVector step =
-            contactVector(axis == 0 ? along : 0.0f, axis == 1 ? along : 0.0f, axis == 2 ? along : 0.0f);
+            contactVector(axis == 0u ? along : 0.0f, axis == 1u ? along : 0.0f, axis == 2u ? along : 0.0f);
         float slope = contactSlope(PASS_FIELD pair, centre, step);
-        gradient.x = axis == 0 ? slope : gradient.x;
-        gradient.y = axis == 1 ? slope : gradient.y;
-        gradient.z = axis == 2 ? slope : gradient.z;
+        gradient.x = axis == 0u ? slope : gradient.x;
+        gradient.y = axis == 1u ? slope : gradient.y;
+        gradient.z = axis == 2u ? slope : gradient.z;
     }
     return gradient;
 }

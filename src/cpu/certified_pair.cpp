@@ -196,7 +196,7 @@ template <class Kept> class Decider {
 
     void decideBrick(const CertifiedTriangle& triangle, const CellBox& cells, const std::array<std::int32_t, 3>& brick,
                      bool several) {
-        constexpr float kRadius = kBrickSide / 2;
+        constexpr float kRadius = 0.5F * kBrickSide;
         const CellBox within = cells.within(brick);
         const BrickCells& known = job_.occupancy.cells(job_.volume, brick);
         if (!known.any(within)) {
