@@ -3,9 +3,11 @@
 
 #include "voxtact/data.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -70,6 +72,12 @@ VOXTACT_API Result<void> writePoses(const std::filesystem::path& path, std::span
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path);
 /// The same as "v:a,v:a,...".
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> parseOpacity(std::string_view text);
+
+/// A PNG file of 8 bits a channel: red, green, blue and alpha of each pixel, the uppermost row first. Written to a
+/// temporary name and renamed. Refuses an empty picture, one with another number of bytes, an ending other than .png,
+/// and more than 2^30 bytes.
+VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                                  std::span<const std::uint8_t> rgba);
 
 /// Calls `write` with a stream (classic locale) on a temporary file beside `path`, and renames it to `path` when
 /// everything went well; otherwise the temporary file is removed and `path` is as it was. A link is followed, an
