@@ -117,8 +117,8 @@ vec4 march(Ray ray, float from, float to, float firstStep) {
     float next = from + firstStep;
     float front = scalarAt(ray.origin + at * ray.direction);
     float brickEnd = picture.bricksX > 0 ? from : PICTURE_NOTHING;
-    // The bound: llvmpipe (seen in Mesa 22.3) goes on to its own limit, 65535, where a comparison of floats is all that
-    // ends a loop.
+    // The bound is for llvmpipe (seen in Mesa 22.3): without, it goes on to a limit of its own, 65535 rounds, in some
+    // blocks of pixels that are long done.
     const int most = int((to - from) / step) + 2;
     for (int i = 0; i < most && at < to && sum.a < ENOUGH; ++i) {
         if (at >= brickEnd) {
