@@ -2,8 +2,8 @@
 # find_package(voxtact) from an install tree. An export set a target, so that voxtact::voxtact can be found where the
 # packages behind voxtact::cpu and voxtact::io are not there. The program installs itself, in src/app.
 #
-# Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu` and
-# `voxtact_io`.
+# Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu`,
+# `voxtact_io` and `voxtact_render`.
 include(CMakePackageConfigHelpers)
 set(voxtact_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/voxtact")
 set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
@@ -12,7 +12,8 @@ set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
 file(GLOB voxtact_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/voxtact/*.h")
 set(voxtact_io_headers "${PROJECT_SOURCE_DIR}/include/voxtact/io.h")
 set(voxtact_cpu_headers "${PROJECT_SOURCE_DIR}/include/voxtact/cpu.h")
-list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers})
+set(voxtact_render_headers "${PROJECT_SOURCE_DIR}/include/voxtact/render.h")
+list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers} ${voxtact_render_headers})
 
 # voxtact_install(TARGET EXPORT_SET HEADER...): installs under the component TARGET.
 function(voxtact_install target export_set)
@@ -32,6 +33,9 @@ if(VOXTACT_BUILD_CPU)
 endif()
 if(VOXTACT_BUILD_IO)
   voxtact_install(voxtact_io voxtact-io-targets ${voxtact_io_headers})
+endif()
+if(VOXTACT_BUILD_RENDER)
+  voxtact_install(voxtact_render voxtact-render-targets ${voxtact_render_headers})
 endif()
 
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/voxtact-config.cmake.in"

@@ -7,6 +7,7 @@
 #define VOXTACT_OPACITY_RANGES_H
 
 #include "exact.h"
+#include "opacity_table.h"
 
 #ifdef __cplusplus
 #define EXACT inline
@@ -28,49 +29,6 @@ EXACT int wholeBelow(float x) {
 EXACT int wholeAbove(float x) {
     const int cut = int(x);
     return float(cut) < x ? cut + 1 : cut;
-}
-
-/// The table's extremes (core/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that name.
-struct OpacityTable {
-    int size;
-    int levels;
-    float threshold;
-#ifdef __cplusplus
-    const float* extremes;
-#endif
-};
-
-EXACT float opacityExtreme(OpacityTable table, int index) {
-#ifdef __cplusplus
-    return table.extremes[index];
-#else
-    return extremes[index];
-#endif
-}
-
-/// The largest opacity of the entries from `first` to `last`, which are in the table.
-EXACT float opacityMaximum(OpacityTable table, int first, int last) {
-#ifdef __cplusplus
-    const int level = static_cast<int>(std::bit_width(static_cast<unsigned>(last - first + 1))) - 1;
-#else
-    const int level = findMSB(last - first + 1);
-#endif
-    const float head = opacityExtreme(table, level * table.size + first);
-    const float tail = opacityExtreme(table, level * table.size + last + 1 - (1 << level));
-    return head > tail ? head : tail;
-}
-
-/// The smallest.
-EXACT float opacityMinimum(OpacityTable table, int first, int last) {
-#ifdef __cplusplus
-    const int level = static_cast<int>(std::bit_width(static_cast<unsigned>(last - first + 1))) - 1;
-#else
-    const int level = findMSB(last - first + 1);
-#endif
-    const int plane = (table.levels + level) * table.size;
-    const float head = opacityExtreme(table, plane + first);
-    const float tail = opacityExtreme(table, plane + last + 1 - (1 << level));
-    return head < tail ? head : tail;
 }
 
 /// A coordinate as the table is looked up: clamped to its ends. `instead` for NaN.

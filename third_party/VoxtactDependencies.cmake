@@ -26,6 +26,7 @@ if(VOXTACT_BUILD_IO)
   find_package(nlohmann_json 3.10 CONFIG REQUIRED)
   find_package(GDCM CONFIG REQUIRED) # behind ITK's DICOM reader; only to silence it
   find_package(ZLIB REQUIRED)
+  find_path(VOXTACT_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED) # a header that writes PNG
 endif()
 
 # the program: volk is a header and a source file that the program compiles. Chart.js draws the charts of

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -84,6 +85,12 @@ struct LabelName {
 /// that are not whole or beyond an int32, a line without a name, a number with two different names, and a file without
 /// a label.
 [[nodiscard]] VOXTACT_API Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path);
+
+/// A PNG file of 8 bits a channel: red, green, blue and alpha of each pixel, the uppermost row first. Written to a
+/// temporary name and renamed. Refuses an empty picture, one with another number of bytes, an ending other than .png,
+/// and more than 2^30 bytes.
+VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                                  std::span<const std::uint8_t> rgba);
 
 /// Calls `write` with a stream (classic locale) on a temporary file beside `path`, and renames it to `path` when
 /// everything went well; otherwise the temporary file is removed and `path` is as it was. A link is followed, an

@@ -135,14 +135,14 @@ void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
         ->required();
 }
 
-void addMeshOptions(CLI::App& parser, MeshOptions& options) {
+void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
     parser
         .add_option("--mesh", options.sources,
                     "STL, OBJ, PLY, glTF/GLB, or builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES]")
         ->type_name("PATH")
         ->check(refuseEmpty)
         ->allow_extra_args(false)
-        ->required();
+        ->required(required);
     addParsed(
         parser, "--mesh-space",
         [&options](const std::string& name) {
@@ -155,7 +155,7 @@ void addMeshOptions(CLI::App& parser, MeshOptions& options) {
         "millimetres in a unit of mesh files", [](double scale) { return scale > 0; }, "above 0", "1");
 }
 
-void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options) {
+void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options, bool threshold) {
     addPath(parser, "--transfer-function", options.path,
             "lines 'value opacity' in the image's units, or JSON with \"points\"; default: opacity rises from 0 to 1 "
             "over the domain");
@@ -167,10 +167,55 @@ void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& optio
         [&options](const std::string& text) { options.domain = parseDomain("--tf-domain", text); },
         "values that the table covers; default 0:255 for uint8, else the data's min and max", "LO:HI", "");
     addWholeNumber(parser, "--tf-size", options.tableSize, 2, "entries of the table");
-    addNumber(
-        parser, "--threshold", [&options](double threshold) { options.threshold = threshold; },
-        "opacity from which a sample is opaque", [](double threshold) { return threshold >= 0 && threshold <= 1; },
-        "from 0 to 1", "0.1");
+    if (threshold) {
+        addNumber(
+            parser, "--threshold", [&options](double value) { options.threshold = value; },
+            "opacity from which a sample is opaque", [](double value) { return value >= 0 && value <= 1; },
+            "from 0 to 1", "0.1");
+    }
+}
+
+void addDegrees(CLI::App& parser, const char* option, std::optional<double>& value, const std::string& help) {
+    const auto parse = [option, &value](const std::string& text) {
+        const auto number = parseNumber<double>(text);
+        if (!number || !(std::abs(*number) <= 360)) {
+            refuse(option, quote(text) + " is not a number from -360 to 360");
+        }
+        value = *number;
+    };
+    addParsed(parser, option, parse, help, "DEGREES", "");
+}
+
+void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help) {
+    const auto parse = [option, &colour](const std::string& text) {
+        constexpr int kHexadecimal = 16;
+        for (std::size_t channel = 0; channel < colour.size(); ++channel) {
+            const char* digits = text.data() + 2 * channel;
+            unsigned value = 0;
+            if (text.size() != 2 * colour.size() ||
+                std::from_chars(digits, digits + 2, value, kHexadecimal).ptr != digits + 2) {
+                refuse(option, quote(text) + " is not a colour RRGGBB, six hexadecimal digits");
+            }
+            colour[channel] = value / 255.0;
+        }
+    };
+    addParsed(parser, option, parse, help, "RRGGBB", "");
+}
+
+void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
+             const std::string& help) {
+    const std::vector<const char*> known(names);
+    const auto parse = [option, &name, known](const std::string& text) {
+        if (std::find(known.begin(), known.end(), text) == known.end()) {
+            std::string all;
+            for (const char* one : known) {
+                all += (all.empty() ? "" : ", ") + std::string(one);
+            }
+            refuse(option, quote(text) + " is not known; there are: " + all);
+        }
+        name = text;
+    };
+    addParsed(parser, option, parse, help, "NAME", "");
 }
 
 void addViewOptions(CLI::App& parser, ViewOptions& options) {

@@ -8,9 +8,11 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,8 +82,15 @@ void addNumber(CLI::App& parser, const char* option, const std::function<void(do
 /// A path, as an option. An empty one (a shell variable that is not set) is refused.
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help);
 void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources);
-void addMeshOptions(CLI::App& parser, MeshOptions& options);
-void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options);
+void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required = true);
+void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options, bool threshold = true);
+/// A number of degrees, as an option.
+void addDegrees(CLI::App& parser, const char* option, std::optional<double>& value, const std::string& help);
+/// A colour RRGGBB, as an option; each channel then from 0 to 1.
+void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help);
+/// One of `names`, as an option.
+void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
+             const std::string& help);
 void addViewOptions(CLI::App& parser, ViewOptions& options);
 void addMethodOptions(CLI::App& parser, MethodOptions& options);
 void addDeviceOptions(CLI::App& parser, DeviceChoice& options);

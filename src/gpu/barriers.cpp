@@ -15,7 +15,7 @@ void cmdUpdateBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, 
 }
 
 void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage image, const ImageUse& from,
-             const ImageUse& to) {
+             const ImageUse& to, VkImageAspectFlags aspect) {
     VkImageMemoryBarrier2 transition{};
     transition.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
     transition.srcStageMask = from.stages;
@@ -27,7 +27,7 @@ void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage 
     transition.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     transition.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     transition.image = image;
-    transition.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    transition.subresourceRange = {aspect, 0, 1, 0, 1};
     VkDependencyInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.imageMemoryBarrierCount = 1;

@@ -32,9 +32,9 @@ struct ImageUse {
 inline constexpr ImageUse kReadByShaders{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
                                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 
-/// A barrier for a whole colour image. From VK_IMAGE_LAYOUT_UNDEFINED the contents are lost.
+/// A barrier for a whole image of one mip level. From VK_IMAGE_LAYOUT_UNDEFINED the contents are lost.
 void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage image, const ImageUse& from,
-             const ImageUse& to);
+             const ImageUse& to, VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
 
 /// Writes host data into a buffer, inline in the command buffer, in as many commands as it takes. `offset` and the
 /// number of bytes are multiples of 4.

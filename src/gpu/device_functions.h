@@ -29,6 +29,7 @@ namespace voxtact {
     X(CmdBindVertexBuffers2)                                                                                           \
     X(CmdCopyBuffer)                                                                                                   \
     X(CmdCopyBufferToImage)                                                                                            \
+    X(CmdCopyImageToBuffer)                                                                                            \
     X(CmdCopyQueryPoolResults)                                                                                         \
     X(CmdDispatch)                                                                                                     \
     X(CmdDraw)                                                                                                         \

@@ -72,7 +72,7 @@ Result<Owned<VkImageView>> makeView(ContextImpl& context, VkImage image, const I
     info.image = image;
     info.viewType = desc.viewType;
     info.format = desc.format;
-    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    info.subresourceRange = {desc.aspect, 0, 1, 0, 1};
     VkImageView view = VK_NULL_HANDLE;
     if (const VkResult result = context.vk.CreateImageView(context.device, &info, context.allocator, &view);
         result != VK_SUCCESS) {

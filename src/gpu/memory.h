@@ -88,6 +88,7 @@ struct ImageDesc {
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent3D extent{1, 1, 1};
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
 };
 
 /// `what` begins the error text ("the volume").

@@ -58,48 +58,77 @@ Owned<VkPipeline> own(ContextImpl& context, VkPipeline handle, const char* name)
 
 /// The fixed-function state of raster passes.
 struct FixedState {
-    VkVertexInputBindingDescription binding{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
-    VkVertexInputAttributeDescription attribute{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    std::array<VkVertexInputBindingDescription, 2> bindings{
+        {{0, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX}, {1, 3 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX}}};
+    std::array<VkVertexInputAttributeDescription, 2> attributes{
+        {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}, {1, 1, VK_FORMAT_R32G32B32_SFLOAT, 0}}};
     /// The last one is for vertex input only.
     std::array<VkDynamicState, 3> dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
                                                 VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE};
+    std::vector<VkPipelineColorBlendAttachmentState> attachments;
     VkPipelineVertexInputStateCreateInfo vertexInput{};
     VkPipelineInputAssemblyStateCreateInfo assembly{};
     VkPipelineViewportStateCreateInfo viewport{};
     VkPipelineRasterizationStateCreateInfo raster{};
     VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
     VkPipelineMultisampleStateCreateInfo multisample{};
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    VkPipelineColorBlendStateCreateInfo blend{};
     VkPipelineDynamicStateCreateInfo dynamic{};
     VkPipelineRenderingCreateInfo rendering{};
 
-    FixedState(bool withVertexInput, bool overestimate) {
-        vertexInput.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-        vertexInput.vertexBindingDescriptionCount = withVertexInput ? 1 : 0;
-        vertexInput.pVertexBindingDescriptions = &binding;
-        vertexInput.vertexAttributeDescriptionCount = withVertexInput ? 1 : 0;
-        vertexInput.pVertexAttributeDescriptions = &attribute;
-        assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    explicit FixedState(const RasterPipelineDesc& desc) {
+        setVertexInput(desc);
         viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
         viewport.viewportCount = 1;
         viewport.scissorCount = 1;
         conservative.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
         conservative.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
         raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-        raster.pNext = overestimate ? &conservative : nullptr;
+        raster.pNext = desc.overestimate ? &conservative : nullptr;
         raster.polygonMode = VK_POLYGON_MODE_FILL;
         raster.cullMode = VK_CULL_MODE_NONE;
         raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
         raster.lineWidth = 1.0F;
         multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
         multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-        dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-        dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamicStates.size()) - (withVertexInput ? 0 : 1);
-        dynamic.pDynamicStates = dynamicStates.data();
-        rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+        setAttachments(desc);
     }
     FixedState(const FixedState&) = delete;
     FixedState& operator=(const FixedState&) = delete;
+
+  private:
+    void setVertexInput(const RasterPipelineDesc& desc) {
+        const std::uint32_t inputs = desc.vertexInput ? (desc.normals ? 2 : 1) : 0;
+        vertexInput.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+        vertexInput.vertexBindingDescriptionCount = inputs;
+        vertexInput.pVertexBindingDescriptions = bindings.data();
+        vertexInput.vertexAttributeDescriptionCount = inputs;
+        vertexInput.pVertexAttributeDescriptions = attributes.data();
+        assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+        dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamicStates.size()) - (desc.vertexInput ? 0 : 1);
+        dynamic.pDynamicStates = dynamicStates.data();
+    }
+
+    void setAttachments(const RasterPipelineDesc& desc) {
+        VkPipelineColorBlendAttachmentState attachment{};
+        attachment.colorWriteMask =
+            VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+        attachments.assign(desc.colourFormats.size(), attachment);
+        blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+        blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+        blend.pAttachments = attachments.data();
+        depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+        depth.depthTestEnable = VK_TRUE;
+        depth.depthWriteEnable = VK_TRUE;
+        depth.depthCompareOp = VK_COMPARE_OP_LESS;
+        rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+        rendering.colorAttachmentCount = blend.attachmentCount;
+        rendering.pColorAttachmentFormats = desc.colourFormats.data();
+        rendering.depthAttachmentFormat = desc.depthFormat;
+    }
 };
 
 } // namespace
@@ -119,7 +148,7 @@ Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterP
     stages[0].pSpecializationInfo = &constants.info;
     stages[1].pSpecializationInfo = &constants.info;
 
-    const FixedState fixed(desc.vertexInput, desc.overestimate);
+    const FixedState fixed(desc);
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
     info.pNext = &fixed.rendering;
@@ -130,6 +159,8 @@ Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterP
     info.pViewportState = &fixed.viewport;
     info.pRasterizationState = &fixed.raster;
     info.pMultisampleState = &fixed.multisample;
+    info.pDepthStencilState = desc.depthFormat == VK_FORMAT_UNDEFINED ? nullptr : &fixed.depth;
+    info.pColorBlendState = desc.colourFormats.empty() ? nullptr : &fixed.blend;
     info.pDynamicState = &fixed.dynamic;
     info.layout = desc.layout;
     VkPipeline handle = VK_NULL_HANDLE;

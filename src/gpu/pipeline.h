@@ -21,13 +21,16 @@ struct RasterPipelineDesc {
     VkPipelineLayout layout =
         VK_NULL_HANDLE;        ///< that of the shaders: ContextImpl::rasterLayout, or one that extends it
     bool vertexInput = true;   ///< false: the vertex shader reads no vertex buffer
+    bool normals = false;      ///< float3 at binding and location 1, packed, beside the positions
     bool overestimate = false; ///< by VK_EXT_conservative_rasterization, which must be enabled
+    std::span<const VkFormat> colourFormats{};  ///< of the attachments, which are written without blending
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED; ///< with one, what is nearer hides what is behind
     const char* name = "";
 };
 
-/// A pipeline that rasterises triangles into no attachment at all: what counts is which fragments survive. Vertices
-/// are float3 at binding 0, if any, whose stride is dynamic, as are viewport and scissor. Nothing is culled; the near
-/// and far planes clip.
+/// A pipeline that rasterises triangles. Without attachments what counts is which fragments survive. Vertices are
+/// float3 at binding 0, if any; the strides of bindings are dynamic, as are viewport and scissor. Nothing is culled;
+/// the near and far planes clip.
 [[nodiscard]] Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc);
 
 [[nodiscard]] Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,

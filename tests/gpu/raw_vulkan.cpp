@@ -90,7 +90,7 @@ RawVulkan::HostBuffer RawVulkan::makeBuffer(VkDeviceSize size, VkBufferUsageFlag
 }
 
 VkImageView RawVulkan::makeImage(VkImageType type, VkFormat format, VkExtent3D extent,
-                                 std::span<const std::byte> texels, VkImageLayout layout) {
+                                 std::span<const std::byte> texels, VkImageLayout layout, VkImageUsageFlags more) {
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
     info.imageType = type;
@@ -99,7 +99,7 @@ VkImageView RawVulkan::makeImage(VkImageType type, VkFormat format, VkExtent3D e
     info.mipLevels = 1;
     info.arrayLayers = 1;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | more;
     VkImage image = VK_NULL_HANDLE;
     must(vk().vkCreateImage(device(), &info, nullptr, &image));
     images_.push_back(image);
@@ -135,7 +135,9 @@ VkImageView RawVulkan::makeImage(VkImageType type, VkFormat format, VkExtent3D e
     VkImageViewCreateInfo viewInfo{};
     viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     viewInfo.image = image;
-    viewInfo.viewType = type == VK_IMAGE_TYPE_3D ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_1D;
+    viewInfo.viewType = type == VK_IMAGE_TYPE_3D   ? VK_IMAGE_VIEW_TYPE_3D
+                        : type == VK_IMAGE_TYPE_2D ? VK_IMAGE_VIEW_TYPE_2D
+                                                   : VK_IMAGE_VIEW_TYPE_1D;
     viewInfo.format = format;
     viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     VkImageView view = VK_NULL_HANDLE;

@@ -32,9 +32,10 @@ class RawVulkan {
         std::memcpy(out.mapped, data.data(), data.size_bytes());
         return out;
     }
-    /// An image with its contents, left in `layout`.
+    /// An image with its contents, left in `layout`, with `more` usage than for being sampled.
     VkImageView makeImage(VkImageType type, VkFormat format, VkExtent3D extent, std::span<const std::byte> texels,
-                          VkImageLayout layout);
+                          VkImageLayout layout, VkImageUsageFlags more = 0);
+    [[nodiscard]] VkImage lastImage() const { return images_.back(); }
 
     /// The contents of a buffer with usage TRANSFER_SRC that no command is using.
     std::vector<std::byte> readBuffer(VkBuffer buffer, VkDeviceSize size);

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+/// Pictures (target voxtact::render): a translucent volume by ray casting, and an opaque mesh in it at the right depth.
+/// Volume and Mesh are those that the detector uses: one upload serves both.
+///
+/// Ray casting: a triangle that fills the picture, and for each pixel the part of its ray that is in the volume's box,
+/// from the inverse of the camera's matrix. The faces of the box are never rasterised, so the eye may be inside it, and
+/// orthographic and perspective cameras are one case. Samples are a step apart along the ray, in millimetres. Between
+/// two samples colour and opacity come from a table that holds the integral over all scalars between the two
+/// (pre-integrated classification: Engel, Kraus and Ertl, "High-Quality Pre-Integrated Volume Rendering Using
+/// Hardware-Accelerated Pixel Shading", 2001), so that a thin shell in the transfer function is not missed between two
+/// samples. A ray ends where its opacity reaches 0.99.
+///
+/// Colours are in the space of the picture: nothing is converted. For an sRGB picture in a UNORM image they are sRGB.
+///
+/// Lifetime: a Renderer must outlive what is made with it, and everything the command buffers that use it.
+/// Thread-safety: const functions are safe from any thread; all others need the caller's own lock.
+namespace voxtact {
+
+struct RendererImpl;
+struct RenderTransferFunctionImpl;
+struct RenderTargetsImpl;
+struct MeshNormalsImpl;
+struct RenderBricksImpl;
+
+using Colour = std::array<double, 3>; ///< red, green, blue; 0..1
+
+/// A corner of the piecewise linear colours.
+struct ColourPoint {
+    double value = 0; ///< in the image's own units
+    Colour colour{1, 1, 1};
+};
+
+/// Scalar -> opacity and colour.
+struct RenderTransferFunctionDesc {
+    TransferFunctionDesc opacity{};            ///< the same as the detector's; at most 1024 entries
+    std::span<const ColourPoint> colours = {}; ///< ascending values; constant outside; none: white
+    /// The length of material that `opacity` is for, mm: a ray has absorbed that much after so long a way. Opacities
+    /// above 0.999 count as 0.999.
+    double opacityUnit = 1;
+    double step = 0.5; ///< mm from one sample of a ray to the next; half a voxel is a good one
+};
+
+struct RendererDesc {
+    VkFormat colorFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< of the pictures; a colour attachment. There is no depth image
+};
+
+/// How light falls: from the eye, on both sides of a surface (Blinn-Phong).
+struct Lighting {
+    bool volume = true; ///< by the gradient, from central differences; false: the colours as they are
+    bool mesh = true;
+    double ambient = 0.25;
+    double diffuse = 0.75;
+    double specular = 0.2;
+    double shininess = 30;
+};
+
+class RenderTransferFunction;
+class RenderTargets;
+class MeshNormals;
+class RenderBricks;
+
+/// What is to be seen.
+struct Scene {
+    const Volume* volume = nullptr;
+    const RenderTransferFunction* transferFunction = nullptr;
+    const RenderBricks* bricks = nullptr; ///< optional, of `volume`: what is transparent is skipped
+    const Mesh* mesh = nullptr;           ///< optional
+    const MeshNormals* normals = nullptr; ///< optional, of `mesh`: smooth; without, each triangle is flat
+    Mat4 world_from_object = identity();  ///< of the mesh; affine, not singular
+    Colour meshColour{0.75, 0.78, 0.82};
+    /// Orthographic or perspective; not singular. The near plane may be at depth 0 or 1, the far one at infinity.
+    Mat4 clip_from_world{};
+    Colour background{};
+    Lighting lighting{};
+    /// The first sample of each ray is moved by a part of the step that is a hash of the pixel: noise instead of bands,
+    /// the same in every picture of one size.
+    bool jitter = true;
+};
+
+/// Where the picture goes.
+struct Target {
+    VkImageView view = VK_NULL_HANDLE; ///< of RendererDesc::colorFormat, one sample, usage COLOR_ATTACHMENT
+    VkExtent2D extent{};               ///< of the picture, from the image's corner; at most that of `targets`
+    VkImageLayout layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; ///< or GENERAL; while the commands execute
+    RenderTargets* targets = nullptr;
+};
+
+/// Makes pictures in one colour format.
+class Renderer {
+  public:
+    /// Unsupported where the device cannot render to the format, or lacks another that the renderer needs.
+    [[nodiscard]] VOXTACT_API static Result<Renderer> create(const Context& context, const RendererDesc& desc = {});
+    VOXTACT_API Renderer(Renderer&&) noexcept;
+    VOXTACT_API Renderer& operator=(Renderer&&) noexcept;
+    VOXTACT_API ~Renderer();
+
+    /// Records a picture: no allocation, no submission, no wait. All pixels of the extent are written, with alpha 1.
+    ///
+    ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics
+    ///   expects          volume, bricks, transfer function, mesh and normals readable as cmdUpload() leaves them,
+    ///                    wrapped ones in the layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER
+    ///                    by the caller; the target's image in Target::layout, ready for COLOR_ATTACHMENT_OUTPUT /
+    ///                    COLOR_ATTACHMENT_WRITE; its contents are discarded
+    ///   leaves           the image in the same layout, written at COLOR_ATTACHMENT_OUTPUT / COLOR_ATTACHMENT_WRITE:
+    ///                    the next reader waits for that
+    ///   targets          an earlier use of the same RenderTargets in this queue is waited for
+    ///   queries          no occlusion query may be active
+    ///   bound state lost graphics pipeline, descriptor sets 0..3 of the graphics bind point, vertex bindings 0 and 1,
+    ///                    index buffer, dynamic viewport and scissor
+    ///
+    /// On error nothing was recorded. Refuses a singular camera or pose, colours outside 0..1, objects that do not
+    /// belong together, and a step that gives a ray through the volume more than 65536 samples.
+    VOXTACT_API Result<void> cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const;
+
+    [[nodiscard]] RendererImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit Renderer(std::unique_ptr<RendererImpl> impl) noexcept;
+    std::unique_ptr<RendererImpl> impl_;
+};
+
+/// A picture in host memory.
+struct Picture {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> rgba; ///< four bytes a pixel, the uppermost row first
+};
+
+/// The blocking convenience: renders into an image of its own (R8G8B8A8_UNORM), submits on the caller's queue, waits,
+/// and reads the picture. Keeps its images for the next picture of the same size.
+/// Thread-safety: none; one thread at a time.
+class BlockingRenderer {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<BlockingRenderer> create(const Context& context, const QueueAccess& queue);
+    VOXTACT_API BlockingRenderer(BlockingRenderer&&) noexcept;
+    VOXTACT_API BlockingRenderer& operator=(BlockingRenderer&&) noexcept;
+    VOXTACT_API ~BlockingRenderer();
+
+    /// Refuses what RenderTargets::create() and Renderer::cmdRender() refuse.
+    [[nodiscard]] VOXTACT_API Result<Picture> render(const Scene& scene, VkExtent2D extent);
+    [[nodiscard]] VOXTACT_API const Renderer& renderer() const noexcept;
+
+  private:
+    struct State;
+    explicit BlockingRenderer(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
+/// Scalar -> opacity and colour, on the device: the table that pre-integrated classification reads, with as many
+/// columns and rows as the opacity has entries.
+class RenderTransferFunction {
+  public:
+    /// Refuses what sampleTable() refuses, for opacity and colours, and a step or opacity unit that is not positive and
+    /// finite.
+    [[nodiscard]] VOXTACT_API static Result<RenderTransferFunction> create(const Renderer& renderer,
+                                                                           const RenderTransferFunctionDesc& desc);
+    [[nodiscard]] VOXTACT_API static Result<RenderTransferFunction>
+    upload(const Renderer& renderer, const QueueAccess& queue, const RenderTransferFunctionDesc& desc);
+    VOXTACT_API RenderTransferFunction(RenderTransferFunction&&) noexcept;
+    VOXTACT_API RenderTransferFunction& operator=(RenderTransferFunction&&) noexcept;
+    VOXTACT_API ~RenderTransferFunction();
+
+    /// Makes the table.
+    ///   call it       outside a render pass, on a queue with compute
+    ///   expects       nothing; earlier commands that read the table are waited for
+    ///   leaves        the table readable by any shader stage, in every later command
+    ///   queries       an active occlusion query is not affected
+    ///   bound state   lost: compute pipeline, descriptor sets of the compute bind point, push constants
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// The same for a new function with as many entries. No device memory is allocated. It takes effect in
+    /// command-buffer order but for domain and step, which change at once: record in the order in which the commands
+    /// will be executed.
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const RenderTransferFunctionDesc& desc);
+
+    /// Whether some entry of the table has an opacity above 0: without, the volume is not to be seen.
+    [[nodiscard]] VOXTACT_API bool visible() const noexcept;
+
+    /// For upload().
+    void releaseStaging() noexcept {}
+    [[nodiscard]] RenderTransferFunctionImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit RenderTransferFunction(std::unique_ptr<RenderTransferFunctionImpl> impl) noexcept;
+    std::unique_ptr<RenderTransferFunctionImpl> impl_;
+};
+
+/// The images between the passes of one picture in flight. Thread-safety: none; one recording at a time.
+class RenderTargets {
+  public:
+    /// Refuses an extent of zero, or beyond Context::maxViewport().
+    [[nodiscard]] VOXTACT_API static Result<RenderTargets> create(const Renderer& renderer, VkExtent2D extent);
+    VOXTACT_API RenderTargets(RenderTargets&&) noexcept;
+    VOXTACT_API RenderTargets& operator=(RenderTargets&&) noexcept;
+    VOXTACT_API ~RenderTargets();
+
+    [[nodiscard]] VOXTACT_API VkExtent2D extent() const noexcept;
+    [[nodiscard]] RenderTargetsImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit RenderTargets(std::unique_ptr<RenderTargetsImpl> impl) noexcept;
+    std::unique_ptr<RenderTargetsImpl> impl_;
+};
+
+/// The normals of a mesh's vertices, beside its positions: the mean of the triangles round a vertex, weighted by area.
+class MeshNormals {
+  public:
+    /// Refuses what checkMesh() refuses.
+    [[nodiscard]] VOXTACT_API static Result<MeshNormals> create(const Renderer& renderer, const MeshView& data);
+    [[nodiscard]] VOXTACT_API static Result<MeshNormals> upload(const Renderer& renderer, const QueueAccess& queue,
+                                                                const MeshView& data);
+    VOXTACT_API MeshNormals(MeshNormals&&) noexcept;
+    VOXTACT_API MeshNormals& operator=(MeshNormals&&) noexcept;
+    VOXTACT_API ~MeshNormals();
+
+    /// As Mesh::cmdUpload() and Mesh::releaseStaging().
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    VOXTACT_API void releaseStaging() noexcept;
+    [[nodiscard]] MeshNormalsImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit MeshNormals(std::unique_ptr<MeshNormalsImpl> impl) noexcept;
+    std::unique_ptr<MeshNormalsImpl> impl_;
+};
+
+/// Lets the renderer read the bricks of a volume (VolumeOptions::bricks), to skip those that are transparent. Nothing
+/// is copied: edits of the volume are followed. The volume must outlive it.
+class RenderBricks {
+  public:
+    /// Refuses a volume without bricks.
+    [[nodiscard]] VOXTACT_API static Result<RenderBricks> create(const Renderer& renderer, const Volume& volume);
+    VOXTACT_API RenderBricks(RenderBricks&&) noexcept;
+    VOXTACT_API RenderBricks& operator=(RenderBricks&&) noexcept;
+    VOXTACT_API ~RenderBricks();
+
+    [[nodiscard]] RenderBricksImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit RenderBricks(std::unique_ptr<RenderBricksImpl> impl) noexcept;
+    std::unique_ptr<RenderBricksImpl> impl_;
+};
+
+} // namespace voxtact

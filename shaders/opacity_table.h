@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The extremes of a transfer function's table over runs of entries: one text for GLSL and C++.
+#ifndef VOXTACT_OPACITY_TABLE_H
+#define VOXTACT_OPACITY_TABLE_H
+
+#ifdef __cplusplus
+#include <bit>
+#define EXACT inline
+namespace voxtact::shader {
+#else
+#define EXACT
+#endif
+
+/// The table's extremes (core/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that name.
+struct OpacityTable {
+    int size;
+    int levels;
+    float threshold;
+#ifdef __cplusplus
+    const float* extremes;
+#endif
+};
+
+EXACT float opacityExtreme(OpacityTable table, int index) {
+#ifdef __cplusplus
+    return table.extremes[index];
+#else
+    return extremes[index];
+#endif
+}
+
+/// The largest opacity of the entries from `first` to `last`, which are in the table.
+EXACT float opacityMaximum(OpacityTable table, int first, int last) {
+#ifdef __cplusplus
+    const int level = static_cast<int>(std::bit_width(static_cast<unsigned>(last - first + 1))) - 1;
+#else
+    const int level = findMSB(last - first + 1);
+#endif
+    const float head = opacityExtreme(table, level * table.size + first);
+    const float tail = opacityExtreme(table, level * table.size + last + 1 - (1 << level));
+    return head > tail ? head : tail;
+}
+
+/// The smallest.
+EXACT float opacityMinimum(OpacityTable table, int first, int last) {
+#ifdef __cplusplus
+    const int level = static_cast<int>(std::bit_width(static_cast<unsigned>(last - first + 1))) - 1;
+#else
+    const int level = findMSB(last - first + 1);
+#endif
+    const int plane = (table.levels + level) * table.size;
+    const float head = opacityExtreme(table, plane + first);
+    const float tail = opacityExtreme(table, plane + last + 1 - (1 << level));
+    return head < tail ? head : tail;
+}
+
+#ifdef __cplusplus
+#undef EXACT
+} // namespace voxtact::shader
+#endif
+
+#endif

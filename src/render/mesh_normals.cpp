@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "gpu/submit.h"
+#include "render/render_impl.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace voxtact {
+
+namespace {
+
+Vec3 vertexOf(const MeshView& mesh, std::uint32_t vertex) {
+    const std::size_t at = std::size_t{3} * vertex;
+    return {mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2]};
+}
+
+/// Twice the area long.
+Vec3 triangleNormal(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const Vec3 v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+std::vector<float> vertexNormals(const MeshView& mesh) {
+    std::vector<double> sums(mesh.positions.size());
+    for (std::size_t at = 0; at < mesh.indices.size(); at += 3) {
+        const std::span<const std::uint32_t> corners = mesh.indices.subspan(at, 3);
+        const Vec3 normal =
+            triangleNormal(vertexOf(mesh, corners[0]), vertexOf(mesh, corners[1]), vertexOf(mesh, corners[2]));
+        for (const std::uint32_t corner : corners) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                sums[3 * std::size_t{corner} + axis] += normal[axis];
+            }
+        }
+    }
+    std::vector<float> normals(sums.size());
+    for (std::size_t at = 0; at < sums.size(); at += 3) {
+        const double size = std::hypot(sums[at], sums[at + 1], sums[at + 2]);
+        for (std::size_t axis = 0; axis < 3 && size > 0; ++axis) {
+            normals[at + axis] = static_cast<float>(sums[at + axis] / size);
+        }
+    }
+    return normals;
+}
+
+} // namespace
+
+MeshNormals::MeshNormals(std::unique_ptr<MeshNormalsImpl> impl) noexcept : impl_(std::move(impl)) {}
+MeshNormals::MeshNormals(MeshNormals&&) noexcept = default;
+MeshNormals& MeshNormals::operator=(MeshNormals&&) noexcept = default;
+MeshNormals::~MeshNormals() = default;
+
+Result<MeshNormals> MeshNormals::create(const Renderer& renderer, const MeshView& data) {
+    return guard([&]() -> Result<MeshNormals> {
+        ContextImpl& context = renderer.impl().context;
+        if (Result<void> alive = context.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        const Result<MeshFacts> facts = checkMesh(data);
+        if (!facts.ok()) {
+            return facts.error();
+        }
+        auto impl = std::make_unique<MeshNormalsImpl>(MeshNormalsImpl{.context = context, .vertices = facts->vertices});
+        const std::vector<float> normals = vertexNormals(data);
+        const std::span<const std::byte> bytes = std::as_bytes(std::span(normals));
+        Result<Buffer> buffer =
+            makeBuffer(context, bytes.size(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       MemoryUse::Device, "mesh normals");
+        if (!buffer.ok()) {
+            return buffer.error();
+        }
+        impl->buffer = std::move(*buffer);
+        Result<Buffer> staging = makeBuffer(context, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
+                                            "mesh normals staging");
+        if (!staging.ok()) {
+            return staging.error();
+        }
+        impl->staging = std::move(*staging);
+        std::memcpy(impl->staging.mapped, bytes.data(), bytes.size());
+        if (Result<void> flushed = flush(context, impl->staging); !flushed.ok()) {
+            return flushed.error();
+        }
+        return MeshNormals(std::move(impl));
+    });
+}
+
+Result<MeshNormals> MeshNormals::upload(const Renderer& renderer, const QueueAccess& queue, const MeshView& data) {
+    return guard([&] { return uploaded(renderer.impl().context, queue, create(renderer, data)); });
+}
+
+Result<void> MeshNormals::cmdUpload(VkCommandBuffer commandBuffer) {
+    return guard([&]() -> Result<void> {
+        if (!impl_->staging.buffer) {
+            return notUploadable("normals");
+        }
+        ContextImpl& context = impl_->context;
+        const Label label(context, commandBuffer, "voxtact normals upload");
+        // Earlier readers must be done before the contents go.
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        const VkBufferCopy whole{0, 0, impl_->buffer.size};
+        context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->buffer.get(), 1, &whole);
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        return {};
+    });
+}
+
+void MeshNormals::releaseStaging() noexcept {
+    impl_->staging = {};
+}
+
+} // namespace voxtact

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "render/render_impl.h"
+
+namespace voxtact {
+
+RenderBricks::RenderBricks(std::unique_ptr<RenderBricksImpl> impl) noexcept : impl_(std::move(impl)) {}
+RenderBricks::RenderBricks(RenderBricks&&) noexcept = default;
+RenderBricks& RenderBricks::operator=(RenderBricks&&) noexcept = default;
+RenderBricks::~RenderBricks() = default;
+
+Result<RenderBricks> RenderBricks::create(const Renderer& renderer, const Volume& volume) {
+    return guard([&]() -> Result<RenderBricks> {
+        const VolumeImpl& source = volume.impl();
+        ContextImpl& context = renderer.impl().context;
+        if (&source.context != &context) {
+            return Error{ErrorCode::InvalidArgument, 0, "volume and renderer belong to different Contexts"};
+        }
+        if (!source.bricks.buffer) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "the volume has no bricks: it was made without VolumeOptions::bricks"};
+        }
+        constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+        Result<DescriptorSet> set =
+            makeDescriptorSet(context, renderer.impl().bricksLayout.get(), {&kSize, 1}, "render bricks");
+        if (!set.ok()) {
+            return set.error();
+        }
+        auto impl =
+            std::make_unique<RenderBricksImpl>(RenderBricksImpl{.renderer = renderer.impl(), .volume = &source});
+        impl->descriptors = std::move(*set);
+        writeBuffer(context, impl->descriptors.set, 0, source.bricks.get());
+        return RenderBricks(std::move(impl));
+    });
+}
+
+} // namespace voxtact

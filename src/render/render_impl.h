@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "gpu/context_impl.h"
+#include "gpu/scene_impl.h"
+#include "render.h"
+#include "voxtact/render.h"
+
+namespace voxtact {
+
+/// Of the pre-integrated table, and of what the mesh pass leaves.
+inline constexpr VkFormat kRenderTableFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kMeshColourFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kMeshDistanceFormat = VK_FORMAT_R32_SFLOAT;
+inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+struct RendererImpl {
+    ContextImpl& context;
+    RendererDesc desc{};
+    Owned<VkDescriptorSetLayout> makingLayout{};   ///< of the table's pass
+    Owned<VkDescriptorSetLayout> functionLayout{}; ///< PICTURE_SET_FUNCTION
+    Owned<VkDescriptorSetLayout> targetsLayout{};  ///< PICTURE_SET_TARGETS
+    Owned<VkDescriptorSetLayout> bricksLayout{};   ///< PICTURE_SET_BRICKS
+    Owned<VkPipelineLayout> makingPipelineLayout{};
+    Owned<VkPipelineLayout> pictureLayout{};
+    Owned<VkPipeline> makingPipeline{};
+    Owned<VkPipeline> meshPipeline{};
+    Owned<VkPipeline> smoothMeshPipeline{};
+    Owned<VkPipeline> volumePipeline{};
+    DescriptorSet noBricks{};
+};
+
+struct RenderTransferFunctionImpl {
+    const RendererImpl& renderer;
+    ValueRange domain{};
+    double step = 0;
+    std::vector<float> table{};     ///< the opacities
+    std::vector<float> integrals{}; ///< for preintegrate.comp
+    Image image{};
+    Buffer integralBuffer{};
+    Buffer extremes{};
+    DescriptorSet making{};
+    DescriptorSet reading{};
+};
+
+struct RenderTargetsImpl {
+    const RendererImpl& renderer;
+    VkExtent2D extent{};
+    Image colour{};
+    Image distance{};
+    Image depth{};
+    Buffer constants{};
+    DescriptorSet descriptors{};
+};
+
+struct MeshNormalsImpl {
+    ContextImpl& context;
+    std::uint32_t vertices = 0;
+    Buffer buffer{};
+    Buffer staging{};
+};
+
+struct RenderBricksImpl {
+    const RendererImpl& renderer;
+    const VolumeImpl* volume = nullptr;
+    DescriptorSet descriptors{};
+};
+
+/// Refuses what cannot be seen; otherwise the constants of the picture.
+[[nodiscard]] Result<shader::PictureConstants> pictureConstants(const Scene& scene, const Target& target);
+
+/// Integrals of extinction times colour (three) and of extinction up to each entry of a table, in entries, then the
+/// values at each: what preintegrate.comp reads. `channels`: red, green, blue and opacity of the entries.
+[[nodiscard]] std::vector<float> extinctionIntegrals(const std::array<std::vector<float>, 4>& channels,
+                                                     double opacityUnit);
+
+} // namespace voxtact

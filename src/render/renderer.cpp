@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "gpu/debug.h"
+#include "gpu/pipeline.h"
+#include "render/render_impl.h"
+
+#include "voxtact_shaders/preintegrate_comp.h"
+#include "voxtact_shaders/render_mesh_frag.h"
+#include "voxtact_shaders/render_mesh_smooth_frag.h"
+#include "voxtact_shaders/render_mesh_smooth_vert.h"
+#include "voxtact_shaders/render_mesh_vert.h"
+#include "voxtact_shaders/render_volume_frag.h"
+#include "voxtact_shaders/render_volume_vert.h"
+
+#include <string>
+
+namespace voxtact {
+
+namespace {
+
+constexpr std::uint32_t kBoundSets = 4;
+static_assert(VOXTACT_SET_VOLUME == 0 && PICTURE_SET_BRICKS + 1 == kBoundSets);
+
+Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
+    VkFormatProperties properties{};
+    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
+    if (format == VK_FORMAT_UNDEFINED || (properties.optimalTilingFeatures & needed) != needed) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "the device cannot use VkFormat " + std::to_string(format) + " for " + use};
+    }
+    return {};
+}
+
+Result<void> checkFormats(const ContextImpl& context, VkFormat colour) {
+    constexpr VkFormatFeatureFlags kTarget =
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+    struct Needed {
+        VkFormat format;
+        VkFormatFeatureFlags features;
+        const char* use;
+    };
+    for (const Needed& needed :
+         {Needed{colour, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "RendererDesc::colorFormat"},
+          Needed{kMeshColourFormat, kTarget, "the mesh's colour"},
+          Needed{kMeshDistanceFormat, kTarget, "the mesh's distance"},
+          Needed{kMeshDepthFormat, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "the mesh's depth"},
+          Needed{kRenderTableFormat,
+                 VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT,
+                 "the pre-integrated table"}}) {
+        if (Result<void> checked = checkFormat(context, needed.format, needed.features, needed.use); !checked.ok()) {
+            return checked;
+        }
+    }
+    return {};
+}
+
+Result<void> makeSetLayout(ContextImpl& context, Owned<VkDescriptorSetLayout>& out,
+                           std::span<const VkDescriptorSetLayoutBinding> bindings, const char* name) {
+    VkDescriptorSetLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &layout);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a descriptor set layout");
+    }
+    nameObject(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
+    out = {context, layout, [](ContextImpl& c, VkDescriptorSetLayout handle) {
+               c.vk.DestroyDescriptorSetLayout(c.device, handle, c.allocator);
+           }};
+    return {};
+}
+
+Result<void> makeSetLayouts(RendererImpl& renderer) {
+    constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
+    constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+    constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    constexpr VkDescriptorSetLayoutBinding kMaking[] = {
+        {0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, kCompute, nullptr},
+        {1, kBuffer, 1, kCompute, nullptr},
+    };
+    constexpr VkDescriptorSetLayoutBinding kFunction[] = {
+        {PICTURE_BINDING_TABLE, kSampled, 1, kFragment, nullptr},
+        {PICTURE_BINDING_OPACITY, kBuffer, 1, kFragment, nullptr},
+    };
+    constexpr VkDescriptorSetLayoutBinding kTargets[] = {
+        {PICTURE_BINDING_CONSTANTS, kBuffer, 1, VK_SHADER_STAGE_VERTEX_BIT | kFragment, nullptr},
+        {PICTURE_BINDING_MESH_COLOUR, kSampled, 1, kFragment, nullptr},
+        {PICTURE_BINDING_MESH_DISTANCE, kSampled, 1, kFragment, nullptr},
+    };
+    constexpr VkDescriptorSetLayoutBinding kBricks[] = {{0, kBuffer, 1, kFragment, nullptr}};
+    struct Wanted {
+        Owned<VkDescriptorSetLayout>& layout;
+        std::span<const VkDescriptorSetLayoutBinding> bindings;
+        const char* name;
+    };
+    for (const Wanted& wanted : {Wanted{renderer.makingLayout, kMaking, "pre-integration set layout"},
+                                 Wanted{renderer.functionLayout, kFunction, "render function set layout"},
+                                 Wanted{renderer.targetsLayout, kTargets, "render targets set layout"},
+                                 Wanted{renderer.bricksLayout, kBricks, "render bricks set layout"}}) {
+        if (Result<void> made = makeSetLayout(renderer.context, wanted.layout, wanted.bindings, wanted.name);
+            !made.ok()) {
+            return made;
+        }
+    }
+    return {};
+}
+
+Result<void> makePipelineLayout(ContextImpl& context, Owned<VkPipelineLayout>& out,
+                                std::span<const VkDescriptorSetLayout> sets,
+                                std::span<const VkPushConstantRange> constants, const char* name) {
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
+    info.pSetLayouts = sets.data();
+    info.pushConstantRangeCount = static_cast<std::uint32_t>(constants.size());
+    info.pPushConstantRanges = constants.data();
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a pipeline layout");
+    }
+    nameObject(context, VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, name);
+    out = {context, layout,
+           [](ContextImpl& c, VkPipelineLayout handle) { c.vk.DestroyPipelineLayout(c.device, handle, c.allocator); }};
+    return {};
+}
+
+Result<void> makePipelineLayouts(RendererImpl& renderer) {
+    ContextImpl& context = renderer.context;
+    constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::PreintegrateConstants)};
+    const VkDescriptorSetLayout making = renderer.makingLayout.get();
+    if (Result<void> made = makePipelineLayout(context, renderer.makingPipelineLayout, {&making, 1}, {&kConstants, 1},
+                                               "pre-integration pipeline layout");
+        !made.ok()) {
+        return made;
+    }
+    const VkDescriptorSetLayout sets[] = {context.setLayouts[VOXTACT_SET_VOLUME], renderer.functionLayout.get(),
+                                          renderer.targetsLayout.get(), renderer.bricksLayout.get()};
+    return makePipelineLayout(context, renderer.pictureLayout, sets, {}, "picture pipeline layout");
+}
+
+Result<void> keep(Owned<VkPipeline>& out, Result<Owned<VkPipeline>> made) {
+    if (!made.ok()) {
+        return made.error();
+    }
+    out = std::move(*made);
+    return {};
+}
+
+Result<void> makeMeshPipelines(RendererImpl& renderer) {
+    constexpr VkFormat kFormats[] = {kMeshColourFormat, kMeshDistanceFormat};
+    RasterPipelineDesc desc{.vertexSpirv = spirv::render_mesh_vert,
+                            .fragmentSpirv = spirv::render_mesh_frag,
+                            .constants = {},
+                            .layout = renderer.pictureLayout.get(),
+                            .colourFormats = kFormats,
+                            .depthFormat = kMeshDepthFormat,
+                            .name = "mesh"};
+    if (Result<void> made = keep(renderer.meshPipeline, makeRasterPipeline(renderer.context, desc)); !made.ok()) {
+        return made;
+    }
+    desc.vertexSpirv = spirv::render_mesh_smooth_vert;
+    desc.fragmentSpirv = spirv::render_mesh_smooth_frag;
+    desc.normals = true;
+    desc.name = "smooth mesh";
+    return keep(renderer.smoothMeshPipeline, makeRasterPipeline(renderer.context, desc));
+}
+
+Result<void> makePipelines(RendererImpl& renderer) {
+    ContextImpl& context = renderer.context;
+    if (Result<void> made =
+            keep(renderer.makingPipeline, makeComputePipeline(context, spirv::preintegrate_comp, {},
+                                                              renderer.makingPipelineLayout.get(), "pre-integration"));
+        !made.ok()) {
+        return made;
+    }
+    if (Result<void> made = makeMeshPipelines(renderer); !made.ok()) {
+        return made;
+    }
+    const RasterPipelineDesc desc{.vertexSpirv = spirv::render_volume_vert,
+                                  .fragmentSpirv = spirv::render_volume_frag,
+                                  .constants = {},
+                                  .layout = renderer.pictureLayout.get(),
+                                  .vertexInput = false,
+                                  .colourFormats = {&renderer.desc.colorFormat, 1},
+                                  .name = "volume"};
+    return keep(renderer.volumePipeline, makeRasterPipeline(context, desc));
+}
+
+/// What is bound where there are no bricks.
+Result<void> makeNoBricks(RendererImpl& renderer) {
+    const Result<VkBuffer> nothing = emptyBuffer(renderer.context);
+    if (!nothing.ok()) {
+        return nothing.error();
+    }
+    constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    Result<DescriptorSet> set =
+        makeDescriptorSet(renderer.context, renderer.bricksLayout.get(), {&kSize, 1}, "no bricks");
+    if (!set.ok()) {
+        return set.error();
+    }
+    renderer.noBricks = std::move(*set);
+    writeBuffer(renderer.context, renderer.noBricks.set, 0, *nothing);
+    return {};
+}
+
+} // namespace
+
+Renderer::Renderer(std::unique_ptr<RendererImpl> impl) noexcept : impl_(std::move(impl)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create(const Context& context, const RendererDesc& desc) {
+    return guard([&]() -> Result<Renderer> {
+        ContextImpl& c = context.impl();
+        if (Result<void> alive = c.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        if (Result<void> formats = checkFormats(c, desc.colorFormat); !formats.ok()) {
+            return formats.error();
+        }
+        auto impl = std::make_unique<RendererImpl>(RendererImpl{.context = c, .desc = desc});
+        for (const auto make : {makeSetLayouts, makePipelineLayouts, makePipelines, makeNoBricks}) {
+            if (Result<void> made = make(*impl); !made.ok()) {
+                return made.error();
+            }
+        }
+        return Renderer(std::move(impl));
+    });
+}
+
+} // namespace voxtact

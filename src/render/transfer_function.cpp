@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "core/table_extremes.h"
+#include "core/text.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "gpu/submit.h"
+#include "render/render_impl.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact {
+
+namespace {
+
+constexpr std::uint32_t kMostEntries = 1024;
+
+Error refuse(std::string text) {
+    return {ErrorCode::InvalidArgument, 0, std::move(text)};
+}
+
+Result<void> checkPositive(double value, const char* what) {
+    if (!(value > 0) || !std::isfinite(value)) {
+        return refuse(std::string(what) + " " + number(value) + " is not positive and finite");
+    }
+    return {};
+}
+
+/// One channel of the colours, sampled as the opacity is.
+Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc, std::size_t channel) {
+    if (desc.colours.empty()) {
+        return std::vector<float>(desc.opacity.tableSize, 1.0F);
+    }
+    std::vector<ControlPoint> points;
+    for (const ColourPoint& point : desc.colours) {
+        if (!(point.colour[channel] >= 0 && point.colour[channel] <= 1)) {
+            return refuse("the colour " + number(point.colour[channel]) + " at value " + number(point.value) +
+                          " of the transfer function is outside [0, 1]");
+        }
+        points.push_back({point.value, point.colour[channel]});
+    }
+    Result<std::vector<float>> table = sampleTable({points, desc.opacity.domain, desc.opacity.tableSize});
+    return table.ok() ? table : refuse("the transfer function's colours: " + table.error().text);
+}
+
+Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTransferFunctionDesc& desc) {
+    if (Result<void> step = checkPositive(desc.step, "the step"); !step.ok()) {
+        return step;
+    }
+    if (Result<void> unit = checkPositive(desc.opacityUnit, "the opacity unit"); !unit.ok()) {
+        return unit;
+    }
+    if (desc.opacity.tableSize > kMostEntries) {
+        return refuse("the transfer function's table has " + std::to_string(desc.opacity.tableSize) +
+                      " entries, for pictures it may have " + std::to_string(kMostEntries));
+    }
+    std::array<std::vector<float>, 4> channels;
+    Result<std::vector<float>> opacity = sampleTable(desc.opacity);
+    if (!opacity.ok()) {
+        return opacity.error();
+    }
+    channels[3] = std::move(*opacity);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        Result<std::vector<float>> table = sampleChannel(desc, channel);
+        if (!table.ok()) {
+            return table.error();
+        }
+        channels[channel] = std::move(*table);
+    }
+    function.integrals = extinctionIntegrals(channels, desc.opacityUnit);
+    function.table = std::move(channels[3]);
+    function.domain = desc.opacity.domain;
+    function.step = desc.step;
+    return {};
+}
+
+Result<void> makeBuffers(RenderTransferFunctionImpl& function) {
+    ContextImpl& context = function.renderer.context;
+    constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    Result<Buffer> integrals = makeBuffer(context, function.integrals.size() * sizeof(float), kUsage, MemoryUse::Device,
+                                          "transfer function integrals");
+    if (!integrals.ok()) {
+        return integrals.error();
+    }
+    function.integralBuffer = std::move(*integrals);
+    Result<Buffer> extremes = makeBuffer(context, TableExtremes(function.table).values().size_bytes(), kUsage,
+                                         MemoryUse::Device, "transfer function opacities");
+    if (!extremes.ok()) {
+        return extremes.error();
+    }
+    function.extremes = std::move(*extremes);
+    return {};
+}
+
+Result<void> makeTable(RenderTransferFunctionImpl& function) {
+    ContextImpl& context = function.renderer.context;
+    const auto entries = static_cast<std::uint32_t>(function.table.size());
+    ImageDesc desc;
+    desc.type = VK_IMAGE_TYPE_2D;
+    desc.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    desc.format = kRenderTableFormat;
+    desc.extent = {entries, entries, 1};
+    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
+    Result<Image> image = makeImage(context, desc, "the pre-integrated table", "pre-integrated table");
+    if (!image.ok()) {
+        return image.error();
+    }
+    function.image = std::move(*image);
+    return {};
+}
+
+void writeStorageImage(ContextImpl& context, VkDescriptorSet set, VkImageView view) {
+    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+    VkWriteDescriptorSet write{};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    write.pImageInfo = &image;
+    context.vk.UpdateDescriptorSets(context.device, 1, &write, 0, nullptr);
+}
+
+Result<void> describe(RenderTransferFunctionImpl& function) {
+    ContextImpl& context = function.renderer.context;
+    constexpr VkDescriptorPoolSize kMaking[] = {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1},
+                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
+    Result<DescriptorSet> making =
+        makeDescriptorSet(context, function.renderer.makingLayout.get(), kMaking, "pre-integration");
+    if (!making.ok()) {
+        return making.error();
+    }
+    function.making = std::move(*making);
+    writeStorageImage(context, function.making.set, function.image.view.get());
+    writeBuffer(context, function.making.set, 1, function.integralBuffer.get());
+    constexpr VkDescriptorPoolSize kReading[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
+                                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
+    Result<DescriptorSet> reading =
+        makeDescriptorSet(context, function.renderer.functionLayout.get(), kReading, "render transfer function");
+    if (!reading.ok()) {
+        return reading.error();
+    }
+    function.reading = std::move(*reading);
+    static_assert(PICTURE_BINDING_TABLE == 0, "writeImage() writes there");
+    writeImage(context, function.reading.set, function.image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    writeBuffer(context, function.reading.set, PICTURE_BINDING_OPACITY, function.extremes.get());
+    return {};
+}
+
+void cmdMake(const RenderTransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
+    const RendererImpl& renderer = function.renderer;
+    const ContextImpl& context = renderer.context;
+    const DeviceFunctions& vk = context.vk;
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    cmdUpdateBuffer(context, commandBuffer, function.integralBuffer.get(), 0,
+                    std::as_bytes(std::span(function.integrals)));
+    const TableExtremes extremes(function.table);
+    cmdUpdateBuffer(context, commandBuffer, function.extremes.get(), 0, std::as_bytes(extremes.values()));
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    constexpr ImageUse kWritten{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                                VK_IMAGE_LAYOUT_GENERAL};
+    const VkImage image = function.image.image.get();
+    barrier(context, commandBuffer, image, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
+            kWritten);
+    const VkPipelineLayout layout = renderer.makingPipelineLayout.get();
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, renderer.makingPipeline.get());
+    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &function.making.set, 0,
+                             nullptr);
+    const auto entries = static_cast<std::uint32_t>(function.table.size());
+    const shader::PreintegrateConstants constants{static_cast<int>(entries), static_cast<float>(function.step)};
+    vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
+    const std::uint32_t groups = (entries + PREINTEGRATE_SIDE - 1) / PREINTEGRATE_SIDE;
+    vk.CmdDispatch(commandBuffer, groups, groups, 1);
+    barrier(context, commandBuffer, image, kWritten, kReadByShaders);
+}
+
+} // namespace
+
+RenderTransferFunction::RenderTransferFunction(std::unique_ptr<RenderTransferFunctionImpl> impl) noexcept
+    : impl_(std::move(impl)) {}
+RenderTransferFunction::RenderTransferFunction(RenderTransferFunction&&) noexcept = default;
+RenderTransferFunction& RenderTransferFunction::operator=(RenderTransferFunction&&) noexcept = default;
+RenderTransferFunction::~RenderTransferFunction() = default;
+
+Result<RenderTransferFunction> RenderTransferFunction::create(const Renderer& renderer,
+                                                              const RenderTransferFunctionDesc& desc) {
+    return guard([&]() -> Result<RenderTransferFunction> {
+        if (Result<void> alive = renderer.impl().context.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        auto impl =
+            std::make_unique<RenderTransferFunctionImpl>(RenderTransferFunctionImpl{.renderer = renderer.impl()});
+        if (Result<void> set = setFunction(*impl, desc); !set.ok()) {
+            return set.error();
+        }
+        for (const auto make : {makeBuffers, makeTable, describe}) {
+            if (Result<void> made = make(*impl); !made.ok()) {
+                return made.error();
+            }
+        }
+        return RenderTransferFunction(std::move(impl));
+    });
+}
+
+Result<RenderTransferFunction> RenderTransferFunction::upload(const Renderer& renderer, const QueueAccess& queue,
+                                                              const RenderTransferFunctionDesc& desc) {
+    return guard([&] { return uploaded(renderer.impl().context, queue, create(renderer, desc)); });
+}
+
+Result<void> RenderTransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
+    return guard([&]() -> Result<void> {
+        const Label label(impl_->renderer.context, commandBuffer, "voxtact pre-integration");
+        cmdMake(*impl_, commandBuffer);
+        return {};
+    });
+}
+
+Result<void> RenderTransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, const RenderTransferFunctionDesc& desc) {
+    return guard([&]() -> Result<void> {
+        if (desc.opacity.tableSize != impl_->table.size()) {
+            return refuse("the new table has " + std::to_string(desc.opacity.tableSize) +
+                          " entries, that of the transfer function " + std::to_string(impl_->table.size()));
+        }
+        if (Result<void> set = setFunction(*impl_, desc); !set.ok()) {
+            return set;
+        }
+        return cmdUpload(commandBuffer);
+    });
+}
+
+bool RenderTransferFunction::visible() const noexcept {
+    return std::ranges::any_of(impl_->table, [](float opacity) { return opacity > 0; });
+}
+
+} // namespace voxtact

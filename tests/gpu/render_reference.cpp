@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "render_reference.h"
+
+#include "gpu_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace voxtact::test {
+
+namespace {
+
+Vec3 operator+(const Vec3& a, const Vec3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Vec3 operator-(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec3 operator*(double s, const Vec3& a) {
+    return {s * a[0], s * a[1], s * a[2]};
+}
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double size(const Vec3& a) {
+    return std::sqrt(dot(a, a));
+}
+
+class Caster {
+  public:
+    explicit Caster(const ReferenceScene& scene)
+        : scene_(scene), texture_from_world_(take(textureFromWorld(scene.volume->grid))),
+          world_from_clip_(take(inverse(scene.clip_from_world))), opacity_(take(sampleTable(scene.function.opacity))) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            std::vector<ControlPoint> points;
+            for (const ColourPoint& point : scene.function.colours) {
+                points.push_back({point.value, point.colour[channel]});
+            }
+            colour_[channel] =
+                take(sampleTable({points, scene.function.opacity.domain, scene.function.opacity.tableSize}));
+        }
+    }
+
+    [[nodiscard]] Colour pixel(double clipX, double clipY) const {
+        const Vec3 near = transformPoint(world_from_clip_, {clipX, clipY, 0});
+        const Vec3 far = transformPoint(world_from_clip_, {clipX, clipY, 1});
+        const double length = size(far - near);
+        const Vec3 direction = (1 / length) * (far - near);
+        const double mesh = meshDistance(near, direction);
+        const double end = std::min(length, mesh);
+        Colour sum{};
+        double seen = 1;
+        const double step = scene_.function.step;
+        // From where the box of the volume can be, whatever its shape.
+        const auto [from, to] = boxPart(near, direction);
+        for (double at = std::max(from, 0.0); at < std::min(to, end); at += step) {
+            const double part = std::min(step, std::min(to, end) - at);
+            add(near + (at + part / 2) * direction, direction, part, sum, seen);
+        }
+        const Colour& behind = mesh < length ? scene_.meshColour : scene_.background;
+        return sum + seen * behind;
+    }
+
+  private:
+    [[nodiscard]] std::pair<double, double> boxPart(const Vec3& near, const Vec3& direction) const {
+        const Vec3 a = transformPoint(texture_from_world_, near);
+        const Vec3 way = transformPoint(texture_from_world_, near + direction) - a;
+        double from = -std::numeric_limits<double>::infinity();
+        double to = -from;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double first = -a[axis] / way[axis];
+            const double last = (1 - a[axis]) / way[axis];
+            from = std::max(from, std::min(first, last));
+            to = std::min(to, std::max(first, last));
+        }
+        return {from, to};
+    }
+
+    [[nodiscard]] double voxel(const std::array<int, 3>& at) const {
+        const Grid& grid = scene_.volume->grid;
+        std::size_t index = 0;
+        for (std::size_t axis = 3; axis-- > 0;) {
+            const int last = static_cast<int>(grid.size[axis]) - 1;
+            index = index * grid.size[axis] + static_cast<std::size_t>(std::clamp(at[axis], 0, last));
+        }
+        if (scene_.volume->type == ScalarType::UInt8) {
+            return std::to_integer<std::uint8_t>(scene_.volume->voxels[index]);
+        }
+        float value = 0;
+        std::memcpy(&value, scene_.volume->voxels.data() + index * sizeof value, sizeof value);
+        return value;
+    }
+
+    /// The normalised scalar.
+    [[nodiscard]] double scalar(const Vec3& texture) const {
+        std::array<int, 3> cell{};
+        Vec3 weight{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double at = texture[axis] * scene_.volume->grid.size[axis] - 0.5;
+            cell[axis] = static_cast<int>(std::floor(at));
+            weight[axis] = at - cell[axis];
+        }
+        double sum = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            double share = 1;
+            std::array<int, 3> at = cell;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const int high = corner >> axis & 1;
+                at[axis] += high;
+                share *= high != 0 ? weight[axis] : 1 - weight[axis];
+            }
+            sum += share * voxel(at);
+        }
+        const ValueRange& domain = scene_.function.opacity.domain;
+        return (sum - domain.lo) / (domain.hi - domain.lo);
+    }
+
+    static double lookUp(const std::vector<float>& table, double s) {
+        const double last = static_cast<double>(table.size()) - 1;
+        const double at = std::clamp(s * static_cast<double>(table.size()) - 0.5, 0.0, last);
+        const auto below = static_cast<std::size_t>(std::min(std::floor(at), last - 1));
+        const double weight = at - static_cast<double>(below);
+        return table[below] + (static_cast<double>(table[below + 1]) - table[below]) * weight;
+    }
+
+    [[nodiscard]] Vec3 gradient(const Vec3& texture) const {
+        Vec3 sum{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Vec3 h{};
+            h[axis] = 1.0 / scene_.volume->grid.size[axis];
+            const double slope = (scalar(texture + h) - scalar(texture - h)) / (2 * h[axis]);
+            for (std::size_t c = 0; c < 3; ++c) {
+                sum[c] += slope * texture_from_world_[4 * c + axis];
+            }
+        }
+        return sum;
+    }
+
+    void add(const Vec3& world, const Vec3& direction, double part, Colour& sum, double& seen) const {
+        const Vec3 texture = transformPoint(texture_from_world_, world);
+        const double s = scalar(texture);
+        const double opacity = std::min(lookUp(opacity_, s), 0.999);
+        const double alpha = 1 - std::pow(1 - opacity, part / scene_.function.opacityUnit);
+        if (alpha <= 0) {
+            return;
+        }
+        const Lighting& light = scene_.lighting;
+        double facing = 0;
+        if (light.volume) {
+            const Vec3 slope = gradient(texture);
+            facing = std::abs(dot(slope, direction)) / size(slope);
+        }
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            double colour = lookUp(colour_[channel], s);
+            if (light.volume) {
+                colour = colour * (light.ambient + light.diffuse * facing) +
+                         light.specular * std::pow(facing, light.shininess);
+            }
+            sum[channel] += seen * alpha * colour;
+        }
+        seen *= 1 - alpha;
+    }
+
+    [[nodiscard]] Vec3 vertex(std::size_t corner) const {
+        const std::size_t at = std::size_t{3} * scene_.mesh->indices[corner];
+        const std::vector<float>& p = scene_.mesh->positions;
+        return transformPoint(scene_.world_from_object, {p[at], p[at + 1], p[at + 2]});
+    }
+
+    /// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
+    [[nodiscard]] double meshDistance(const Vec3& origin, const Vec3& direction) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; scene_.mesh != nullptr && i < scene_.mesh->indices.size(); i += 3) {
+            const Vec3 a = vertex(i);
+            const Vec3 u = vertex(i + 1) - a;
+            const Vec3 v = vertex(i + 2) - a;
+            const Vec3 p = cross(direction, v);
+            const double determinant = dot(u, p);
+            if (determinant == 0) {
+                continue;
+            }
+            const Vec3 t = origin - a;
+            const Vec3 q = cross(t, u);
+            const double s = dot(t, p) / determinant;
+            const double r = dot(direction, q) / determinant;
+            const double distance = dot(v, q) / determinant;
+            if (s >= 0 && r >= 0 && s + r <= 1 && distance >= 0) {
+                nearest = std::min(nearest, distance);
+            }
+        }
+        return nearest;
+    }
+
+    const ReferenceScene& scene_;
+    Mat4 texture_from_world_;
+    Mat4 world_from_clip_;
+    std::vector<float> opacity_;
+    std::array<std::vector<float>, 3> colour_;
+};
+
+double difference(const Colour& a, const Colour& b) {
+    return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+} // namespace
+
+ReferencePicture castReference(const ReferenceScene& scene, std::uint32_t width, std::uint32_t height) {
+    const Caster caster(scene);
+    ReferencePicture picture;
+    for (std::uint32_t y = 0; y < height; ++y) {
+        for (std::uint32_t x = 0; x < width; ++x) {
+            picture.push_back(caster.pixel(2 * (x + 0.5) / width - 1, 2 * (y + 0.5) / height - 1));
+        }
+    }
+    return picture;
+}
+
+PictureError compare(const Picture& picture, const ReferencePicture& reference, double edge) {
+    PictureError error;
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        bool smooth = true;
+        for (const std::size_t reach : {std::size_t{1}, std::size_t{picture.width}}) {
+            smooth = smooth && (i < reach || difference(reference[i], reference[i - reach]) <= edge) &&
+                     (i + reach >= reference.size() || difference(reference[i], reference[i + reach]) <= edge);
+        }
+        if (!smooth) {
+            continue;
+        }
+        ++compared;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double is = picture.rgba[4 * i + channel] / 255.0;
+            const double off = std::abs(is - std::clamp(reference[i][channel], 0.0, 1.0));
+            error.mean += off;
+            error.most = std::max(error.most, off);
+        }
+    }
+    EXPECT_GT(compared, reference.size() / 2) << "too few pixels are left to compare";
+    error.mean /= 3 * static_cast<double>(std::max<std::size_t>(compared, 1));
+    return error;
+}
+
+} // namespace voxtact::test
