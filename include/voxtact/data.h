@@ -93,6 +93,14 @@ struct ControlPoint {
     double opacity = 0; ///< 0..1
 };
 
+using Colour = std::array<double, 3>; ///< red, green, blue; 0..1
+
+/// A corner of the piecewise linear colours that pictures have.
+struct ColourPoint {
+    double value = 0; ///< in the image's own units
+    Colour colour{1, 1, 1};
+};
+
 inline constexpr std::uint32_t kDefaultTableSize = 256;
 inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sample is opaque (paper, section 5)
 

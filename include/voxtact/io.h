@@ -68,9 +68,12 @@ VOXTACT_API Result<void> writePoses(const std::filesystem::path& path, std::span
 [[nodiscard]] VOXTACT_API Result<Mat4> readCamera(const std::filesystem::path& path);
 
 /// Text: lines `value opacity`, `#` comments; or JSON (an object: told by the first character) with `points`: an array
-/// of [value, opacity] or of objects with `value` and `opacity`; other members are not read. Errors name the line or
-/// the point. Refuses opacities outside [0,1], values below the one before, and no point.
+/// of [value, opacity] or of objects with `value` and `opacity`; readColours() reads another member. Errors name the
+/// line or the point. Refuses opacities outside [0,1], values below the one before, and no point.
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path);
+/// The colours of such a JSON file: `colours`, an array of [value, red, green, blue] with channels from 0 to 1. None
+/// where there are none, and for text. Refuses channels outside [0,1] and values below the one before.
+[[nodiscard]] VOXTACT_API Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path);
 /// The same as "v:a,v:a,...".
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> parseOpacity(std::string_view text);
 

@@ -32,14 +32,6 @@ struct RenderTargetsImpl;
 struct MeshNormalsImpl;
 struct RenderBricksImpl;
 
-using Colour = std::array<double, 3>; ///< red, green, blue; 0..1
-
-/// A corner of the piecewise linear colours.
-struct ColourPoint {
-    double value = 0; ///< in the image's own units
-    Colour colour{1, 1, 1};
-};
-
 /// Scalar -> opacity and colour.
 struct RenderTransferFunctionDesc {
     TransferFunctionDesc opacity{};            ///< the same as the detector's; at most 1024 entries

@@ -129,13 +129,16 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     }
     inputs.domain = tableDomain(options.transferFunction, inputs.volume.type, inputs.values);
     inputs.opacity = std::move(*points);
-    if (options.preset.empty()) {
-        inputs.colours = plainColours();
-        inputs.opacity = inputs.opacity.empty() ? defaultRamp(inputs.domain) : inputs.opacity;
-        return {};
+    if (!options.transferFunction.path.empty()) {
+        Result<std::vector<ColourPoint>> colours = io::readColours(options.transferFunction.path);
+        if (!colours.ok()) {
+            return colours.error();
+        }
+        inputs.colours = std::move(*colours);
     }
-    Look look = lookNamed(options.preset, inputs.values);
-    inputs.colours = std::move(look.colours);
+    Look look = options.preset.empty() ? Look{defaultRamp(inputs.domain), plainColours()}
+                                       : lookNamed(options.preset, inputs.values);
+    inputs.colours = inputs.colours.empty() ? std::move(look.colours) : inputs.colours;
     inputs.opacity = inputs.opacity.empty() ? std::move(look.opacity) : inputs.opacity;
     return {};
 }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxtact::io {
@@ -89,14 +90,21 @@ std::string reasonOf(const Json::exception& problem) {
     return oneLine(end == std::string_view::npos ? text : text.substr(end + 2));
 }
 
-Result<Points> readJson(const std::filesystem::path& path) {
-    Json root;
+Result<Json> parseJson(const std::filesystem::path& path) {
     try {
         std::ifstream file(path, std::ios::binary);
-        root = Json::parse(file);
+        return Json::parse(file);
     } catch (const Json::exception& problem) {
         return cannotRead(path, reasonOf(problem));
     }
+}
+
+Result<Points> readJson(const std::filesystem::path& path) {
+    const Result<Json> parsed = parseJson(path);
+    if (!parsed.ok()) {
+        return parsed.error();
+    }
+    const Json& root = *parsed;
     const auto list = root.is_object() ? root.find("points") : root.end();
     if (list == root.end() || !list->is_array() || list->empty()) {
         return cannotRead(path, "it has no 'points'; expected {\"points\": [[value, opacity], ...]}");
@@ -113,20 +121,81 @@ Result<Points> readJson(const std::filesystem::path& path) {
     return points;
 }
 
+/// Told by the first character.
+Result<bool> isJson(const std::filesystem::path& path) {
+    Result<LineReader> lines = LineReader::open(path);
+    if (!lines.ok()) {
+        return lines.error();
+    }
+    while (const auto line = lines->next()) {
+        if (!line->empty()) {
+            return line->front() == '{' || line->front() == '[';
+        }
+    }
+    return false;
+}
+
+/// The reason why the colour cannot follow those before it, if any.
+std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const Json& item) {
+    constexpr std::size_t kNumbers = 4;
+    if (!item.is_array() || item.size() != kNumbers ||
+        !std::all_of(item.begin(), item.end(), [](const Json& number) { return number.is_number(); })) {
+        return "expected [value, red, green, blue]";
+    }
+    ColourPoint point{item[0].get<double>(), {}};
+    for (std::size_t channel = 0; channel < point.colour.size(); ++channel) {
+        point.colour[channel] = item[channel + 1].get<double>();
+        if (!(point.colour[channel] >= 0 && point.colour[channel] <= 1)) {
+            return "the channel " + number(point.colour[channel]) + " is outside 0..1";
+        }
+    }
+    if (!colours.empty() && point.value < colours.back().value) {
+        return "the value " + number(point.value) + " is below the one before it (" + number(colours.back().value) +
+               "); values must ascend";
+    }
+    colours.push_back(point);
+    return std::nullopt;
+}
+
 } // namespace
 
 Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path) {
     return guard([&]() -> Result<Points> {
-        Result<LineReader> lines = LineReader::open(path);
-        if (!lines.ok()) {
-            return lines.error();
+        const Result<bool> json = isJson(path);
+        if (!json.ok()) {
+            return json.error();
         }
-        while (const auto line = lines->next()) {
-            if (!line->empty()) {
-                return line->front() == '{' || line->front() == '[' ? readJson(path) : readText(path);
+        return *json ? readJson(path) : readText(path);
+    });
+}
+
+Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path) {
+    return guard([&]() -> Result<std::vector<ColourPoint>> {
+        const Result<bool> json = isJson(path);
+        if (!json.ok()) {
+            return json.error();
+        }
+        std::vector<ColourPoint> colours;
+        if (!*json) {
+            return colours;
+        }
+        const Result<Json> root = parseJson(path);
+        if (!root.ok()) {
+            return root.error();
+        }
+        const auto list = root->is_object() ? root->find("colours") : root->end();
+        if (list == root->end()) {
+            return colours;
+        }
+        if (!list->is_array()) {
+            return cannotRead(path, "'colours' is not a list of [value, red, green, blue]");
+        }
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            if (const auto reason = addColour(colours, (*list)[i])) {
+                return cannotRead(path, "colours[" + std::to_string(i) + "]: " + *reason);
             }
         }
-        return readText(path);
+        return colours;
     });
 }
 

@@ -9,6 +9,7 @@
 namespace voxtact::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 Arguments render(const std::string& output, const Arguments& more = {}) {
@@ -97,6 +98,15 @@ TEST_F(RenderPictureTest, NothingOpaqueIsSaidAndDrawn) {
     EXPECT_EQ(pixelsOf(readPng(path("a.png")), {255, 255, 255}), 64U * 48U);
 }
 
+TEST_F(RenderPictureTest, ColoursFromTheTransferFunction) {
+    writeText(path("blue.json"), R"({"points": [[0, 0], [200, 1]], "colours": [[0, 0, 0, 1], [255, 0, 0, 1]]})");
+    output(render(path("b.png"), {"--transfer-function", path("blue.json")}));
+    const auto colour = pixel(readPng(path("b.png")), 32, 24);
+    EXPECT_GT(colour[2], 60);
+    EXPECT_LT(colour[0], colour[2] / 2);
+    EXPECT_EQ(colour[0], colour[1]);
+}
+
 TEST_F(RenderPictureTest, SizeBeyondTheDevice) {
     EXPECT_THAT(refused(2, render(path("a.png"), {"--size", "1000000x10"})), HasSubstr("--size"));
     EXPECT_EQ(filesInFolder(), 0U);
@@ -126,7 +136,10 @@ TEST_F(RenderCliTest, FilesThatCannotBe) {
                 HasSubstr("--camera"));
     EXPECT_THAT(refused(1, render(path("absent/a.png"))), HasSubstr("absent"));
     EXPECT_THAT(refused(1, render(path("a.png"), {"--transfer-function", path("absent.tf")})), HasSubstr("absent.tf"));
-    EXPECT_EQ(filesInFolder(), 1U);
+    writeText(path("bad.json"), R"({"points": [[0, 0]], "colours": [[0, 0, 2, 1]]})");
+    EXPECT_THAT(refused(1, render(path("a.png"), {"--transfer-function", path("bad.json")})),
+                AllOf(HasSubstr("bad.json"), HasSubstr("colours[0]: the channel 2 is outside 0..1")));
+    EXPECT_EQ(filesInFolder(), 2U);
 }
 
 } // namespace
