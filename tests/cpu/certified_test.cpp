@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
@@ -168,6 +169,65 @@ TEST(CertifiedYesNo, IsTheVerdictOfTheCount) {
         hits += all.hit ? 1U : 0U;
     }
     EXPECT_GT(hits, kCases / 10);
+}
+
+/// Without triangles; voxel space is world space.
+CertifiedCase byteBlock(std::uint32_t side, const VoxelFunction& value) {
+    Grid grid;
+    grid.size = {side, side, side};
+    CertifiedCase c = makeCertifiedCase(0, 0);
+    c.scene.mesh = {};
+    c.scene.volume = makeVolume<std::uint8_t>(grid, ScalarType::UInt8, value);
+    c.scene.points = {{0, 0}, {100, 1}};
+    c.scene.domain = {0, 255};
+    c.scene.tableSize = kDefaultTableSize;
+    c.scene.world_from_object = identity();
+    c.scene.threshold = 0.5;
+    return c;
+}
+
+/// The elements are doubles; what a float cannot hold must not end in a certain answer that is wrong.
+TEST(CertifiedExtremes, APoseBeyondFloatsIsNotCalledACertainMiss) {
+    cpu::Detector detector = take(
+        cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
+    for (const double scale : {1e30, 3e38, 1e39, 1e44, 1e60, 1e300}) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            SCOPED_TRACE("scale " + std::to_string(std::log10(scale)) + ", axis " + std::to_string(axis));
+            CertifiedCase c = byteBlock(8, [](auto...) { return 200.0; });
+            c.scene.world_from_object[5 * axis] = scale;
+            c.scene.world_from_object[12 + axis] = 1;
+            Vec3 corners[3] = {{1, 2, 2}, {5, 2, 3}, {3, 5, 5}};
+            for (Vec3& corner : corners) {
+                corner[axis] = 0;
+            }
+            addTriangle(c.scene.mesh, corners[0], corners[1], corners[2]);
+            const cpu::CertifiedOracle oracle = take(cpu::certifiedOracle(c.scene.pair()));
+            EXPECT_EQ(oracle.certainty, Certainty::Certain);
+            EXPECT_EQ(complaints(take(askEngine(detector, c)), oracle, {}), "");
+        }
+    }
+}
+
+/// The vertex that proves the touch is a corner of the fragment's last piece, and the first one, where opacities are
+/// too small to tell from nothing, has more pieces than are looked at.
+TEST(CertifiedYesNo, IsTheVerdictOfTheCountWhereAFragmentHasTooManyPieces) {
+    CertifiedCase c = byteBlock(2, [](auto, auto y, auto) { return y == 0 ? 0.0 : 255.0; });
+    c.scene.points = {{100, 0}, {100, 1e-6}};
+    c.scene.domain = {-156, 411};
+    c.scene.tableSize = 2;
+    c.scene.threshold = 1e-30;
+    addTriangle(c.scene.mesh, {0.1, 0.1, 0.5}, {1.4, 0.1, 0.5}, {0.1, 0.9, 0.5});
+    constexpr double kResolution = 1.0 / 512;
+    cpu::Detector count = take(cpu::Detector::create({.threads = 1,
+                                                      .projection = Projection::Conservative,
+                                                      .outputs = {.triangles = true},
+                                                      .resolution = kResolution}));
+    cpu::Detector yesNo = take(cpu::Detector::create(
+        {.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative, .resolution = kResolution}));
+    const PairAnswer all = take(askEngine(count, c)).pair;
+    const PairAnswer first = take(askEngine(yesNo, c)).pair;
+    EXPECT_EQ(first.hit, all.hit);
+    EXPECT_EQ(first.possible, all.possible);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, Certified, testing::Range<std::size_t>(0, kParts));
