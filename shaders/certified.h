@@ -228,6 +228,14 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
     bool open = false;
     for (int pieces = 0; waiting > 0; ++pieces) {
         if (pieces == CERTIFIED_MAX_PIECES) {
+            // Corners of pieces that were not looked at: certifiedVertexProves() does not depend on their order.
+            for (int i = 0; i < count; ++i) {
+                witness = corners[i];
+                if (certifiedPointProves(table, cell, witness,
+                                         certifiedInterpolate(cell, witness.x, witness.y, witness.z))) {
+                    return CERTIFIED_CERTAIN;
+                }
+            }
             return CERTIFIED_UNDECIDED;
         }
         const CertifiedPiece piece = stack[--waiting];

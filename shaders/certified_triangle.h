@@ -13,7 +13,7 @@
 #define CERTIFIED_CLIP_ERROR 3.814697265625e-6f
 /// Beyond this many voxels of displacement nothing is certain.
 #define CERTIFIED_MOST_DELTA 0.125f
-/// Voxels. Farther than any image reaches, and than any vertex whose error is below CERTIFIED_MOST_DELTA.
+/// Voxels. A vertex whose error is larger may be anywhere.
 #define CERTIFIED_FARTHEST 1.0e30f
 
 #ifdef __cplusplus
@@ -135,8 +135,9 @@ EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex
     PRECISE float error01 = vertex0.error + vertex1.error;
     PRECISE float error012 = error01 + vertex2.error;
     PRECISE float delta = certifiedMax(vertex0.error, certifiedMax(vertex1.error, vertex2.error)) + shift;
-    // The sum is not finite where one of them is not: the maximum may pass over a NaN.
-    delta = error012 <= CERTIFIED_FARTHEST ? delta : CERTIFIED_FARTHEST;
+    // The sum is not finite where one of them is not: the maximum may pass over a NaN. Infinity meets all cells,
+    // wherever rounding has put the points.
+    delta = error012 <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
     CertifiedBounds bounds;
     bounds.delta = delta;
     bounds.usable = delta <= CERTIFIED_MOST_DELTA;
@@ -181,7 +182,7 @@ EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair,
     PRECISE float reach = 4.0f * voxelLength(extent) + 4.0f;
     PRECISE float shift = reach * CERTIFIED_CLIP_ERROR;
     PRECISE float delta = 4.0f * error + shift;
-    delta = delta <= CERTIFIED_FARTHEST ? delta : CERTIFIED_FARTHEST;
+    delta = delta <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
     CertifiedBounds bounds;
     bounds.delta = delta;
     bounds.usable = delta <= CERTIFIED_MOST_DELTA;

@@ -91,6 +91,7 @@ shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_w
     const std::array<float, 3> reference = referenceOf(grid, rows.value);
     shader::CertifiedPair out{};
     std::array<double, 4> worst{};
+    bool fits = true; // in floats: an element that is infinite or NaN has no relative error
     for (std::size_t row = 0; row < 3; ++row) {
         double place = rows.value[12 + row];
         double magnitude = rows.magnitude[12 + row];
@@ -103,12 +104,18 @@ shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_w
                                      kFloatError * std::abs(element) + kDoubleError * rows.magnitude[4 * column + row]);
         }
         out.voxel_from_reference[row][3] = static_cast<float>(place);
+        for (std::size_t column = 0; column < 4; ++column) {
+            fits = fits && std::isfinite(out.voxel_from_reference[row][column]);
+        }
         worst[3] = std::max(worst[3], kFloatError * std::abs(place) + kDoubleError * magnitude);
     }
     std::copy(reference.begin(), reference.end(), out.reference.begin());
     for (std::size_t column = 0; column < 4; ++column) {
         // Elements below the smallest normal float lose more than their relative error.
         out.error[column] = roundedUp(worst[column] + 0x1p-120);
+    }
+    if (!fits) {
+        out.error[3] = std::numeric_limits<float>::infinity();
     }
     return out;
 }
