@@ -85,6 +85,10 @@ struct Target {
     VkExtent2D extent{};               ///< of the picture, from the image's corner; at most that of `targets`
     VkImageLayout layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; ///< or GENERAL; while the commands execute
     RenderTargets* targets = nullptr;
+    /// A pool of timestamps, or null. Three are written, from firstTimestamp on: when the work before the picture is
+    /// done, when the mesh is, and when the volume is. The caller has reset them, and the queue's family has timestamps.
+    VkQueryPool timestamps = VK_NULL_HANDLE;
+    std::uint32_t firstTimestamp = 0;
 };
 
 /// Makes pictures in one colour format.

@@ -179,6 +179,14 @@ void bindSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const
                                               static_cast<std::uint32_t>(std::size(sets)), sets, 0, nullptr);
 }
 
+void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, const Target& target,
+                    std::uint32_t number) {
+    if (target.timestamps != VK_NULL_HANDLE) {
+        context.vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, target.timestamps,
+                                      target.firstTimestamp + number);
+    }
+}
+
 } // namespace
 
 Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const {
@@ -198,10 +206,13 @@ Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& sce
             return constants.error();
         }
         const Label label(context, commandBuffer, "voxtact picture");
+        writeTimestamp(context, commandBuffer, target, 0);
         cmdConstants(target.targets->impl(), commandBuffer, *constants);
         bindSets(*impl_, commandBuffer, scene, target);
         cmdMeshPass(*impl_, commandBuffer, scene, target);
+        writeTimestamp(context, commandBuffer, target, 1);
         cmdVolumePass(*impl_, commandBuffer, target);
+        writeTimestamp(context, commandBuffer, target, 2);
         return {};
     });
 }

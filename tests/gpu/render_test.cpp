@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures against a ray caster on the host.
 #include "gpu_fixture.h"
-#include "raw_vulkan.h"
 #include "render_reference.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
@@ -351,98 +350,6 @@ TEST_F(RenderTest, NormalsMakeAMeshSmooth) {
     const int smooth = largestStep(take(blocking().render(scene, {8 * kWidth, 8 * kHeight})));
     EXPECT_GT(smooth, 0);
     EXPECT_GT(flat, 2 * smooth);
-}
-
-/// An embedder's own image, in layout GENERAL.
-class OwnImage {
-  public:
-    explicit OwnImage(const app::VulkanDevice& device)
-        : raw(device), view_(raw.makeImage(VK_IMAGE_TYPE_2D, VK_FORMAT_R8G8B8A8_UNORM, {kWidth, kHeight, 1},
-                                           std::vector<std::byte>(kBytes), VK_IMAGE_LAYOUT_GENERAL,
-                                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)),
-          image_(raw.lastImage()) {}
-
-    [[nodiscard]] Target target(RenderTargets& targets) const {
-        return {view_, kExtent, VK_IMAGE_LAYOUT_GENERAL, &targets};
-    }
-    /// Copies what was rendered, and lets the image be rendered to again.
-    [[nodiscard]] const std::uint8_t* cmdCopy(VkCommandBuffer commands) {
-        const RawVulkan::HostBuffer out = raw.makeBuffer(kBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        constexpr Use kRendered{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
-                                VK_IMAGE_LAYOUT_GENERAL};
-        constexpr Use kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
-                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
-        change(commands, kRendered, kCopied);
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {kWidth, kHeight, 1};
-        raw.vk().vkCmdCopyImageToBuffer(commands, image_, kCopied.layout, out.buffer, 1, &region);
-        change(commands, kCopied, kRendered);
-        return static_cast<const std::uint8_t*>(out.mapped);
-    }
-
-    static constexpr std::size_t kBytes = std::size_t{4} * kWidth * kHeight;
-    RawVulkan raw;
-
-  private:
-    struct Use {
-        VkPipelineStageFlags2 stages;
-        VkAccessFlags2 access;
-        VkImageLayout layout;
-    };
-    void change(VkCommandBuffer commands, const Use& from, const Use& to) {
-        VkImageMemoryBarrier2 barrier{};
-        barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-        barrier.srcStageMask = from.stages;
-        barrier.srcAccessMask = from.access;
-        barrier.dstStageMask = to.stages;
-        barrier.dstAccessMask = to.access;
-        barrier.oldLayout = from.layout;
-        barrier.newLayout = to.layout;
-        barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        barrier.image = image_;
-        barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        VkDependencyInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-        info.imageMemoryBarrierCount = 1;
-        info.pImageMemoryBarriers = &barrier;
-        raw.vk().vkCmdPipelineBarrier2(commands, &info);
-    }
-
-    VkImageView view_;
-    VkImage image_;
-};
-
-TEST_F(RenderTest, UpdatesTakeEffectInCommandBufferOrder) {
-    OwnImage image(gpu().device);
-    look({25, 1, 2}, {0, 0, 0});
-    constexpr ControlPoint kOther[] = {{0.1, 0}, {0.3, 0.5}};
-    const RenderTransferFunctionDesc first = scene_.function;
-    RenderTransferFunctionDesc second = first;
-    second.opacity.points = kOther;
-    const Volume volume = upload(volume_);
-    RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), first));
-    RenderTargets targets = take(RenderTargets::create(renderer(), kExtent));
-    Scene scene;
-    scene.volume = &volume;
-    scene.transferFunction = &function;
-    scene.clip_from_world = scene_.clip_from_world;
-    const VkCommandBuffer commands = image.raw.begin();
-    take(renderer().cmdRender(commands, scene, image.target(targets)));
-    const std::uint8_t* before = image.cmdCopy(commands);
-    take(function.cmdUpdate(commands, second));
-    take(renderer().cmdRender(commands, scene, image.target(targets)));
-    const std::uint8_t* after = image.cmdCopy(commands);
-    image.raw.submitAndWait(commands);
-    const auto expected = [&](const RenderTransferFunctionDesc& desc) {
-        const RenderTransferFunction alone = take(RenderTransferFunction::upload(renderer(), queue(), desc));
-        scene.transferFunction = &alone;
-        return take(blocking().render(scene, kExtent)).rgba;
-    };
-    EXPECT_EQ(std::vector<std::uint8_t>(before, before + OwnImage::kBytes), expected(first));
-    EXPECT_EQ(std::vector<std::uint8_t>(after, after + OwnImage::kBytes), expected(second));
-    EXPECT_NE(expected(first), expected(second));
 }
 
 class RenderRefusalTest : public RenderTest {
