@@ -194,7 +194,7 @@ Result<void> compareAll(const CompareOptions& options, const CompareData& data, 
 Result<void> writeOutputs(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
     if (!options.report.empty()) {
         Result<void> written = deliver(options.report, [&](std::ostream& out) {
-            return writeReport(out, summarize(result), compareJson(options, data, result));
+            return writeReport(out, ReportKind::Compare, summarize(result), compareJson(options, data, result));
         });
         if (!written.ok()) {
             return written;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DOUT=assets.cpp -DPAGE=... -DSTYLE=... -DSCRIPT=... -DLIBRARY=... -DLICENCE=... -P embed_text.cmake
-# Writes the files as string literals; a path that is empty gives an empty text.
+# cmake -DOUT=assets.cpp "-DTEXTS=kName=path;..." -P embed_text.cmake
+# Writes the files as string literals of these names; a path that is empty gives an empty text.
 
 function(append_text name path)
   set(text "")
@@ -15,9 +15,8 @@ function(append_text name path)
 endfunction()
 
 file(WRITE "${OUT}" "#include \"app/report_assets.h\"\n\nnamespace voxtact::app {\n\n")
-append_text(kReportPage "${PAGE}")
-append_text(kReportStyle "${STYLE}")
-append_text(kReportScript "${SCRIPT}")
-append_text(kChartLibrary "${LIBRARY}")
-append_text(kChartLicence "${LICENCE}")
+foreach(text IN LISTS TEXTS)
+  string(REGEX MATCH "^([A-Za-z]+)=(.*)$" matched "${text}")
+  append_text("${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
+endforeach()
 file(APPEND "${OUT}" "\n} // namespace voxtact::app\n")

@@ -5,8 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 namespace voxtact::app {
 
@@ -40,24 +43,40 @@ std::string listItems(const std::vector<std::string>& sentences) {
     return out;
 }
 
-/// What stands for `name` in the page; nothing for a name that is not known.
-std::string partFor(std::string_view name, const std::vector<std::string>& summary, const Json& data) {
-    if (name == "STYLE") {
-        return std::string(kReportStyle);
-    }
+struct Page {
+    std::string_view name;
+    std::string_view title;
+    std::string_view body;
+    std::string_view script;
+};
+
+Page pageOf(ReportKind kind) {
+    return kind == ReportKind::Paper
+               ? Page{"voxtact bench --paper", "The paper's measurements, made again", kPaperBody, kPaperScript}
+               : Page{"voxtact compare", "The same pairs by every method", kCompareBody, kCompareScript};
+}
+
+/// What stands for `name` in the frame; nothing for a name that is not known.
+std::string partFor(std::string_view name, const Page& page, const std::vector<std::string>& summary,
+                    const Json& data) {
     if (name == "SUMMARY") {
         return listItems(summary);
     }
     if (name == "DATA") {
         return inScript(data);
     }
-    if (name == "LIBRARY") {
-        return std::string(kChartLibrary);
-    }
     if (name == "LICENCE") {
         return escaped(kChartLicence);
     }
-    return name == "SCRIPT" ? std::string(kReportScript) : std::string();
+    const std::array<std::pair<std::string_view, std::string_view>, 7> texts{{{"NAME", page.name},
+                                                                              {"TITLE", page.title},
+                                                                              {"BODY", page.body},
+                                                                              {"SCRIPT", page.script},
+                                                                              {"STYLE", kReportStyle},
+                                                                              {"COMMON", kReportCommon},
+                                                                              {"LIBRARY", kChartLibrary}}};
+    const auto* const found = std::ranges::find(texts, name, &std::pair<std::string_view, std::string_view>::first);
+    return found == texts.end() ? std::string() : std::string(found->second);
 }
 
 } // namespace
@@ -71,12 +90,14 @@ Result<void> reportPossible() {
     return {};
 }
 
-Result<void> writeReport(std::ostream& out, const std::vector<std::string>& summary, const Json& data) {
-    // The page has {{NAME}} where a part belongs.
-    std::string_view rest = kReportPage;
+Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,
+                         const Json& data) {
+    const Page page = pageOf(kind);
+    // The frame has {{NAME}} where a part belongs.
+    std::string_view rest = kReportFrame;
     for (std::size_t open = rest.find("{{"); open != std::string_view::npos; open = rest.find("{{")) {
         const std::size_t close = rest.find("}}", open);
-        out << rest.substr(0, open) << partFor(rest.substr(open + 2, close - open - 2), summary, data);
+        out << rest.substr(0, open) << partFor(rest.substr(open + 2, close - open - 2), page, summary, data);
         rest.remove_prefix(close + 2);
     }
     out << rest;

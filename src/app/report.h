@@ -14,8 +14,13 @@ namespace voxtact::app {
 /// Unsupported where the program was built without the library that draws the charts.
 [[nodiscard]] Result<void> reportPossible();
 
-/// An HTML page in one file: the summary as text, and charts and tables made of `data` (compareJson()).
-[[nodiscard]] Result<void> writeReport(std::ostream& out, const std::vector<std::string>& summary,
+enum class ReportKind {
+    Compare, ///< of compareJson()
+    Paper,   ///< of paperJson()
+};
+
+/// An HTML page in one file: the summary as text, and charts and tables made of `data`.
+[[nodiscard]] Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,
                                        const nlohmann::ordered_json& data);
 
 } // namespace voxtact::app

@@ -7,9 +7,13 @@
 /// texts are empty where that was not there at configuration.
 namespace voxtact::app {
 
-extern const std::string_view kReportPage;
+extern const std::string_view kReportFrame;
 extern const std::string_view kReportStyle;
-extern const std::string_view kReportScript;
+extern const std::string_view kReportCommon;
+extern const std::string_view kCompareBody;
+extern const std::string_view kCompareScript;
+extern const std::string_view kPaperBody;
+extern const std::string_view kPaperScript;
 extern const std::string_view kChartLibrary;
 extern const std::string_view kChartLicence;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+// What the pages of reports share: tables, charts, the machine.
 'use strict';
-(() => {
+const report = (() => {
   const data = JSON.parse(document.getElementById('data').textContent);
   const byId = (id) => document.getElementById(id);
-  const scene = data.scene;
 
   // Okabe and Ito's palette: told apart by colour-blind readers too; the shape of the mark says the same once more.
   const looks = {
@@ -51,20 +51,6 @@
   const words = (...names) => names.map((name) => ({ name }));
   const numbers = (...names) => names.map((name) => ({ name, number: true }));
 
-  function fillHead() {
-    const source = (text) => text.replace(/^builtin:/, '').replace(/^.*\//, '');
-    byId('title').textContent = `${source(scene.mesh)} against ${source(scene.volume)}, by every method`;
-    document.title = `voxtact compare: ${source(scene.mesh)} against ${source(scene.volume)}`;
-    byId('subtitle').textContent =
-      `${grouped(scene.poses)} poses (${scene.poses_from}), ${grouped(scene.triangles)} triangles, ` +
-      `${scene.voxels.join(' × ')} voxels of ${scene.voxel_type}, ${scene.width} × ${scene.height} pixels, ` +
-      `opaque from ${scene.threshold}`;
-    byId('verdict').textContent = data.agrees ? 'The methods agree.' : 'The methods do not agree.';
-    if (!data.agrees) document.querySelector('.summary').classList.add('failed');
-    byId('command').textContent = data.command;
-    for (const note of data.notes) byId('notes').appendChild(element('li', note));
-  }
-
   function fillMachine() {
     const on = data.machine;
     const cards = [
@@ -82,24 +68,14 @@
     }
   }
 
-  function verdictTag(row) {
-    if (!row.checked) return element('span', 'not checked', 'tag told');
-    if (!row.required) return element('span', 'for information', 'tag told');
-    return row.agrees ? element('span', '✓ agree', 'tag') : element('span', '✗ differ', 'tag failed');
+  function fillAbout() {
+    byId('verdict').textContent = data.agrees ? 'The methods agree.' : 'The methods do not agree.';
+    if (!data.agrees) document.querySelector('.summary').classList.add('failed');
+    byId('command').textContent = data.command;
+    for (const note of data.notes) byId('notes').appendChild(element('li', note));
   }
 
-  function fillAgreement() {
-    const columns = [...words('Verdict', 'Rule'), ...numbers('Compared', 'Differing', 'Largest difference'), ...words('Detail')];
-    fillTable(byId('agreement'), columns, data.agreement.map((row) => [
-      verdictTag(row), row.rule,
-      row.checked ? `${grouped(row.compared)} ${row.unit}` : '–',
-      row.checked ? grouped(row.differing) : '–',
-      row.checked ? `${grouped(row.largest_difference)} ${row.unit === 'fragments' ? 'on a pose' : 'fragments'}` : '–',
-      row.why_not || [row.agrees ? '' : `pose ${row.pose}: ${row.text}`, row.detail].filter(Boolean).join('; '),
-    ]));
-  }
-
-  function fillTables() {
+  function fillSeries() {
     const columns = [...words('Sweep', 'Method', 'Mode'),
       ...numbers('Batch', 'Viewport', 'Triangles', 'Fragments a pair', 'Samples', 'Wall ms', 'p10', 'p90', 'min', 'max', 'GPU ms',
         'Pairs/s', 'Fragments/s')];
@@ -109,18 +85,6 @@
       short(s.wall_ms.p90), short(s.wall_ms.min), short(s.wall_ms.max), s.gpu_ms ? short(s.gpu_ms.median) : '–',
       short(s.pairs_per_s), short(s.fragments_per_s),
     ]));
-    const methods = Object.keys(data.counts);
-    fillTable(byId('counts'), [...numbers('Pose'), ...numbers(...methods)],
-      data.poses.map((pose, i) => [pose, ...methods.map((method) => data.counts[method][i])]));
-    const most = 1000;
-    const fragments = data.oracle.differing.slice(0, most);
-    fillTable(byId('fragments'), [...numbers('Pose', 'Triangle', 'x', 'y'), ...words('Only on', 'Within rounding of'),
-      ...numbers('Edge, px', 'Opacity', 'low', 'high')],
-    fragments.map((f) => [f.pose, f.triangle, f.x, f.y, f.on, f.reason, short(f.edge_distance_px), short(f.opacity),
-      short(f.opacity_low), short(f.opacity_high)]));
-    byId('differing').firstElementChild.textContent = data.oracle.differing.length > most
-      ? `Fragments of one side only (the first ${grouped(most)} of ${grouped(data.oracle.differing.length)})`
-      : `Fragments of one side only (${grouped(data.oracle.differing.length)})`;
   }
 
   // Spread, 10th to 90th percentile, as a whisker on each point.
@@ -130,10 +94,12 @@
       const { ctx, scales: { y } } = chart;
       ctx.save();
       chart.data.datasets.forEach((set, i) => {
-        ctx.strokeStyle = set.borderColor;
+        ctx.strokeStyle = set.whiskerColor ?? set.borderColor;
         ctx.lineWidth = 1.5;
         chart.getDatasetMeta(i).data.forEach((point, k) => {
-          const { low, high } = set.data[k];
+          const low = set.low ? set.low[k] : set.data[k]?.low;
+          const high = set.high ? set.high[k] : set.data[k]?.high;
+          if (!(low > 0) || !(high > 0)) return;
           const top = y.getPixelForValue(high);
           const bottom = y.getPixelForValue(low);
           ctx.beginPath();
@@ -149,6 +115,8 @@
       ctx.restore();
     },
   };
+
+  const whiskersOver = { id: 'whiskersOver', afterDatasetsDraw: whiskers.beforeDatasetsDraw };
 
   // The name of each line at its right end, moved apart where they would cover each other.
   const endLabels = {
@@ -228,24 +196,33 @@
     };
   }
 
-  function drawChart(parent, { title, text, xTitle, yTitle, xTicks, sets }) {
+  /// A box with its heading; returns its canvas.
+  function addPlot(parent, title, text, label) {
     const box = element('div', undefined, 'chart');
     box.append(element('h3', title), element('p', text));
     const plot = element('div', undefined, 'plot');
     const canvas = element('canvas');
     canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', `${title}: ${yTitle} against ${xTitle}`);
+    canvas.setAttribute('aria-label', label);
     plot.appendChild(canvas);
     box.appendChild(plot);
     parent.appendChild(box);
+    return canvas;
+  }
+  const still = {
+    animation: false,
+    maintainAspectRatio: false,
+    devicePixelRatio: Math.max(2, window.devicePixelRatio || 1),
+  };
+
+  function drawChart(parent, { title, text, xTitle, yTitle, xTicks, sets, unit = 'ms' }) {
+    const canvas = addPlot(parent, title, text, `${title}: ${yTitle} against ${xTitle}`);
     return new Chart(canvas, {
       type: 'line',
       data: { datasets: sets },
       plugins: [whiskers, endLabels],
       options: {
-        animation: false,
-        maintainAspectRatio: false,
-        devicePixelRatio: Math.max(2, window.devicePixelRatio || 1),
+        ...still,
         layout: { padding: { right: 104, top: 8 } },
         interaction: { mode: 'nearest', intersect: false },
         scales: { x: logAxis(xTitle, xTicks), y: logAxis(yTitle) },
@@ -256,9 +233,50 @@
             label: (item) => {
               const p = item.raw;
               const gpu = p.gpu ? `, GPU ${short(p.gpu)} ms` : '';
-              return `${short(p.y)} ms (p10 ${short(p.low)}, p90 ${short(p.high)}${gpu}), ${short(p.rate)} pairs/s`;
+              const rate = p.rate ? `, ${short(p.rate)} pairs/s` : '';
+              return `${short(p.y)} ${unit} (p10 ${short(p.low)}, p90 ${short(p.high)}${gpu})${rate}`;
             },
           } },
+        },
+      },
+    });
+  }
+
+  // A range that something else lies in, behind the bars.
+  const bandOf = (band) => ({
+    id: 'band',
+    beforeDatasetsDraw({ ctx, chartArea, scales: { y } }) {
+      const top = y.getPixelForValue(band.high);
+      const bottom = y.getPixelForValue(band.low);
+      ctx.save();
+      ctx.fillStyle = 'rgba(29, 36, 48, 0.09)';
+      ctx.fillRect(chartArea.left, top, chartArea.width, bottom - top);
+      ctx.fillStyle = '#3a4452';
+      ctx.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
+      ctx.fillText(band.text, chartArea.left + 8, (top + bottom) / 2 + 4);
+      ctx.restore();
+    },
+  });
+
+  function drawBarChart(parent, { title, text, labels, yTitle, sets, stacked, logarithmic, band }) {
+    const canvas = addPlot(parent, title, text, `${title}: ${yTitle}`);
+    const axisTitle = { display: true, text: yTitle, font: { size: 13, weight: '600' }, color: '#1d2430' };
+    const y = logarithmic ? logAxis(yTitle) : { stacked, beginAtZero: true, title: axisTitle, ticks: { color: '#3a4452' } };
+    if (band) {
+      y.suggestedMin = band.low;
+      y.suggestedMax = band.high;
+    }
+    return new Chart(canvas, {
+      type: 'bar',
+      data: { labels, datasets: sets.map(({ label, colour, values, low, high }) => ({
+        label, data: values, low, high, backgroundColor: colour, borderColor: colour, whiskerColor: '#1d2430' })) },
+      plugins: [...(stacked ? [] : [whiskersOver]), ...(band ? [bandOf(band)] : [])],
+      options: {
+        ...still,
+        scales: { x: { stacked, grid: { display: false }, ticks: { color: '#3a4452', font: { size: 13 } } }, y },
+        plugins: {
+          legend: { display: sets.length > 1, position: 'bottom', labels: { boxWidth: 14, color: '#1d2430' } },
+          tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${short(item.raw)}` } },
         },
       },
     });
@@ -306,28 +324,16 @@
       xTitle: 'pairs in a batch', yTitle: 'wall time of a pair, ms', xTicks: ticks, sets: datasets(many, (s) => s.batch, (s) => s.batch) });
   }
 
-  function drawSweep(parent, sweep, heading, text, xTitle, xOf) {
+  function drawSweep(parent, sweep, heading, text, xTitle, xOf, onTicks) {
     const series = data.series.filter((s) => s.sweep === sweep);
     if (series.length === 0) return;
     parent.appendChild(element('h2', heading));
-    drawChart(parent, { title: `${series[0].batch} pairs a submission`, text, xTitle, yTitle: 'wall time of a pair, ms',
+    const xTicks = onTicks ? [...new Set(series.map(xOf))].sort((a, b) => a - b) : undefined;
+    drawChart(parent, { title: `${series[0].batch} pairs a submission`, text, xTitle, yTitle: 'wall time of a pair, ms', xTicks,
       sets: datasets(series, xOf, (s) => s.batch) });
   }
 
-  function drawCharts() {
-    const parent = byId('charts');
-    Chart.defaults.font.family = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
-    drawBatches(parent);
-    drawSweep(parent, 'fragments', 'Time against fragments',
-      'The same poses on viewports of 64 to 2048 pixels. The axis is the surviving fragments of a pair, on average; ' +
-      'the methods also work on the ones that do not survive.', 'surviving fragments a pair', (s) => s.fragments_a_pair);
-    drawSweep(parent, 'triangles', 'Time against triangles',
-      'The same shape from coarse to fine, the same poses and viewport.', 'triangles', (s) => s.triangles);
-  }
-
-  fillHead();
-  fillMachine();
-  fillAgreement();
-  fillTables();
-  drawCharts();
+  Chart.defaults.font.family = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
+  return { data, byId, element, look, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
+    toDataset, drawChart, drawBarChart, drawBatches, drawSweep };
 })();

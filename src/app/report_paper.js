@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+'use strict';
+(() => {
+  const { data, byId, element, look, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
+    drawBarChart, drawChart, drawSweep, toDataset } = report;
+  const clocks = [
+    { key: 'gpu', name: 'by GPU timestamps', text: 'Time on the device.' },
+    { key: 'wall', name: 'by the wall clock', text: 'From the submission to the end of the wait; recording apart.' },
+  ];
+  const names = data.scenes.map((scene) => scene.name);
+  const rowOf = (scene, method) => data.tables.find((row) => row.scene === scene && row.method === method);
+  const methods = [...new Set(data.tables.map((row) => row.method))];
+  const [least, most] = data.published.overhead_percent;
+
+  function fillHead() {
+    document.title = 'voxtact bench --paper';
+    byId('subtitle').textContent = `${names.join(', ')}; ${data.width} × ${data.height} pixels. What the paper publishes was ` +
+      'measured on its own hardware, by OpenGL: it says how things were there, not how fast they are here';
+    byId('tables-text').textContent = 'Median ms over the rounds, a frame a sample. Collision is the detection of one pair ' +
+      'alone; total is a frame with the detection in the same submission. Collision % is its time over the rendering\'s; ' +
+      'overhead % compares frames with and without it, next to each other, and in brackets is the confidence interval of the median. ' +
+      `The paper publishes an overhead of ${least} to ${most} %.`;
+  }
+
+  function fillScenes() {
+    const columns = [...words('Scene', 'Volume', 'Voxels'), ...numbers('Opaque'), ...words('Opacity', 'Mesh'),
+      ...numbers('Triangles', 'Poses', 'Ray step')];
+    fillTable(byId('scenes'), columns, data.scenes.map((s) => [
+      s.name, s.volume, `${s.voxels.join(' × ')} ${s.voxel_type}`, `${short(100 * s.opaque_share)} %`, s.opacity, s.mesh,
+      grouped(s.triangles), s.poses, `${short(s.step_mm)} mm`,
+    ]));
+  }
+
+  const ms = (spread) => (spread ? short(spread.median) : '–');
+  function percent(spread) {
+    if (!spread) return '–';
+    const range = spread.confidence ? ` (${short(spread.low)} to ${short(spread.high)})` : '';
+    return short(spread.median) + range;
+  }
+
+  function fillTables() {
+    const columns = [...words('Scene', 'Method'), ...numbers('Survivors', 'Mesh', 'Volume', 'Collision', 'Total rendering',
+      'Total', 'Collision %', 'Overhead %')];
+    for (const clock of clocks) {
+      const rows = data.tables.filter((row) => row[clock.key]);
+      if (rows.length === 0) continue;
+      const confidence = rows.map((row) => row[clock.key].overhead_percent?.confidence).find((c) => c);
+      const box = element('div', undefined, 'chart');
+      box.append(element('h3', `In ms, ${clock.name}`), element('p', clock.text +
+        (confidence ? ` Intervals: ${(100 * confidence).toFixed(1)} %.` : '')));
+      const table = element('table');
+      const scroll = element('div', undefined, 'wide');
+      scroll.appendChild(table);
+      box.appendChild(scroll);
+      byId('tables').appendChild(box);
+      fillTable(table, columns, rows.map((row) => {
+        const c = row[clock.key];
+        return [row.scene, row.method, short(row.survivors), ms(c.mesh_ms), ms(c.volume_ms), ms(c.collision_ms),
+          ms(c.rendering_ms), ms(c.total_ms), percent(c.collision_percent), percent(c.overhead_percent)];
+      }));
+    }
+  }
+
+  function barsBy(label, colour, valueOf) {
+    return { label, colour, values: names.map((name) => valueOf(name)) };
+  }
+
+  function drawFrames(parent, clock) {
+    const parts = [['mesh', 'mesh_ms', '#999999'], ['volume', 'volume_ms', '#0072b2'], ['collision', 'collision_ms', '#d55e00']];
+    const first = (name) => data.tables.find((row) => row.scene === name)?.[clock.key];
+    if (!names.some((name) => first(name)?.volume_ms)) return;
+    drawBarChart(parent, { title: 'What a frame is made of', stacked: true, labels: names, yTitle: 'ms, median',
+      text: `Mesh, volume and collision (${methods[0]}) ${clock.name}.`,
+      sets: parts.map(([label, key, colour]) => barsBy(label, colour, (name) => first(name)?.[key]?.median ?? null)) });
+  }
+
+  function drawCollision(parent, clock) {
+    const known = methods.filter((method) => names.some((name) => rowOf(name, method)?.[clock.key]?.collision_ms));
+    if (known.length === 0) return;
+    drawBarChart(parent, { title: 'Collision', logarithmic: true, labels: names, yTitle: 'ms a pair, median',
+      text: `The detection of one pair by each method, ${clock.name}; the whiskers are the 10th and 90th percentile.`,
+      sets: known.map((method) => {
+        const spread = (name) => rowOf(name, method)?.[clock.key]?.collision_ms;
+        const set = barsBy(method, look(method).colour, (name) => spread(name)?.median ?? null);
+        return { ...set, low: names.map((name) => spread(name)?.p10), high: names.map((name) => spread(name)?.p90) };
+      }) });
+  }
+
+  function drawOverhead(parent, clock) {
+    const known = methods.filter((method) => names.some((name) => rowOf(name, method)?.[clock.key]?.collision_percent));
+    if (known.length === 0) return;
+    drawBarChart(parent, { title: 'Collision, in percent of the rendering', logarithmic: true, labels: names,
+      yTitle: 'collision / rendering, %', band: { low: least, high: most, text: `the paper: ${least} to ${most} %` },
+      text: `Medians, ${clock.name}; the whiskers are the confidence interval.`,
+      sets: known.map((method) => {
+        const spread = (name) => rowOf(name, method)?.[clock.key]?.collision_percent;
+        const set = barsBy(method, look(method).colour, (name) => spread(name)?.median ?? null);
+        return { ...set, low: names.map((name) => spread(name)?.low), high: names.map((name) => spread(name)?.high) };
+      }) });
+  }
+
+  function drawCharts() {
+    const parent = byId('charts');
+    const clock = clocks.find((c) => data.tables.some((row) => row[c.key]?.volume_ms)) ?? clocks[1];
+    parent.appendChild(element('h2', 'Frames and what detection adds'));
+    const pair = element('div', undefined, 'pair');
+    parent.appendChild(pair);
+    drawFrames(pair, clock);
+    drawCollision(pair, clock);
+    drawOverhead(parent, clock);
+    drawSweep(parent, 'voxels', 'Time against the volume\'s size',
+      'The same mesh, poses, camera and viewport; a volume of the same extent and contents from coarse to fine. A fragment takes ' +
+      'one sample, however many voxels there are.', 'voxels a side', (s) => s.voxels, true);
+    drawSweep(parent, 'triangles', 'Time against triangles',
+      'The same shape from coarse to fine, the same poses and viewport.', 'triangles', (s) => s.triangles);
+    drawSweep(parent, 'fragments', 'Time against the viewport',
+      'The same poses on viewports of several sizes.', 'pixels of the viewport', (s) => s.width * s.height);
+    drawRates(parent);
+  }
+
+  function rates(series) {
+    const lines = new Map();
+    for (const s of series) {
+      const rate = (time) => 1000 * s.batch / time;
+      const point = { x: s.batch, y: rate(s.wall_ms.median), low: rate(s.wall_ms.p90), high: rate(s.wall_ms.p10) };
+      lines.set(s.method, [...(lines.get(s.method) ?? []), point]);
+    }
+    return [...lines].map(([method, points]) => toDataset(method, points.sort((a, b) => a.x - b.x)));
+  }
+
+  function drawRates(parent) {
+    const all = data.series.filter((s) => s.sweep === 'batch');
+    if (all.length === 0) return;
+    parent.appendChild(element('h2', 'Pairs a second'));
+    parent.appendChild(element('p', `In ${names[0]}. The paper publishes ${grouped(data.published.pairs_per_s)} a second, yes or no, on its own hardware.`,
+      'muted'));
+    const xTicks = [...new Set(all.map((s) => s.batch))].sort((a, b) => a - b);
+    drawChart(parent, { title: 'Batches', text: 'One submission a batch, three in flight (cpu: one call a batch); by the wall clock.',
+      xTitle: 'pairs in a batch', yTitle: 'pairs a second', xTicks, sets: rates(all.filter((s) => s.mode === 'pipelined')), unit: 'pairs/s' });
+    const alone = all.filter((s) => s.mode === 'sync' && s.batch === 1);
+    if (alone.length === 0) return;
+    drawBarChart(parent, { title: 'Each pair waited for', logarithmic: true, labels: alone.map((s) => s.method), yTitle: 'pairs a second',
+      text: 'One submission and one wait a pair: the paper\'s way.', band: { low: data.published.pairs_per_s, high: data.published.pairs_per_s * 1.02,
+        text: 'the paper' },
+      sets: [{ label: 'pairs a second', colour: '#0072b2', values: alone.map((s) => 1000 / s.wall_ms.median),
+        low: alone.map((s) => 1000 / s.wall_ms.p90), high: alone.map((s) => 1000 / s.wall_ms.p10) }] });
+  }
+
+  function fillPolygons() {
+    const parent = byId('polygons');
+    if (!data.polygons || data.polygons.ways.length === 0) return;
+    parent.appendChild(element('h2', 'Which triangles touch'));
+    parent.appendChild(element('p', `In ${names[0]}, of ${grouped(data.polygons.triangles)} triangles: the paper's one query a polygon and one ` +
+      'query a leaf of an OBB tree, one pass that writes a mask, and the certified answer, against which the others are held.', 'muted'));
+    const table = element('table');
+    parent.appendChild(table);
+    fillTable(table, [...words('Way'), ...numbers('Queries', 'Found', 'Missed', 'Not certified', 'Wall ms a pair', 'p10', 'p90')],
+      data.polygons.ways.map((way) => [way.name, way.queries === null ? '–' : grouped(way.queries),
+        ...(way.unchecked ? ['–', '–', '–', way.unchecked, '', ''] : [grouped(way.found), grouped(way.missed), grouped(way.wrong),
+          short(way.wall_ms?.median), short(way.wall_ms?.p10), short(way.wall_ms?.p90)])]));
+  }
+
+  function fillIntegration() {
+    const parent = byId('integration');
+    if (!data.integration || data.integration.length === 0) return;
+    parent.appendChild(element('h2', 'A new transfer function'));
+    const sets = clocks.filter((clock) => data.integration.some((point) => point[`${clock.key}_ms`])).map((clock, i) => ({
+      label: clock.key === 'gpu' ? 'GPU' : 'wall', borderColor: ['#0072b2', '#d55e00'][i], backgroundColor: ['#0072b2', '#d55e00'][i],
+      pointStyle: ['circle', 'rect'][i], pointRadius: 5, pointBorderWidth: 2, borderWidth: 2,
+      data: data.integration.filter((point) => point[`${clock.key}_ms`]).map((point) => {
+        const spread = point[`${clock.key}_ms`];
+        return { x: point.entries, y: spread.median, low: spread.p10, high: spread.p90 };
+      }),
+    }));
+    drawChart(parent, { title: 'The pre-integrated table', xTitle: 'entries a side', yTitle: 'ms, median',
+      text: `GPU: the pass that makes it; wall: with the integrals on the host, the submission and the wait. The paper needed ` +
+        `${data.published.preintegration_ms} ms for 256 × 256.`,
+      xTicks: data.integration.map((point) => point.entries), sets });
+  }
+
+  fillHead();
+  fillAbout();
+  fillMachine();
+  fillScenes();
+  fillTables();
+  drawCharts();
+  fillPolygons();
+  fillIntegration();
+  fillSeries();
+})();
