@@ -26,9 +26,9 @@ material: 0.5 lets half of the light through a millimetre. Light comes from the 
 The eye, where no --camera is given: --view front (before the face), back, left (beside the left ear), right, top,
 bottom; or --azimuth (0 front, 90 left, 180 back) and --elevation (90 top). The picture frames the volume.
 
---show paints on the mesh what `voxtact detect` decides with the same transfer function and --threshold: contacts and
-discarded for each pixel of the picture, as its projection view does with this camera and size, and triangles by its
-projection conservative.
+--show paints on the mesh what is decided with the picture's transfer function and --threshold, as voxtact detect does:
+contacts and discarded pixel by pixel, by the projection view with this camera and size; triangles by the projection
+conservative. What is painted shines through the tissue before it: --through.
 
 Examples:
   voxtact render --volume head.nii.gz --preset mr --output head.png

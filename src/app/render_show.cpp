@@ -77,9 +77,10 @@ Result<void> uploadTriangles(const ShownPair& pair, const Session& session, cons
 } // namespace
 
 void addShowOptions(CLI::App& parser, ShowOptions& options) {
-    addName(parser, "--show", options.what, {"contacts", "discarded", "triangles"},
-            "painted on the mesh: contacts (its survivors in this view, red), discarded (what does not survive blue, "
-            "survivors gray, white where opaque), triangles (those that touch for certain, from any view)");
+    addName(
+        parser, "--show", options.what, {"contacts", "discarded", "triangles"},
+        "painted on the mesh: contacts (what survives in this view, red), discarded (what does not survive, blue, and "
+        "survivors by their opacity, from dark gray to white), triangles (those that touch for certain, red)");
     addNumber(
         parser, "--through", [&options](double part) { options.through = part; },
         "how much of what is painted is seen through the tissue before it; default: 0.8, for discarded 1",
