@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Does a scalpel touch the visible part of a real MR head, how deep, and which regions of the brain?
+# Does a scalpel touch the visible part of a real MR head, how deep, and which regions of the brain? And a picture.
 # Usage: demo.sh PROGRAM (a path from the root of the checkout)
 # Exit status 3 when the two counting methods disagree.
 set -euo pipefail
@@ -11,6 +11,7 @@ mesh=builtin:scalpel:3068
 poses=docs/demo/poses.txt
 labels=/usr/share/mricron/templates/aal.nii.gz
 contacts=build/demo/contacts.ply
+scene=build/demo/scene.png
 
 for file in "$volume" "$labels"; do
     [ -r "$file" ] || {
@@ -121,6 +122,27 @@ Every contact, with its place in mm, normal, depth and region: $contacts, points
 (MeshLab and ParaView open it). The command that was run, with the counting method $method:
 
   ${certified[*]}
+TEXT
+
+# The pose with the most fragments, by query.
+pose=$(awk -F, '
+    /^#/ { next }
+    !columns { columns = split($0, header, ","); next }
+    {
+        for (i = 1; i <= columns; i++) row[header[i]] = $i
+        if (row["count"] + 0 > most) { most = row["count"] + 0; best = row["pose"] }
+    }
+    END { print best + 0 }' "$out/query.csv")
+render=("$program" render --volume "$volume" --preset mr --transfer-function docs/demo/head.tf --mesh "$mesh"
+    --poses "$poses" --pose "$pose" --show contacts --azimuth 20 --elevation 40 --background ffffff --size 800x800
+    --output "$scene")
+"${render[@]}"
+cat <<TEXT
+
+A picture of it: $scene. Red is what touches, in the pose that touches most; it shines through the skin.
+Where a part of the blade inside the head is not red, the image is dark (bone, fluid), and not opaque. The command:
+
+  ${render[*]}
 TEXT
 [ "$status" -eq 0 ] || printf '\n%s\n' "query and atomic disagree" >&2
 exit "$status"

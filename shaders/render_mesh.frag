@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The mesh's colour, and how far it is from the near plane along the pixel's ray.
+// The mesh's colour and, for what is painted, how much of it is seen through the volume; and how far it is from the near plane along the pixel's ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#ifdef PAINT_FRAGMENTS
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#endif
 #include "picture.glsl"
 
 layout(location = 0) in vec3 world;
@@ -11,11 +14,43 @@ layout(location = 1) in vec3 worldNormal;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float distanceFromNear;
 
+#if defined(PAINT_FRAGMENTS)
+layout(location = 2) in vec3 textureCoordinate;
+layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
+layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
+#include "survives.glsl"
+
+#define DARKEST 0.25
+
+vec4 paint() {
+    // A detector that clamps has proven that the range test would change nothing.
+    const bool survivor = survives(textureCoordinate, picture.item, true, false);
+    if ((picture.switches & PICTURE_DISCARDED) == 0u) {
+        return survivor ? picture.contactColour : picture.meshColour;
+    }
+    const float above = hardwareOpacity(textureCoordinate, picture.item) - picture.item.threshold;
+    const float share = clamp(above / max(1.0 - picture.item.threshold, 1e-6), 0.0, 1.0);
+    return vec4(survivor ? vec3(mix(DARKEST, 1.0, share)) : picture.discardedColour.rgb, picture.contactColour.a);
+}
+#elif defined(PAINT_TRIANGLES)
+layout(set = PICTURE_SET_TRIANGLES, binding = 0, std430) readonly buffer Triangles { uint painted[]; };
+
+vec4 paint() {
+    const uint triangle = uint(gl_PrimitiveID);
+    const bool chosen = (painted[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
+    return chosen ? picture.contactColour : picture.meshColour;
+}
+#else
+vec4 paint() {
+    return picture.meshColour;
+}
+#endif
+
 void main() {
     const vec4 point = ROWS4(picture.world_from_clip, vec4(clipOf(gl_FragCoord.xy), 0.0, 1.0));
     const vec3 way = world - point.xyz / point.w;
     distanceFromNear = length(way);
-    colour = vec4(picture.meshColour.rgb, 1.0);
+    colour = paint();
     if ((picture.switches & PICTURE_LIT_MESH) != 0u) {
 #ifdef SMOOTH
         const vec3 normal = worldNormal;
@@ -24,6 +59,6 @@ void main() {
 #endif
         const float size = length(normal);
         const vec3 toEye = distanceFromNear > 0.0 ? way / distanceFromNear : vec3(0.0);
-        colour.rgb = lit(colour, size > 0.0 ? normal / size : toEye, toEye);
+        colour.rgb = lit(vec4(colour.rgb, 1.0), size > 0.0 ? normal / size : toEye, toEye);
     }
 }

@@ -159,7 +159,7 @@ vec4 march(Ray ray, float from, float to, float firstStep) {
 void main() {
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
     const float mesh = texelFetch(meshDistance, pixel, 0).r;
-    const vec3 behind = texelFetch(meshColour, pixel, 0).rgb;
+    const vec4 behind = texelFetch(meshColour, pixel, 0); // and how much of it is seen through the volume
     const Ray ray = rayOf(gl_FragCoord.xy);
     const vec2 part = insideBox(ray.origin, ray.direction, vec3(0.0), vec3(1.0));
     const float from = max(part.x, 0.0);
@@ -169,5 +169,6 @@ void main() {
         const bool jitter = (picture.switches & PICTURE_JITTER) != 0u;
         sum = march(ray, from, to, picture.step * (jitter ? hashOf(uvec2(pixel)) : 1.0));
     }
-    colour = vec4(sum.rgb + (1.0 - sum.a) * behind, 1.0);
+    const vec3 seen = sum.rgb + (1.0 - sum.a) * behind.rgb;
+    colour = vec4(behind.a > 0.0 ? mix(seen, behind.rgb, behind.a) : seen, 1.0);
 }

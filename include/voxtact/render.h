@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/scene.h"
+#include "voxtact/detector.h"
 
 #include <array>
 #include <cstdint>
@@ -20,6 +20,9 @@
 /// Hardware-Accelerated Pixel Shading", 2001), so that a thin shell in the transfer function is not missed between two
 /// samples. A ray ends where its opacity reaches 0.99.
 ///
+/// What a detector decides about the mesh can be painted on it (MeshPaint). A fragment of the mesh is a pixel that it
+/// covers: each that is seen is decided by the detector's own shader text, from the same numbers.
+///
 /// Colours are in the space of the picture: nothing is converted. For an sRGB picture in a UNORM image they are sRGB.
 ///
 /// Lifetime: a Renderer must outlive what is made with it, and everything the command buffers that use it.
@@ -31,6 +34,7 @@ struct RenderTransferFunctionImpl;
 struct RenderTargetsImpl;
 struct MeshNormalsImpl;
 struct RenderBricksImpl;
+struct PaintedTrianglesImpl;
 
 /// Scalar -> opacity and colour.
 struct RenderTransferFunctionDesc {
@@ -60,6 +64,34 @@ class RenderTransferFunction;
 class RenderTargets;
 class MeshNormals;
 class RenderBricks;
+class PaintedTriangles;
+
+/// What a mesh shows of what is decided about it.
+enum class Paint : std::uint32_t {
+    Plain,     ///< nothing: all of it has Scene::meshColour
+    Contacts,  ///< its survivors
+    Discarded, ///< its discarded fragments, and its survivors by their opacity: from dark gray at the threshold to
+               ///< white
+    Triangles, ///< chosen triangles
+};
+
+/// How a mesh is painted. Light falls on the paint as on the mesh. Where the mesh hides itself, the nearest fragment is
+/// the one that is seen.
+///
+/// With Contacts and Discarded a fragment survives where Detector, by a method of the rasteriser in Projection::View
+/// with Filter::Hardware, counts it: for a View of Scene::clip_from_world and of Target::extent. (Boundary::Clamp may
+/// differ where it is asked for; Auto does not.)
+struct MeshPaint {
+    Paint what = Paint::Plain;
+    const TransferFunction* transferFunction = nullptr; ///< the detector's; for Contacts and Discarded
+    double threshold = kDefaultThreshold;               ///< the same; 0..1
+    const PaintedTriangles* triangles = nullptr;        ///< for Triangles; of Scene::mesh
+    Colour contactColour{1, 0.23, 0.08};                ///< of survivors and chosen triangles; the rest: meshColour
+    Colour discardedColour{0.16, 0.36, 0.88};           ///< for Discarded, of what does not survive
+    /// 0..1: how much of what is painted is seen through the volume before it: survivors and chosen triangles; with
+    /// Discarded all of the mesh. 0: it is as deep in the volume as the rest. 1: nothing of the volume is before it.
+    double through = 0;
+};
 
 /// What is to be seen.
 struct Scene {
@@ -70,6 +102,7 @@ struct Scene {
     const MeshNormals* normals = nullptr; ///< optional, of `mesh`: smooth; without, each triangle is flat
     Mat4 world_from_object = identity();  ///< of the mesh; affine, not singular
     Colour meshColour{0.75, 0.78, 0.82};
+    MeshPaint paint{};
     /// Orthographic or perspective; not singular. The near plane may be at depth 0 or 1, the far one at infinity.
     Mat4 clip_from_world{};
     Colour background{};
@@ -86,7 +119,8 @@ struct Target {
     VkImageLayout layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; ///< or GENERAL; while the commands execute
     RenderTargets* targets = nullptr;
     /// A pool of timestamps, or null. Three are written, from firstTimestamp on: when the work before the picture is
-    /// done, when the mesh is, and when the volume is. The caller has reset them, and the queue's family has timestamps.
+    /// done, when the mesh is, and when the volume is. The caller has reset them, and the queue's family has
+    /// timestamps.
     VkQueryPool timestamps = VK_NULL_HANDLE;
     std::uint32_t firstTimestamp = 0;
 };
@@ -103,10 +137,10 @@ class Renderer {
     /// Records a picture: no allocation, no submission, no wait. All pixels of the extent are written, with alpha 1.
     ///
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics
-    ///   expects          volume, bricks, transfer function, mesh and normals readable as cmdUpload() leaves them,
-    ///                    wrapped ones in the layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER
-    ///                    by the caller; the target's image in Target::layout, ready for COLOR_ATTACHMENT_OUTPUT /
-    ///                    COLOR_ATTACHMENT_WRITE; its contents are discarded
+    ///   expects          volume, bricks, transfer functions, mesh, normals and painted triangles readable as
+    ///                    cmdUpload() leaves them, wrapped ones in the layout that was given and made visible to
+    ///                    VERTEX_INPUT / FRAGMENT_SHADER by the caller; the target's image in Target::layout, ready for
+    ///                    COLOR_ATTACHMENT_OUTPUT / COLOR_ATTACHMENT_WRITE; its contents are discarded
     ///   leaves           the image in the same layout, written at COLOR_ATTACHMENT_OUTPUT / COLOR_ATTACHMENT_WRITE:
     ///                    the next reader waits for that
     ///   targets          an earlier use of the same RenderTargets in this queue is waited for
@@ -115,7 +149,8 @@ class Renderer {
     ///                    index buffer, dynamic viewport and scissor
     ///
     /// On error nothing was recorded. Refuses a singular camera or pose, colours outside 0..1, objects that do not
-    /// belong together, and a step that gives a ray through the volume more than 65536 samples.
+    /// belong together, a step that gives a ray through the volume more than 65536 samples, and a paint without what it
+    /// needs.
     VOXTACT_API Result<void> cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const;
 
     [[nodiscard]] RendererImpl& impl() const noexcept { return *impl_; }
@@ -243,6 +278,36 @@ class RenderBricks {
   private:
     explicit RenderBricks(std::unique_ptr<RenderBricksImpl> impl) noexcept;
     std::unique_ptr<RenderBricksImpl> impl_;
+};
+
+/// Which triangles of a mesh Paint::Triangles paints: a bit for each, on the device.
+class PaintedTriangles {
+  public:
+    /// Triangles by their numbers, in any order, of a mesh that has `meshTriangles`: those of a BatchAnswer, say.
+    /// Refuses numbers beyond, a mesh without triangles, and one whose bits are more than the device's
+    /// maxStorageBufferRange. Unsupported where the feature geometryShader is not enabled, which gl_PrimitiveID needs.
+    [[nodiscard]] VOXTACT_API static Result<PaintedTriangles>
+    create(const Renderer& renderer, std::uint32_t meshTriangles, std::span<const std::uint32_t> triangles);
+    [[nodiscard]] VOXTACT_API static Result<PaintedTriangles> upload(const Renderer& renderer, const QueueAccess& queue,
+                                                                     std::uint32_t meshTriangles,
+                                                                     std::span<const std::uint32_t> triangles);
+    /// Bits that are on the device already, in uints, lowest first: Results::triangleMask(), where the batch has one
+    /// pair. Nothing is copied: every picture shows what the buffer holds then. It must outlive this; usage
+    /// STORAGE_BUFFER. Refuses a null buffer, an offset that is no multiple of 256, fewer bytes than a uint, and what
+    /// create() refuses.
+    [[nodiscard]] VOXTACT_API static Result<PaintedTriangles> wrap(const Renderer& renderer, const BufferRange& mask);
+    VOXTACT_API PaintedTriangles(PaintedTriangles&&) noexcept;
+    VOXTACT_API PaintedTriangles& operator=(PaintedTriangles&&) noexcept;
+    VOXTACT_API ~PaintedTriangles();
+
+    /// As Mesh::cmdUpload() and Mesh::releaseStaging(). A wrapped mask is refused.
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    VOXTACT_API void releaseStaging() noexcept;
+    [[nodiscard]] PaintedTrianglesImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit PaintedTriangles(std::unique_ptr<PaintedTrianglesImpl> impl) noexcept;
+    std::unique_ptr<PaintedTrianglesImpl> impl_;
 };
 
 } // namespace voxtact

@@ -4,6 +4,7 @@
 #include "app/detect_run.h"
 #include "app/inputs.h"
 #include "app/render_colours.h"
+#include "app/render_show.h"
 #include "app/render_view.h"
 #include "app/session.h"
 #include "app/standard_streams.h"
@@ -25,9 +26,14 @@ material: 0.5 lets half of the light through a millimetre. Light comes from the 
 The eye, where no --camera is given: --view front (before the face), back, left (beside the left ear), right, top,
 bottom; or --azimuth (0 front, 90 left, 180 back) and --elevation (90 top). The picture frames the volume.
 
+--show paints on the mesh what is decided with the picture's transfer function and --threshold, as voxtact detect does:
+contacts and discarded pixel by pixel, by the projection view with this camera and size; triangles by the projection
+conservative. What is painted shines through the tissue before it: --through.
+
 Examples:
   voxtact render --volume head.nii.gz --preset mr --output head.png
   voxtact render --volume head.nii.gz --preset mr --mesh tool.stl --poses poses.txt --pose 3 --view left --output hit.png
+  voxtact render --volume head.nii.gz --preset mr --mesh tool.stl --show contacts --azimuth 40 --output contacts.png
   voxtact render --volume builtin:ct:128 --preset ct --azimuth 30 --elevation 20 --size 1024x1024 --output ct.png)";
 
 struct RenderOptions {
@@ -41,6 +47,7 @@ struct RenderOptions {
     std::optional<double> azimuth;
     std::optional<double> elevation;
     std::string preset;
+    ShowOptions show;
     std::uint32_t pose = 0;
     Colour background{0, 0, 0};
     Colour meshColour = Scene{}.meshColour;
@@ -174,6 +181,7 @@ struct RenderObjects {
     RenderTransferFunction function;
     std::optional<Mesh> mesh{};
     std::optional<MeshNormals> normals{};
+    ShowObjects show{};
 };
 
 Result<RenderObjects> uploadObjects(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
@@ -210,6 +218,13 @@ Result<RenderObjects> uploadObjects(const RenderOptions& options, const RenderIn
             return normals.error();
         }
         objects.normals = std::move(*normals);
+        const ShownPair pair{inputs.volume, *inputs.mesh, desc.opacity, options.transferFunction.threshold,
+                             inputs.world_from_object};
+        Result<ShowObjects> show = makeShowObjects(options.show, pair, session, objects.renderer.renderer());
+        if (!show.ok()) {
+            return show.error();
+        }
+        objects.show = std::move(*show);
     }
     return objects;
 }
@@ -233,6 +248,7 @@ Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& input
     if (objects->mesh) {
         scene.mesh = &*objects->mesh;
         scene.normals = &*objects->normals;
+        scene.paint = paintOf(options.show, objects->show, options.transferFunction.threshold);
     }
     scene.world_from_object = inputs.world_from_object;
     scene.meshColour = options.meshColour;
@@ -276,7 +292,7 @@ Command addRender(CLI::App& program) {
     parser->footer(kFooter);
     addVolumeOption(*parser, options->volumes);
     addMeshOptions(*parser, options->meshes, false);
-    addTransferFunctionOptions(*parser, options->transferFunction, false);
+    addTransferFunctionOptions(*parser, options->transferFunction, true);
     addName(*parser, "--preset", options->preset, {"mr", "ct"},
             "colours, and the opacity where none is given, for heads: mr (for any units), ct (Hounsfield units)");
     addViewOptions(*parser, options->view);
@@ -287,6 +303,7 @@ Command addRender(CLI::App& program) {
     addDegrees(*parser, "--elevation", options->elevation, "the eye's height: 90 top, -90 bottom");
     addColour(*parser, "--background", options->background, "default: 000000");
     addColour(*parser, "--mesh-colour", options->meshColour, "default: bfc7d1");
+    addShowOptions(*parser, options->show);
     addDeviceOptions(*parser, options->device);
     addPath(*parser, "--output", options->output, "the PNG file to write");
     parser->get_option("--output")->required();

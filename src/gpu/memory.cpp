@@ -262,9 +262,9 @@ void writeSampledImage(ContextImpl& context, VkDescriptorSet set, VkImageView vi
                {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 
-void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer,
-                 VkDeviceSize range) {
-    const VkDescriptorBufferInfo part{buffer, 0, range};
+void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer, VkDeviceSize range,
+                 VkDeviceSize offset) {
+    const VkDescriptorBufferInfo part{buffer, offset, range};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;

@@ -106,8 +106,8 @@ struct DescriptorSet {
 void writeImage(ContextImpl& context, VkDescriptorSet set, VkImageView view, VkImageLayout layout);
 /// Writes a sampled image at binding 0, readable by every shader.
 void writeSampledImage(ContextImpl& context, VkDescriptorSet set, VkImageView view);
-/// Writes a storage buffer, from its start on.
+/// Writes a storage buffer, from `offset` on.
 void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer,
-                 VkDeviceSize range = VK_WHOLE_SIZE);
+                 VkDeviceSize range = VK_WHOLE_SIZE, VkDeviceSize offset = 0);
 
 } // namespace voxtact

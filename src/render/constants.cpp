@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/pair_transform.h"
 #include "core/table_extremes.h"
 #include "core/text.h"
 #include "render/render_impl.h"
@@ -14,9 +15,6 @@ using shader::PictureConstants;
 using shader::vec4;
 
 constexpr double kMostSamples = 65536;
-
-/// Depth 0 for depth 1.
-constexpr Mat4 kTurnedDepth{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1};
 
 Error refuse(std::string text) {
     return {ErrorCode::InvalidArgument, 0, std::move(text)};
@@ -49,24 +47,17 @@ Mat4 transposed(const Mat4& matrix) {
     return out;
 }
 
-/// The camera with its near plane at depth 0. What is nearer to an eye has the larger w of world_from_clip; an
-/// orthographic camera has none, and looks towards larger depths.
-Result<Mat4> forwardCamera(const Mat4& clip_from_world) {
-    const Result<Mat4> world_from_clip = inverse(clip_from_world);
-    if (!world_from_clip.ok()) {
-        return refuse("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
-    }
+/// Whether the near plane is at depth 1. What is nearer to an eye has the larger w of world_from_clip; an orthographic
+/// camera has none, and looks towards larger depths.
+bool isTurned(const Mat4& world_from_clip) {
     // w at depth 1 less w at depth 0, in the middle of the picture.
-    return (*world_from_clip)[11] > 0 ? multiply(kTurnedDepth, clip_from_world) : clip_from_world;
+    return world_from_clip[11] > 0;
 }
 
-Result<void> checkColour(const Colour& colour, const char* what) {
-    for (const double channel : colour) {
-        if (!(channel >= 0 && channel <= 1)) {
-            return refuse(std::string(what) + " has a channel of " + number(channel) + ", outside [0, 1]");
-        }
-    }
-    return {};
+/// world_from_clip of the same camera with its near plane at depth 0.
+Mat4 forwards(const Mat4& world_from_clip, bool turned) {
+    constexpr Mat4 kTurnedDepth{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1};
+    return turned ? multiply(world_from_clip, kTurnedDepth) : world_from_clip;
 }
 
 Result<void> checkLighting(const Lighting& lighting) {
@@ -78,7 +69,7 @@ Result<void> checkLighting(const Lighting& lighting) {
     return {};
 }
 
-Result<void> setMesh(PictureConstants& constants, const Scene& scene, const Mat4& clip_from_world) {
+Result<void> setMesh(PictureConstants& constants, const Scene& scene) {
     if (scene.mesh == nullptr) {
         return {};
     }
@@ -89,7 +80,11 @@ Result<void> setMesh(PictureConstants& constants, const Scene& scene, const Mat4
     if (!object_from_world.ok()) {
         return refuse("the mesh's pose cannot be used: " + object_from_world.error().text);
     }
-    setRows(constants.clip_from_object, multiply(clip_from_world, scene.world_from_object));
+    // The camera as it is, turned or not: what is painted is decided from these numbers, as a detector does.
+    const shader::PairTransform transform =
+        pairTransform(scene.clip_from_world, scene.world_from_object, scene.volume->impl().texture_from_world);
+    std::ranges::copy(transform.clip_from_object, constants.clip_from_object);
+    std::ranges::copy(transform.texture_from_object, constants.texture_from_object);
     setRows(constants.world_from_object, scene.world_from_object);
     setRows(constants.normal_from_object, transposed(*object_from_world));
     return {};
@@ -144,16 +139,32 @@ Result<void> checkSamples(const Scene& scene) {
     return {};
 }
 
+void setLook(PictureConstants& constants, const Scene& scene) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        constants.meshColour[channel] = static_cast<float>(scene.meshColour[channel]);
+    }
+    const Lighting& lighting = scene.lighting;
+    constants.light = {static_cast<float>(lighting.ambient), static_cast<float>(lighting.diffuse),
+                       static_cast<float>(lighting.specular), static_cast<float>(lighting.shininess)};
+    constants.switches = (lighting.volume ? PICTURE_LIT_VOLUME : 0U) | (lighting.mesh ? PICTURE_LIT_MESH : 0U) |
+                         (scene.jitter ? PICTURE_JITTER : 0U);
+}
+
 } // namespace
 
-Result<PictureConstants> pictureConstants(const Scene& scene, const Target& target) {
-    const Result<Mat4> clip_from_world = forwardCamera(scene.clip_from_world);
-    if (!clip_from_world.ok()) {
-        return clip_from_world.error();
+Result<void> checkColour(const Colour& colour, const char* what) {
+    for (const double channel : colour) {
+        if (!(channel >= 0 && channel <= 1)) {
+            return refuse(std::string(what) + " has a channel of " + number(channel) + ", outside [0, 1]");
+        }
     }
-    const Result<Mat4> world_from_clip = inverse(*clip_from_world);
+    return {};
+}
+
+Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target) {
+    const Result<Mat4> world_from_clip = inverse(scene.clip_from_world);
     if (!world_from_clip.ok()) {
-        return world_from_clip.error();
+        return refuse("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
     }
     for (const Result<void>& checked :
          {checkColour(scene.background, "the background"), checkColour(scene.meshColour, "the mesh's colour"),
@@ -162,22 +173,18 @@ Result<PictureConstants> pictureConstants(const Scene& scene, const Target& targ
             return checked.error();
         }
     }
-    PictureConstants constants{};
-    if (Result<void> set = setMesh(constants, scene, *clip_from_world); !set.ok()) {
+    PictureSetup setup;
+    setup.depthTurned = isTurned(*world_from_clip);
+    PictureConstants& constants = setup.constants;
+    if (Result<void> set = setMesh(constants, scene); !set.ok()) {
         return set.error();
     }
-    setCamera(constants, scene.volume->impl(), *world_from_clip);
+    setCamera(constants, scene.volume->impl(), forwards(*world_from_clip, setup.depthTurned));
     setFunction(constants, scene);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        constants.meshColour[channel] = static_cast<float>(scene.meshColour[channel]);
-    }
-    const Lighting& lighting = scene.lighting;
-    constants.light = {static_cast<float>(lighting.ambient), static_cast<float>(lighting.diffuse),
-                       static_cast<float>(lighting.specular), static_cast<float>(lighting.shininess)};
+    setLook(constants, scene);
     constants.viewport = {static_cast<float>(target.extent.width), static_cast<float>(target.extent.height), 0, 0};
-    constants.switches = (lighting.volume ? PICTURE_LIT_VOLUME : 0U) | (lighting.mesh ? PICTURE_LIT_MESH : 0U) |
-                         (scene.jitter ? PICTURE_JITTER : 0U);
-    return constants;
+    setPaint(setup, scene);
+    return setup;
 }
 
 } // namespace voxtact

@@ -51,7 +51,10 @@ Result<void> checkScene(const ContextImpl& context, const Scene& scene) {
     if (scene.bricks != nullptr && scene.bricks->impl().volume != &scene.volume->impl()) {
         return refuse("Scene::bricks is not of Scene::volume");
     }
-    return checkMeshParts(context, scene);
+    if (Result<void> checked = checkMeshParts(context, scene); !checked.ok()) {
+        return checked;
+    }
+    return checkPaint(context, scene);
 }
 
 Result<void> checkTarget(const ContextImpl& context, const Target& target) {
@@ -83,7 +86,8 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkA
 }
 
 void beginRendering(const ContextImpl& context, VkCommandBuffer commandBuffer, VkExtent2D extent,
-                    std::span<const VkRenderingAttachmentInfo> colours, const VkRenderingAttachmentInfo* depth) {
+                    std::span<const VkRenderingAttachmentInfo> colours, const VkRenderingAttachmentInfo* depth,
+                    bool depthTurned) {
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     info.renderArea = {{0, 0}, extent};
@@ -92,7 +96,12 @@ void beginRendering(const ContextImpl& context, VkCommandBuffer commandBuffer, V
     info.pColorAttachments = colours.data();
     info.pDepthAttachment = depth;
     context.vk.CmdBeginRendering(commandBuffer, &info);
-    const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+    const VkViewport viewport{0,
+                              0,
+                              static_cast<float>(extent.width),
+                              static_cast<float>(extent.height),
+                              depthTurned ? 1.0F : 0.0F,
+                              depthTurned ? 0.0F : 1.0F};
     const VkRect2D area{{0, 0}, extent};
     context.vk.CmdSetViewport(commandBuffer, 0, 1, &viewport);
     context.vk.CmdSetScissor(commandBuffer, 0, 1, &area);
@@ -108,12 +117,12 @@ void cmdConstants(const RenderTargetsImpl& targets, VkCommandBuffer commandBuffe
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
 }
 
-void drawMesh(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene) {
+void drawMesh(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene, PaintBy paintedBy) {
     const DeviceFunctions& vk = renderer.context.vk;
     const MeshImpl& mesh = scene.mesh->impl();
     const bool smooth = scene.normals != nullptr;
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                       (smooth ? renderer.smoothMeshPipeline : renderer.meshPipeline).get());
+                       renderer.meshPipelines[static_cast<std::size_t>(paintedBy)][smooth ? 1 : 0].get());
     const VkBuffer buffers[] = {mesh.vertices, smooth ? scene.normals->impl().buffer.get() : VK_NULL_HANDLE};
     const VkDeviceSize offsets[] = {mesh.vertexOffset, 0};
     const VkDeviceSize strides[] = {mesh.vertexStride, 3 * sizeof(float)};
@@ -128,7 +137,7 @@ void drawMesh(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const
 
 /// The mesh in front of the background, and its distance; without a mesh the background alone.
 void cmdMeshPass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
-                 const Target& target) {
+                 const PictureSetup& setup, const Target& target) {
     const ContextImpl& context = renderer.context;
     const RenderTargetsImpl& targets = target.targets->impl();
     const auto discarded = [](ImageUse use) {
@@ -150,9 +159,9 @@ void cmdMeshPass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, co
     }
     colours[1].clearValue.color.float32[0] = static_cast<float>(PICTURE_NOTHING);
     depth.clearValue.depthStencil.depth = 1;
-    beginRendering(context, commandBuffer, target.extent, colours, &depth);
+    beginRendering(context, commandBuffer, target.extent, colours, &depth, setup.depthTurned);
     if (scene.mesh != nullptr) {
-        drawMesh(renderer, commandBuffer, scene);
+        drawMesh(renderer, commandBuffer, scene, setup.paintedBy);
     }
     context.vk.CmdEndRendering(commandBuffer);
     for (const Image* image : {&targets.colour, &targets.distance}) {
@@ -163,20 +172,48 @@ void cmdMeshPass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, co
 void cmdVolumePass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Target& target) {
     const DeviceFunctions& vk = renderer.context.vk;
     const VkRenderingAttachmentInfo colour = attachment(target.view, target.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
-    beginRendering(renderer.context, commandBuffer, target.extent, {&colour, 1}, nullptr);
+    beginRendering(renderer.context, commandBuffer, target.extent, {&colour, 1}, nullptr, false);
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer.volumePipeline.get());
     vk.CmdDraw(commandBuffer, 3, 1, 0, 0);
     vk.CmdEndRendering(commandBuffer);
 }
 
-void bindSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) {
+void bindSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, VkPipelineLayout layout, std::uint32_t first,
+              std::span<const VkDescriptorSet> sets) {
+    renderer.context.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, first,
+                                              static_cast<std::uint32_t>(sets.size()), sets.data(), 0, nullptr);
+}
+
+void bindVolumeSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
+                    const Target& target) {
     const VkDescriptorSet sets[] = {scene.volume->impl().descriptors.set, scene.transferFunction->impl().reading.set,
                                     target.targets->impl().descriptors.set,
                                     scene.bricks != nullptr ? scene.bricks->impl().descriptors.set
                                                             : renderer.noBricks.set};
-    renderer.context.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                              renderer.pictureLayout.get(), 0,
-                                              static_cast<std::uint32_t>(std::size(sets)), sets, 0, nullptr);
+    bindSets(renderer, commandBuffer, renderer.pictureLayout.get(), 0, sets);
+}
+
+/// Only those that the mesh's shaders read: a scene that is painted by triangles may have no transfer function to bind.
+void bindMeshSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene, PaintBy paintedBy,
+                  const Target& target) {
+    const VkPipelineLayout painted = renderer.paintLayout.get();
+    const VkDescriptorSet targets = target.targets->impl().descriptors.set;
+    switch (paintedBy) {
+    case PaintBy::Nobody:
+        bindSets(renderer, commandBuffer, renderer.pictureLayout.get(), PICTURE_SET_TARGETS, {&targets, 1});
+        return;
+    case PaintBy::Fragments: {
+        const VkDescriptorSet sets[] = {scene.volume->impl().descriptors.set,
+                                        scene.paint.transferFunction->impl().descriptors.set, targets};
+        bindSets(renderer, commandBuffer, painted, VOXTACT_SET_VOLUME, sets);
+        return;
+    }
+    case PaintBy::Triangles: {
+        const VkDescriptorSet sets[] = {targets, scene.paint.triangles->impl().descriptors.set};
+        bindSets(renderer, commandBuffer, painted, PICTURE_SET_TARGETS, sets);
+        return;
+    }
+    }
 }
 
 void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, const Target& target,
@@ -201,16 +238,17 @@ Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& sce
         if (Result<void> checked = checkTarget(context, target); !checked.ok()) {
             return checked;
         }
-        const Result<shader::PictureConstants> constants = pictureConstants(scene, target);
-        if (!constants.ok()) {
-            return constants.error();
+        const Result<PictureSetup> setup = setUpPicture(scene, target);
+        if (!setup.ok()) {
+            return setup.error();
         }
         const Label label(context, commandBuffer, "voxtact picture");
         writeTimestamp(context, commandBuffer, target, 0);
-        cmdConstants(target.targets->impl(), commandBuffer, *constants);
-        bindSets(*impl_, commandBuffer, scene, target);
-        cmdMeshPass(*impl_, commandBuffer, scene, target);
+        cmdConstants(target.targets->impl(), commandBuffer, setup->constants);
+        bindMeshSets(*impl_, commandBuffer, scene, setup->paintedBy, target);
+        cmdMeshPass(*impl_, commandBuffer, scene, *setup, target);
         writeTimestamp(context, commandBuffer, target, 1);
+        bindVolumeSets(*impl_, commandBuffer, scene, target);
         cmdVolumePass(*impl_, commandBuffer, target);
         writeTimestamp(context, commandBuffer, target, 2);
         return {};

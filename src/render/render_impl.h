@@ -14,18 +14,23 @@ inline constexpr VkFormat kMeshColourFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kMeshDistanceFormat = VK_FORMAT_R32_SFLOAT;
 inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
 
+/// Who says which part of a mesh is painted: a pipeline each.
+enum class PaintBy : std::uint32_t { Nobody, Fragments, Triangles };
+inline constexpr std::size_t kPaintBys = 3;
+
 struct RendererImpl {
     ContextImpl& context;
     RendererDesc desc{};
     Owned<VkDescriptorSetLayout> makingLayout{};   ///< of the table's pass
     Owned<VkDescriptorSetLayout> functionLayout{}; ///< PICTURE_SET_FUNCTION
     Owned<VkDescriptorSetLayout> targetsLayout{};  ///< PICTURE_SET_TARGETS
-    Owned<VkDescriptorSetLayout> bricksLayout{};   ///< PICTURE_SET_BRICKS
+    Owned<VkDescriptorSetLayout> bricksLayout{};   ///< PICTURE_SET_BRICKS, PICTURE_SET_TRIANGLES
     Owned<VkPipelineLayout> makingPipelineLayout{};
     Owned<VkPipelineLayout> pictureLayout{};
+    Owned<VkPipelineLayout> paintLayout{}; ///< of a mesh that is painted
     Owned<VkPipeline> makingPipeline{};
-    Owned<VkPipeline> meshPipeline{};
-    Owned<VkPipeline> smoothMeshPipeline{};
+    /// By PaintBy, then flat and smooth. Those by triangles are empty without the feature geometryShader.
+    std::array<std::array<Owned<VkPipeline>, 2>, kPaintBys> meshPipelines{};
     Owned<VkPipeline> volumePipeline{};
     DescriptorSet noBricks{};
 };
@@ -66,8 +71,31 @@ struct RenderBricksImpl {
     DescriptorSet descriptors{};
 };
 
-/// Refuses what cannot be seen; otherwise the constants of the picture.
-[[nodiscard]] Result<shader::PictureConstants> pictureConstants(const Scene& scene, const Target& target);
+struct PaintedTrianglesImpl {
+    ContextImpl& context;
+    std::uint64_t room = 0; ///< triangles that there are bits for
+    Buffer buffer{};        ///< empty when wrapped
+    Buffer staging{};
+    DescriptorSet descriptors{};
+};
+
+/// What a picture is recorded with.
+struct PictureSetup {
+    shader::PictureConstants constants{};
+    PaintBy paintedBy = PaintBy::Nobody;
+    bool depthTurned = false; ///< the camera's near plane is at depth 1
+};
+
+/// Refuses what cannot be seen.
+[[nodiscard]] Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target);
+
+[[nodiscard]] Result<void> checkColour(const Colour& colour, const char* what);
+/// Refuses a paint that lacks what it needs. Of a scene that is good otherwise.
+[[nodiscard]] Result<void> checkPaint(const ContextImpl& context, const Scene& scene);
+void setPaint(PictureSetup& setup, const Scene& scene);
+
+/// Fills RendererImpl::meshPipelines.
+[[nodiscard]] Result<void> makeMeshPipelines(RendererImpl& renderer);
 
 /// Integrals of extinction times colour (three) and of extinction up to each entry of a table, in entries, then the
 /// values at each: what preintegrate.comp reads. `channels`: red, green, blue and opacity of the entries.

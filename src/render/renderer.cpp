@@ -5,10 +5,6 @@
 #include "render/render_impl.h"
 
 #include "voxtact_shaders/preintegrate_comp.h"
-#include "voxtact_shaders/render_mesh_frag.h"
-#include "voxtact_shaders/render_mesh_smooth_frag.h"
-#include "voxtact_shaders/render_mesh_smooth_vert.h"
-#include "voxtact_shaders/render_mesh_vert.h"
 #include "voxtact_shaders/render_volume_frag.h"
 #include "voxtact_shaders/render_volume_vert.h"
 
@@ -20,6 +16,8 @@ namespace {
 
 constexpr std::uint32_t kBoundSets = 4;
 static_assert(VOXTACT_SET_VOLUME == 0 && PICTURE_SET_BRICKS + 1 == kBoundSets);
+static_assert(VOXTACT_SET_TRANSFER_FUNCTION == VOXTACT_SET_VOLUME + 1 && PICTURE_SET_TRIANGLES + 1 == kBoundSets);
+static_assert(PICTURE_SET_TARGETS == VOXTACT_SET_TRANSFER_FUNCTION + 1);
 
 Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
     VkFormatProperties properties{};
@@ -139,7 +137,14 @@ Result<void> makePipelineLayouts(RendererImpl& renderer) {
     }
     const VkDescriptorSetLayout sets[] = {context.setLayouts[VOXTACT_SET_VOLUME], renderer.functionLayout.get(),
                                           renderer.targetsLayout.get(), renderer.bricksLayout.get()};
-    return makePipelineLayout(context, renderer.pictureLayout, sets, {}, "picture pipeline layout");
+    if (Result<void> made = makePipelineLayout(context, renderer.pictureLayout, sets, {}, "picture pipeline layout");
+        !made.ok()) {
+        return made;
+    }
+    const VkDescriptorSetLayout paintSets[] = {context.setLayouts[VOXTACT_SET_VOLUME],
+                                               context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION],
+                                               renderer.targetsLayout.get(), renderer.bricksLayout.get()};
+    return makePipelineLayout(context, renderer.paintLayout, paintSets, {}, "paint pipeline layout");
 }
 
 Result<void> keep(Owned<VkPipeline>& out, Result<Owned<VkPipeline>> made) {
@@ -148,25 +153,6 @@ Result<void> keep(Owned<VkPipeline>& out, Result<Owned<VkPipeline>> made) {
     }
     out = std::move(*made);
     return {};
-}
-
-Result<void> makeMeshPipelines(RendererImpl& renderer) {
-    constexpr VkFormat kFormats[] = {kMeshColourFormat, kMeshDistanceFormat};
-    RasterPipelineDesc desc{.vertexSpirv = spirv::render_mesh_vert,
-                            .fragmentSpirv = spirv::render_mesh_frag,
-                            .constants = {},
-                            .layout = renderer.pictureLayout.get(),
-                            .colourFormats = kFormats,
-                            .depthFormat = kMeshDepthFormat,
-                            .name = "mesh"};
-    if (Result<void> made = keep(renderer.meshPipeline, makeRasterPipeline(renderer.context, desc)); !made.ok()) {
-        return made;
-    }
-    desc.vertexSpirv = spirv::render_mesh_smooth_vert;
-    desc.fragmentSpirv = spirv::render_mesh_smooth_frag;
-    desc.normals = true;
-    desc.name = "smooth mesh";
-    return keep(renderer.smoothMeshPipeline, makeRasterPipeline(renderer.context, desc));
 }
 
 Result<void> makePipelines(RendererImpl& renderer) {

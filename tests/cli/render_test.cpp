@@ -107,6 +107,101 @@ TEST_F(RenderPictureTest, ColoursFromTheTransferFunction) {
     EXPECT_EQ(colour[0], colour[1]);
 }
 
+/// Half in the head and half in the air before the face, 30 degrees from facing the eye.
+constexpr const char* kPlate = "v -40 0 -50\nv 40 -46 -50\nv 40 -46 60\nv -40 0 60\nf 1 2 3\nf 1 3 4\n";
+constexpr const char* kPlatePose = "1 0 0 0  0 1 0 -50  0 0 1 0  0 0 0 1\n";
+/// The same in the picture, but all in the air.
+constexpr const char* kAwayPose = "1 0 0 0  0 1 0 -150  0 0 1 0  0 0 0 1\n";
+
+class RenderShowTest : public RenderPictureTest {
+  protected:
+    void SetUp() override {
+        RenderPictureTest::SetUp();
+        writeText(path("plate.obj"), kPlate);
+        writeText(path("pose.txt"), kPlatePose);
+        writeText(path("camera.txt"), "0.0075 0 0 0\n0 0 -0.01 0\n0 0.002 0 0.5\n0 0 0 1\n");
+    }
+    [[nodiscard]] Arguments pair() const {
+        return {"--opacity", "50:0,200:1",     "--mesh",   path("plate.obj"),
+                "--poses",   path("pose.txt"), "--camera", path("camera.txt")};
+    }
+    PngPicture shown(const Arguments& more, const char* through = "1") {
+        Arguments all = pair();
+        all.insert(all.end(), {"--mesh-colour", "00ff00", "--through", through});
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_EQ(output(render(path("a.png"), all)), "");
+        return readPng(path("a.png"));
+    }
+    /// The count that detect prints for the same pair, camera and size.
+    std::size_t detected(const Arguments& more) {
+        Arguments all{"detect", "--volume", "builtin:head:32", "--size", "64x48", "--format", "csv"};
+        const Arguments same = pair();
+        all.insert(all.end(), same.begin(), same.end());
+        all.insert(all.end(), more.begin(), more.end());
+        const std::vector<std::string> lines = linesOf(output(all));
+        const std::vector<std::string> header = fieldsOf(lines.at(0));
+        const auto column = std::ranges::find(header, "count") - header.begin();
+        return std::stoul(fieldsOf(lines.at(1)).at(static_cast<std::size_t>(column)));
+    }
+};
+
+template <class Is> std::size_t pixelsThat(const PngPicture& picture, Is is) {
+    std::size_t count = 0;
+    for (int i = 0; i < picture.width * picture.height; ++i) {
+        const auto [red, green, blue] = pixel(picture, i % picture.width, i / picture.width);
+        count += is(red, green, blue) ? 1U : 0U;
+    }
+    return count;
+}
+
+bool isRed(int red, int green, int blue) {
+    return red > 2 * green && red > 2 * blue;
+}
+bool isBlue(int red, int green, int blue) {
+    return 2 * blue > 3 * red && 2 * blue > 3 * green;
+}
+
+TEST_F(RenderShowTest, ContactsAreWhatDetectCounts) {
+    for (const char* threshold : {"0.1", "0.4", "0.9"}) {
+        const std::size_t counted = detected({"--count", "query", "--threshold", threshold});
+        EXPECT_GT(counted, 20U);
+        EXPECT_EQ(pixelsThat(shown({"--show", "contacts", "--threshold", threshold, "--validate"}), isRed), counted);
+    }
+}
+
+TEST_F(RenderShowTest, DiscardedIsTheRestOfTheMesh) {
+    const std::size_t counted = detected({"--count", "query"});
+    writeText(path("pose.txt"), kAwayPose);
+    const std::size_t covered = pixelsThat(shown({"--show", "discarded"}), isBlue);
+    EXPECT_GT(covered, counted + 20);
+    writeText(path("pose.txt"), kPlatePose);
+    EXPECT_EQ(pixelsThat(shown({"--show", "discarded"}), isBlue), covered - counted);
+}
+
+TEST_F(RenderShowTest, TrianglesAreThoseThatTouchForCertain) {
+    // Both triangles touch, and are painted where they are in the air, too.
+    const std::size_t painted = pixelsThat(shown({"--show", "triangles", "--validate"}), isRed);
+    writeText(path("pose.txt"), kAwayPose);
+    EXPECT_EQ(pixelsThat(shown({"--show", "discarded"}), isBlue), painted);
+    EXPECT_EQ(pixelsThat(shown({"--show", "triangles"}), isRed), 0U);
+}
+
+TEST_F(RenderShowTest, TissueBeforeWhatIsPainted) {
+    const std::size_t bare = pixelsThat(shown({"--show", "contacts"}), isRed);
+    EXPECT_LT(pixelsThat(shown({"--show", "contacts"}, "0"), isRed), bare / 2);
+}
+
+TEST_F(RenderShowTest, ThresholdThatNothingReachesIsSaidAndDrawn) {
+    for (const char* what : {"contacts", "discarded", "triangles"}) {
+        const Ran ran = run(render(path("a.png"), {"--mesh", path("plate.obj"), "--opacity", "0:0,255:0.3", "--show",
+                                                   what, "--threshold", "0.4"}));
+        EXPECT_EQ(ran.status, 0);
+        EXPECT_THAT(ran.err, HasSubstr("no opacity of the transfer function reaches the threshold 0.4"));
+        EXPECT_EQ(linesOf(ran.err).size(), 1U);
+        EXPECT_EQ(pixelsThat(readPng(path("a.png")), isRed), 0U);
+    }
+}
+
 TEST_F(RenderPictureTest, SizeBeyondTheDevice) {
     EXPECT_THAT(refused(2, render(path("a.png"), {"--size", "1000000x10"})), HasSubstr("--size"));
     EXPECT_EQ(filesInFolder(), 0U);
@@ -126,6 +221,15 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--pose", "1"})), HasSubstr("--mesh is missing"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "1"})),
                 HasSubstr("numbered from 0 to 0"));
+    EXPECT_THAT(refused(2, render(png, {"--show", "contacts"})), HasSubstr("--show requires --mesh"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "all"})),
+                HasSubstr("'all' is not known"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--threshold", "0.2"})),
+                HasSubstr("--threshold requires --show"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--through", "0.2"})),
+                HasSubstr("--through requires --show"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "triangles", "--through", "1.2"})),
+                HasSubstr("from 0 to 1"));
     EXPECT_EQ(filesInFolder(), 0U);
 }
 

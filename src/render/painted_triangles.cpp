@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "gpu/barriers.h"
+#include "gpu/debug.h"
+#include "gpu/submit.h"
+#include "render/render_impl.h"
+
+#include <cstring>
+
+namespace voxtact {
+
+namespace {
+
+constexpr std::uint32_t kBitsOfWord = 32;
+constexpr VkDeviceSize kOffsets = 256; ///< what BufferRange promises; more than any minStorageBufferOffsetAlignment
+
+Error refuse(std::string text) {
+    return {ErrorCode::InvalidArgument, 0, std::move(text)};
+}
+
+Result<void> checkDevice(const ContextImpl& context, VkDeviceSize bytes) {
+    if (Result<void> alive = context.alive(); !alive.ok()) {
+        return alive;
+    }
+    if (!context.features.geometryShader) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "painting triangles: geometryShader is not enabled (gl_PrimitiveID needs it)"};
+    }
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the bits of the painted triangles are " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    return {};
+}
+
+Result<std::vector<std::uint32_t>> bitsOf(std::uint32_t meshTriangles, std::span<const std::uint32_t> triangles) {
+    std::vector<std::uint32_t> bits((std::size_t{meshTriangles} + kBitsOfWord - 1) / kBitsOfWord);
+    for (const std::uint32_t triangle : triangles) {
+        if (triangle >= meshTriangles) {
+            return refuse("triangle " + std::to_string(triangle) + " is to be painted, the mesh has " +
+                          std::to_string(meshTriangles));
+        }
+        bits[triangle / kBitsOfWord] |= 1U << triangle % kBitsOfWord;
+    }
+    return bits;
+}
+
+Result<void> makeBuffers(PaintedTrianglesImpl& impl, std::span<const std::byte> bytes) {
+    Result<Buffer> buffer =
+        makeBuffer(impl.context, bytes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                   MemoryUse::Device, "painted triangles");
+    if (!buffer.ok()) {
+        return buffer.error();
+    }
+    impl.buffer = std::move(*buffer);
+    Result<Buffer> staging = makeBuffer(impl.context, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
+                                        "painted triangles staging");
+    if (!staging.ok()) {
+        return staging.error();
+    }
+    impl.staging = std::move(*staging);
+    std::memcpy(impl.staging.mapped, bytes.data(), bytes.size());
+    return flush(impl.context, impl.staging);
+}
+
+Result<void> describe(PaintedTrianglesImpl& impl, const RendererImpl& renderer, const BufferRange& mask) {
+    constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    Result<DescriptorSet> set =
+        makeDescriptorSet(impl.context, renderer.bricksLayout.get(), {&kSize, 1}, "painted triangles");
+    if (!set.ok()) {
+        return set.error();
+    }
+    impl.descriptors = std::move(*set);
+    impl.room = mask.size / sizeof(std::uint32_t) * kBitsOfWord;
+    writeBuffer(impl.context, impl.descriptors.set, 0, mask.buffer, mask.size, mask.offset);
+    return {};
+}
+
+} // namespace
+
+PaintedTriangles::PaintedTriangles(std::unique_ptr<PaintedTrianglesImpl> impl) noexcept : impl_(std::move(impl)) {}
+PaintedTriangles::PaintedTriangles(PaintedTriangles&&) noexcept = default;
+PaintedTriangles& PaintedTriangles::operator=(PaintedTriangles&&) noexcept = default;
+PaintedTriangles::~PaintedTriangles() = default;
+
+Result<PaintedTriangles> PaintedTriangles::create(const Renderer& renderer, std::uint32_t meshTriangles,
+                                                  std::span<const std::uint32_t> triangles) {
+    return guard([&]() -> Result<PaintedTriangles> {
+        ContextImpl& context = renderer.impl().context;
+        if (meshTriangles == 0) {
+            return refuse("a mesh without triangles cannot be painted");
+        }
+        const Result<std::vector<std::uint32_t>> bits = bitsOf(meshTriangles, triangles);
+        if (!bits.ok()) {
+            return bits.error();
+        }
+        const std::span<const std::byte> bytes = std::as_bytes(std::span(*bits));
+        if (Result<void> possible = checkDevice(context, bytes.size()); !possible.ok()) {
+            return possible.error();
+        }
+        auto impl = std::make_unique<PaintedTrianglesImpl>(PaintedTrianglesImpl{.context = context});
+        if (Result<void> made = makeBuffers(*impl, bytes); !made.ok()) {
+            return made.error();
+        }
+        if (Result<void> made = describe(*impl, renderer.impl(), {impl->buffer.get(), 0, bytes.size()}); !made.ok()) {
+            return made.error();
+        }
+        return PaintedTriangles(std::move(impl));
+    });
+}
+
+Result<PaintedTriangles> PaintedTriangles::upload(const Renderer& renderer, const QueueAccess& queue,
+                                                  std::uint32_t meshTriangles,
+                                                  std::span<const std::uint32_t> triangles) {
+    return guard([&] { return uploaded(renderer.impl().context, queue, create(renderer, meshTriangles, triangles)); });
+}
+
+Result<PaintedTriangles> PaintedTriangles::wrap(const Renderer& renderer, const BufferRange& mask) {
+    return guard([&]() -> Result<PaintedTriangles> {
+        ContextImpl& context = renderer.impl().context;
+        if (mask.buffer == VK_NULL_HANDLE || mask.size < sizeof(std::uint32_t)) {
+            return refuse("the bits of the painted triangles are a null buffer, or fewer bytes than a uint has");
+        }
+        if (mask.offset % kOffsets != 0) {
+            return refuse("the bits of the painted triangles begin at byte " + std::to_string(mask.offset) +
+                          ", which is no multiple of " + std::to_string(kOffsets));
+        }
+        if (Result<void> possible = checkDevice(context, mask.size); !possible.ok()) {
+            return possible.error();
+        }
+        auto impl = std::make_unique<PaintedTrianglesImpl>(PaintedTrianglesImpl{.context = context});
+        if (Result<void> made = describe(*impl, renderer.impl(), mask); !made.ok()) {
+            return made.error();
+        }
+        return PaintedTriangles(std::move(impl));
+    });
+}
+
+Result<void> PaintedTriangles::cmdUpload(VkCommandBuffer commandBuffer) {
+    return guard([&]() -> Result<void> {
+        if (!impl_->staging.buffer) {
+            return notUploadable("painted triangles");
+        }
+        ContextImpl& context = impl_->context;
+        const Label label(context, commandBuffer, "voxtact painted triangles upload");
+        // Earlier readers must be done before the contents go.
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        const VkBufferCopy whole{0, 0, impl_->buffer.size};
+        context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->buffer.get(), 1, &whole);
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        return {};
+    });
+}
+
+void PaintedTriangles::releaseStaging() noexcept {
+    impl_->staging = {};
+}
+
+} // namespace voxtact
