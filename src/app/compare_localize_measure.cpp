@@ -228,7 +228,7 @@ Result<void> findAll(Ways& ways, const CompareOptions& options, const CompareDat
     for (std::uint32_t round = 0; round < options.repeats; ++round) {
         if (round > 0 && millisecondsSince(begun) * (round + 1) / round > options.timeLimit * 1000) {
             result.notes.push_back(std::to_string(round) + " of " + std::to_string(options.repeats) +
-                                   " rounds: more would not fit in --time-limit");
+                                   " rounds of which triangles touch: more would not fit in the time for them");
             break;
         }
         for (const Mat4& pose : data.poses) {

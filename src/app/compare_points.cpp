@@ -12,7 +12,7 @@ constexpr std::uint32_t kFramesInFlight = 3;
 constexpr std::size_t kWarmUpPairs = 16;
 /// A sample is cut so that this many fit.
 constexpr double kSamplesInShare = 3;
-/// Of the time limit.
+/// Of the time limit; describe() says it in words.
 constexpr double kLongestSample = 0.25;
 
 Result<void> takeSample(Point& point) {
@@ -57,7 +57,7 @@ std::string describe(const Series& series) {
     return "no time of " + series.method + " for batches of " + std::to_string(series.batch) + " (" +
            std::to_string(series.triangles) + " triangles, " + std::to_string(series.width) + "x" +
            std::to_string(series.height) + ", " + sizeText(series.voxels) +
-           " voxels): one would take too much of --time-limit";
+           " voxels): one would take more than a quarter of the sweep's time";
 }
 
 /// A query says nothing of how many: the fragments are those of its neighbours.

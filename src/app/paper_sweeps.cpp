@@ -16,6 +16,8 @@ constexpr const char* kVolume = "builtin:head:256";
 constexpr const char* kOpacity = "40:0,80:1";
 /// Of those of the scene: a query a polygon takes its time.
 constexpr std::uint32_t kPolygonPoses = 4;
+/// For the samples of a sweep.
+constexpr double kSeconds = 30;
 
 CompareOptions optionsFor(const BenchOptions& options, const CompareData& data) {
     CompareOptions out;
@@ -25,6 +27,7 @@ CompareOptions optionsFor(const BenchOptions& options, const CompareData& data) 
     out.view.size = {data.view.width, data.view.height};
     out.seed = options.seed;
     out.repeats = options.repetitions;
+    out.timeLimit = kSeconds;
     return out;
 }
 
