@@ -33,7 +33,8 @@ an OBB tree that meets the volume's box, or what its bricks hold), by the fragme
 miss none. The ways that look through the camera must agree, triangle by triangle; otherwise the exit status is 3.
 
 Columns of CSV: sweep,method,mode,batch,width,height,triangles,fragments (survivors of a pair, on average),samples,
-wall_ms_median,wall_ms_p10,wall_ms_p90,gpu_ms_median,pairs_per_s,fragments_per_s; then comments with what was found.
+wall_ms_median,wall_ms_p10,wall_ms_p90,gpu_ms_median,pairs_per_s,fragments_per_s,voxels; then comments with what was
+found.
 
 Examples:
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel
@@ -55,43 +56,6 @@ struct Bench {
         return [this] { progress.update(++steps); };
     }
 };
-
-/// A runner for each method that is wanted and can be had; the others are told.
-Result<Runners> makeRunners(const Session& session, const CompareOptions& options, const Surroundings& surroundings,
-                            CompareResult& result) {
-    const double threshold = options.transferFunction.threshold;
-    Runners runners;
-    for (const CountingMethod method : countingMethods()) {
-        if (!options.wants(method)) {
-            continue;
-        }
-        const auto methods = session.context.methods();
-        const auto support = std::find_if(methods.begin(), methods.end(),
-                                          [method](const MethodSupport& s) { return s.method == method; });
-        MethodEntry entry{toString(method), true, "", toString(defaultFilter(method)),
-                          exactness(method) == Exactness::Exact};
-        if (method != CountingMethod::Cpu && (support == methods.end() || !support->available)) {
-            entry.available = false;
-            entry.reason = support == methods.end() ? "this version has it not" : support->reason;
-            result.notes.push_back("no " + entry.name + " on this device: " + entry.reason);
-            result.methods.push_back(std::move(entry));
-            continue;
-        }
-        Result<std::unique_ptr<MethodRunner>> runner = method == CountingMethod::Cpu
-                                                           ? makeHostRunner(surroundings, threshold)
-                                                           : makeDeviceRunner(session, surroundings, method, threshold);
-        if (!runner.ok()) {
-            return runner.error();
-        }
-        runners.push_back(std::move(*runner));
-        result.methods.push_back(std::move(entry));
-    }
-    if (runners.empty()) {
-        return Error{ErrorCode::Unsupported, 0,
-                     "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
-    }
-    return runners;
-}
 
 Result<void> verify(Bench& bench, CompareResult& result) {
     const Work work{&bench.subject, bench.data.poses, bench.data.view};
@@ -116,6 +80,8 @@ Result<void> timeSweep(Bench& bench, Sweep sweep, CompareResult& result) {
     case Sweep::Fragments:
         return timeFragments(bench.session, bench.options, bench.data, bench.subject, bench.runners, result,
                              bench.step());
+    case Sweep::Voxels:
+        return timeVoxels(bench.session, bench.options, bench.data, bench.subject, bench.runners, result, bench.step());
     }
     return {};
 }
@@ -140,7 +106,8 @@ void addOracleSeries(const CompareData& data, CompareResult& result) {
                              .pairs = poses,
                              .fragments = fragments / poses,
                              .wall = {*result.oracleMilliseconds},
-                             .gpu = {}});
+                             .gpu = {},
+                             .voxels = data.volume.grid.size});
 }
 
 Result<void> compareAll(const CompareOptions& options, const CompareData& data, const Session& session,
@@ -151,7 +118,8 @@ Result<void> compareAll(const CompareOptions& options, const CompareData& data, 
     result.machine = describeMachine(session, data.volume.type);
     result.poseNumbers = data.poseNumbers;
     result.triangles = static_cast<std::uint32_t>(data.mesh.indices.size() / 3);
-    const Result<Surroundings> surroundings = makeSurroundings(session, options, data);
+    const Result<Surroundings> surroundings =
+        makeSurroundings(session, data.volume.view(), data.transferFunction(options));
     if (!surroundings.ok()) {
         return surroundings.error();
     }
@@ -239,7 +207,7 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     CompareOptions options = given;
     options.command = commandLine(parser);
     if (!options.report.empty() && !options.sweepsGiven) {
-        options.sweeps = {Sweep::Batch, Sweep::Triangles, Sweep::Fragments};
+        options.sweeps.assign(kSweeps.begin(), kSweeps.end());
     }
     if (const Result<void> writable = checkPaths(options); !writable.ok()) {
         return writable.error();

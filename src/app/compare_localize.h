@@ -3,6 +3,7 @@
 
 #include "app/compare_scene.h"
 
+#include <functional>
 #include <iosfwd>
 
 namespace voxtact::app {
@@ -41,8 +42,16 @@ struct LocalizeResult {
     std::uint32_t triangles = 0; ///< of the mesh
 };
 
+/// Every way on every pose of `data`, in `options.repeats` rounds as far as they fit in `options.timeLimit`, and what
+/// follows from what they found. `step` is called for each pose of a round. Of the options it takes these two, the
+/// threshold and the size of the table.
+[[nodiscard]] Result<void> localize(const Session& session, const CompareOptions& options, const CompareData& data,
+                                    LocalizeResult& result, const std::function<void()>& step);
+
 /// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
 void judgeLocalize(LocalizeResult& result);
+/// On which pose and how the ways of the view disagree; empty where they agree.
+[[nodiscard]] std::string disagreementOf(const LocalizeResult& result);
 
 /// `voxtact compare --localize`.
 [[nodiscard]] Outcome runLocalize(const CompareOptions& given, const CLI::App& parser);

@@ -64,4 +64,10 @@ void judgeLocalize(LocalizeResult& result) {
     findDisagreement(result);
 }
 
+std::string disagreementOf(const LocalizeResult& result) {
+    return result.failedPose ? "polygon = leaf = leaf-bricks = fragments: disagreement on pose " +
+                                   std::to_string(*result.failedPose) + ": " + result.failure
+                             : std::string();
+}
+
 } // namespace voxtact::app

@@ -44,15 +44,15 @@ void readMethods(const std::string& list, std::vector<CountingMethod>& methods) 
 
 void readSweep(const std::string& name, CompareOptions& options) {
     options.sweepsGiven = true;
-    if (name == "none") {
-        options.sweeps = {};
-    } else if (name == "all") {
-        options.sweeps = {Sweep::Batch, Sweep::Triangles, Sweep::Fragments};
-    } else if (name == "batch" || name == "triangles" || name == "fragments") {
-        options.sweeps = {name == "batch" ? Sweep::Batch : name == "triangles" ? Sweep::Triangles : Sweep::Fragments};
-    } else {
-        throw CLI::ValidationError("--sweep",
-                                   "'" + name + "' is not known; there are: batch, triangles, fragments, all, none");
+    options.sweeps.clear();
+    for (const Sweep sweep : kSweeps) {
+        if (name == "all" || name == toString(sweep)) {
+            options.sweeps.push_back(sweep);
+        }
+    }
+    if (options.sweeps.empty() && name != "none") {
+        throw CLI::ValidationError(
+            "--sweep", "'" + name + "' is not known; there are: batch, triangles, fragments, voxels, all, none");
     }
 }
 
@@ -92,6 +92,8 @@ const char* toString(Sweep sweep) noexcept {
         return "triangles";
     case Sweep::Fragments:
         return "fragments";
+    case Sweep::Voxels:
+        return "voxels";
     }
     return "unknown";
 }
@@ -117,7 +119,7 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
     parser
         .add_option_function<std::string>(
             "--sweep", [&options](const std::string& name) { readSweep(name, options); },
-            "what is timed: batch, triangles, fragments, all, none; default: batch, and all with --report")
+            "what is timed: batch, triangles, fragments, voxels, all, none; default: batch, and all with --report")
         ->type_name("NAME");
     addWholeNumber(parser, "--repeats", options.repeats, 1, "samples of each time, after a warm-up");
     parser

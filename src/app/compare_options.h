@@ -3,6 +3,7 @@
 
 #include "app/shared_options.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,7 +13,8 @@
 namespace voxtact::app {
 
 /// What grows from point to point; each is a chart of the report.
-enum class Sweep { Batch, Triangles, Fragments };
+enum class Sweep { Batch, Triangles, Fragments, Voxels };
+inline constexpr std::array<Sweep, 4> kSweeps{Sweep::Batch, Sweep::Triangles, Sweep::Fragments, Sweep::Voxels};
 [[nodiscard]] const char* toString(Sweep sweep) noexcept;
 
 struct CompareOptions {

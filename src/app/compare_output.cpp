@@ -42,7 +42,8 @@ Json seriesJson(const Series& series, const Machine& machine) {
             {"gpu_ms", spreadJson(series.gpu)},
             {"pairs_per_s", rounded(series.pairsPerSecond())},
             {"fragments_per_s", fragments ? Json(rounded(*fragments)) : Json()},
-            {"machine", machineJson(machine)}};
+            {"machine", machineJson(machine)},
+            {"voxels", series.voxels}};
 }
 
 Json verdictJson(const Verdict& verdict) {
@@ -137,8 +138,10 @@ Cell cellOf(const Series& series, std::size_t column) {
         return spread(series.gpu, &Spread::median);
     case 13:
         return rounded(series.pairsPerSecond());
-    default:
+    case 14:
         return maybe(series.fragmentsPerSecond());
+    default:
+        return sizeText(series.voxels);
     }
 }
 
@@ -242,7 +245,8 @@ void writeCompare(std::ostream& out, const CompareOptions& options, const Compar
     Table table;
     table.columns = {"sweep",       "method",      "mode",          "batch",       "width",
                      "height",      "triangles",   "fragments",     "samples",     "wall_ms_median",
-                     "wall_ms_p10", "wall_ms_p90", "gpu_ms_median", "pairs_per_s", "fragments_per_s"};
+                     "wall_ms_p10", "wall_ms_p90", "gpu_ms_median", "pairs_per_s", "fragments_per_s",
+                     "voxels"};
     table.rows = result.series.size();
     table.cell = [&](std::size_t row, std::size_t column) { return cellOf(result.series[row], column); };
     writeTable(out, format, table);

@@ -39,6 +39,10 @@ std::optional<double> Series::fragmentsPerSecond() const {
     return fragments ? std::optional(pairsPerSecond() * *fragments) : std::nullopt;
 }
 
+std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
+    return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
+}
+
 const Verdict* CompareResult::firstFailure() const {
     const auto found = std::find_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.failed(); });
     return found == verdicts.end() ? nullptr : &*found;

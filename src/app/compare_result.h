@@ -35,10 +35,14 @@ struct Series {
     std::optional<double> fragments; ///< survivors of a pair, on average
     std::vector<double> wall;        ///< ms of a batch, a sample each
     std::vector<double> gpu;         ///< the same; empty where there is no GPU time
+    std::array<std::uint32_t, 3> voxels{};
 
     [[nodiscard]] double pairsPerSecond() const;
     [[nodiscard]] std::optional<double> fragmentsPerSecond() const;
 };
+
+/// "181x217x181"
+[[nodiscard]] std::string sizeText(const std::array<std::uint32_t, 3>& voxels);
 
 struct MethodEntry {
     std::string name;
@@ -59,10 +63,14 @@ struct CompareResult {
     std::optional<double> oracleMilliseconds; ///< of a pose, on average
     std::vector<Series> series;
     std::vector<std::string> notes;
-    std::uint64_t voxels = 0;
     std::uint32_t triangles = 0;
 
     [[nodiscard]] const Verdict* firstFailure() const;
 };
+
+/// A runner for each method that is wanted and can be had; the others are told in `result`. Unsupported where there is
+/// none. What they are given must outlive them.
+[[nodiscard]] Result<Runners> makeRunners(const Session& session, const CompareOptions& options,
+                                          const Surroundings& surroundings, CompareResult& result);
 
 } // namespace voxtact::app

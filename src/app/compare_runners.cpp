@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/compare_scene.h"
+#include "app/compare_result.h"
 #include "app/pair_pipeline.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ double millisecondsSince(Clock::time_point begun) {
 class DeviceRunner final : public MethodRunner {
   public:
     DeviceRunner(const Session& session, const Surroundings& surroundings, Detector detector, double threshold)
-        : MethodRunner(detector.desc().method, detector.desc().filter), session_(session), surroundings_(surroundings),
-          detector_(std::move(detector)), threshold_(threshold) {}
+        : MethodRunner(detector.desc().method, detector.desc().filter, surroundings.hostVolume.grid().size),
+          session_(session), surroundings_(surroundings), detector_(std::move(detector)), threshold_(threshold) {}
 
     Result<Pass> run(const Work& work, std::uint32_t batch, std::uint32_t frames) override;
 
@@ -78,8 +78,8 @@ Result<MethodRunner::Pass> DeviceRunner::run(const Work& work, std::uint32_t bat
 class HostRunner final : public MethodRunner {
   public:
     HostRunner(const Surroundings& surroundings, cpu::Detector detector, double threshold)
-        : MethodRunner(CountingMethod::Cpu, Filter::Exact), surroundings_(surroundings), detector_(std::move(detector)),
-          threshold_(threshold) {}
+        : MethodRunner(CountingMethod::Cpu, Filter::Exact, surroundings.hostVolume.grid().size),
+          surroundings_(surroundings), detector_(std::move(detector)), threshold_(threshold) {}
 
     Result<Pass> run(const Work& work, std::uint32_t batch, std::uint32_t frames) override;
 
@@ -109,10 +109,21 @@ Result<MethodRunner::Pass> HostRunner::run(const Work& work, std::uint32_t batch
     return pass;
 }
 
+Result<std::unique_ptr<MethodRunner>> makeHostRunner(const Surroundings& surroundings, double threshold) {
+    Result<cpu::Detector> detector = cpu::Detector::create();
+    if (!detector.ok()) {
+        return detector.error();
+    }
+    return std::unique_ptr<MethodRunner>(std::make_unique<HostRunner>(surroundings, std::move(*detector), threshold));
+}
+
 } // namespace
 
-Result<std::unique_ptr<MethodRunner>> makeDeviceRunner(const Session& session, const Surroundings& surroundings,
-                                                       CountingMethod method, double threshold) {
+Result<std::unique_ptr<MethodRunner>> makeRunner(const Session& session, const Surroundings& surroundings,
+                                                 CountingMethod method, double threshold) {
+    if (method == CountingMethod::Cpu) {
+        return makeHostRunner(surroundings, threshold);
+    }
     Result<Detector> detector = Detector::create(session.context, {.method = method, .filter = defaultFilter(method)});
     if (!detector.ok()) {
         return detector.error();
@@ -121,12 +132,38 @@ Result<std::unique_ptr<MethodRunner>> makeDeviceRunner(const Session& session, c
         std::make_unique<DeviceRunner>(session, surroundings, std::move(*detector), threshold));
 }
 
-Result<std::unique_ptr<MethodRunner>> makeHostRunner(const Surroundings& surroundings, double threshold) {
-    Result<cpu::Detector> detector = cpu::Detector::create();
-    if (!detector.ok()) {
-        return detector.error();
+Result<Runners> makeRunners(const Session& session, const CompareOptions& options, const Surroundings& surroundings,
+                            CompareResult& result) {
+    const double threshold = options.transferFunction.threshold;
+    Runners runners;
+    for (const CountingMethod method : countingMethods()) {
+        if (!options.wants(method)) {
+            continue;
+        }
+        const auto methods = session.context.methods();
+        const auto support = std::find_if(methods.begin(), methods.end(),
+                                          [method](const MethodSupport& s) { return s.method == method; });
+        MethodEntry entry{toString(method), true, "", toString(defaultFilter(method)),
+                          exactness(method) == Exactness::Exact};
+        if (method != CountingMethod::Cpu && (support == methods.end() || !support->available)) {
+            entry.available = false;
+            entry.reason = support == methods.end() ? "this version has it not" : support->reason;
+            result.notes.push_back("no " + entry.name + " on this device: " + entry.reason);
+            result.methods.push_back(std::move(entry));
+            continue;
+        }
+        Result<std::unique_ptr<MethodRunner>> runner = makeRunner(session, surroundings, method, threshold);
+        if (!runner.ok()) {
+            return runner.error();
+        }
+        runners.push_back(std::move(*runner));
+        result.methods.push_back(std::move(entry));
     }
-    return std::unique_ptr<MethodRunner>(std::make_unique<HostRunner>(surroundings, std::move(*detector), threshold));
+    if (runners.empty()) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
+    }
+    return runners;
 }
 
 } // namespace voxtact::app

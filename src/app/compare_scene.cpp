@@ -184,27 +184,27 @@ Result<Subject> makeSubject(const Session& session, MeshData data) {
     return Subject{std::move(data), std::move(*device), std::move(*host)};
 }
 
-Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options, const CompareData& data) {
+Result<Surroundings> makeSurroundings(const Session& session, const VolumeView& volume,
+                                      const TransferFunctionDesc& transferFunction) {
     const QueueAccess queue = session.device.queueAccess();
-    const TransferFunctionDesc desc = data.transferFunction(options);
-    Result<Volume> volume = Volume::upload(session.context, queue, data.volume.view());
-    if (!volume.ok()) {
-        return volume.error();
+    Result<Volume> onDevice = Volume::upload(session.context, queue, volume);
+    if (!onDevice.ok()) {
+        return onDevice.error();
     }
-    Result<TransferFunction> table = TransferFunction::upload(session.context, queue, desc);
+    Result<TransferFunction> table = TransferFunction::upload(session.context, queue, transferFunction);
     if (!table.ok()) {
         return table.error().code == ErrorCode::LimitExceeded ? badArgument("--tf-size: " + table.error().text)
                                                               : table.error();
     }
-    Result<cpu::Volume> hostVolume = cpu::Volume::create(data.volume.view());
+    Result<cpu::Volume> hostVolume = cpu::Volume::create(volume);
     if (!hostVolume.ok()) {
         return hostVolume.error();
     }
-    Result<cpu::TransferFunction> hostTable = cpu::TransferFunction::create(desc);
+    Result<cpu::TransferFunction> hostTable = cpu::TransferFunction::create(transferFunction);
     if (!hostTable.ok()) {
         return hostTable.error();
     }
-    return Surroundings{std::move(*volume), std::move(*table), std::move(*hostVolume), std::move(*hostTable)};
+    return Surroundings{std::move(*onDevice), std::move(*table), std::move(*hostVolume), std::move(*hostTable)};
 }
 
 } // namespace voxtact::app

@@ -6,6 +6,7 @@
 #include "voxtact/cpu.h"
 #include "voxtact/detector.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -69,8 +70,9 @@ struct Surroundings {
     cpu::TransferFunction hostTransferFunction;
 };
 
-[[nodiscard]] Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options,
-                                                    const CompareData& data);
+/// LimitExceeded where the volume is beyond what the device can do.
+[[nodiscard]] Result<Surroundings> makeSurroundings(const Session& session, const VolumeView& volume,
+                                                    const TransferFunctionDesc& transferFunction);
 
 /// Pairs to count or to time.
 struct Work {
@@ -90,13 +92,16 @@ class MethodRunner {
         std::vector<std::uint64_t> counts;
     };
 
-    MethodRunner(CountingMethod method, Filter filter) : method_(method), filter_(filter) {}
+    MethodRunner(CountingMethod method, Filter filter, const std::array<std::uint32_t, 3>& voxels)
+        : method_(method), filter_(filter), voxels_(voxels) {}
     MethodRunner(const MethodRunner&) = delete;
     MethodRunner& operator=(const MethodRunner&) = delete;
     virtual ~MethodRunner() = default;
 
     [[nodiscard]] CountingMethod method() const noexcept { return method_; }
     [[nodiscard]] Filter filter() const noexcept { return filter_; }
+    /// Of the volume that it counts in.
+    [[nodiscard]] const std::array<std::uint32_t, 3>& voxels() const noexcept { return voxels_; }
     [[nodiscard]] std::string name() const { return toString(method_); }
     /// `frames` submissions of `batch` pairs in flight; one frame waits for each submission.
     [[nodiscard]] virtual Result<Pass> run(const Work& work, std::uint32_t batch, std::uint32_t frames) = 0;
@@ -104,11 +109,13 @@ class MethodRunner {
   private:
     CountingMethod method_;
     Filter filter_;
+    std::array<std::uint32_t, 3> voxels_;
 };
 
-/// A method of the device, or of the host. What they are given must outlive them.
-[[nodiscard]] Result<std::unique_ptr<MethodRunner>>
-makeDeviceRunner(const Session& session, const Surroundings& surroundings, CountingMethod method, double threshold);
-[[nodiscard]] Result<std::unique_ptr<MethodRunner>> makeHostRunner(const Surroundings& surroundings, double threshold);
+/// A method of the device, or of the host. What it is given must outlive it.
+[[nodiscard]] Result<std::unique_ptr<MethodRunner>> makeRunner(const Session& session, const Surroundings& surroundings,
+                                                               CountingMethod method, double threshold);
+
+using Runners = std::vector<std::unique_ptr<MethodRunner>>;
 
 } // namespace voxtact::app

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare_timing.h"
 
+#include "app/compare_points.h"
 #include "app/inputs.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -13,31 +13,14 @@ namespace voxtact::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::array<std::uint32_t, 4> kBatches{1, 16, 256, 1024};
-constexpr std::uint32_t kFramesInFlight = 3;
-/// Pairs of a point in the sweeps of triangles and fragments.
+/// Pairs of a point in the sweeps of triangles, fragments and voxels.
 constexpr std::uint32_t kSweepPairs = 8;
-constexpr std::size_t kWarmUpPairs = 16;
 constexpr double kGoldenRatio = 0.6180339887498949;
-/// A sample is cut so that this many fit.
-constexpr double kSamplesInShare = 3;
-/// Of the time limit.
-constexpr double kLongestSample = 0.25;
 constexpr std::array<std::uint32_t, 6> kTriangles{256, 1024, 4096, 16384, 65536, 200000};
 constexpr std::array<std::uint32_t, 6> kSides{64, 128, 256, 512, 1024, 2048};
-
-/// A measurement that is repeated: what, by whom, and where its samples go.
-struct Point {
-    MethodRunner* runner = nullptr;
-    Work work;
-    std::uint32_t perSubmission = 1;
-    std::uint32_t frames = 1;
-    Series series;
-    double spent = 0; ///< ms
-    bool finished = false;
-};
+/// Voxels a side of the volume, in quarters of the given one's.
+constexpr std::array<std::uint32_t, 5> kQuarters{2, 3, 4, 6, 8};
 
 /// `count` poses, again from the start where there are no more: one pose repeated would be cache-warm. In an order
 /// whose every beginning is spread over all of them, so that a part of a path of poses is not one end of it.
@@ -54,116 +37,6 @@ std::vector<Mat4> cycled(std::span<const Mat4> poses, std::size_t count) {
     return out;
 }
 
-Result<void> takeSample(Point& point) {
-    const Result<MethodRunner::Pass> pass = point.runner->run(point.work, point.perSubmission, point.frames);
-    if (!pass.ok()) {
-        return pass.error();
-    }
-    const auto pairs = static_cast<double>(point.work.poses.size());
-    if (point.runner->method() != CountingMethod::QueryAny) {
-        point.series.fragments =
-            std::accumulate(pass->counts.begin(), pass->counts.end(), 0.0,
-                            [](double sum, std::uint64_t count) { return sum + static_cast<double>(count); }) /
-            pairs;
-    }
-    point.spent += pass->wallMilliseconds;
-    const double batches = pairs / point.series.batch;
-    point.series.wall.push_back(pass->wallMilliseconds / batches);
-    if (pass->gpuMilliseconds) {
-        point.series.gpu.push_back(*pass->gpuMilliseconds / batches);
-    }
-    return {};
-}
-
-/// Everything is made and touched once. Cuts a sample that would take too long, to whole batches; false where even one
-/// batch would.
-Result<bool> warmUp(Point& point, double share, double most) {
-    Work some = point.work;
-    some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
-    const Result<MethodRunner::Pass> pass = point.runner->run(some, point.perSubmission, point.frames);
-    if (!pass.ok()) {
-        return pass.error();
-    }
-    const double aBatch = pass->wallMilliseconds / static_cast<double>(some.poses.size()) * point.series.batch;
-    const std::size_t all = point.work.poses.size() / point.series.batch;
-    const auto fitting = static_cast<std::size_t>(std::min(share / kSamplesInShare / aBatch, static_cast<double>(all)));
-    point.work.poses = point.work.poses.first(std::max<std::size_t>(fitting, 1) * point.series.batch);
-    point.series.pairs = static_cast<std::uint32_t>(point.work.poses.size());
-    return aBatch <= most;
-}
-
-std::string describe(const Series& series) {
-    return "no time of " + series.method + " for batches of " + std::to_string(series.batch) + " (" +
-           std::to_string(series.triangles) + " triangles, " + std::to_string(series.width) + "x" +
-           std::to_string(series.height) + "): one would take too much of --time-limit";
-}
-
-/// The warm-up, then rounds. Each point has its share of the time and takes samples as long as they fit, one at least.
-Result<void> measure(std::vector<Point>& points, const CompareOptions& options, CompareResult& result,
-                     const std::function<void()>& step) {
-    const double limit = options.timeLimit * 1000;
-    const double share = limit / static_cast<double>(points.size());
-    for (Point& point : points) {
-        const Result<bool> fits = warmUp(point, share, limit * kLongestSample);
-        if (!fits.ok()) {
-            return fits.error();
-        }
-        point.finished = !*fits;
-        if (point.finished) {
-            result.notes.push_back(describe(point.series));
-        }
-    }
-    step();
-    for (std::uint32_t round = 0; round < options.repeats; ++round) {
-        for (Point& point : points) {
-            const double next = round == 0 ? 0 : point.spent / round;
-            if (point.finished || point.spent + next > share) {
-                point.finished = true;
-                continue;
-            }
-            if (Result<void> done = takeSample(point); !done.ok()) {
-                return done;
-            }
-        }
-        step();
-    }
-    return {};
-}
-
-/// A query says nothing of how many: the fragments are those of its neighbours.
-void shareFragments(std::vector<Point>& points) {
-    for (Point& point : points) {
-        if (point.series.fragments) {
-            continue;
-        }
-        for (const Point& other : points) {
-            const Series& series = other.series;
-            if (series.fragments && series.triangles == point.series.triangles && series.width == point.series.width) {
-                point.series.fragments = series.fragments;
-                break;
-            }
-        }
-    }
-}
-
-Point makePoint(Sweep sweep, MethodRunner& runner, const Work& work, Mode mode, std::uint32_t batch) {
-    Point point{.runner = &runner, .work = work, .perSubmission = 1, .frames = 1, .series = {}};
-    point.perSubmission = mode == Mode::Sync ? 1 : batch;
-    point.frames = mode == Mode::Sync ? 1 : kFramesInFlight;
-    point.series = {.sweep = sweep,
-                    .method = runner.name(),
-                    .mode = mode,
-                    .batch = batch,
-                    .width = work.view.width,
-                    .height = work.view.height,
-                    .triangles = static_cast<std::uint32_t>(work.subject->data.indices.size() / 3),
-                    .pairs = static_cast<std::uint32_t>(work.poses.size()),
-                    .fragments = std::nullopt,
-                    .wall = {},
-                    .gpu = {}};
-    return point;
-}
-
 /// Pairs that wait for each other do not care how many there are: measured once, over all poses.
 Series scaled(const Series& one, std::uint32_t batch) {
     Series series = one;
@@ -177,48 +50,49 @@ Series scaled(const Series& one, std::uint32_t batch) {
     return series;
 }
 
-/// The counts of a point agree before it is timed.
-Result<void> verifyPoint(const Runners& runners, const Work& work, std::span<const std::uint32_t> poses,
-                         const std::string& where, Sweep sweep, CompareResult& result) {
-    const Result<std::vector<NamedCounts>> counts = countAll(runners, work);
-    if (!counts.ok()) {
-        return counts.error();
+/// A builtin of another size: "builtin:head:128" as "builtin:head:64".
+std::string resized(const std::string& source, std::uint32_t size) {
+    return source.substr(0, source.find(':', std::string_view("builtin:").size())) + ":" + std::to_string(size);
+}
+
+/// One volume of the sweep of voxels. The runners end before what they count in.
+struct SizedVolume {
+    Surroundings surroundings;
+    Runners runners;
+};
+
+/// The volume of so many voxels a side with the methods of `like`; nothing, and a note, where it cannot be had.
+Result<std::unique_ptr<SizedVolume>> sizedVolume(const Session& session, const CompareOptions& options,
+                                                 const CompareData& data, const Runners& like, std::uint32_t side,
+                                                 CompareResult& result) {
+    const std::string source = resized(options.volumes.front(), side);
+    const Result<VolumeData> volume = loadVolume(source);
+    if (!volume.ok()) {
+        result.notes.push_back("no point of " + source + ": " + volume.error().text);
+        return std::unique_ptr<SizedVolume>();
     }
-    for (Verdict& verdict : judgeCounts(*counts, poses)) {
-        if (verdict.failed()) {
-            verdict.rule += " (" + where + ")";
-            verdict.sweep = toString(sweep);
-            result.verdicts.push_back(std::move(verdict));
+    Result<Surroundings> surroundings = makeSurroundings(session, volume->view(), data.transferFunction(options));
+    if (!surroundings.ok()) {
+        const Error& why = surroundings.error();
+        if (why.code != ErrorCode::LimitExceeded && why.code != ErrorCode::OutOfMemory) {
+            return why;
         }
+        result.notes.push_back("no point of " + source + ": " + why.text);
+        return std::unique_ptr<SizedVolume>();
     }
-    return {};
-}
-
-Result<MeshData> sizedMesh(const std::string& source, std::uint32_t triangles) {
-    return loadMesh(
-        source.substr(0, source.find(':', std::string_view("builtin:").size())) + ":" + std::to_string(triangles), {});
-}
-
-void addPoints(Sweep sweep, const Runners& runners, const Work& work, std::vector<Point>& points) {
-    const auto pairs = static_cast<std::uint32_t>(work.poses.size());
-    for (const std::unique_ptr<MethodRunner>& runner : runners) {
-        points.push_back(makePoint(sweep, *runner, work, Mode::Pipelined, pairs));
-    }
-}
-
-void collect(std::vector<Point>& points, CompareResult& result) {
-    shareFragments(points);
-    std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
-        return std::pair(a.series.mode, a.series.batch) < std::pair(b.series.mode, b.series.batch);
-    });
-    for (Point& point : points) {
-        if (!point.series.wall.empty()) {
-            result.series.push_back(std::move(point.series));
+    auto sized = std::make_unique<SizedVolume>(SizedVolume{std::move(*surroundings), {}});
+    for (const std::unique_ptr<MethodRunner>& runner : like) {
+        Result<std::unique_ptr<MethodRunner>> made =
+            makeRunner(session, sized->surroundings, runner->method(), options.transferFunction.threshold);
+        if (!made.ok()) {
+            return made.error();
         }
+        sized->runners.push_back(std::move(*made));
     }
+    return sized;
 }
 
-/// The poses of the sweeps of triangles and fragments, and their numbers.
+/// The poses of the sweeps of triangles, fragments and voxels, and their numbers.
 struct SweepPoses {
     std::vector<Mat4> poses;
     std::vector<std::uint32_t> numbers;
@@ -233,21 +107,11 @@ SweepPoses sweepPoses(const CompareData& data) {
     return out;
 }
 
-/// Times points whose counts were verified; nothing where one failed and the run is not to go on.
-Result<void> measureVerified(std::vector<Point>& points, const CompareOptions& options, CompareResult& result,
-                             const std::function<void()>& step) {
-    if (result.firstFailure() != nullptr && !options.keepGoing) {
-        return {};
-    }
-    Result<void> done = measure(points, options, result, step);
-    collect(points, result);
-    return done;
-}
-
 } // namespace
 
-std::uint64_t stepsOf(Sweep /*sweep*/, std::uint32_t repeats) noexcept {
-    return std::uint64_t{repeats} + 1;
+std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept {
+    // A volume takes longer to make than to be measured on.
+    return std::uint64_t{repeats} + 1 + (sweep == Sweep::Voxels ? kQuarters.size() : 0);
 }
 
 Result<void> timeBatches(const CompareOptions& options, const Runners& runners, const Work& work, CompareResult& result,
@@ -292,7 +156,7 @@ Result<void> timeTriangles(const Session& session, const CompareOptions& options
     std::vector<std::unique_ptr<Subject>> subjects;
     std::vector<Point> points;
     for (const std::uint32_t triangles : kTriangles) {
-        Result<MeshData> mesh = sizedMesh(source, triangles);
+        Result<MeshData> mesh = loadMesh(resized(source, triangles), {});
         if (!mesh.ok()) {
             result.notes.push_back("no point of " + std::to_string(triangles) + " triangles: " + mesh.error().text);
             continue;
@@ -335,6 +199,37 @@ Result<void> timeFragments(const Session& session, const CompareOptions& options
             return verified;
         }
         addPoints(Sweep::Fragments, runners, work, points);
+    }
+    return measureVerified(points, options, result, step);
+}
+
+Result<void> timeVoxels(const Session& session, const CompareOptions& options, const CompareData& data,
+                        const Subject& subject, const Runners& runners, CompareResult& result,
+                        const std::function<void()>& step) {
+    if (!options.volumes.front().starts_with("builtin:")) {
+        result.notes.push_back("no sweep of voxels: the volume is not a builtin one, which can be had in any size");
+        return {};
+    }
+    const auto [poses, numbers] = sweepPoses(data);
+    const Work work{&subject, poses, data.view};
+    std::vector<std::unique_ptr<SizedVolume>> volumes;
+    std::vector<Point> points;
+    for (const std::uint32_t quarters : kQuarters) {
+        const std::uint32_t side = data.volume.grid.size[0] * quarters / 4;
+        Result<std::unique_ptr<SizedVolume>> sized = sizedVolume(session, options, data, runners, side, result);
+        if (!sized.ok()) {
+            return sized.error();
+        }
+        step();
+        if (*sized == nullptr) {
+            continue;
+        }
+        const Runners& here = volumes.emplace_back(std::move(*sized))->runners;
+        const std::string where = sizeText(here.front()->voxels()) + " voxels";
+        if (Result<void> verified = verifyPoint(here, work, numbers, where, Sweep::Voxels, result); !verified.ok()) {
+            return verified;
+        }
+        addPoints(Sweep::Voxels, here, work, points);
     }
     return measureVerified(points, options, result, step);
 }

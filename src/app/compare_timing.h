@@ -18,6 +18,12 @@ namespace voxtact::app {
                                          const Subject& subject, const Runners& runners, CompareResult& result,
                                          const std::function<void()>& step);
 
+/// A builtin volume of half to twice as many voxels a side; another volume is told in the notes, and so are sizes that
+/// the device or the builtin cannot have. Mesh, poses, camera and transfer function stay. Verifies as above.
+[[nodiscard]] Result<void> timeVoxels(const Session& session, const CompareOptions& options, const CompareData& data,
+                                      const Subject& subject, const Runners& runners, CompareResult& result,
+                                      const std::function<void()>& step);
+
 /// Steps that a sweep calls `step` for.
 [[nodiscard]] std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept;
 

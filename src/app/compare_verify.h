@@ -7,8 +7,6 @@
 
 namespace voxtact::app {
 
-using Runners = std::vector<std::unique_ptr<MethodRunner>>;
-
 /// Counts every pose by every method.
 [[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Runners& runners, const Work& work);
 /// The rules for counts: who must agree, and how far the two groups are apart.

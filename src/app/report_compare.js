@@ -55,6 +55,9 @@
       'the methods also work on the ones that do not survive.', 'surviving fragments a pair', (s) => s.fragments_a_pair);
     drawSweep(parent, 'triangles', 'Time against triangles',
       'The same shape from coarse to fine, the same poses and viewport.', 'triangles', (s) => s.triangles);
+    drawSweep(parent, 'voxels', 'Time against voxels',
+      'The same volume from coarse to fine, the same mesh, poses and viewport.', 'voxels',
+      (s) => s.voxels.reduce((product, side) => product * side));
   }
 
   fillHead();

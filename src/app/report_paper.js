@@ -110,7 +110,7 @@
     drawOverhead(parent, clock);
     drawSweep(parent, 'voxels', 'Time against the volume\'s size',
       'The same mesh, poses, camera and viewport; a volume of the same extent and contents from coarse to fine. A fragment takes ' +
-      'one sample, however many voxels there are.', 'voxels a side', (s) => s.voxels, true);
+      'one sample, however many voxels there are.', 'voxels a side', (s) => Math.round(Math.cbrt(s.voxels.reduce((product, side) => product * side))), true);
     drawSweep(parent, 'triangles', 'Time against triangles',
       'The same shape from coarse to fine, the same poses and viewport.', 'triangles', (s) => s.triangles);
     drawSweep(parent, 'fragments', 'Time against the viewport',

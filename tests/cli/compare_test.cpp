@@ -105,10 +105,11 @@ TEST_F(CompareTest, CsvHasOneHeaderAndSaysWhatAgrees) {
     const auto lines = linesOf(output(compare({"--methods", "query,cpu"})));
     EXPECT_EQ(lines.front(),
               "sweep,method,mode,batch,width,height,triangles,fragments,samples,wall_ms_median,wall_ms_p10,wall_ms_p90,"
-              "gpu_ms_median,pairs_per_s,fragments_per_s");
+              "gpu_ms_median,pairs_per_s,fragments_per_s,voxels");
     std::size_t rows = 0;
     for (std::size_t i = 1; i < lines.size() && !lines[i].starts_with("#"); ++i, ++rows) {
-        EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), ','), 14) << lines[i];
+        EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), ','), 15) << lines[i];
+        EXPECT_EQ(fieldsOf(lines[i]).back(), "32x32x32");
     }
     EXPECT_EQ(rows, 2U * 8U + 1U) << "two methods, two modes, four batches; and the oracle";
     const std::vector<std::string> comments(lines.begin() + static_cast<std::ptrdiff_t>(rows) + 1, lines.end());
@@ -157,6 +158,53 @@ TEST_F(CompareTest, SweepsOfTrianglesAndFragments) {
     EXPECT_THAT(output(own), HasSubstr("no sweep of triangles"));
 }
 
+TEST_F(CompareTest, SweepOfVoxelsVariesTheVolumeAlone) {
+    const Json result = json({"--sweep", "voxels", "--methods", "query,cpu"});
+    std::vector<Json> voxels;
+    for (const Json& series : seriesOf(result, "cpu", "pipelined")) {
+        EXPECT_EQ(series["sweep"], "voxels");
+        EXPECT_EQ(series["triangles"], 500);
+        EXPECT_EQ(series["width"], 128);
+        voxels.push_back(series["voxels"]);
+    }
+    EXPECT_EQ(voxels, (std::vector<Json>{{16, 16, 16}, {24, 24, 24}, {32, 32, 32}, {48, 48, 48}, {64, 64, 64}}));
+    // The same poses and the same camera as in a run on a volume of that size.
+    Arguments large = compare({"--sweep", "fragments", "--methods", "query,cpu", "--format", "json"});
+    *std::find(large.begin(), large.end(), "builtin:head:32") = "builtin:head:64";
+    const Json alone = Json::parse(output(large));
+    for (const char* method : {"query", "cpu"}) {
+        const std::vector<Json> series = seriesOf(alone, method, "pipelined");
+        const auto same = std::find_if(series.begin(), series.end(), [](const Json& s) { return s["width"] == 128; });
+        ASSERT_NE(same, series.end());
+        EXPECT_EQ((*same)["voxels"], Json({64, 64, 64}));
+        EXPECT_GT((*same)["fragments_a_pair"], 0);
+        EXPECT_EQ(seriesOf(result, method, "pipelined").at(4)["fragments_a_pair"], (*same)["fragments_a_pair"]);
+    }
+}
+
+TEST_F(CompareTest, SizesThatCannotBeHadAreTold) {
+    const auto sweep = [](const std::string& volume) {
+        return output({"compare", "--volume", volume, "--mesh", "builtin:scalpel:500", "--count", "4", "--oracle", "0",
+                       "--size", "64x64", "--sweep", "voxels", "--methods", "query,cpu", "--cache", "off"});
+    };
+    const std::string small = sweep("builtin:head:4");
+    EXPECT_THAT(small, AllOf(HasSubstr("no point of builtin:head:2"), HasSubstr("no point of builtin:head:3"),
+                             HasSubstr("4x4x4"), HasSubstr("8x8x8")));
+    output({"make", "volume", "builtin:head:8", path("own.nrrd")});
+    EXPECT_THAT(sweep(path("own.nrrd")), HasSubstr("no sweep of voxels: the volume is not a builtin one"));
+}
+
+TEST_F(CompareTest, AllSweepsAreThoseThatAreNamed) {
+    const Json result = json({"--sweep", "all", "--methods", "cpu"});
+    std::vector<std::string> sweeps;
+    for (const Json& series : result["series"]) {
+        if (sweeps.empty() || sweeps.back() != series["sweep"]) {
+            sweeps.push_back(series["sweep"]);
+        }
+    }
+    EXPECT_EQ(sweeps, (std::vector<std::string>{"batch", "triangles", "fragments", "voxels"}));
+}
+
 TEST_F(CompareTest, TheReportIsOneFile) {
     if (VOXTACT_HAS_CHARTS == 0) {
         EXPECT_THAT(refused(1, compare({"--report", path("report.html")})), HasSubstr("libjs-chart.js"));
@@ -175,7 +223,8 @@ TEST_F(CompareTest, TheReportIsOneFile) {
 TEST_F(CompareTest, WhatCannotBeDoneIsOneLine) {
     EXPECT_THAT(refused(2, compare({"--methods", "query,magic"})),
                 AllOf(HasSubstr("--methods"), HasSubstr("'magic' is not known"), HasSubstr("subgroup")));
-    EXPECT_THAT(refused(2, compare({"--sweep", "sideways"})), HasSubstr("'sideways' is not known"));
+    EXPECT_THAT(refused(2, compare({"--sweep", "sideways"})),
+                AllOf(HasSubstr("'sideways' is not known"), HasSubstr("fragments, voxels, all")));
     EXPECT_THAT(refused(2, compare({"--mesh", "builtin:ellipsoid"})), HasSubstr("one --volume and one --mesh"));
     EXPECT_THAT(refused(2, compare({"--time-limit", "0"})), HasSubstr("--time-limit"));
     EXPECT_THAT(refused(2, compare({"--poses", "poses.txt"})), HasSubstr("--count"));

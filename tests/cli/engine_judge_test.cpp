@@ -39,6 +39,7 @@ TEST(LocalizeJudgeTest, MissedAndWrongAreAgainstTheCertifiedSet) {
     EXPECT_EQ(result.ways[0].wrong, 1U) << "triangle 7";
     EXPECT_EQ(result.ways[3].missed, 0U);
     EXPECT_EQ(result.ways[3].wrong, 0U);
+    EXPECT_EQ(disagreementOf(result), "");
 }
 
 TEST(LocalizeJudgeTest, AnotherTriangleOrCountIsADisagreement) {
@@ -46,6 +47,8 @@ TEST(LocalizeJudgeTest, AnotherTriangleOrCountIsADisagreement) {
     judgeLocalize(lost);
     EXPECT_EQ(lost.failedPose, 9U);
     EXPECT_EQ(lost.failure, "triangle 3: polygon 1, leaf 0 fragments");
+    EXPECT_EQ(disagreementOf(lost), "polygon = leaf = leaf-bricks = fragments: disagreement on pose 9: triangle 3: "
+                                    "polygon 1, leaf 0 fragments");
     LocalizeResult other = twoPoses({{0, 3, 2}});
     judgeLocalize(other);
     EXPECT_EQ(other.failedPose, 9U);

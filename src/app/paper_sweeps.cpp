@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "app/paper_sweeps.h"
+
+#include "app/compare_timing.h"
+#include "app/paper_integration.h"
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kMesh = "builtin:scalpel";
+/// Of the sweep of voxels; half to twice as many voxels a side are 128 to 512.
+constexpr const char* kVolume = "builtin:head:256";
+constexpr const char* kOpacity = "40:0,80:1";
+/// Of those of the scene: a query a polygon takes its time.
+constexpr std::uint32_t kPolygonPoses = 4;
+/// For the samples of a sweep.
+constexpr double kSeconds = 30;
+
+CompareOptions optionsFor(const BenchOptions& options, const CompareData& data) {
+    CompareOptions out;
+    out.volumes = {kVolume};
+    out.meshes.sources = {kMesh};
+    out.transferFunction = options.transferFunction;
+    out.view.size = {data.view.width, data.view.height};
+    out.seed = options.seed;
+    out.repeats = options.repetitions;
+    out.timeLimit = kSeconds;
+    return out;
+}
+
+/// The builtin head with the mesh and the viewport of the scene.
+Result<CompareData> headOf(const CompareOptions& options, const CompareData& v1s1) {
+    CompareOptions head = options;
+    head.transferFunction.path.clear();
+    head.transferFunction.opacity = kOpacity;
+    head.transferFunction.domain.reset();
+    head.count = static_cast<std::uint32_t>(v1s1.poses.size());
+    return readCompareData(head);
+}
+
+/// What is timed, and on what.
+struct Swept {
+    const Session& session;
+    const CompareOptions& options;
+    const CompareData& data;
+    const Subject& subject;
+    const Runners& runners;
+    const std::function<void()>& step;
+};
+
+/// Counts every pose, and where the methods agree times them.
+Result<void> timeScene(const Swept& swept, CompareResult& result) {
+    const Work work{&swept.subject, swept.data.poses, swept.data.view};
+    Result<std::vector<NamedCounts>> counts = countAll(swept.runners, work);
+    if (!counts.ok()) {
+        return counts.error();
+    }
+    result.verdicts = judgeCounts(*counts, swept.data.poseNumbers);
+    swept.step();
+    if (result.firstFailure() != nullptr) {
+        return {};
+    }
+    if (Result<void> done = timeBatches(swept.options, swept.runners, work, result, swept.step); !done.ok()) {
+        return done;
+    }
+    if (Result<void> done = timeTriangles(swept.session, swept.options, swept.data, swept.runners, result, swept.step);
+        !done.ok() || result.firstFailure() != nullptr) {
+        return done;
+    }
+    return timeFragments(swept.session, swept.options, swept.data, swept.subject, swept.runners, result, swept.step);
+}
+
+Result<void> timeAll(const Swept& swept, CompareResult& result) {
+    if (Result<void> done = timeScene(swept, result); !done.ok() || result.firstFailure() != nullptr) {
+        return done;
+    }
+    const Result<CompareData> head = headOf(swept.options, swept.data);
+    if (!head.ok()) {
+        return head.error();
+    }
+    return timeVoxels(swept.session, swept.options, *head, swept.subject, swept.runners, result, swept.step);
+}
+
+/// The sweeps, as `voxtact compare` makes them.
+Result<void> sweep(const Session& session, const CompareOptions& options, const CompareData& v1s1, PaperResult& result,
+                   const std::function<void()>& step) {
+    const Result<Surroundings> surroundings =
+        makeSurroundings(session, v1s1.volume.view(), v1s1.transferFunction(options));
+    if (!surroundings.ok()) {
+        return surroundings.error();
+    }
+    const Result<Subject> subject = makeSubject(session, v1s1.mesh);
+    if (!subject.ok()) {
+        return subject.error();
+    }
+    CompareResult compared;
+    const Result<Runners> runners = makeRunners(session, options, *surroundings, compared);
+    if (!runners.ok()) {
+        return runners.error();
+    }
+    if (Result<void> done = timeAll({session, options, v1s1, *subject, *runners, step}, compared); !done.ok()) {
+        return done;
+    }
+    if (const Verdict* failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
+        result.disagreement = failure->rule + ": disagreement on pose " + std::to_string(failure->first->pose) + ": " +
+                              failure->first->text;
+    }
+    result.series = std::move(compared.series);
+    result.notes.insert(result.notes.end(), compared.notes.begin(), compared.notes.end());
+    return {};
+}
+
+/// Which triangles touch, on a few poses.
+Result<void> findPolygons(const Session& session, const CompareOptions& options, const CompareData& v1s1,
+                          PaperResult& result, const std::function<void()>& step) {
+    CompareData few = v1s1;
+    few.poses.clear();
+    few.poseNumbers.clear();
+    for (const std::uint32_t index : spreadEvenly(kPolygonPoses, static_cast<std::uint32_t>(v1s1.poses.size()))) {
+        few.poses.push_back(v1s1.poses[index]);
+        few.poseNumbers.push_back(v1s1.poseNumbers[index]);
+    }
+    LocalizeResult found;
+    if (Result<void> done = localize(session, options, few, found, step); !done.ok()) {
+        return done;
+    }
+    if (result.disagreement.empty()) {
+        result.disagreement = disagreementOf(found);
+    }
+    result.polygons = std::move(found.ways);
+    result.polygonTriangles = found.triangles;
+    result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+    return {};
+}
+
+} // namespace
+
+std::uint64_t paperSweepSteps(const BenchOptions& options) {
+    std::uint64_t steps = 1;
+    for (const Sweep sweep : kSweeps) {
+        steps += stepsOf(sweep, options.repetitions);
+    }
+    const std::uint64_t poses = std::min(kPolygonPoses, options.poses);
+    return steps + poses * options.repetitions + options.repetitions + 1;
+}
+
+Result<void> runPaperSweeps(const Session& session, const BenchOptions& options, const CompareData& v1s1,
+                            PaperResult& result, const std::function<void()>& step) {
+    const CompareOptions how = optionsFor(options, v1s1);
+    if (Result<void> done = sweep(session, how, v1s1, result, step); !done.ok() || !result.disagreement.empty()) {
+        return done;
+    }
+    if (Result<void> done = findPolygons(session, how, v1s1, result, step);
+        !done.ok() || !result.disagreement.empty()) {
+        return done;
+    }
+    Result<std::vector<IntegrationPoint>> integration = timeIntegration(session, options.repetitions, step);
+    if (!integration.ok()) {
+        return integration.error();
+    }
+    result.integration = std::move(*integration);
+    return {};
+}
+
+} // namespace voxtact::app
