@@ -77,11 +77,11 @@ const report = (() => {
 
   function fillSeries() {
     const columns = [...words('Sweep', 'Method', 'Mode'),
-      ...numbers('Batch', 'Viewport', 'Triangles', 'Fragments a pair', 'Samples', 'Wall ms', 'p10', 'p90', 'min', 'max', 'GPU ms',
+      ...numbers('Batch', 'Viewport', 'Triangles', 'Voxels', 'Fragments a pair', 'Samples', 'Wall ms', 'p10', 'p90', 'min', 'max', 'GPU ms',
         'Pairs/s', 'Fragments/s')];
     fillTable(byId('series'), columns, data.series.map((s) => [
       s.sweep, s.method, s.mode, grouped(s.batch), `${s.width}×${s.height}`, grouped(s.triangles),
-      short(s.fragments_a_pair), s.wall_ms.samples.length, short(s.wall_ms.median), short(s.wall_ms.p10),
+      s.voxels.join('×'), short(s.fragments_a_pair), s.wall_ms.samples.length, short(s.wall_ms.median), short(s.wall_ms.p10),
       short(s.wall_ms.p90), short(s.wall_ms.min), short(s.wall_ms.max), s.gpu_ms ? short(s.gpu_ms.median) : '–',
       short(s.pairs_per_s), short(s.fragments_per_s),
     ]));
