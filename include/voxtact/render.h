@@ -263,6 +263,12 @@ class MeshNormals {
     std::unique_ptr<MeshNormalsImpl> impl_;
 };
 
+/// The same triangles in the same order, but with vertices of their own on either side of an edge at which two meet at
+/// more than `degrees` (0..180): MeshNormals of this mesh are smooth elsewhere, and have sharp edges there. `name` and
+/// `notes` are empty. Detectors count the same for it. Refuses what checkMesh() refuses, also of the result, and angles
+/// outside. O(n log n).
+[[nodiscard]] VOXTACT_API Result<MeshData> splitAtCreases(const MeshView& mesh, double degrees = 40);
+
 /// Lets the renderer read the bricks of a volume (VolumeOptions::bricks), to skip those that are transparent. Nothing
 /// is copied: edits of the volume are followed. The volume must outlive it.
 class RenderBricks {

@@ -98,11 +98,15 @@ Result<void> readMeshAtPose(const RenderOptions& options, RenderInputs& inputs) 
                            std::to_string(poses->size() - 1));
     }
     inputs.world_from_object = (*poses)[options.pose];
-    Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
+    const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
     if (!mesh.ok()) {
         return mesh.error();
     }
-    inputs.mesh = std::move(*mesh);
+    Result<MeshData> creased = splitAtCreases(mesh->view());
+    if (!creased.ok()) {
+        return creased.error();
+    }
+    inputs.mesh = std::move(*creased);
     return {};
 }
 
