@@ -184,10 +184,11 @@ Result<Subject> makeSubject(const Session& session, MeshData data) {
     return Subject{std::move(data), std::move(*device), std::move(*host)};
 }
 
-Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options, const CompareData& data) {
+Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options, const CompareData& data,
+                                      const VolumeOptions& volumeOptions) {
     const QueueAccess queue = session.device.queueAccess();
     const TransferFunctionDesc desc = data.transferFunction(options);
-    Result<Volume> volume = Volume::upload(session.context, queue, data.volume.view());
+    Result<Volume> volume = Volume::upload(session.context, queue, data.volume.view(), volumeOptions);
     if (!volume.ok()) {
         return volume.error();
     }

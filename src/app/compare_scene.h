@@ -70,7 +70,7 @@ struct Surroundings {
 };
 
 [[nodiscard]] Result<Surroundings> makeSurroundings(const Session& session, const CompareOptions& options,
-                                                    const CompareData& data);
+                                                    const CompareData& data, const VolumeOptions& volumeOptions = {});
 
 /// Pairs to count or to time.
 struct Work {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/compare_localize.h"
+#include "app/compare_result.h"
 
 #include <array>
 #include <cstdint>
