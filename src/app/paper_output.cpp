@@ -2,7 +2,6 @@
 #include "app/paper_output.h"
 
 #include "app/compare_output.h"
-#include "app/paper_tables.h"
 #include "app/version.h"
 
 #include <nlohmann/json.hpp>

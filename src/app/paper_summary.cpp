@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "app/paper_output.h"
-#include "app/paper_tables.h"
 #include "core/text.h"
 
 #include <algorithm>
@@ -172,13 +171,13 @@ void addIntegration(const PaperResult& result, std::vector<std::string>& sentenc
 } // namespace
 
 std::string shortNumber(double value) {
-    if (value == 0 || !std::isfinite(value)) {
+    if (std::abs(value) < 1e-9 || !std::isfinite(value)) {
         return "0";
     }
     // Digits after the point that make three in all.
     const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
     char text[64];
-    static_cast<void>(std::snprintf(text, sizeof text, "%.*f", std::min(digits, 9), value));
+    static_cast<void>(std::snprintf(text, sizeof text, "%.*f", digits, value));
     return text;
 }
 

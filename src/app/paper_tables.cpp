@@ -139,9 +139,11 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
 /// Every method in turn. `round` counts from 1; in round 0 no time is kept.
 Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t round, PaperResult& result) {
     const std::size_t pose = (round + work.input.data.poses.size() - 1) % work.input.data.poses.size();
+    const bool backwards = round % 2 == 0;
     for (std::size_t i = 0; i < work.methods.size() && result.disagreement.empty(); ++i) {
-        PaperRow* row = round == 0 ? nullptr : &result.rows[work.firstRow + i];
-        if (Result<void> taken = takeFrames(frames, work, i, pose, round % 2 == 0, row, result); !taken.ok()) {
+        const std::size_t method = backwards ? work.methods.size() - 1 - i : i;
+        PaperRow* row = round == 0 ? nullptr : &result.rows[work.firstRow + method];
+        if (Result<void> taken = takeFrames(frames, work, method, pose, backwards, row, result); !taken.ok()) {
             return taken;
         }
     }
@@ -168,22 +170,6 @@ Result<void> timeFrames(const Session& session, const BenchOptions& options, con
     return {};
 }
 
-/// Of each two samples of one round.
-template <class Percent>
-std::vector<double> paired(const std::vector<double>& rendering, const std::vector<double>& other, Percent percent) {
-    std::vector<double> out;
-    if (rendering.size() != other.size()) {
-        return out;
-    }
-    for (std::size_t i = 0; i < other.size(); ++i) {
-        // A clock may be so coarse that a small picture takes no time.
-        if (rendering[i] > 0) {
-            out.push_back(percent(rendering[i], other[i]));
-        }
-    }
-    return out;
-}
-
 } // namespace
 
 Result<void> measurePaperScene(const Session& session, const BenchOptions& options, const PaperInput& input,
@@ -208,16 +194,6 @@ Result<void> measurePaperScene(const Session& session, const BenchOptions& optio
 
 std::uint64_t paperSceneSteps(const BenchOptions& options) {
     return std::uint64_t{2} + options.repetitions;
-}
-
-std::vector<double> collisionPercent(const PaperColumns& columns) {
-    return paired(columns.rendering, columns.collision,
-                  [](double rendering, double collision) { return 100 * collision / rendering; });
-}
-
-std::vector<double> overheadPercent(const PaperColumns& columns) {
-    return paired(columns.rendering, columns.total,
-                  [](double rendering, double total) { return 100 * (total - rendering) / rendering; });
 }
 
 } // namespace voxtact::app

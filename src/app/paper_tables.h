@@ -18,10 +18,4 @@ namespace voxtact::app {
 /// Steps of a scene.
 [[nodiscard]] std::uint64_t paperSceneSteps(const BenchOptions& options);
 
-/// What detection costs of what rendering does, percent: the paper's way to say it, by their times alone. A sample each
-/// round; none where one of the two is not known.
-[[nodiscard]] std::vector<double> collisionPercent(const PaperColumns& columns);
-/// What detection adds to a frame, percent of the frame without it. A sample each round, of the two frames of it.
-[[nodiscard]] std::vector<double> overheadPercent(const PaperColumns& columns);
-
 } // namespace voxtact::app
