@@ -34,7 +34,8 @@ inline constexpr std::uint32_t kEllipsoidTriangles = 49998;
 /// `head` (uint8, a layered head: skin, skull, brain, ventricles; the voxels on the boundary are 0), `sphere` (uint8, a
 /// ramp that falls from 255 at the centre to 0 at 0.45 of the side), `noise` (uint16, smooth noise, stretched to reach
 /// both 0 and 4095), `ct` (int16, -1024..3071, the same head in HU, anisotropic and oblique, a third as many slices,
-/// rounded up), `shells` (float, 0..1, thin shells at 20, 40, 60 and 80 mm, 3 voxels thick).
+/// rounded up), `shells` (float, 0..1, thin shells at 20, 40, 60 and 80 mm, 3 voxels thick), `vessels` (uint8, a sparse
+/// tree of tubes, from 255 on their axes to 0, that enters through the lowest face; half as many slices, rounded up).
 [[nodiscard]] VOXTACT_API Result<VolumeData> makeBuiltinVolume(std::string_view name);
 
 } // namespace voxtact

@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/compare_options.h"
+#include "app/paper.h"
 
 #include <CLI/CLI.hpp>
 
@@ -26,40 +27,98 @@ the outputs (touched triangles, bounds, labels, contacts) costs beside the bare 
 Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
 scene: builtin:scalpel:3068 against builtin:head:128.
 
+--paper: the tables of the paper (Volume-Surface Collision Detection, section 6) measured again: what detection adds to
+a frame, in the scenes v1s1, v1s2, v2s1 and v2s2. v1 is a head of 256x256x256 voxels, v2 a sparse volume of 256x256x128,
+s1 an instrument of 3068 triangles, s2 a body of 49998; every pose touches. The frame is of --size, from the front: the
+mesh in the volume by ray casting and, with detection, one pair by one method in the same submission. The counts of
+every method are checked before frames are timed, and in them. --data DIR: a folder with any of
+volumes/mrhead_256.nii.gz, volumes/bonsai_256x256x128.nrrd and meshes/armadillo_49998.ply, which then stand for v1, v2
+and s2; else builtins do, with transfer functions that make as many of their voxels opaque. It needs a device, and has
+8 poses and 9 repetitions unless told otherwise.
+
 Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,
 wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max; medians, and of the ratios of pairs a second to
 the first engine of the same scene in the same round (--outputs: projections to the view by the same method, outputs to
-the bare count).
+the bare count). With --paper: scene,method,clock (gpu or wall),width,height,triangles,poses,survivors (of a pair, on
+average),hits (poses),samples,mesh_ms,volume_ms,collision_ms,collision_ms_p10,collision_ms_p90,rendering_ms,
+rendering_ms_p10,rendering_ms_p90,total_ms,total_ms_p10,total_ms_p90,collision_percent (collision/rendering),
+overhead_percent ((total-rendering)/rendering, round by round),overhead_low,overhead_high,confidence (of the interval
+that has the median); the scenes and what else was measured are in comments.
 
 Examples:
   voxtact bench --certified
   voxtact bench --outputs --repetitions 3
+  voxtact bench --paper --format text
   voxtact bench --certified --volume head.nii.gz --mesh tool.stl --format json --output bench.json)";
+
+void addPaperOptions(CLI::App& parser, BenchOptions& options) {
+    addPath(parser, "--data", options.data, "with --paper: a folder with files of its scenes; default: builtins");
+    addWholeNumber(
+        parser, "--scale", [&options](std::uint32_t scale) { options.scale = scale; }, {.least = 1, .most = 16},
+        "with --paper: the sides of its builtin volumes are divided by so many, for trying", options.scale);
+    addSize(
+        parser, [&options](const VkExtent2D& size) { options.size = size; }, "with --paper: of frames, in pixels");
+    addPath(parser, "--report", options.report,
+            "with --paper: an HTML page with charts, in one file, for reading without a network");
+}
 
 void addOptions(CLI::App& parser, BenchOptions& options) {
     CLI::Option* certified =
         parser.add_flag("--certified", options.certified, "yes or no, and counts, that miss no contact");
-    parser.add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
-        ->excludes(certified);
+    CLI::Option* outputs =
+        parser
+            .add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
+            ->excludes(certified);
+    parser.add_flag("--paper", options.paper, "the paper's tables, measured again: what detection adds to a frame")
+        ->excludes(certified)
+        ->excludes(outputs);
     addVolumeOption(parser, options.volumes);
     parser.get_option("--volume")->required(false);
     addMeshOptions(parser, options.meshes);
     parser.get_option("--mesh")->required(false);
     addTransferFunctionOptions(parser, options.transferFunction);
-    addWholeNumber(parser, "--poses", options.poses, 1, "how many poses of each kind");
+    addWholeNumber(parser, "--poses", options.poses, 1, "how many poses of each kind; with --paper 8");
     parser.add_option("--seed", options.seed, "of the poses, from 0 to 2^64-1")->type_name("S")->capture_default_str();
-    addWholeNumber(parser, "--repetitions", options.repetitions, 1, "samples of each time, after a warm-up");
+    addWholeNumber(parser, "--repetitions", options.repetitions, 1,
+                   "samples of each time, after a warm-up; with --paper 9");
+    addPaperOptions(parser, options);
     addDeviceOptions(parser, options.device);
     addOutputOptions(parser, options.output);
     addProgressOption(parser, options.progress);
 }
 
+/// Options that the mode has no use for are refused: they would silently do nothing.
+Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) {
+    constexpr const char* kOfScenes[] = {
+        "--volume",  "--mesh",      "--mesh-space", "--mesh-scale", "--transfer-function",
+        "--opacity", "--tf-domain", "--tf-size",    "--threshold"};
+    constexpr const char* kOfPaper[] = {"--data", "--scale", "--size", "--report"};
+    for (const char* option : options.paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
+        if (parser.count(option) > 0) {
+            return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option
+                                             : std::string(option) + " is for --paper");
+        }
+    }
+    if (options.scale > 1 && !options.data.empty()) {
+        return badArgument("--scale is for builtin volumes; leave out --data");
+    }
+    return {};
+}
+
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
     options.command = commandLine(parser);
-    if (!options.certified && !options.outputs) {
-        return {kExitArguments, "say what to measure: --certified or --outputs; see voxtact bench --help"};
+    if (!options.certified && !options.outputs && !options.paper) {
+        return {kExitArguments, "say what to measure: --certified, --outputs or --paper; see voxtact bench --help"};
+    }
+    if (const Result<void> usable = checkTogether(options, parser); !usable.ok()) {
+        return usable.error();
+    }
+    if (options.paper) {
+        options.poses = parser.count("--poses") > 0 ? options.poses : kPaperPoses;
+        options.repetitions = parser.count("--repetitions") > 0 ? options.repetitions : kPaperRepetitions;
+        return runPaper(options);
     }
     options.mode = options.outputs ? BenchMode::Outputs : BenchMode::Certified;
     return runBenchEngines(options);

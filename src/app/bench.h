@@ -16,8 +16,9 @@ enum class BenchMode {
 };
 
 struct BenchOptions {
-    bool certified = false; ///< one of the two is given
+    bool certified = false; ///< one of the three is given
     bool outputs = false;
+    bool paper = false; ///< runPaper()
     BenchMode mode = BenchMode::Certified;
     std::vector<std::string> volumes; ///< none: the mode's own scene
     MeshOptions meshes;               ///< the same
@@ -28,10 +29,14 @@ struct BenchOptions {
     DeviceChoice device;
     OutputOptions output;
     bool progress = false;
-    std::string command; ///< what reproduces the run
+    std::filesystem::path data;   ///< paper: a folder with the files of the scenes; empty: builtins
+    std::uint32_t scale = 1;      ///< paper: the sides of builtin volumes are divided by it
+    VkExtent2D size{512, 512};    ///< paper: of frames
+    std::filesystem::path report; ///< paper
+    std::string command;          ///< what reproduces the run
 };
 
-/// All modes: engines side by side, checked and timed.
+/// The modes: engines side by side, checked and timed.
 [[nodiscard]] Outcome runBenchEngines(const BenchOptions& options);
 
 } // namespace voxtact::app

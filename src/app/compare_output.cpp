@@ -14,38 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json spreadJson(const std::vector<double>& samples) {
-    if (samples.empty()) {
-        return nullptr;
-    }
-    const Spread spread = spreadOf(samples);
-    Json json{{"median", rounded(spread.median)}, {"min", rounded(spread.min)}, {"max", rounded(spread.max)},
-              {"p10", rounded(spread.p10)},       {"p90", rounded(spread.p90)}, {"samples", Json::array()}};
-    for (const double sample : samples) {
-        json["samples"].push_back(rounded(sample));
-    }
-    return json;
-}
-
-Json seriesJson(const Series& series, const Machine& machine) {
-    const std::optional<double> fragments = series.fragmentsPerSecond();
-    return {{"sweep", toString(series.sweep)},
-            {"method", series.method},
-            {"mode", toString(series.mode)},
-            {"batch", series.batch},
-            {"width", series.width},
-            {"height", series.height},
-            {"triangles", series.triangles},
-            {"pairs_a_sample", series.pairs},
-            {"fragments_a_pair", series.fragments ? Json(rounded(*series.fragments)) : Json()},
-            {"wall_ms", spreadJson(series.wall)},
-            {"gpu_ms", spreadJson(series.gpu)},
-            {"pairs_per_s", rounded(series.pairsPerSecond())},
-            {"fragments_per_s", fragments ? Json(rounded(*fragments)) : Json()},
-            {"machine", machineJson(machine)},
-            {"voxels", series.voxels}};
-}
-
 Json verdictJson(const Verdict& verdict) {
     Json json{{"rule", verdict.rule},
               {"required", verdict.required},
@@ -155,6 +123,49 @@ double rounded(double value) {
     return std::round(value * parts) / parts;
 }
 
+Json spreadJson(const std::vector<double>& samples) {
+    if (samples.empty()) {
+        return nullptr;
+    }
+    const Spread spread = spreadOf(samples);
+    Json json{{"median", rounded(spread.median)}, {"min", rounded(spread.min)}, {"max", rounded(spread.max)},
+              {"p10", rounded(spread.p10)},       {"p90", rounded(spread.p90)}, {"samples", Json::array()}};
+    for (const double sample : samples) {
+        json["samples"].push_back(rounded(sample));
+    }
+    return json;
+}
+
+Json seriesJson(const Series& series, const Machine& machine) {
+    const std::optional<double> fragments = series.fragmentsPerSecond();
+    return {{"sweep", toString(series.sweep)},
+            {"method", series.method},
+            {"mode", toString(series.mode)},
+            {"batch", series.batch},
+            {"width", series.width},
+            {"height", series.height},
+            {"triangles", series.triangles},
+            {"pairs_a_sample", series.pairs},
+            {"fragments_a_pair", series.fragments ? Json(rounded(*series.fragments)) : Json()},
+            {"wall_ms", spreadJson(series.wall)},
+            {"gpu_ms", spreadJson(series.gpu)},
+            {"pairs_per_s", rounded(series.pairsPerSecond())},
+            {"fragments_per_s", fragments ? Json(rounded(*fragments)) : Json()},
+            {"machine", machineJson(machine)},
+            {"voxels", series.voxels}};
+}
+
+Table seriesTable(const std::vector<Series>& series) {
+    Table table;
+    table.columns = {"sweep",       "method",      "mode",          "batch",       "width",
+                     "height",      "triangles",   "fragments",     "samples",     "wall_ms_median",
+                     "wall_ms_p10", "wall_ms_p90", "gpu_ms_median", "pairs_per_s", "fragments_per_s",
+                     "voxels"};
+    table.rows = series.size();
+    table.cell = [&series](std::size_t row, std::size_t column) { return cellOf(series[row], column); };
+    return table;
+}
+
 Json machineJson(const Machine& machine) {
     return {{"device", machine.device},
             {"device_type", machine.deviceType},
@@ -242,14 +253,7 @@ void writeCompare(std::ostream& out, const CompareOptions& options, const Compar
         out << compareJson(options, data, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
         return;
     }
-    Table table;
-    table.columns = {"sweep",       "method",      "mode",          "batch",       "width",
-                     "height",      "triangles",   "fragments",     "samples",     "wall_ms_median",
-                     "wall_ms_p10", "wall_ms_p90", "gpu_ms_median", "pairs_per_s", "fragments_per_s",
-                     "voxels"};
-    table.rows = result.series.size();
-    table.cell = [&](std::size_t row, std::size_t column) { return cellOf(result.series[row], column); };
-    writeTable(out, format, table);
+    writeTable(out, format, seriesTable(result.series));
     for (const std::string& sentence : summarize(result)) {
         out << "# " << sentence << '\n';
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/compare_result.h"
+#include "app/output.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,6 +15,11 @@ namespace voxtact::app {
 [[nodiscard]] nlohmann::ordered_json machineJson(const Machine& machine);
 [[nodiscard]] nlohmann::ordered_json sceneJson(const CompareOptions& options, const CompareData& data,
                                                std::uint32_t triangles);
+/// Of one thing in ms; null where there are no samples.
+[[nodiscard]] nlohmann::ordered_json spreadJson(const std::vector<double>& samples);
+[[nodiscard]] nlohmann::ordered_json seriesJson(const Series& series, const Machine& machine);
+/// One row a series. The series must outlive the table.
+[[nodiscard]] Table seriesTable(const std::vector<Series>& series);
 /// Those of the machine, then these.
 [[nodiscard]] std::vector<std::string> allNotes(const Machine& machine, const std::vector<std::string>& more);
 /// Comment lines: what it was measured on, and the notes.

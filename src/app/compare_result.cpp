@@ -26,6 +26,23 @@ Spread spreadOf(std::vector<double> samples) {
             .p90 = quantile(samples, 0.9)};
 }
 
+std::optional<MedianInterval> medianInterval(std::vector<double> samples, double confidence) {
+    std::sort(samples.begin(), samples.end());
+    const auto count = static_cast<double>(samples.size());
+    std::optional<MedianInterval> interval;
+    // Each sample is below the median with probability 1/2. `beyond`: that at most `rank` of them are. Logarithms,
+    // because the first of these probabilities is too small for a double where there are a thousand samples.
+    double logarithm = -count * std::log(2.0);
+    double beyond = std::exp(logarithm);
+    for (std::size_t rank = 0; 2 * rank + 1 < samples.size() && 1 - 2 * beyond >= confidence; ++rank) {
+        interval = {samples[rank], samples[samples.size() - 1 - rank], 1 - 2 * beyond};
+        const auto at = static_cast<double>(rank);
+        logarithm += std::log((count - at) / (at + 1));
+        beyond += std::exp(logarithm);
+    }
+    return interval;
+}
+
 const char* toString(Mode mode) noexcept {
     return mode == Mode::Sync ? "sync" : "pipelined";
 }

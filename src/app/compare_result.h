@@ -4,6 +4,8 @@
 #include "app/compare_agreement.h"
 #include "app/compare_scene.h"
 
+#include <optional>
+
 namespace voxtact::app {
 
 /// Repeated measurements of one thing.
@@ -17,6 +19,17 @@ struct Spread {
 
 /// Linear between the two nearest ranks. `samples` must not be empty.
 [[nodiscard]] Spread spreadOf(std::vector<double> samples);
+
+/// Where the median of the distribution that samples come from is, whatever that distribution is.
+struct MedianInterval {
+    double low = 0;
+    double high = 0;
+    double confidence = 0; ///< reached, 0..1: at least what was asked for
+};
+
+/// From the smallest interval between two samples of mirrored ranks whose confidence, by the sign test, is
+/// `confidence`. Nothing where there are too few samples: six for 0.95.
+[[nodiscard]] std::optional<MedianInterval> medianInterval(std::vector<double> samples, double confidence);
 
 /// How pairs reach the method: each submitted and waited for alone (the paper's way), or batches in flight.
 enum class Mode { Sync, Pipelined };

@@ -185,9 +185,10 @@ Result<Subject> makeSubject(const Session& session, MeshData data) {
 }
 
 Result<Surroundings> makeSurroundings(const Session& session, const VolumeView& volume,
-                                      const TransferFunctionDesc& transferFunction) {
+                                      const TransferFunctionDesc& transferFunction,
+                                      const VolumeOptions& volumeOptions) {
     const QueueAccess queue = session.device.queueAccess();
-    Result<Volume> onDevice = Volume::upload(session.context, queue, volume);
+    Result<Volume> onDevice = Volume::upload(session.context, queue, volume, volumeOptions);
     if (!onDevice.ok()) {
         return onDevice.error();
     }

@@ -72,7 +72,8 @@ struct Surroundings {
 
 /// LimitExceeded where the volume is beyond what the device can do.
 [[nodiscard]] Result<Surroundings> makeSurroundings(const Session& session, const VolumeView& volume,
-                                                    const TransferFunctionDesc& transferFunction);
+                                                    const TransferFunctionDesc& transferFunction,
+                                                    const VolumeOptions& volumeOptions = {});
 
 /// Pairs to count or to time.
 struct Work {

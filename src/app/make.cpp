@@ -145,8 +145,8 @@ std::vector<Command> addMake(CLI::App& program) {
         addMakeFile(*make, "mesh", "writes a builtin mesh",
                     "builtin:scalpel[:TRIANGLES] or builtin:ellipsoid[:TRIANGLES]", kMeshFooter, makeMesh),
         addMakeFile(*make, "volume", "writes a builtin volume",
-                    "builtin:NAME[:SIZE] with head, sphere, noise, ct or shells, SIZE voxels a side", kVolumeFooter,
-                    makeVolume),
+                    "builtin:NAME[:SIZE] with head, sphere, noise, ct, shells or vessels, SIZE voxels a side",
+                    kVolumeFooter, makeVolume),
         addMakePoses(*make),
     };
 }

@@ -38,28 +38,6 @@ Result<Axes> axesOf(const Grid& grid) {
     return axes;
 }
 
-/// Whether a value's opacity reaches a threshold.
-class IsOpaque {
-  public:
-    IsOpaque(std::vector<float> table, const ValueRange& domain, double threshold)
-        : table_(std::move(table)), domain_(domain), threshold_(threshold) {}
-
-    bool operator()(double value) const {
-        const auto last = static_cast<double>(table_.size() - 1);
-        const double entry = std::clamp((value - domain_.lo) / (domain_.hi - domain_.lo) * (last + 1) - 0.5, 0.0, last);
-        const auto below = static_cast<std::size_t>(entry);
-        const std::size_t above = std::min(below + 1, table_.size() - 1);
-        const double part = entry - std::floor(entry);
-        return (1 - part) * static_cast<double>(table_[below]) + part * static_cast<double>(table_[above]) >=
-               threshold_;
-    }
-
-  private:
-    std::vector<float> table_;
-    ValueRange domain_;
-    double threshold_;
-};
-
 double valueAt(const VolumeView& volume, std::size_t voxel) {
     const auto as = [&](auto scalar) {
         std::memcpy(&scalar, volume.voxels.data() + voxel * sizeof scalar, sizeof scalar);
@@ -107,6 +85,15 @@ Mat4 worldFromCells(const Grid& grid, const Axes& axes) {
 }
 
 } // namespace
+
+bool IsOpaque::operator()(double value) const {
+    const auto last = static_cast<double>(table_.size() - 1);
+    const double entry = std::clamp((value - domain_.lo) / (domain_.hi - domain_.lo) * (last + 1) - 0.5, 0.0, last);
+    const auto below = static_cast<std::size_t>(entry);
+    const std::size_t above = std::min(below + 1, table_.size() - 1);
+    const double part = entry - std::floor(entry);
+    return (1 - part) * static_cast<double>(table_[below]) + part * static_cast<double>(table_[above]) >= threshold_;
+}
 
 Result<OpaqueCells> opaqueCells(const VolumeView& volume, const TransferFunctionDesc& function, double threshold) {
     const Result<Axes> axes = axesOf(volume.grid);

@@ -5,9 +5,25 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace voxtact::app {
+
+/// Whether a value's opacity, by a table, reaches a threshold.
+class IsOpaque {
+  public:
+    /// A table as sampleTable() gives it.
+    IsOpaque(std::vector<float> table, const ValueRange& domain, double threshold)
+        : table_(std::move(table)), domain_(domain), threshold_(threshold) {}
+
+    [[nodiscard]] bool operator()(double value) const;
+
+  private:
+    std::vector<float> table_;
+    ValueRange domain_;
+    double threshold_;
+};
 
 /// The opaque voxels of a volume as cubes, which is how an octree has them.
 struct OpaqueCells {

@@ -45,6 +45,12 @@ struct PaperColumns {
     std::vector<double> total{};     ///< a frame and the detection in one submission
 };
 
+/// What detection costs of what rendering does, percent: the paper's way to say it, by their times alone. A sample each
+/// round; none where one of the two is not known.
+[[nodiscard]] std::vector<double> collisionPercent(const PaperColumns& columns);
+/// What detection adds to a frame, percent of the frame without it. A sample each round, of the two frames of it.
+[[nodiscard]] std::vector<double> overheadPercent(const PaperColumns& columns);
+
 /// A line of the tables: a counting method in a scene.
 struct PaperRow {
     std::size_t scene = 0; ///< number in PaperResult::scenes

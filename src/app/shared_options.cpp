@@ -126,9 +126,9 @@ void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, 
 
 void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
     parser
-        .add_option(
-            "--volume", sources,
-            "NIfTI, NRRD, MetaImage, a DICOM folder, or builtin:NAME[:SIZE] with head, sphere, noise, ct, shells")
+        .add_option("--volume", sources,
+                    "NIfTI, NRRD, MetaImage, a DICOM folder, or builtin:NAME[:SIZE] with head, sphere, noise, ct, "
+                    "shells, vessels")
         ->type_name("PATH")
         ->check(refuseEmpty)
         ->allow_extra_args(false)
@@ -218,18 +218,24 @@ void addName(CLI::App& parser, const char* option, std::string& name, std::initi
     addParsed(parser, option, parse, help, "NAME", "");
 }
 
+void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help) {
+    addParsed(
+        parser, "--size", [store](const std::string& text) { store(parseSize("--size", text)); }, help, "WxH",
+        "512x512");
+}
+
 void addViewOptions(CLI::App& parser, ViewOptions& options) {
     addPath(parser, "--poses", options.poses,
             "a world_from_object matrix a line: 16 numbers, row by row; default: the identity");
     addPath(parser, "--camera", options.camera,
             "a clip_from_world matrix: 16 numbers, row by row; default: along world -z, framing the volume");
-    addParsed(
-        parser, "--size",
-        [&options](const std::string& text) {
-            options.size = parseSize("--size", text);
+    addSize(
+        parser,
+        [&options](const VkExtent2D& size) {
+            options.size = size;
             options.sizeGiven = true;
         },
-        "viewport in pixels", "WxH", "512x512");
+        "viewport in pixels");
 }
 
 void addMethodOptions(CLI::App& parser, MethodOptions& options) {

@@ -91,6 +91,8 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
 /// One of `names`, as an option.
 void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
              const std::string& help);
+/// --size, 512x512 unless given.
+void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help);
 void addViewOptions(CLI::App& parser, ViewOptions& options);
 void addMethodOptions(CLI::App& parser, MethodOptions& options);
 void addDeviceOptions(CLI::App& parser, DeviceChoice& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/builtin_head.h"
 #include "core/builtin_name.h"
+#include "core/builtin_vessels.h"
 #include "core/guard.h"
 #include "core/value_noise.h"
 #include "voxtact/builtin.h"
@@ -150,13 +151,26 @@ VolumeData makeShells(std::uint32_t size) {
     });
 }
 
+VolumeData makeVessels(std::uint32_t size) {
+    VolumeData volume;
+    volume.grid = centredGrid({size, size, (size + 1) / 2}, {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    volume.type = ScalarType::UInt8;
+    volume.voxels.resize(voxelCount(volume.grid));
+    drawVessels(vesselTree(), volume);
+    return volume;
+}
+
 struct Maker {
     const char* stem;
     VolumeData (*make)(std::uint32_t size);
 };
 
-constexpr std::array<Maker, 5> kMakers{
-    {{"head", makeHead}, {"sphere", makeSphere}, {"noise", makeNoise}, {"ct", makeCt}, {"shells", makeShells}}};
+constexpr std::array<Maker, 6> kMakers{{{"head", makeHead},
+                                        {"sphere", makeSphere},
+                                        {"noise", makeNoise},
+                                        {"ct", makeCt},
+                                        {"shells", makeShells},
+                                        {"vessels", makeVessels}}};
 
 } // namespace
 

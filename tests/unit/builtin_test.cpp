@@ -323,18 +323,16 @@ void expectCentred(const Grid& grid) {
 }
 
 TEST(BuiltinVolume, HasTheSizeAndTypeOfItsName) {
-    const std::map<std::string, ScalarType> types{{"head", ScalarType::UInt8},
-                                                  {"sphere", ScalarType::UInt8},
-                                                  {"noise", ScalarType::UInt16},
-                                                  {"ct", ScalarType::Int16},
-                                                  {"shells", ScalarType::Float32}};
+    const std::map<std::string, ScalarType> types{{"head", ScalarType::UInt8},     {"sphere", ScalarType::UInt8},
+                                                  {"noise", ScalarType::UInt16},   {"ct", ScalarType::Int16},
+                                                  {"shells", ScalarType::Float32}, {"vessels", ScalarType::UInt8}};
     const std::map<ScalarType, std::size_t> bytes{
         {ScalarType::UInt8, 1}, {ScalarType::UInt16, 2}, {ScalarType::Int16, 2}, {ScalarType::Float32, 4}};
     for (const auto& [stem, type] : types) {
         for (const std::uint32_t size : {4U, 5U, 33U, 64U, 128U}) {
             SCOPED_TRACE(stem + ":" + std::to_string(size));
             const VolumeData volume = madeVolume(size == 128 ? stem : stem + ":" + std::to_string(size));
-            const std::uint32_t slices = stem == "ct" ? (size + 2) / 3 : size;
+            const std::uint32_t slices = stem == "ct" ? (size + 2) / 3 : stem == "vessels" ? (size + 1) / 2 : size;
             EXPECT_EQ(volume.grid.size, (std::array<std::uint32_t, 3>{size, size, slices}));
             EXPECT_EQ(volume.type, type);
             EXPECT_EQ(volume.name, stem);
@@ -417,8 +415,33 @@ TEST(BuiltinVolume, ShellsAreThinAndBetweenZeroAndOne) {
     EXPECT_LT(static_cast<double>(filled) / static_cast<double>(voxels.size()), 0.15);
 }
 
+TEST(BuiltinVolume, VesselsBranchAllOverASparseVolume) {
+    const VolumeData vessels = madeVolume("vessels");
+    EXPECT_EQ(range<std::uint8_t>(vessels), (std::pair<std::uint8_t, std::uint8_t>(0, 255)));
+    EXPECT_GT(vessels.grid.spacing[2], 1.9 * vessels.grid.spacing[0]);
+    const std::vector<std::uint8_t> voxels = scalars<std::uint8_t>(vessels);
+    const std::size_t slice = 128UL * 128;
+    const auto inSlice = [&](std::size_t z) {
+        return std::count_if(voxels.begin() + static_cast<std::ptrdiff_t>(z * slice),
+                             voxels.begin() + static_cast<std::ptrdiff_t>((z + 1) * slice),
+                             [](std::uint8_t v) { return v >= 128; });
+    };
+    std::ptrdiff_t inside = 0;
+    for (std::size_t z = 0; z < 64; ++z) {
+        inside += inSlice(z);
+    }
+    const double share = static_cast<double>(inside) / static_cast<double>(voxels.size());
+    EXPECT_GT(share, 0.01);
+    EXPECT_LT(share, 0.1);
+    // The trunk alone enters: a disc around the middle of the lowest slice, of 15 mm and what is above half of 255.
+    const double radius = 15 * 2 * std::sqrt(1 - 127.5 / 255) / vessels.grid.spacing[0];
+    EXPECT_NEAR(static_cast<double>(inSlice(0)), M_PI * radius * radius, 0.1 * M_PI * radius * radius);
+    EXPECT_GE(voxels[64 + 128 * 64], 250);
+    EXPECT_GT(inSlice(52), 50) << "the branches reach the upper part";
+}
+
 TEST(BuiltinVolume, IsTheSameEachTime) {
-    for (const char* name : {"head:40", "sphere:40", "noise:40", "ct:40", "shells:40"}) {
+    for (const char* name : {"head:40", "sphere:40", "noise:40", "ct:40", "shells:40", "vessels:40"}) {
         EXPECT_EQ(madeVolume(name).voxels, madeVolume(name).voxels);
     }
 }
@@ -441,11 +464,9 @@ TEST(Builtin, IsTheSameOnEachMachine) {
         ASSERT_TRUE(made.ok());
         EXPECT_EQ(fnv1a(made->indices, fnv1a(made->positions)), hash) << name;
     }
-    const std::map<std::string, std::uint64_t> volumes{{"head:40", 0x2b317b477d6a17c4U},
-                                                       {"sphere:40", 0xba359fd16dcb7addU},
-                                                       {"noise:40", 0x08a8f81100c95c66U},
-                                                       {"ct:40", 0xfe7b246a3738dff2U},
-                                                       {"shells:40", 0xcf5e7b8b3f6347f5U}};
+    const std::map<std::string, std::uint64_t> volumes{
+        {"head:40", 0x2b317b477d6a17c4U}, {"sphere:40", 0xba359fd16dcb7addU}, {"noise:40", 0x08a8f81100c95c66U},
+        {"ct:40", 0xfe7b246a3738dff2U},   {"shells:40", 0xcf5e7b8b3f6347f5U}, {"vessels:40", 0x9965eaf0fce6a48bU}};
     for (const auto& [name, hash] : volumes) {
         EXPECT_EQ(fnv1a(madeVolume(name).voxels), hash) << name;
     }
@@ -453,7 +474,7 @@ TEST(Builtin, IsTheSameOnEachMachine) {
 
 TEST(BuiltinVolume, RefusesWhatItCannotMake) {
     const std::map<std::string, std::vector<std::string>> refused{
-        {"foo", {"unknown builtin volume 'foo'", "head, sphere, noise, ct, shells"}},
+        {"foo", {"unknown builtin volume 'foo'", "head, sphere, noise, ct, shells, vessels"}},
         {"", {"unknown builtin volume ''"}},
         {"head:3", {"head:3", "4 to 1024"}},
         {"head:1025", {"head:1025", "4 to 1024"}},

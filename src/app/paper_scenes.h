@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/bench.h"
+#include "app/compare_scene.h"
+#include "app/paper_result.h"
+
+namespace voxtact::app {
+
+/// One of the paper's scenes, in host memory.
+struct PaperInput {
+    PaperScene scene;
+    CompareData data;
+};
+
+/// v1s1, v1s2, v2s1, v2s2: each with poses of which all touch, as the host counts, and the camera of both picture and
+/// detection.
+[[nodiscard]] Result<std::vector<PaperInput>> loadPaperScenes(const BenchOptions& options);
+
+} // namespace voxtact::app
