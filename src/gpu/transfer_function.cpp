@@ -47,7 +47,7 @@ Result<void> describe(TransferFunctionImpl& function, VkImageView view, VkImageL
         return set.error();
     }
     function.descriptors = std::move(*set);
-    writeImage(context, function.descriptors.set, view, layout);
+    writeImage(context, function.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, view, layout);
     writeBuffer(context, function.descriptors.set, VOXTACT_BINDING_EXTREMES, *extremes);
     return {};
 }

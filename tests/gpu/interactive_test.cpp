@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A viewer whose user drags the transfer function about: every frame brings a new one, to pictures and counts alike,
 // while the frames before it are still on the device.
-#include "gpu_fixture.h"
 #include "own_image.h"
+#include "render_fixture.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
@@ -104,14 +104,13 @@ struct Slot {
     VkFence fence = VK_NULL_HANDLE;
 };
 
-class InteractiveTest : public GpuTest {
+class InteractiveTest : public PictureTest {
   protected:
     void SetUp() override {
-        GpuTest::SetUp();
+        PictureTest::SetUp();
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        blocking_.emplace(take(BlockingRenderer::create(context(), queue())));
         for (const DetectorDesc& way : kWays) {
             detectors_.push_back(detector(way));
             rings_.push_back(take(ResultRing::create(context(), kInFlight, {.maxPairs = 1})));
@@ -132,11 +131,9 @@ class InteractiveTest : public GpuTest {
         volume_.reset();
         rings_.clear();
         detectors_.clear();
-        blocking_.reset();
-        GpuTest::TearDown();
+        PictureTest::TearDown();
     }
 
-    [[nodiscard]] const Renderer& renderer() const { return blocking_->renderer(); }
     [[nodiscard]] BatchItem itemOf(const TransferFunction& function) const {
         return {&*mesh_, &*volume_, &function, {&scene_.world_from_object, 1}};
     }
@@ -204,7 +201,7 @@ class InteractiveTest : public GpuTest {
         const RenderTransferFunction seen =
             take(RenderTransferFunction::upload(renderer(), queue(), frame.change.desc()));
         scene_.transferFunction = &seen;
-        EXPECT_TRUE(pixelsOf(frame) == take(blocking_->render(scene_, kExtent)).rgba) << "the picture";
+        EXPECT_TRUE(pixelsOf(frame) == take(blocking().render(scene_, kExtent)).rgba) << "the picture";
         const TransferFunction counted = take(TransferFunction::upload(context(), queue(), frame.change.opacity()));
         const BatchItem item = itemOf(counted);
         for (std::size_t way = 0; way < kWayCount; ++way) {
@@ -240,7 +237,7 @@ class InteractiveTest : public GpuTest {
         scene.volume = &elsewhere;
         scene.bricks = nullptr;
         scene.transferFunction = &function;
-        return take(blocking_->render(scene, kExtent)).rgba;
+        return take(blocking().render(scene, kExtent)).rgba;
     }
 
     static void expectSame(const PairAnswer& frame, const PairAnswer& other, const char* what, std::size_t way) {
@@ -259,7 +256,6 @@ class InteractiveTest : public GpuTest {
     cpu::Mesh hostMesh_ = take(cpu::Mesh::create(ellipsoid_.view()));
     cpu::Detector hostExact_ = take(cpu::Detector::create());
     cpu::Detector hostConservative_ = take(cpu::Detector::create({.projection = Projection::Conservative}));
-    std::optional<BlockingRenderer> blocking_;
     std::vector<BlockingDetector> detectors_;
     std::vector<ResultRing> rings_;
     std::optional<Volume> volume_;
