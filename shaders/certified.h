@@ -18,19 +18,10 @@
 /// Pieces of a fragment that are looked at before it is left undecided.
 #define CERTIFIED_MAX_PIECES 2048
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#define EXACT inline
-#define PRECISE
-#define OUT(type) type&
-#define INOUT(type) type&
-#define ARRAY(type, name, count) type(&name)[count]
 namespace voxtact::shader {
-#else
-#define EXACT
-#define PRECISE precise
-#define OUT(type) out type
-#define INOUT(type) inout type
-#define ARRAY(type, name, count) inout type name[count]
 #endif
 
 /// A piece of a fragment.
@@ -378,12 +369,9 @@ EXACT bool certifiedVertexProves(OpacityTable table, CertifiedCell cell, VoxelPo
     return certifiedPointProves(table, cell, at, certifiedInterpolate(cell, at.x, at.y, at.z));
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
-#undef OUT
-#undef INOUT
-#undef ARRAY
 } // namespace voxtact::shader
 #endif
 

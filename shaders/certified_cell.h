@@ -12,19 +12,10 @@
 /// Of the largest terms of an entry coordinate: how far its computation may be off, interpolation included.
 #define CERTIFIED_VALUE_ERROR 1.9073486328125e-6f
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#define EXACT inline
-#define PRECISE
-#define OUT(type) type&
-#define INOUT(type) type&
-#define ARRAY(type, name, count) type(&name)[count]
 namespace voxtact::shader {
-#else
-#define EXACT
-#define PRECISE precise
-#define OUT(type) out type
-#define INOUT(type) inout type
-#define ARRAY(type, name, count) inout type name[count]
 #endif
 
 /// A cell, its corners' scalars as entry coordinates, and what is certain of them.
@@ -209,12 +200,9 @@ EXACT bool certifiedRangeMayBeOpaque(OpacityTable table, CertifiedItem item, flo
     return certifiedMayBeOpaque(table, certifiedMin(first, second), certifiedMax(first, second), error);
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
-#undef OUT
-#undef INOUT
-#undef ARRAY
 } // namespace voxtact::shader
 #endif
 

@@ -16,19 +16,10 @@
 /// Voxels. A vertex whose error is larger may be anywhere.
 #define CERTIFIED_FARTHEST 1.0e30f
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#define EXACT inline
-#define PRECISE
-#define OUT(type) type&
-#define INOUT(type) type&
-#define ARRAY(type, name, count) type(&name)[count]
 namespace voxtact::shader {
-#else
-#define EXACT
-#define PRECISE precise
-#define OUT(type) out type
-#define INOUT(type) inout type
-#define ARRAY(type, name, count) inout type name[count]
 #endif
 
 /// A point or a vector of voxel space.
@@ -243,12 +234,9 @@ EXACT bool certifiedPlaneMisses(CertifiedTriangle triangle, VoxelPoint centre, f
     return certifiedAbs(distance) > most;
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
-#undef OUT
-#undef INOUT
-#undef ARRAY
 } // namespace voxtact::shader
 #endif
 

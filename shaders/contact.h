@@ -19,10 +19,10 @@
 #define CONTACT_MOST_STEPS 1024
 #define CONTACT_HALVINGS 16
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
 namespace voxtact::shader {
-#define EXACT inline
-#define PRECISE
 /// An object that looks opacities up: `float opacity(OutputPair, ContactVector)`, at coordinates within [0,1]^3.
 #define FIELD_FUNCTION template <class Field>
 #define FIELD const Field &field,
@@ -262,9 +262,9 @@ EXACT uint contactVoxel(float coordinate, uint size) {
     return index < size ? index : size - 1u;
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
 #undef FIELD_FUNCTION
 #undef FIELD
 #undef PASS_FIELD

@@ -9,13 +9,10 @@
 /// Square voxels. A normal whose components are all smaller counts as none: a device may take such numbers for zero.
 #define DOMINANT_SMALLEST_NORMAL 1e-30f
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
 namespace voxtact::shader {
-#define EXACT inline
-#define PRECISE
-#define INOUT(type) type&
-#else
-#define INOUT(type) inout type
 #endif
 
 /// a * b - c * d
@@ -80,10 +77,9 @@ EXACT bool dominantProject(INOUT(ExactCorner) c0, INOUT(ExactCorner) c1, INOUT(E
     return true;
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
-#undef INOUT
 } // namespace voxtact::shader
 #endif
 

@@ -18,15 +18,12 @@
 /// A triangle that six planes clip has at most this many corners.
 #define EXACT_MAX_CORNERS 9
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
 #include <bit>
 #include <cmath>
 namespace voxtact::shader {
-#define EXACT inline
-#define PRECISE
-#define OUT(type) type&
-#define INT64 std::int64_t
-#define INOUT_CORNERS(name) ExactCorner(&name)[EXACT_MAX_CORNERS]
 /// EXACT_GUARD_PIXELS in units of half a viewport of `pixels`.
 inline float exactGuard(uint pixels) {
     return 2.0f * EXACT_GUARD_PIXELS / static_cast<float>(pixels);
@@ -40,12 +37,6 @@ inline float intBitsToFloat(int bits) {
 inline float floor(float value) {
     return std::floor(value);
 }
-#else
-#define EXACT
-#define PRECISE precise
-#define OUT(type) out type
-#define INT64 int64_t
-#define INOUT_CORNERS(name) inout ExactCorner name[EXACT_MAX_CORNERS]
 #endif
 
 /// A corner in clip space, with its texture coordinate.
@@ -148,7 +139,7 @@ EXACT ExactCorner exactCut(ExactCorner inside, ExactCorner outside, float distan
 
 /// Clips a polygon of `count` corners by all six planes, in place; returns the number of corners that are left
 /// (Sutherland and Hodgman, "Reentrant polygon clipping", 1974).
-EXACT int exactClip(INOUT_CORNERS(corners), int count, float guardX, float guardY) {
+EXACT int exactClip(ARRAY(ExactCorner, corners, EXACT_MAX_CORNERS), int count, float guardX, float guardY) {
     for (int plane = 0; plane < 6; ++plane) {
         ExactCorner kept[EXACT_MAX_CORNERS];
         int keptCount = 0;
@@ -406,12 +397,9 @@ EXACT ExactCell exactEntry(float stored, float scalarScale, float scalarBias, in
     return cell;
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
-#undef OUT
-#undef INT64
-#undef INOUT_CORNERS
 } // namespace voxtact::shader
 #endif
 

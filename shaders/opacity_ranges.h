@@ -9,13 +9,10 @@
 #include "exact.h"
 #include "opacity_table.h"
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#define EXACT inline
-#define PRECISE
 namespace voxtact::shader {
-#else
-#define EXACT
-#define PRECISE precise
 #endif
 
 /// More than the rounding of one interpolation between two opacities.
@@ -100,9 +97,9 @@ EXACT bool certainlySomeOpaque(OpacityTable table, float lo, float hi) {
     return opacityAt(table, from) >= safe || opacityAt(table, to) >= safe;
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
-#undef PRECISE
 } // namespace voxtact::shader
 #endif
 

@@ -3,12 +3,11 @@
 #ifndef VOXTACT_OPACITY_TABLE_H
 #define VOXTACT_OPACITY_TABLE_H
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
 #include <bit>
-#define EXACT inline
 namespace voxtact::shader {
-#else
-#define EXACT
 #endif
 
 /// The table's extremes (core/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that name.
@@ -54,8 +53,9 @@ EXACT float opacityMinimum(OpacityTable table, int first, int last) {
     return head < tail ? head : tail;
 }
 
+#include "exact_language.h"
+
 #ifdef __cplusplus
-#undef EXACT
 } // namespace voxtact::shader
 #endif
 

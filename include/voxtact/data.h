@@ -109,12 +109,12 @@ inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sampl
 /// the domain: the first and the last entry. The look-up coordinate is s itself.
 struct TransferFunctionDesc {
     std::span<const ControlPoint> points; ///< ascending values; piecewise linear between, constant outside
-    ValueRange domain{0, 255};            ///< lo < hi
+    ValueRange domain{0, 255};            ///< lo < hi, and hi - lo finite
     std::uint32_t tableSize = kDefaultTableSize;
 };
 
-/// Refuses no points, values that are not finite or not ascending (equal neighbours make a step and are allowed),
-/// opacities outside [0,1], an empty domain and a table of fewer than 2 entries. Returns the table.
+/// Refuses no points, values not finite or not ascending (equal ones make a step) or too far apart for a difference,
+/// opacities outside [0,1], a domain empty or too wide and a table of fewer than 2 entries. Returns the table.
 [[nodiscard]] VOXTACT_API Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc);
 
 /// A triangle mesh somebody else owns, in object space. Three floats a vertex, three indices a triangle.

@@ -2,6 +2,7 @@
 #include "app/shared_options.h"
 
 #include "app/standard_streams.h"
+#include "core/domain.h"
 
 #include <CLI/CLI.hpp>
 
@@ -81,7 +82,11 @@ ValueRange parseDomain(const char* option, const std::string& text) {
         const auto lo = parseNumber<double>(std::string_view(text).substr(0, colon));
         const auto hi = parseNumber<double>(std::string_view(text).substr(colon + 1));
         if (lo && hi && std::isfinite(*lo) && std::isfinite(*hi) && *lo < *hi) {
-            return {*lo, *hi};
+            const ValueRange domain{*lo, *hi};
+            if (const Result<void> checked = checkDomain(domain, "the domain"); !checked.ok()) {
+                refuse(option, checked.error().text);
+            }
+            return domain;
         }
     }
     refuse(option, quote(text) + " is not LO:HI, two numbers with LO below HI");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/domain.h"
 #include "core/guard.h"
 #include "core/text.h"
 #include "voxtact/data.h"
@@ -30,6 +31,10 @@ Result<void> checkPoints(std::span<const ControlPoint> points) {
             return refuse(which + "the value " + number(points[i].value) + " comes after " +
                           number(points[i - 1].value) + ", values must ascend");
         }
+        if (i > 0 && !std::isfinite(points[i].value - points[i - 1].value)) {
+            return refuse(which + "the value " + number(points[i].value) + " is too far from " +
+                          number(points[i - 1].value) + ", their difference overflows");
+        }
     }
     return {};
 }
@@ -56,9 +61,8 @@ Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
             return points.error();
         }
         const ValueRange& domain = desc.domain;
-        if (!std::isfinite(domain.lo) || !std::isfinite(domain.hi) || !(domain.lo < domain.hi)) {
-            return refuse("the transfer function's domain " + number(domain.lo) + ":" + number(domain.hi) +
-                          " is empty, the lower end must be below the upper one");
+        if (Result<void> checked = checkDomain(domain, "the transfer function's domain"); !checked.ok()) {
+            return checked.error();
         }
         if (desc.tableSize < 2) {
             return refuse("the transfer function's table has " + std::to_string(desc.tableSize) +

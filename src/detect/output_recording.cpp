@@ -53,22 +53,10 @@ void clear(const ContextImpl& context, VkCommandBuffer commandBuffer, const Outp
 
 /// The stand-in for a label map becomes something that a set may be bound to.
 void makeReadable(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage image) {
-    VkImageMemoryBarrier2 transition{};
-    transition.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-    transition.srcStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    transition.dstStageMask = transition.srcStageMask;
-    transition.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    transition.oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    transition.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    transition.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    transition.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    transition.image = image;
-    transition.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    info.imageMemoryBarrierCount = 1;
-    info.pImageMemoryBarriers = &transition;
-    context.vk.CmdPipelineBarrier2(commandBuffer, &info);
+    constexpr VkPipelineStageFlags2 kStages =
+        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier(context, commandBuffer, image, {kStages, 0, VK_IMAGE_LAYOUT_UNDEFINED},
+            {kStages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 
 shader::OutputPair pairOf(const BatchItem& item, double threshold, const Outputs& outputs) {

@@ -6,6 +6,7 @@
 #include "detect/view.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
+#include "gpu/layouts.h"
 #include "gpu/submit.h"
 
 #include <algorithm>
@@ -38,36 +39,14 @@ Result<void> makeLayouts(FragmentTraceImpl& trace) {
     ContextImpl& context = trace.context;
     const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
                                                nullptr};
-    VkDescriptorSetLayoutCreateInfo setInfo{};
-    setInfo.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    setInfo.bindingCount = 1;
-    setInfo.pBindings = &binding;
-    VkDescriptorSetLayout set = VK_NULL_HANDLE;
-    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &setInfo, context.allocator, &set);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a descriptor set layout");
+    if (Result<void> made = makeSetLayout(context, trace.setLayout, {&binding, 1}, "trace set layout"); !made.ok()) {
+        return made;
     }
-    trace.setLayout = Owned<VkDescriptorSetLayout>(context, set, [](ContextImpl& c, VkDescriptorSetLayout handle) {
-        c.vk.DestroyDescriptorSetLayout(c.device, handle, c.allocator);
-    });
-    const VkDescriptorSetLayout sets[] = {context.setLayouts[0], context.setLayouts[1], context.setLayouts[2], set};
+    const VkDescriptorSetLayout sets[] = {context.setLayouts[0], context.setLayouts[1], context.setLayouts[2],
+                                          trace.setLayout.get()};
     static_assert(std::size(sets) == VOXTACT_SET_TRACE + 1);
     const VkPushConstantRange constants{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = std::size(sets);
-    info.pSetLayouts = sets;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &constants;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a pipeline layout");
-    }
-    trace.layout = Owned<VkPipelineLayout>(context, layout, [](ContextImpl& c, VkPipelineLayout handle) {
-        c.vk.DestroyPipelineLayout(c.device, handle, c.allocator);
-    });
-    return {};
+    return makePipelineLayout(context, trace.layout, sets, {&constants, 1}, "trace pipeline layout");
 }
 
 /// Makes room for a list of `capacity` fragments.

@@ -35,6 +35,17 @@ void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage 
     context.vk.CmdPipelineBarrier2(commandBuffer, &info);
 }
 
+void cmdFillBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, const Buffer& staging,
+                   const Buffer& buffer) {
+    // Earlier readers must be done before the contents go.
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    const VkBufferCopy whole{0, 0, buffer.size};
+    context.vk.CmdCopyBuffer(commandBuffer, staging.get(), buffer.get(), 1, &whole);
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+}
+
 void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
                   VkExtent3D extent) {
     constexpr ImageUse kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,

@@ -41,6 +41,10 @@ void barrier(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage 
 void cmdUpdateBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer buffer, VkDeviceSize offset,
                      std::span<const std::byte> data);
 
+/// Copies a staging buffer over a whole buffer, whatever it held, and leaves it readable by every later command.
+void cmdFillBuffer(const ContextImpl& context, VkCommandBuffer commandBuffer, const Buffer& staging,
+                   const Buffer& buffer);
+
 /// Copies a staging buffer over a whole image, whatever it held, and leaves it readable by every shader stage.
 void cmdFillImage(const ContextImpl& context, VkCommandBuffer commandBuffer, VkBuffer staging, VkImage image,
                   VkExtent3D extent);

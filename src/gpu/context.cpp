@@ -2,6 +2,7 @@
 #include "core/guard.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
+#include "gpu/layouts.h"
 #include "shared.h"
 
 #include <algorithm>
@@ -51,20 +52,6 @@ Result<void> makeSampler(ContextImpl& context) {
     return {};
 }
 
-Result<void> makeSetLayout(ContextImpl& context, VkDescriptorSetLayout& layout,
-                           std::span<const VkDescriptorSetLayoutBinding> bindings, const char* name) {
-    VkDescriptorSetLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    info.pBindings = bindings.data();
-    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &layout);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a descriptor set layout");
-    }
-    nameObject(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
-    return {};
-}
-
 Result<void> makeSetLayout(ContextImpl& context, SetIndex index, std::span<const VkDescriptorSetLayoutBinding> bindings,
                            const char* name) {
     return makeSetLayout(context, context.setLayouts[static_cast<std::size_t>(index)], bindings, name);
@@ -109,22 +96,6 @@ Result<void> makeSetLayouts(ContextImpl& context) {
     return makeSetLayout(context, SetIndex::Mesh, mesh, "mesh set layout");
 }
 
-Result<void> makeLayout(ContextImpl& context, std::span<const VkDescriptorSetLayout> sets,
-                        std::span<const VkPushConstantRange> constants, VkPipelineLayout& layout, const char* name) {
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
-    info.pSetLayouts = sets.data();
-    info.pushConstantRangeCount = static_cast<std::uint32_t>(constants.size());
-    info.pPushConstantRanges = constants.data();
-    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a pipeline layout");
-    }
-    nameObject(context, VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, name);
-    return {};
-}
-
 /// The second is that of the projection dominant-axis alone.
 constexpr VkPushConstantRange kRasterConstants[] = {
     {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
@@ -136,21 +107,21 @@ constexpr VkPushConstantRange kComputeConstants[] = {
 
 Result<void> makeLayouts(ContextImpl& context) {
     const std::span<const VkDescriptorSetLayout> sets(context.setLayouts);
-    if (Result<void> made = makeLayout(context, sets.first(VOXTACT_SET_PAIRS + 1), std::span(kRasterConstants).first(1),
-                                       context.rasterLayout, "raster pipeline layout");
+    if (Result<void> made = makePipelineLayout(context, context.rasterLayout, sets.first(VOXTACT_SET_PAIRS + 1),
+                                               std::span(kRasterConstants).first(1), "raster pipeline layout");
         !made.ok()) {
         return made;
     }
-    if (Result<void> made = makeLayout(context, sets.first(VOXTACT_SET_MESH + 1), kRasterConstants,
-                                       context.dominantLayout, "dominant-axis pipeline layout");
+    if (Result<void> made = makePipelineLayout(context, context.dominantLayout, sets.first(VOXTACT_SET_MESH + 1),
+                                               kRasterConstants, "dominant-axis pipeline layout");
         !made.ok()) {
         return made;
     }
     if (context.limits.maxPerStageDescriptorStorageBuffers < kComputeStorageBuffers) {
         return {};
     }
-    return makeLayout(context, sets.first(VOXTACT_SET_MESH + 1), kComputeConstants, context.computeLayout,
-                      "compute pipeline layout");
+    return makePipelineLayout(context, context.computeLayout, sets.first(VOXTACT_SET_MESH + 1), kComputeConstants,
+                              "compute pipeline layout");
 }
 
 Result<void> makeOutputSetLayouts(ContextImpl& context) {
@@ -181,13 +152,13 @@ Result<void> makeOutputLayouts(ContextImpl& context) {
                                           context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], context.outputSetLayout,
                                           context.setLayouts[VOXTACT_SET_MESH], context.labelSetLayout};
     static_assert(std::size(sets) == kOutputSets && kOutputSets == VOXTACT_SET_LABELS + 1);
-    if (Result<void> made = makeLayout(context, sets, kRasterConstants, context.rasterOutputLayout,
-                                       "raster pipeline layout with outputs");
+    if (Result<void> made = makePipelineLayout(context, context.rasterOutputLayout, sets, kRasterConstants,
+                                               "raster pipeline layout with outputs");
         !made.ok()) {
         return made;
     }
-    return makeLayout(context, sets, kComputeConstants, context.computeOutputLayout,
-                      "compute pipeline layout with outputs");
+    return makePipelineLayout(context, context.computeOutputLayout, sets, kComputeConstants,
+                              "compute pipeline layout with outputs");
 }
 
 } // namespace

@@ -52,7 +52,7 @@ Result<DescriptorSet> makeLabelSet(ContextImpl& context, VkImageView view, const
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.labelSetLayout, {&size, 1}, name);
     if (set.ok()) {
-        writeSampledImage(context, set->set, view);
+        writeImage(context, set->set, 0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, view);
     }
     return set;
 }

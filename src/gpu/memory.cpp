@@ -156,6 +156,23 @@ Result<VkBuffer> emptyBuffer(ContextImpl& context) {
     return context.nothing.get();
 }
 
+Result<void> makeStaged(ContextImpl& context, VkDeviceSize size, VkBufferUsageFlags usage, const char* name,
+                        Buffer& buffer, Buffer& staging) {
+    Result<Buffer> onDevice =
+        makeBuffer(context, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device, name);
+    if (!onDevice.ok()) {
+        return onDevice.error();
+    }
+    Result<Buffer> mapped = makeBuffer(context, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
+                                       (std::string(name) + " staging").c_str());
+    if (!mapped.ok()) {
+        return mapped.error();
+    }
+    buffer = std::move(*onDevice);
+    staging = std::move(*mapped);
+    return {};
+}
+
 Result<void> flush(ContextImpl& context, const Buffer& buffer) {
     return wholeRange(context, buffer, true);
 }
@@ -239,27 +256,18 @@ Result<DescriptorSet> makeDescriptorSet(ContextImpl& context, VkDescriptorSetLay
     return out;
 }
 
-namespace {
-
-void writeImage(ContextImpl& context, VkDescriptorSet set, VkDescriptorType type, const VkDescriptorImageInfo& image) {
+void writeImage(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
+                VkImageView view, VkImageLayout layout) {
+    const VkSampler sampler = type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER ? context.sampler : VK_NULL_HANDLE;
+    const VkDescriptorImageInfo image{sampler, view, layout};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
+    write.dstBinding = binding;
     write.descriptorCount = 1;
     write.descriptorType = type;
     write.pImageInfo = &image;
     context.vk.UpdateDescriptorSets(context.device, 1, &write, 0, nullptr);
-}
-
-} // namespace
-
-void writeImage(ContextImpl& context, VkDescriptorSet set, VkImageView view, VkImageLayout layout) {
-    writeImage(context, set, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {context.sampler, view, layout});
-}
-
-void writeSampledImage(ContextImpl& context, VkDescriptorSet set, VkImageView view) {
-    writeImage(context, set, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-               {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 
 void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer, VkDeviceSize range,

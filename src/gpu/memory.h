@@ -68,6 +68,9 @@ struct Buffer {
 /// LimitExceeded where `size` is beyond the largest allocation; OutOfMemory where the device has no room.
 [[nodiscard]] Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsageFlags usage,
                                         MemoryUse use, const char* name);
+/// Makes a buffer on the device with `usage`, and beside it a mapped one for cmdFillBuffer() to fill it from.
+[[nodiscard]] Result<void> makeStaged(ContextImpl& context, VkDeviceSize size, VkBufferUsageFlags usage,
+                                      const char* name, Buffer& buffer, Buffer& staging);
 /// Makes the host's writes to a mapped buffer visible to the device. Nothing to do on coherent memory.
 [[nodiscard]] Result<void> flush(ContextImpl& context, const Buffer& buffer);
 /// Makes the device's writes visible to the host.
@@ -102,10 +105,9 @@ struct DescriptorSet {
 
 [[nodiscard]] Result<DescriptorSet> makeDescriptorSet(ContextImpl& context, VkDescriptorSetLayout layout,
                                                       std::span<const VkDescriptorPoolSize> sizes, const char* name);
-/// Writes a combined image sampler at binding 0.
-void writeImage(ContextImpl& context, VkDescriptorSet set, VkImageView view, VkImageLayout layout);
-/// Writes a sampled image at binding 0, readable by every shader.
-void writeSampledImage(ContextImpl& context, VkDescriptorSet set, VkImageView view);
+/// Writes an image; a combined image sampler has the context's sampler.
+void writeImage(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
+                VkImageView view, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 /// Writes a storage buffer, from `offset` on.
 void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer,
                  VkDeviceSize range = VK_WHOLE_SIZE, VkDeviceSize offset = 0);

@@ -47,23 +47,14 @@ Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions
     const VkDeviceSize described = positions + data.indices.size_bytes();
     const VkDeviceSize total = described + clusters.size() * sizeof(std::uint32_t);
     mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
-    Result<Buffer> buffer = makeBuffer(context, total,
-                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
-                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                       MemoryUse::Device, name);
-    if (!buffer.ok()) {
-        return buffer.error();
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    if (Result<void> made = makeStaged(context, total, kUsage, name, mesh.buffer, mesh.staging); !made.ok()) {
+        return made;
     }
-    mesh.buffer = std::move(*buffer);
     mesh.vertices = mesh.buffer.get();
     mesh.indices = mesh.buffer.get();
     mesh.indexOffset = positions;
-    Result<Buffer> staging =
-        makeBuffer(context, total, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "mesh staging");
-    if (!staging.ok()) {
-        return staging.error();
-    }
-    mesh.staging = std::move(*staging);
     auto* to = static_cast<std::byte*>(mesh.staging.mapped);
     std::memcpy(to, data.positions.data(), data.positions.size_bytes());
     std::memcpy(to + positions, data.indices.data(), data.indices.size_bytes());
@@ -212,15 +203,8 @@ Result<void> Mesh::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!impl_->staging.buffer) {
             return notUploadable("mesh");
         }
-        ContextImpl& context = impl_->context;
-        const Label label(context, commandBuffer, "voxtact mesh upload");
-        // Earlier readers must be done before the contents go.
-        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
-                VK_ACCESS_2_TRANSFER_WRITE_BIT);
-        const VkBufferCopy whole{0, 0, impl_->buffer.size};
-        context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->buffer.get(), 1, &whole);
-        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        const Label label(impl_->context, commandBuffer, "voxtact mesh upload");
+        cmdFillBuffer(impl_->context, commandBuffer, impl_->staging, impl_->buffer);
         return {};
     });
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "core/domain.h"
 #include "core/guard.h"
 #include "core/table_extremes.h"
-#include "core/text.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 #include "shared.h"
 
-#include <cmath>
 #include <cstring>
 
 namespace voxtact {
@@ -48,7 +47,7 @@ Result<void> describe(TransferFunctionImpl& function, VkImageView view, VkImageL
         return set.error();
     }
     function.descriptors = std::move(*set);
-    writeImage(context, function.descriptors.set, view, layout);
+    writeImage(context, function.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, view, layout);
     writeBuffer(context, function.descriptors.set, VOXTACT_BINDING_EXTREMES, *extremes);
     return {};
 }
@@ -165,15 +164,12 @@ Result<TransferFunction> TransferFunction::wrap(const Context& context, const Wr
         if (wrapped.view == VK_NULL_HANDLE) {
             return Error{ErrorCode::InvalidArgument, 0, "WrappedTransferFunction::view is null"};
         }
-        const ValueRange& domain = wrapped.domain;
-        if (!std::isfinite(domain.lo) || !std::isfinite(domain.hi) || !(domain.lo < domain.hi)) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "WrappedTransferFunction::domain " + number(domain.lo) + ":" + number(domain.hi) +
-                             " is empty, the lower end must be below the upper one"};
+        if (Result<void> domain = checkDomain(wrapped.domain, "WrappedTransferFunction::domain"); !domain.ok()) {
+            return domain.error();
         }
         auto impl = std::make_unique<TransferFunctionImpl>(
             TransferFunctionImpl{.context = context.impl(),
-                                 .domain = domain,
+                                 .domain = wrapped.domain,
                                  .table = std::vector<float>(wrapped.table.begin(), wrapped.table.end())});
         if (!impl->table.empty()) {
             if (Result<void> made = makeExtremes(*impl, TableExtremes(impl->table), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,

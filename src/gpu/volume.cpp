@@ -107,7 +107,7 @@ Result<void> describe(VolumeImpl& volume, VkImageLayout layout, const char* name
         return set.error();
     }
     volume.descriptors = std::move(*set);
-    writeImage(context, volume.descriptors.set, volume.view, layout);
+    writeImage(context, volume.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, volume.view, layout);
     writeBuffer(context, volume.descriptors.set, VOXTACT_BINDING_BRICKS, *bricks);
     return {};
 }

@@ -66,19 +66,11 @@ Result<MeshNormals> MeshNormals::create(const Renderer& renderer, const MeshView
         auto impl = std::make_unique<MeshNormalsImpl>(MeshNormalsImpl{.context = context, .vertices = facts->vertices});
         const std::vector<float> normals = vertexNormals(data);
         const std::span<const std::byte> bytes = std::as_bytes(std::span(normals));
-        Result<Buffer> buffer =
-            makeBuffer(context, bytes.size(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                       MemoryUse::Device, "mesh normals");
-        if (!buffer.ok()) {
-            return buffer.error();
+        if (Result<void> made = makeStaged(context, bytes.size(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "mesh normals",
+                                           impl->buffer, impl->staging);
+            !made.ok()) {
+            return made.error();
         }
-        impl->buffer = std::move(*buffer);
-        Result<Buffer> staging = makeBuffer(context, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
-                                            "mesh normals staging");
-        if (!staging.ok()) {
-            return staging.error();
-        }
-        impl->staging = std::move(*staging);
         std::memcpy(impl->staging.mapped, bytes.data(), bytes.size());
         if (Result<void> flushed = flush(context, impl->staging); !flushed.ok()) {
             return flushed.error();
@@ -96,15 +88,8 @@ Result<void> MeshNormals::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!impl_->staging.buffer) {
             return notUploadable("normals");
         }
-        ContextImpl& context = impl_->context;
-        const Label label(context, commandBuffer, "voxtact normals upload");
-        // Earlier readers must be done before the contents go.
-        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
-                VK_ACCESS_2_TRANSFER_WRITE_BIT);
-        const VkBufferCopy whole{0, 0, impl_->buffer.size};
-        context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->buffer.get(), 1, &whole);
-        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        const Label label(impl_->context, commandBuffer, "voxtact normals upload");
+        cmdFillBuffer(impl_->context, commandBuffer, impl_->staging, impl_->buffer);
         return {};
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
-#include "gpu/debug.h"
+#include "gpu/layouts.h"
 #include "gpu/pipeline.h"
 #include "render/render_impl.h"
 
@@ -52,24 +52,6 @@ Result<void> checkFormats(const ContextImpl& context, VkFormat colour) {
     return {};
 }
 
-Result<void> makeSetLayout(ContextImpl& context, Owned<VkDescriptorSetLayout>& out,
-                           std::span<const VkDescriptorSetLayoutBinding> bindings, const char* name) {
-    VkDescriptorSetLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    info.pBindings = bindings.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &layout);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a descriptor set layout");
-    }
-    nameObject(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
-    out = {context, layout, [](ContextImpl& c, VkDescriptorSetLayout handle) {
-               c.vk.DestroyDescriptorSetLayout(c.device, handle, c.allocator);
-           }};
-    return {};
-}
-
 Result<void> makeSetLayouts(RendererImpl& renderer) {
     constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -103,26 +85,6 @@ Result<void> makeSetLayouts(RendererImpl& renderer) {
             return made;
         }
     }
-    return {};
-}
-
-Result<void> makePipelineLayout(ContextImpl& context, Owned<VkPipelineLayout>& out,
-                                std::span<const VkDescriptorSetLayout> sets,
-                                std::span<const VkPushConstantRange> constants, const char* name) {
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.setLayoutCount = static_cast<std::uint32_t>(sets.size());
-    info.pSetLayouts = sets.data();
-    info.pushConstantRangeCount = static_cast<std::uint32_t>(constants.size());
-    info.pPushConstantRanges = constants.data();
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &layout);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a pipeline layout");
-    }
-    nameObject(context, VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, name);
-    out = {context, layout,
-           [](ContextImpl& c, VkPipelineLayout handle) { c.vk.DestroyPipelineLayout(c.device, handle, c.allocator); }};
     return {};
 }
 

@@ -63,18 +63,6 @@ Result<void> makeImages(RenderTargetsImpl& targets) {
     return {};
 }
 
-void writeTarget(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkImageView view) {
-    const VkDescriptorImageInfo image{context.sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    write.dstSet = set;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    write.pImageInfo = &image;
-    context.vk.UpdateDescriptorSets(context.device, 1, &write, 0, nullptr);
-}
-
 Result<void> describe(RenderTargetsImpl& targets) {
     ContextImpl& context = targets.renderer.context;
     Result<Buffer> constants = makeBuffer(context, sizeof(shader::PictureConstants),
@@ -93,8 +81,10 @@ Result<void> describe(RenderTargetsImpl& targets) {
     }
     targets.descriptors = std::move(*set);
     writeBuffer(context, targets.descriptors.set, PICTURE_BINDING_CONSTANTS, targets.constants.get());
-    writeTarget(context, targets.descriptors.set, PICTURE_BINDING_MESH_COLOUR, targets.colour.view.get());
-    writeTarget(context, targets.descriptors.set, PICTURE_BINDING_MESH_DISTANCE, targets.distance.view.get());
+    writeImage(context, targets.descriptors.set, PICTURE_BINDING_MESH_COLOUR, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+               targets.colour.view.get());
+    writeImage(context, targets.descriptors.set, PICTURE_BINDING_MESH_DISTANCE,
+               VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, targets.distance.view.get());
     return {};
 }
 

@@ -110,17 +110,6 @@ Result<void> makeTable(RenderTransferFunctionImpl& function) {
     return {};
 }
 
-void writeStorageImage(ContextImpl& context, VkDescriptorSet set, VkImageView view) {
-    const VkDescriptorImageInfo image{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    write.dstSet = set;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    write.pImageInfo = &image;
-    context.vk.UpdateDescriptorSets(context.device, 1, &write, 0, nullptr);
-}
-
 Result<void> describe(RenderTransferFunctionImpl& function) {
     ContextImpl& context = function.renderer.context;
     constexpr VkDescriptorPoolSize kMaking[] = {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1},
@@ -131,7 +120,8 @@ Result<void> describe(RenderTransferFunctionImpl& function) {
         return making.error();
     }
     function.making = std::move(*making);
-    writeStorageImage(context, function.making.set, function.image.view.get());
+    writeImage(context, function.making.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, function.image.view.get(),
+               VK_IMAGE_LAYOUT_GENERAL);
     writeBuffer(context, function.making.set, 1, function.integralBuffer.get());
     constexpr VkDescriptorPoolSize kReading[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
                                                  {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
@@ -141,8 +131,8 @@ Result<void> describe(RenderTransferFunctionImpl& function) {
         return reading.error();
     }
     function.reading = std::move(*reading);
-    static_assert(PICTURE_BINDING_TABLE == 0, "writeImage() writes there");
-    writeImage(context, function.reading.set, function.image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    writeImage(context, function.reading.set, PICTURE_BINDING_TABLE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+               function.image.view.get());
     writeBuffer(context, function.reading.set, PICTURE_BINDING_OPACITY, function.extremes.get());
     return {};
 }

@@ -137,6 +137,8 @@ TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
     for (const char* domain : {"5:5", "5:1", "5", "a:b", "0:inf", ":", ""}) {
         EXPECT_THAT(badDetect({"--tf-domain", domain}), HasSubstr("--tf-domain")) << domain;
     }
+    EXPECT_THAT(badDetect({"--tf-domain", "-1e308:1e308"}),
+                AllOf(HasSubstr("--tf-domain"), HasSubstr("-1e+308:1e+308 is too wide")));
     for (const char* whole : {"0", "-1", "1.5", "x", "99999999999", ""}) {
         EXPECT_THAT(badDetect({"--batch", whole}), HasSubstr("--batch")) << whole;
     }

@@ -2,8 +2,7 @@
 // The bricks on the device: the host's ranges, and a wide range counted voxel by voxel.
 #include "cpu/stored_image.h"
 #include "gpu/scene_impl.h"
-#include "gpu_fixture.h"
-#include "raw_vulkan.h"
+#include "raw_fixture.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -16,37 +15,21 @@ namespace {
 
 using testing::HasSubstr;
 
-class BricksTest : public GpuTest {
+class BricksTest : public RawGpuTest {
   protected:
-    void SetUp() override {
-        GpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure()) {
-            raw_.emplace(gpu().device);
-        }
-    }
-    void TearDown() override {
-        raw_.reset();
-        GpuTest::TearDown();
-    }
-
-    [[nodiscard]] RawVulkan& raw() { return *raw_; }
-
     std::vector<shader::vec4> readBricks(const Volume& volume) {
         const Buffer& bricks = volume.impl().bricks;
-        const std::vector<std::byte> bytes = raw_->readBuffer(bricks.get(), bricks.size);
+        const std::vector<std::byte> bytes = raw().readBuffer(bricks.get(), bricks.size);
         std::vector<shader::vec4> out(bytes.size() / sizeof(shader::vec4));
         std::memcpy(out.data(), bytes.data(), bytes.size());
         return out;
     }
 
     void cmdUpdate(Volume& volume, const VoxelBox& changed) {
-        const VkCommandBuffer commands = raw_->begin();
+        const VkCommandBuffer commands = raw().begin();
         take(volume.cmdUpdateBricks(commands, changed));
-        raw_->submitAndWait(commands);
+        raw().submitAndWait(commands);
     }
-
-  private:
-    std::optional<RawVulkan> raw_;
 };
 
 VolumeData randomVolume(const Grid& grid, ScalarType type, std::mt19937_64& random) {

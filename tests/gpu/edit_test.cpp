@@ -2,8 +2,7 @@
 // Volumes that are edited in place, against uploads of the edited host data.
 #include "gpu/scene_impl.h"
 #include "gpu/texels.h"
-#include "gpu_fixture.h"
-#include "raw_vulkan.h"
+#include "raw_fixture.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -141,20 +140,8 @@ void writeOnHost(VolumeData& data, const VoxelBox& box, std::span<const std::byt
     });
 }
 
-class EditTest : public GpuTest {
+class EditTest : public RawGpuTest {
   protected:
-    void SetUp() override {
-        GpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure()) {
-            raw_.emplace(gpu().device);
-        }
-    }
-    void TearDown() override {
-        raw_.reset();
-        GpuTest::TearDown();
-    }
-    [[nodiscard]] RawVulkan& raw() { return *raw_; }
-
     Volume editable(const VolumeData& data) {
         return take(Volume::upload(context(), queue(), data.view(), {.bricks = true, .editable = true}));
     }
@@ -180,7 +167,7 @@ class EditTest : public GpuTest {
         constexpr std::size_t kOffset = 12;
         std::vector<std::byte> texels(kOffset + voxels.size());
         fillTexels(data.type, voxels, texels.data() + kOffset);
-        const VkBuffer source = raw_->makeBuffer(std::span<const std::byte>(texels), kSource).buffer;
+        const VkBuffer source = raw().makeBuffer(std::span<const std::byte>(texels), kSource).buffer;
         take(volume.cmdCopy(commands, box, source, kOffset));
     }
 
@@ -189,15 +176,12 @@ class EditTest : public GpuTest {
         const VkExtent3D extent{data.grid.size[0], data.grid.size[1], data.grid.size[2]};
         std::vector<std::byte> texels(data.voxels.size());
         fillTexels(data.type, data.voxels, texels.data());
-        ASSERT_TRUE(raw_->readImage(volume.impl().image.image.get(), extent, bytesPerVoxel(data.type)) == texels);
+        ASSERT_TRUE(raw().readImage(volume.impl().image.image.get(), extent, bytesPerVoxel(data.type)) == texels);
         const Volume fresh = editable(data);
         const Buffer& bricks = volume.impl().bricks;
-        ASSERT_TRUE(raw_->readBuffer(bricks.get(), bricks.size) ==
-                    raw_->readBuffer(fresh.impl().bricks.get(), bricks.size));
+        ASSERT_TRUE(raw().readBuffer(bricks.get(), bricks.size) ==
+                    raw().readBuffer(fresh.impl().bricks.get(), bricks.size));
     }
-
-  private:
-    std::optional<RawVulkan> raw_;
 };
 
 TEST_F(EditTest, RandomEditsGiveTheEditedVolume) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures in an embedder's own command buffer.
-#include "gpu_fixture.h"
 #include "own_image.h"
+#include "render_fixture.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 
@@ -13,32 +13,22 @@ namespace {
 constexpr VkExtent2D kExtent{56, 48};
 constexpr ControlPoint kOpacity[] = {{30, 0}, {200, 0.3}};
 
-class RenderOrderTest : public GpuTest {
+class RenderOrderTest : public PictureTest {
   protected:
     void SetUp() override {
-        GpuTest::SetUp();
+        PictureTest::SetUp();
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        blocking_.emplace(take(BlockingRenderer::create(context(), queue())));
         function_.opacity = {kOpacity, {0, 255}, 256};
         function_.opacityUnit = 20;
         function_.step = 5;
         scene_.clip_from_world = framingCamera(data_.grid, kExtent.width, kExtent.height);
     }
-    void TearDown() override {
-        blocking_.reset();
-        GpuTest::TearDown();
-    }
-    [[nodiscard]] BlockingRenderer& blocking() { return *blocking_; }
-    [[nodiscard]] const Renderer& renderer() const { return blocking_->renderer(); }
 
     VolumeData data_ = take(makeBuiltinVolume("head:32"));
     RenderTransferFunctionDesc function_;
     Scene scene_;
-
-  private:
-    std::optional<BlockingRenderer> blocking_;
 };
 
 TEST_F(RenderOrderTest, UpdatesTakeEffectInCommandBufferOrder) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures against a ray caster on the host.
-#include "gpu_fixture.h"
+#include "render_fixture.h"
 #include "render_reference.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
@@ -73,14 +73,13 @@ VolumeData blob() {
     });
 }
 
-class RenderTest : public GpuTest {
+class RenderTest : public PictureTest {
   protected:
     void SetUp() override {
-        GpuTest::SetUp();
+        PictureTest::SetUp();
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        blocking_.emplace(take(BlockingRenderer::create(context(), queue())));
         const std::uint64_t seed = testSeed();
         std::mt19937_64 random(seed);
         world_from_straight_ = randomMotion(random);
@@ -93,10 +92,6 @@ class RenderTest : public GpuTest {
         scene_.meshColour = {0.9, 0.8, 0.1};
         place(blob());
     }
-    void TearDown() override {
-        blocking_.reset();
-        GpuTest::TearDown();
-    }
 
     /// The volume, turned with its world.
     void place(const VolumeData& straight) { volume_ = moved(straight, world_from_straight_); }
@@ -105,9 +100,6 @@ class RenderTest : public GpuTest {
     void look(const Vec3& from, const Vec3& to, double nearPlane = 0.1, double farPlane = 60) {
         scene_.clip_from_world = perspective(world(from), world(to), nearPlane, farPlane);
     }
-
-    [[nodiscard]] BlockingRenderer& blocking() { return *blocking_; }
-    [[nodiscard]] const Renderer& renderer() const { return blocking_->renderer(); }
 
     /// The same scene by the device, a step of `step` mm.
     Picture picture(double step, bool bricks = false, bool jitter = false) {
@@ -147,7 +139,6 @@ class RenderTest : public GpuTest {
     VolumeData volume_;
 
   private:
-    std::optional<BlockingRenderer> blocking_;
     Mat4 world_from_straight_{};
 };
 

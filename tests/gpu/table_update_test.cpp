@@ -107,6 +107,10 @@ TEST_F(TableUpdateTest, WrappedTables) {
                                  wrapped.layout);
     TransferFunction without = take(TransferFunction::wrap(context(), wrapped));
     EXPECT_FALSE(without.impl().hasExtremes());
+    wrapped.domain = {-1e308, 1e308};
+    EXPECT_THAT(TransferFunction::wrap(context(), wrapped).error().text,
+                HasSubstr("WrappedTransferFunction::domain -1e+308:1e+308 is too wide"));
+    wrapped.domain = kBytes;
     wrapped.table = table;
     TransferFunction with = take(TransferFunction::wrap(context(), wrapped));
     ASSERT_TRUE(with.impl().hasExtremes());

@@ -181,6 +181,9 @@ TEST(TransferFunctions, BadOnesAreRefused) {
     EXPECT_THAT(text(kNanOpacity), HasSubstr("outside"));
     constexpr ControlPoint kGood[] = {{0, 0}};
     EXPECT_THAT(text(kGood, {3, 3}), HasSubstr("3:3 is empty"));
+    EXPECT_THAT(text(kGood, {-1e308, 1e308}), HasSubstr("-1e+308:1e+308 is too wide"));
+    constexpr ControlPoint kFarApart[] = {{-1e308, 0}, {1e308, 1}};
+    EXPECT_THAT(text(kFarApart), HasSubstr("1e+308 is too far from -1e+308"));
     EXPECT_THAT(text(kGood, {0, 255}, 1), HasSubstr("at least 2"));
 }
 
