@@ -27,14 +27,16 @@ the outputs (touched triangles, bounds, labels, contacts) costs beside the bare 
 Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
 scene: builtin:scalpel:3068 against builtin:head:128.
 
---paper: the tables of the paper (Volume-Surface Collision Detection, section 6) measured again: what detection adds to
-a frame, in the scenes v1s1, v1s2, v2s1 and v2s2. v1 is a head of 256x256x256 voxels, v2 a sparse volume of 256x256x128,
-s1 an instrument of 3068 triangles, s2 a body of 49998; every pose touches. The frame is of --size, from the front: the
-mesh in the volume by ray casting and, with detection, one pair by one method in the same submission. The counts of
-every method are checked before frames are timed, and in them. --data DIR: a folder with any of
-volumes/mrhead_256.nii.gz, volumes/bonsai_256x256x128.nrrd and meshes/armadillo_49998.ply, which then stand for v1, v2
-and s2; else builtins do, with transfer functions that make as many of their voxels opaque. It needs a device, and has
-8 poses and 9 repetitions unless told otherwise.
+--paper, the default: the tables of the paper (Volume-Surface Collision Detection, section 6) measured again: what
+detection adds to a frame, in the scenes v1s1, v1s2, v2s1 and v2s2. v1 is a head of 256x256x256 voxels, v2 a sparse
+volume of 256x256x128, s1 an instrument of 3068 triangles, s2 a body of 49998; every pose touches. The frame is of
+--size, from the front: the mesh in the volume by ray casting and, with detection, one pair by one method in the same
+submission. The counts of every method are checked before frames are timed, and in them. Then the sweeps: times against
+the volume's size, the triangles, the viewport and the pairs in a batch, as voxtact compare takes them; which triangles
+touch, by one query a polygon and by better ways; and the making of the pre-integrated table. --data DIR: a folder with
+any of volumes/mrhead_256.nii.gz, volumes/bonsai_256x256x128.nrrd and meshes/armadillo_49998.ply, which then stand for
+v1, v2 and s2; else builtins do, with transfer functions that make as many of their voxels opaque. It needs a device, and
+has 8 poses and 9 repetitions unless told otherwise.
 
 Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,
@@ -57,6 +59,7 @@ void addPaperOptions(CLI::App& parser, BenchOptions& options) {
     addWholeNumber(
         parser, "--scale", [&options](std::uint32_t scale) { options.scale = scale; }, {.least = 1, .most = 16},
         "with --paper: the sides of its builtin volumes are divided by so many, for trying", options.scale);
+    parser.add_flag("--no-sweeps", options.noSweeps, "with --paper: the tables alone");
     addSize(
         parser, [&options](const VkExtent2D& size) { options.size = size; }, "with --paper: of frames, in pixels");
     addPath(parser, "--report", options.report,
@@ -70,7 +73,9 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
         parser
             .add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
             ->excludes(certified);
-    parser.add_flag("--paper", options.paper, "the paper's tables, measured again: what detection adds to a frame")
+    parser
+        .add_flag("--paper", options.paper,
+                  "the paper's tables and sweeps, measured again: what detection adds to a frame; the default")
         ->excludes(certified)
         ->excludes(outputs);
     addVolumeOption(parser, options.volumes);
@@ -93,10 +98,11 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     constexpr const char* kOfScenes[] = {
         "--volume",  "--mesh",      "--mesh-space", "--mesh-scale", "--transfer-function",
         "--opacity", "--tf-domain", "--tf-size",    "--threshold"};
-    constexpr const char* kOfPaper[] = {"--data", "--scale", "--size", "--report"};
+    constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--size", "--report"};
     for (const char* option : options.paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
         if (parser.count(option) > 0) {
-            return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option
+            return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option +
+                                                   ", or ask for --certified or --outputs"
                                              : std::string(option) + " is for --paper");
         }
     }
@@ -109,9 +115,7 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
     options.command = commandLine(parser);
-    if (!options.certified && !options.outputs && !options.paper) {
-        return {kExitArguments, "say what to measure: --certified, --outputs or --paper; see voxtact bench --help"};
-    }
+    options.paper = !options.certified && !options.outputs;
     if (const Result<void> usable = checkTogether(options, parser); !usable.ok()) {
         return usable.error();
     }

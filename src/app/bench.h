@@ -16,7 +16,7 @@ enum class BenchMode {
 };
 
 struct BenchOptions {
-    bool certified = false; ///< one of the three is given
+    bool certified = false; ///< one of the three is meant
     bool outputs = false;
     bool paper = false; ///< runPaper()
     BenchMode mode = BenchMode::Certified;
@@ -30,7 +30,8 @@ struct BenchOptions {
     OutputOptions output;
     bool progress = false;
     std::filesystem::path data;   ///< paper: a folder with the files of the scenes; empty: builtins
-    std::uint32_t scale = 1;      ///< paper: the sides of builtin volumes are divided by it
+    std::uint32_t scale = 1;      ///< paper: the sides of its builtin volumes are divided by it
+    bool noSweeps = false;        ///< paper: the tables alone
     VkExtent2D size{512, 512};    ///< paper: of frames
     std::filesystem::path report; ///< paper
     std::string command;          ///< what reproduces the run

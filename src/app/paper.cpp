@@ -56,7 +56,8 @@ Result<void> measureAll(const BenchOptions& options, const Session& session, Pap
     result.width = options.size.width;
     result.height = options.size.height;
     addNotes(options, result);
-    const std::uint64_t steps = inputs->size() * paperSceneSteps(options) + paperSweepSteps(options);
+    const std::uint64_t steps =
+        inputs->size() * paperSceneSteps(options) + (options.noSweeps ? 0 : paperSweepSteps(options));
     Progress progress(options.progress, "voxtact bench", steps);
     std::uint64_t done = 0;
     const std::function<void()> step = [&] { progress.update(++done); };
@@ -66,7 +67,7 @@ Result<void> measureAll(const BenchOptions& options, const Session& session, Pap
             return measured;
         }
     }
-    return runPaperSweeps(session, options, inputs->front().data, result, step);
+    return options.noSweeps ? Result<void>() : runPaperSweeps(session, options, inputs->front().data, result, step);
 }
 
 Result<void> writeOutputs(const BenchOptions& options, const PaperResult& result) {

@@ -11,8 +11,9 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kMesh = "builtin:scalpel";
-/// Of the sweep of voxels; half to twice as many voxels a side are 128 to 512.
-constexpr const char* kVolume = "builtin:head:256";
+/// Of the sweep of voxels, and its voxels a side: half to twice as many are 128 to 512.
+constexpr const char* kVolume = "builtin:head";
+constexpr std::uint32_t kVoxels = 256;
 constexpr const char* kOpacity = "40:0,80:1";
 /// Of those of the scene: a query a polygon takes its time.
 constexpr std::uint32_t kPolygonPoses = 4;
@@ -21,7 +22,7 @@ constexpr double kSeconds = 30;
 
 CompareOptions optionsFor(const BenchOptions& options, const CompareData& data) {
     CompareOptions out;
-    out.volumes = {kVolume};
+    out.volumes = {std::string(kVolume) + ":" + std::to_string(kVoxels / options.scale)};
     out.meshes.sources = {kMesh};
     out.transferFunction = options.transferFunction;
     out.view.size = {data.view.width, data.view.height};

@@ -117,7 +117,8 @@ TEST_F(BenchTest, WithoutADeviceTheHostIsMeasured) {
 }
 
 TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {
-    EXPECT_THAT(refused(2, {"bench"}), AllOf(HasSubstr("say what to measure"), HasSubstr("--certified")));
+    EXPECT_THAT(refused(2, {"bench", "--volume", "builtin:head:16"}),
+                AllOf(HasSubstr("--paper has its own scenes"), HasSubstr("--certified")));
     EXPECT_THAT(refused(2, bench("8", "1", {"--volume", "builtin:sphere"})), HasSubstr("one --volume"));
     EXPECT_THAT(refused(2, bench("8", "0")), HasSubstr("--repetitions"));
     EXPECT_THAT(refused(2, bench("none.txt", "1")), HasSubstr("--poses"));

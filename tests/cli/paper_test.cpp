@@ -22,10 +22,13 @@ class PaperTest : public CliDeviceTest {
   protected:
     /// Scenes that take a moment, and what is added.
     static Arguments paper(const Arguments& more = {}, const std::string& repetitions = "2") {
-        Arguments all{"bench",   "--paper", "--scale",       "8",        "--size", "48x48",
-                      "--poses", "2",       "--repetitions", repetitions};
+        Arguments all = withSweeps(repetitions);
+        all.emplace_back("--no-sweeps");
         all.insert(all.end(), more.begin(), more.end());
         return all;
+    }
+    static Arguments withSweeps(const std::string& repetitions) {
+        return {"bench", "--paper", "--scale", "8", "--size", "48x48", "--poses", "2", "--repetitions", repetitions};
     }
     static Json json(const Arguments& more = {}, const std::string& repetitions = "2") {
         Arguments all = paper({"--format", "json"}, repetitions);
@@ -102,6 +105,38 @@ TEST_F(PaperTest, MeasuresEveryMethodInEveryScene) {
         }
         EXPECT_EQ(rows.at("cpu")["survivors"],
                   rows.contains("compute") ? rows.at("compute")["survivors"] : rows.at("cpu")["survivors"]);
+    }
+}
+
+TEST_F(PaperTest, SweepsAndThePage) {
+    Arguments all = withSweeps("2");
+    all.insert(all.end(), {"--format", "json", "--report", path("paper.html")});
+    if (VOXTACT_HAS_CHARTS == 0) {
+        EXPECT_THAT(refused(1, all), HasSubstr("libjs-chart.js"));
+        all.resize(all.size() - 2);
+    }
+    const Json result = Json::parse(output(all));
+    std::map<std::string, std::set<std::string>> methods;
+    for (const Json& series : result["series"]) {
+        methods[series["sweep"]].insert(std::string(series["method"]));
+        expectSpread(series["wall_ms"], series["wall_ms"]["samples"].size());
+    }
+    ASSERT_EQ(methods.size(), 4U);
+    for (const char* sweep : {"batch", "triangles", "fragments", "voxels"}) {
+        EXPECT_THAT(methods[sweep], testing::IsSupersetOf({"query", "atomic", "cpu"})) << sweep;
+    }
+    ASSERT_EQ(result["polygons"]["ways"].size(), 5U);
+    EXPECT_EQ(result["polygons"]["triangles"], 3068);
+    EXPECT_EQ(result["polygons"]["ways"].back()["missed"], 0);
+    EXPECT_EQ(result["polygons"]["ways"][0]["found"], result["polygons"]["ways"][3]["found"]);
+    ASSERT_EQ(result["integration"].size(), 5U);
+    for (const Json& point : result["integration"]) {
+        expectSpread(point["wall_ms"], 2);
+    }
+    if (VOXTACT_HAS_CHARTS != 0) {
+        const std::string page = readText(path("paper.html"));
+        EXPECT_THAT(page, AllOf(HasSubstr("bench --paper"), HasSubstr("pre-integrated"), Not(HasSubstr("{{")),
+                                Not(HasSubstr("src=\"http"))));
     }
 }
 
@@ -194,7 +229,7 @@ TEST_F(PaperTest, FilesStandForTheBuiltins) {
     output({"make", "mesh", "builtin:ellipsoid:49998", path("data/meshes/armadillo_49998.ply")});
     output({"make", "volume", "builtin:vessels:256", path("data/volumes/bonsai_256x256x128.nrrd")});
     const Json result = Json::parse(output({"bench", "--paper", "--data", path("data"), "--size", "16x16",
-                                            "--repetitions", "1", "--poses", "1", "--format", "json"}));
+                                            "--repetitions", "1", "--poses", "1", "--no-sweeps", "--format", "json"}));
     EXPECT_EQ(result["scenes"][0]["volume"], "builtin:head:256");
     EXPECT_EQ(result["scenes"][0]["voxels"], Json({256, 256, 256}));
     EXPECT_EQ(result["scenes"][3]["volume"], "bonsai_256x256x128.nrrd");
