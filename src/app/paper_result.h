@@ -41,7 +41,7 @@ struct PaperColumns {
     std::vector<double> mesh{};      ///< drawing the mesh; within `rendering`
     std::vector<double> volume{};    ///< casting rays through the volume; within `rendering`
     std::vector<double> collision{}; ///< the detection of one pair, alone
-    std::vector<double> rendering{}; ///< a frame: mesh and volume, without detection
+    std::vector<double> rendering{}; ///< a frame: mesh and volume, without detection; all that `total` has but that
     std::vector<double> total{};     ///< a frame and the detection in one submission
 };
 
