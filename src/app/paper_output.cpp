@@ -36,10 +36,6 @@ Table tableOf(std::vector<NamedCells> rows) {
     return table;
 }
 
-std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
-    return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
-}
-
 Cell part(const std::vector<double>& samples, double Spread::*what) {
     return samples.empty() ? Cell() : Cell(rounded(spreadOf(samples).*what));
 }
@@ -281,11 +277,12 @@ Json rowJson(const PaperRow& row, const PaperResult& result) {
 }
 
 Json wayJson(const LocalizeWay& way) {
+    const auto ifFound = [&way](std::uint64_t value) { return way.unchecked.empty() ? Json(value) : Json(); };
     return {{"name", way.name},
             {"queries", way.queries ? Json(*way.queries) : Json()},
-            {"found", way.triangles},
-            {"missed", way.missed},
-            {"wrong", way.wrong},
+            {"found", ifFound(way.triangles)},
+            {"missed", ifFound(way.missed)},
+            {"wrong", ifFound(way.wrong)},
             {"wall_ms", spreadJson(way.wall)},
             {"gpu_ms", spreadJson(way.gpu)},
             {"unchecked", way.unchecked}};

@@ -142,6 +142,9 @@ TEST(PaperOutput, JsonHasEverything) {
     EXPECT_EQ(json["polygons"]["ways"][0]["found"], 70);
     EXPECT_TRUE(json["polygons"]["ways"][0]["gpu_ms"].is_null());
     EXPECT_EQ(json["polygons"]["ways"][1]["unchecked"], "no queries");
+    for (const char* unknown : {"found", "missed", "wrong"}) {
+        EXPECT_TRUE(json["polygons"]["ways"][1][unknown].is_null()) << unknown;
+    }
     EXPECT_EQ(json["integration"][1]["wall_ms"]["median"], 5.0);
 }
 
