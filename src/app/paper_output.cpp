@@ -188,7 +188,8 @@ std::vector<Section> otherSections(const PaperResult& result) {
     }
     if (!result.polygons.empty()) {
         sections.push_back({"Which of " + std::to_string(result.polygonTriangles) + " triangles touch, in " +
-                                result.scenes.front().name,
+                                result.scenes.front().name + ", on " + std::to_string(result.polygonPoses) +
+                                " poses together",
                             tableOf(rowsOf(result.polygons, wayCells))});
     }
     if (!result.integration.empty()) {
@@ -311,7 +312,9 @@ Json paperJson(const BenchOptions& options, const PaperResult& result) {
     json["scenes"] = arrayOf(result.scenes, paperSceneJson);
     json["tables"] = arrayOf(result.rows, [&](const PaperRow& row) { return rowJson(row, result); });
     json["series"] = arrayOf(result.series, [&](const Series& series) { return seriesJson(series, result.machine); });
-    json["polygons"] = {{"triangles", result.polygonTriangles}, {"ways", arrayOf(result.polygons, wayJson)}};
+    json["polygons"] = {{"triangles", result.polygonTriangles},
+                        {"poses", result.polygonPoses},
+                        {"ways", arrayOf(result.polygons, wayJson)}};
     json["integration"] = arrayOf(result.integration, [](const IntegrationPoint& point) {
         return Json{{"entries", point.entries}, {"gpu_ms", spreadJson(point.gpu)}, {"wall_ms", spreadJson(point.wall)}};
     });

@@ -150,7 +150,7 @@
     const parent = byId('polygons');
     if (!data.polygons || data.polygons.ways.length === 0) return;
     parent.appendChild(element('h2', 'Which triangles touch'));
-    parent.appendChild(element('p', `In ${names[0]}, of ${grouped(data.polygons.triangles)} triangles: the paper's one query a polygon and one ` +
+    parent.appendChild(element('p', `In ${names[0]}, of ${grouped(data.polygons.triangles)} triangles, on ${data.polygons.poses} poses together: the paper's one query a polygon and one ` +
       'query a leaf of an OBB tree, one pass that writes a mask, and the certified answer, against which the others are held.', 'muted'));
     const table = element('table');
     parent.appendChild(table);
