@@ -84,7 +84,7 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
     parser.get_option("--mesh")->required(false);
     addTransferFunctionOptions(parser, options.transferFunction);
     addWholeNumber(parser, "--poses", options.poses, 1, "how many poses of each kind; with --paper 8");
-    parser.add_option("--seed", options.seed, "of the poses, from 0 to 2^64-1")->type_name("S")->capture_default_str();
+    addSeed(parser, options.seed);
     addWholeNumber(parser, "--repetitions", options.repetitions, 1,
                    "samples of each time, after a warm-up; with --paper 9");
     addPaperOptions(parser, options);

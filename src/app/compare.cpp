@@ -160,18 +160,17 @@ Result<void> compareAll(const CompareOptions& options, const CompareData& data, 
 }
 
 Result<void> writeOutputs(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
+    std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
+                                          writeCompare(out, options, data, result);
+                                          return {};
+                                      }}};
     if (!options.report.empty()) {
-        Result<void> written = deliver(options.report, [&](std::ostream& out) {
-            return writeReport(out, ReportKind::Compare, summarize(result), compareJson(options, data, result));
-        });
-        if (!written.ok()) {
-            return written;
-        }
+        deliveries.push_back({options.report, [&](std::ostream& out) {
+                                  return writeReport(out, ReportKind::Compare, summarize(result),
+                                                     compareJson(options, data, result));
+                              }});
     }
-    return deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
-        writeCompare(out, options, data, result);
-        return {};
-    });
+    return deliverAll(std::move(deliveries));
 }
 
 Outcome outcomeOf(const CompareOptions& options, const CLI::App& parser, const CompareResult& result) {
@@ -187,19 +186,6 @@ Outcome outcomeOf(const CompareOptions& options, const CLI::App& parser, const C
                              failure->first->text + "; again with: " + again};
 }
 
-Result<void> checkPaths(const CompareOptions& options) {
-    if (Result<void> writable = checkOutput(options.output.path); !writable.ok()) {
-        return writable;
-    }
-    if (options.report.empty()) {
-        return {};
-    }
-    if (Result<void> possible = reportPossible(); !possible.ok()) {
-        return possible;
-    }
-    return checkOutput(options.report);
-}
-
 Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     if (given.localize) {
         return runLocalize(given, parser);
@@ -209,7 +195,7 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     if (!options.report.empty() && !options.sweepsGiven) {
         options.sweeps.assign(kSweeps.begin(), kSweeps.end());
     }
-    if (const Result<void> writable = checkPaths(options); !writable.ok()) {
+    if (const Result<void> writable = checkReportPaths(options.output.path, options.report); !writable.ok()) {
         return writable.error();
     }
     const Result<CompareData> data = readCompareData(options);

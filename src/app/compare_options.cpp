@@ -74,9 +74,7 @@ void addPoseOptions(CLI::App& parser, CompareOptions& options) {
     parser.get_option("--poses")->description(
         "a world_from_object matrix a line: 16 numbers, row by row; default: random ones, as make poses gives");
     addWholeNumber(parser, "--count", options.count, 1, "how many random poses");
-    parser.add_option("--seed", options.seed, "of the random poses, from 0 to 2^64-1")
-        ->type_name("S")
-        ->capture_default_str();
+    addSeed(parser, options.seed);
     parser.get_option("--count")->excludes("--poses");
     parser.get_option("--seed")->excludes("--poses");
     parser.add_option("--only-pose", options.onlyPose, "this pose alone, by its number from 0")->type_name("K");

@@ -130,7 +130,7 @@ Command addMakePoses(CLI::App& make) {
     addVolumeOption(*parser, options->volumes);
     addMeshOptions(*parser, options->meshes);
     addWholeNumber(*parser, "--count", options->count, 1, "how many poses");
-    parser->add_option("--seed", options->seed, "any number from 0 to 2^64-1")->type_name("S")->capture_default_str();
+    addSeed(*parser, options->seed);
     addPath(*parser, "--output", options->path, "default: standard output");
     return {parser, [options] { return makePoses(*options); }};
 }

@@ -150,7 +150,6 @@ Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSam
     const bool whole = part != FramePart::Both || onDevice;
     for (const Reading& reading :
          {Reading{sample.mesh, kPictureBegins, kMeshDone, drawn}, Reading{sample.volume, kMeshDone, kVolumeDone, drawn},
-          Reading{sample.picture, kPictureBegins, kVolumeDone, drawn},
           Reading{sample.all, kFrameBegins, kFrameEnds, whole}}) {
         if (!reading.wanted) {
             continue;

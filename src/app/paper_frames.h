@@ -20,7 +20,6 @@ struct FrameSample {
     double wall = 0; ///< from the submission to the end of the wait
     std::optional<double> mesh{};
     std::optional<double> volume{};
-    std::optional<double> picture{};   ///< both of them
     std::optional<double> detection{}; ///< of a frame that detects and nothing else
     std::optional<double> all{};       ///< around everything that was submitted
     std::optional<std::uint64_t> count{};

@@ -36,10 +36,6 @@ Table tableOf(std::vector<NamedCells> rows) {
     return table;
 }
 
-std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
-    return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
-}
-
 Cell part(const std::vector<double>& samples, double Spread::*what) {
     return samples.empty() ? Cell() : Cell(rounded(spreadOf(samples).*what));
 }
@@ -192,7 +188,8 @@ std::vector<Section> otherSections(const PaperResult& result) {
     }
     if (!result.polygons.empty()) {
         sections.push_back({"Which of " + std::to_string(result.polygonTriangles) + " triangles touch, in " +
-                                result.scenes.front().name,
+                                result.scenes.front().name + ", on " + std::to_string(result.polygonPoses) +
+                                " poses together",
                             tableOf(rowsOf(result.polygons, wayCells))});
     }
     if (!result.integration.empty()) {
@@ -281,11 +278,12 @@ Json rowJson(const PaperRow& row, const PaperResult& result) {
 }
 
 Json wayJson(const LocalizeWay& way) {
+    const auto ifFound = [&way](std::uint64_t value) { return way.unchecked.empty() ? Json(value) : Json(); };
     return {{"name", way.name},
             {"queries", way.queries ? Json(*way.queries) : Json()},
-            {"found", way.triangles},
-            {"missed", way.missed},
-            {"wrong", way.wrong},
+            {"found", ifFound(way.triangles)},
+            {"missed", ifFound(way.missed)},
+            {"wrong", ifFound(way.wrong)},
             {"wall_ms", spreadJson(way.wall)},
             {"gpu_ms", spreadJson(way.gpu)},
             {"unchecked", way.unchecked}};
@@ -314,7 +312,9 @@ Json paperJson(const BenchOptions& options, const PaperResult& result) {
     json["scenes"] = arrayOf(result.scenes, paperSceneJson);
     json["tables"] = arrayOf(result.rows, [&](const PaperRow& row) { return rowJson(row, result); });
     json["series"] = arrayOf(result.series, [&](const Series& series) { return seriesJson(series, result.machine); });
-    json["polygons"] = {{"triangles", result.polygonTriangles}, {"ways", arrayOf(result.polygons, wayJson)}};
+    json["polygons"] = {{"triangles", result.polygonTriangles},
+                        {"poses", result.polygonPoses},
+                        {"ways", arrayOf(result.polygons, wayJson)}};
     json["integration"] = arrayOf(result.integration, [](const IntegrationPoint& point) {
         return Json{{"entries", point.entries}, {"gpu_ms", spreadJson(point.gpu)}, {"wall_ms", spreadJson(point.wall)}};
     });

@@ -41,7 +41,7 @@ struct PaperColumns {
     std::vector<double> mesh{};      ///< drawing the mesh; within `rendering`
     std::vector<double> volume{};    ///< casting rays through the volume; within `rendering`
     std::vector<double> collision{}; ///< the detection of one pair, alone
-    std::vector<double> rendering{}; ///< a frame: mesh and volume, without detection
+    std::vector<double> rendering{}; ///< a frame: mesh and volume, without detection; all that `total` has but that
     std::vector<double> total{};     ///< a frame and the detection in one submission
 };
 
@@ -77,6 +77,7 @@ struct PaperResult {
     std::vector<Series> series;         ///< sweeps: batches, triangles, fragments, voxels; of v1s1 where not varied
     std::vector<LocalizeWay> polygons;  ///< which triangles touch, in v1s1
     std::uint32_t polygonTriangles = 0; ///< of the mesh there
+    std::uint32_t polygonPoses = 0;     ///< what the ways found is of all of them together
     std::vector<IntegrationPoint> integration;
     std::vector<std::string> notes;
     std::string disagreement; ///< of methods that must agree; empty: there is none

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/paper_scenes.h"
 
+#include "app/compare_result.h"
 #include "app/inputs.h"
 #include "app/opaque_cells.h"
 #include "app/random_poses.h"
@@ -135,10 +136,6 @@ Result<void> placeRamp(const PaperVolume& volume, bool builtin, LoadedVolume& lo
         }
     }
     return {};
-}
-
-std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
-    return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
 }
 
 Result<LoadedVolume> loadPaperVolume(const BenchOptions& options, const PaperVolume& volume) {

@@ -164,10 +164,11 @@ void addPolygons(const PaperResult& result, std::vector<std::string>& sentences)
         if (!way.unchecked.empty() || way.wall.empty()) {
             continue;
         }
-        sentences.push_back("which of " + grouped(result.polygonTriangles) + " triangles touch, by the way " +
-                            way.name + ": " + shortNumber(medianOf(way.wall)) + " ms a pair by wall clock" +
+        sentences.push_back("which of " + grouped(result.polygonTriangles) + " triangles touch on " +
+                            std::to_string(result.polygonPoses) + " poses, by the way " + way.name + ": " +
+                            shortNumber(medianOf(way.wall)) + " ms a pair by wall clock" +
                             (way.queries ? ", " + grouped(*way.queries) + " queries in all" : "") + "; " +
-                            grouped(way.triangles) + " found, " + grouped(way.missed) +
+                            grouped(way.triangles) + " found in all, " + grouped(way.missed) +
                             " of those that certainly touch are missed");
     }
 }

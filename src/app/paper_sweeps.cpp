@@ -133,6 +133,7 @@ Result<void> findPolygons(const Session& session, const CompareOptions& options,
     }
     result.polygons = std::move(found.ways);
     result.polygonTriangles = found.triangles;
+    result.polygonPoses = static_cast<std::uint32_t>(found.poseNumbers.size());
     result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
     return {};
 }

@@ -14,8 +14,8 @@ namespace voxtact::app {
 
 /// What grows from point to point, which triangles touch, and the making of the pre-integrated table. `v1s1` is the
 /// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
-/// `polygonTriangles` and `integration` of `result`, and adds to its notes. Where methods disagree it fills
-/// `disagreement`, unless there is one already, and goes no further.
+/// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
+/// fills `disagreement`, unless there is one already, and goes no further.
 [[nodiscard]] Result<void> runPaperSweeps(const Session& session, const BenchOptions& options, const CompareData& v1s1,
                                           PaperResult& result, const std::function<void()>& step);
 

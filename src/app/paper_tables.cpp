@@ -98,7 +98,7 @@ void keep(FramePart part, const FrameSample& sample, PaperRow& row) {
     case FramePart::Rendering:
         add(sample.mesh, row.gpu.mesh);
         add(sample.volume, row.gpu.volume);
-        add(sample.picture, row.gpu.rendering);
+        add(sample.all, row.gpu.rendering);
         row.wall.rendering.push_back(sample.wall);
         return;
     case FramePart::Detection:

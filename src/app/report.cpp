@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/report.h"
 
+#include "app/output.h"
 #include "app/report_assets.h"
 
 #include <nlohmann/json.hpp>
@@ -79,8 +80,7 @@ std::string partFor(std::string_view name, const Page& page, const std::vector<s
     return found == texts.end() ? std::string() : std::string(found->second);
 }
 
-} // namespace
-
+/// Whether the charts can be drawn.
 Result<void> reportPossible() {
     if (kChartLibrary.empty()) {
         return Error{ErrorCode::Unsupported, 0,
@@ -88,6 +88,24 @@ Result<void> reportPossible() {
                      "package libjs-chart.js, configure and build again"};
     }
     return {};
+}
+
+} // namespace
+
+Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report) {
+    if (Result<void> writable = checkOutput(output); !writable.ok()) {
+        return writable;
+    }
+    if (report.empty()) {
+        return {};
+    }
+    if (Result<void> possible = reportPossible(); !possible.ok()) {
+        return possible;
+    }
+    if (Result<void> writable = checkOutput(report); !writable.ok()) {
+        return writable;
+    }
+    return checkDistinct({{"--output", output}, {"--report", report}});
 }
 
 Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,

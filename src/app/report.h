@@ -5,14 +5,16 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace voxtact::app {
 
-/// Unsupported where the program was built without the library that draws the charts.
-[[nodiscard]] Result<void> reportPossible();
+/// Refuses paths, each of them may be empty, that cannot be written or are one file. Unsupported where there is to be a
+/// report, and the program was built without the library that draws the charts.
+[[nodiscard]] Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report);
 
 enum class ReportKind {
     Compare, ///< of compareJson()

@@ -16,9 +16,9 @@
     document.title = 'voxtact bench --paper';
     byId('subtitle').textContent = `${names.join(', ')}; ${data.width} × ${data.height} pixels. What the paper publishes was ` +
       'measured on its own hardware, by OpenGL: it says how things were there, not how fast they are here';
-    byId('tables-text').textContent = 'Median ms over the rounds, a frame a sample. Collision is the detection of one pair ' +
-      'alone; total is a frame with the detection in the same submission. Collision % is its time over the rendering\'s; ' +
-      'overhead % compares frames with and without it, next to each other, and in brackets is the confidence interval of the median. ' +
+    byId('tables-text').textContent = 'Median ms over the rounds, a frame a sample; below it the 10th and 90th percentile. Collision is the ' +
+      'detection of one pair alone; total is a frame with the detection in the same submission. Collision % is its time over the rendering\'s; ' +
+      'overhead % compares frames with and without it, next to each other; below the percents is the confidence interval of the median. ' +
       `The paper publishes an overhead of ${least} to ${most} %.`;
   }
 
@@ -32,11 +32,15 @@
   }
 
   const ms = (spread) => (spread ? short(spread.median) : '–');
-  function percent(spread) {
+  // The median, and below it where it lies.
+  function ranged(spread, low, high) {
     if (!spread) return '–';
-    const range = spread.confidence ? ` (${short(spread.low)} to ${short(spread.high)})` : '';
-    return short(spread.median) + range;
+    const cell = element('span', short(spread.median));
+    if (high !== null) cell.appendChild(element('small', `${short(low)} to ${short(high)}`));
+    return cell;
   }
+  const ranks = (spread) => ranged(spread, spread?.p10, spread?.p90);
+  const interval = (spread) => ranged(spread, spread?.low, spread?.high);
 
   function fillTables() {
     const columns = [...words('Scene', 'Method'), ...numbers('Survivors', 'Mesh', 'Volume', 'Collision', 'Total rendering',
@@ -55,8 +59,8 @@
       byId('tables').appendChild(box);
       fillTable(table, columns, rows.map((row) => {
         const c = row[clock.key];
-        return [row.scene, row.method, short(row.survivors), ms(c.mesh_ms), ms(c.volume_ms), ms(c.collision_ms),
-          ms(c.rendering_ms), ms(c.total_ms), percent(c.collision_percent), percent(c.overhead_percent)];
+        return [row.scene, row.method, short(row.survivors), ms(c.mesh_ms), ms(c.volume_ms), ranks(c.collision_ms),
+          ranks(c.rendering_ms), ranks(c.total_ms), interval(c.collision_percent), interval(c.overhead_percent)];
       }));
     }
   }
@@ -150,7 +154,7 @@
     const parent = byId('polygons');
     if (!data.polygons || data.polygons.ways.length === 0) return;
     parent.appendChild(element('h2', 'Which triangles touch'));
-    parent.appendChild(element('p', `In ${names[0]}, of ${grouped(data.polygons.triangles)} triangles: the paper's one query a polygon and one ` +
+    parent.appendChild(element('p', `In ${names[0]}, of ${grouped(data.polygons.triangles)} triangles, on ${data.polygons.poses} poses together: the paper's one query a polygon and one ` +
       'query a leaf of an OBB tree, one pass that writes a mask, and the certified answer, against which the others are held.', 'muted'));
     const table = element('table');
     parent.appendChild(table);

@@ -125,6 +125,17 @@ void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, 
         parser, option, [&value](std::uint32_t number) { value = number; }, {.least = least}, help, value);
 }
 
+void addSeed(CLI::App& parser, std::uint64_t& seed) {
+    const auto parse = [&seed](const std::string& text) {
+        const auto number = parseNumber<std::uint64_t>(text);
+        if (!number) {
+            refuse("--seed", quote(text) + " is not a whole number from 0 to 2^64-1");
+        }
+        seed = *number;
+    };
+    addParsed(parser, "--seed", parse, "of the random poses, from 0 to 2^64-1", "S", std::to_string(seed).c_str());
+}
+
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help) {
     parser.add_option(option, path, help)->type_name("PATH")->check(refuseEmpty);
 }

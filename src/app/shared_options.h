@@ -76,6 +76,8 @@ void addWholeNumber(CLI::App& parser, const char* option, const std::function<vo
 /// The same into a variable that holds the default.
 void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
                     const std::string& help);
+/// --seed: any whole number that has 64 bits.
+void addSeed(CLI::App& parser, std::uint64_t& seed);
 /// A finite number that is `usable`, as an option; `range` says in words which are.
 void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
                const std::function<bool(double)>& usable, const char* range, const char* standard);

@@ -48,19 +48,11 @@ Result<std::vector<std::uint32_t>> bitsOf(std::uint32_t meshTriangles, std::span
 }
 
 Result<void> makeBuffers(PaintedTrianglesImpl& impl, std::span<const std::byte> bytes) {
-    Result<Buffer> buffer =
-        makeBuffer(impl.context, bytes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                   MemoryUse::Device, "painted triangles");
-    if (!buffer.ok()) {
-        return buffer.error();
+    if (Result<void> made = makeStaged(impl.context, bytes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                       "painted triangles", impl.buffer, impl.staging);
+        !made.ok()) {
+        return made;
     }
-    impl.buffer = std::move(*buffer);
-    Result<Buffer> staging = makeBuffer(impl.context, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
-                                        "painted triangles staging");
-    if (!staging.ok()) {
-        return staging.error();
-    }
-    impl.staging = std::move(*staging);
     std::memcpy(impl.staging.mapped, bytes.data(), bytes.size());
     return flush(impl.context, impl.staging);
 }
@@ -143,15 +135,8 @@ Result<void> PaintedTriangles::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!impl_->staging.buffer) {
             return notUploadable("painted triangles");
         }
-        ContextImpl& context = impl_->context;
-        const Label label(context, commandBuffer, "voxtact painted triangles upload");
-        // Earlier readers must be done before the contents go.
-        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
-                VK_ACCESS_2_TRANSFER_WRITE_BIT);
-        const VkBufferCopy whole{0, 0, impl_->buffer.size};
-        context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->buffer.get(), 1, &whole);
-        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        const Label label(impl_->context, commandBuffer, "voxtact painted triangles upload");
+        cmdFillBuffer(impl_->context, commandBuffer, impl_->staging, impl_->buffer);
         return {};
     });
 }

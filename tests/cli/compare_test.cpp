@@ -230,6 +230,10 @@ TEST_F(CompareTest, WhatCannotBeDoneIsOneLine) {
     EXPECT_THAT(refused(2, compare({"--poses", "poses.txt"})), HasSubstr("--count"));
     EXPECT_THAT(refused(1, compare({"--report", path("none/report.html")})),
                 HasSubstr(VOXTACT_HAS_CHARTS == 0 ? "libjs-chart.js" : "does not exist"));
+    if (VOXTACT_HAS_CHARTS != 0) {
+        EXPECT_THAT(refused(2, compare({"--report", path("one.html"), "--output", path("one.html")})),
+                    HasSubstr("each needs a file of its own"));
+    }
     EXPECT_EQ(filesInFolder(), 0U);
 }
 

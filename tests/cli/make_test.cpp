@@ -125,6 +125,11 @@ TEST_F(MakeTest, PosesOfOnePairOnly) {
     EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:16", "--volume", "builtin:ct:16", "--mesh",
                             "builtin:scalpel:500"}),
                 HasSubstr("one --volume"));
+    for (const char* seed : {"-1", "1.5", "0x10", "18446744073709551616"}) {
+        EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500",
+                                "--seed", seed}),
+                    AllOf(HasSubstr("--seed"), HasSubstr(seed)));
+    }
     EXPECT_THAT(
         refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--count", "0"}),
         HasSubstr("--count"));

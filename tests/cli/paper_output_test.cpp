@@ -71,6 +71,7 @@ void addTheRest(PaperResult& result) {
         {.name = "polygon", .triangles = 70, .missed = 30, .wrong = 2, .queries = 24544, .wall = {40, 41, 45}},
         {.name = "leaf", .unchecked = "no queries"}};
     result.polygonTriangles = 3068;
+    result.polygonPoses = 4;
     result.integration = {{.entries = 128, .gpu = {1}, .wall = {2}}, {.entries = 256, .gpu = {3}, .wall = {4, 5, 6}}};
 }
 
@@ -107,13 +108,14 @@ TEST(PaperOutput, SaysTheRestWhereItIsThere) {
     PaperResult result = measured();
     addTheRest(result);
     const auto summary = app::paperSummary(result);
-    EXPECT_THAT(std::vector(summary.begin() + 8, summary.end()),
-                ElementsAre("the fastest in batches is atomic with 1,024 pairs a submission (pipelined): 3,413 pairs a "
-                            "second; published: 3,800 pairs a second, on other hardware",
-                            "which of 3,068 triangles touch, by the way polygon: 41.0 ms a pair by wall clock, 24,544 "
-                            "queries in all; 70 found, 30 of those that certainly touch are missed",
-                            "the pre-integrated table of 256x256 entries is made in 3.00 ms by GPU timestamps, 5.00 ms "
-                            "by wall clock; published: 40 ms, on other hardware"));
+    EXPECT_THAT(
+        std::vector(summary.begin() + 8, summary.end()),
+        ElementsAre("the fastest in batches is atomic with 1,024 pairs a submission (pipelined): 3,413 pairs a "
+                    "second; published: 3,800 pairs a second, on other hardware",
+                    "which of 3,068 triangles touch on 4 poses, by the way polygon: 41.0 ms a pair by wall clock, "
+                    "24,544 queries in all; 70 found in all, 30 of those that certainly touch are missed",
+                    "the pre-integrated table of 256x256 entries is made in 3.00 ms by GPU timestamps, 5.00 ms "
+                    "by wall clock; published: 40 ms, on other hardware"));
 }
 
 TEST(PaperOutput, ADisagreementComesFirst) {
@@ -138,10 +140,14 @@ TEST(PaperOutput, JsonHasEverything) {
     EXPECT_TRUE(json["tables"][2]["gpu"]["overhead_percent"].is_null());
     EXPECT_EQ(json["series"].size(), 2U);
     EXPECT_EQ(json["polygons"]["triangles"], 3068);
+    EXPECT_EQ(json["polygons"]["poses"], 4);
     EXPECT_EQ(json["polygons"]["ways"][0]["queries"], 24544);
     EXPECT_EQ(json["polygons"]["ways"][0]["found"], 70);
     EXPECT_TRUE(json["polygons"]["ways"][0]["gpu_ms"].is_null());
     EXPECT_EQ(json["polygons"]["ways"][1]["unchecked"], "no queries");
+    for (const char* unknown : {"found", "missed", "wrong"}) {
+        EXPECT_TRUE(json["polygons"]["ways"][1][unknown].is_null()) << unknown;
+    }
     EXPECT_EQ(json["integration"][1]["wall_ms"]["median"], 5.0);
 }
 
@@ -159,9 +165,9 @@ TEST(PaperOutput, TextAndCsvHaveTheRestToo) {
     const std::string title = "Making the pre-integrated table";
     EXPECT_THAT(written(result, "text"), Not(HasSubstr(title)));
     addTheRest(result);
-    EXPECT_THAT(written(result, "text"),
-                AllOf(HasSubstr("\n# " + title + "\nentries"), HasSubstr("Which of 3068 triangles touch"),
-                      HasSubstr("13.0 (10.0 to 16.0)"), HasSubstr("# Sweeps in v1s1\nsweep")));
+    EXPECT_THAT(written(result, "text"), AllOf(HasSubstr("\n# " + title + "\nentries"),
+                                               HasSubstr("Which of 3068 triangles touch, in v1s1, on 4 poses together"),
+                                               HasSubstr("13.0 (10.0 to 16.0)"), HasSubstr("# Sweeps in v1s1\nsweep")));
     const std::string csv = written(result, "csv");
     EXPECT_THAT(csv, AllOf(HasSubstr("\n# " + title + "\n# entries,"), HasSubstr("\n# 256,3,3,5,"),
                            HasSubstr("\n# polygon,24544,70,30,2,3,41,"), HasSubstr("\n# leaf,,,,,0,")));

@@ -55,6 +55,7 @@ class PaperTest : public CliDeviceTest {
 };
 
 const std::vector<std::string> kScenes{"v1s1", "v1s2", "v2s1", "v2s2"};
+const std::string kNoInterval = "from 6 --repetitions on";
 
 void expectSpread(const Json& spread, std::size_t samples) {
     ASSERT_EQ(spread["samples"].size(), samples) << spread;
@@ -82,6 +83,8 @@ TEST_F(PaperTest, MeasuresEveryMethodInEveryScene) {
     EXPECT_EQ(result["agrees"], true);
     EXPECT_EQ(result["width"], 48);
     EXPECT_EQ(result["published"]["overhead_percent"], Json({4.3, 15.9}));
+    EXPECT_THAT(result["notes"].dump(), HasSubstr(kNoInterval)) << "of two rounds";
+    EXPECT_TRUE(result["tables"][0]["wall"]["overhead_percent"]["low"].is_null());
     ASSERT_EQ(result["scenes"].size(), 4U);
     for (std::size_t i = 0; i < 4; ++i) {
         const Json& scene = result["scenes"][i];
@@ -154,7 +157,8 @@ TEST_F(PaperTest, TimestampsSayWhatTheMeshAndTheVolumeTake) {
         }
         for (std::size_t i = 0; i < 2; ++i) {
             const double parts = double{gpu["mesh_ms"]["samples"][i]} + double{gpu["volume_ms"]["samples"][i]};
-            EXPECT_NEAR(parts, double{gpu["rendering_ms"]["samples"][i]}, 1e-4 * parts);
+            // As the total has them, the two stamps around the frame: what is before the mesh is in both or in neither.
+            EXPECT_GT(double{gpu["rendering_ms"]["samples"][i]}, parts);
             EXPECT_LE(double{gpu["rendering_ms"]["samples"][i]}, double{row["wall"]["rendering_ms"]["samples"][i]});
         }
         if (row["method"] == "cpu") {
@@ -169,12 +173,8 @@ TEST_F(PaperTest, TimestampsSayWhatTheMeshAndTheVolumeTake) {
 }
 
 TEST_F(PaperTest, SixRoundsHaveAnInterval) {
-    const std::string note = "from 6 --repetitions on";
-    const Json two = json();
-    EXPECT_THAT(two["notes"].dump(), HasSubstr(note));
-    EXPECT_TRUE(two["tables"][0]["wall"]["overhead_percent"]["low"].is_null());
     const Json six = json({}, "6");
-    EXPECT_THAT(six["notes"].dump(), Not(HasSubstr(note)));
+    EXPECT_THAT(six["notes"].dump(), Not(HasSubstr(kNoInterval)));
     for (const Json& row : six["tables"]) {
         const Json& overhead = row["wall"]["overhead_percent"];
         EXPECT_EQ(overhead["confidence"], 0.96875);
@@ -184,7 +184,7 @@ TEST_F(PaperTest, SixRoundsHaveAnInterval) {
 }
 
 TEST_F(PaperTest, TheSameSeedGivesTheSamePoses) {
-    const auto one = survivors(json({"--seed", "5"}));
+    const auto one = survivors(json({"--seed", "5"}, "1"));
     EXPECT_EQ(one, survivors(json({"--seed", "5"}, "1")));
     EXPECT_NE(one, survivors(json({"--seed", "6"}, "1")));
 }
