@@ -9,9 +9,10 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 1) out vec3 worldNormal;
 #endif
+invariant gl_Position;
 layout(location = 0) out vec3 world;
 #ifdef PAINT_FRAGMENTS
-layout(location = 2) out vec3 textureCoordinate;
+layout(location = 2) invariant out vec3 textureCoordinate;
 #endif
 
 void main() {

@@ -11,7 +11,9 @@ layout(constant_id = VOXTACT_CONSTANT_VIEWS) const uint kViews = 1; // of a pair
 
 layout(location = 0) in vec3 position; // object space
 
-layout(location = 0) out vec3 textureCoordinate;
+// Invariant: a picture decides the same fragments in a pipeline of its own (render_mesh.vert).
+invariant gl_Position;
+layout(location = 0) invariant out vec3 textureCoordinate;
 layout(location = 1) flat out uint pair;
 
 void main() {

@@ -221,9 +221,26 @@ Result<void> findOne(Ways& ways, std::size_t number, const Mat4& pose, bool keep
     return {};
 }
 
+/// Every way once, with nothing kept.
+Result<void> warmUp(Ways& ways, const Mat4& pose, const LocalizeResult& result) {
+    for (std::size_t i = 0; i < result.ways.size(); ++i) {
+        LocalizeWay unkept = result.ways[i];
+        if (!unkept.unchecked.empty()) {
+            continue;
+        }
+        if (Result<void> one = findOne(ways, i, pose, true, unkept); !one.ok()) {
+            return one;
+        }
+    }
+    return {};
+}
+
 /// Every way on every pose, in rounds, so that what else the machine does falls on all alike.
 Result<void> findAll(Ways& ways, const CompareOptions& options, const CompareData& data, LocalizeResult& result,
                      const std::function<void()>& step) {
+    if (Result<void> warm = warmUp(ways, data.poses.front(), result); !warm.ok()) {
+        return warm;
+    }
     const auto begun = Clock::now();
     for (std::uint32_t round = 0; round < options.repeats; ++round) {
         if (round > 0 && millisecondsSince(begun) * (round + 1) / round > options.timeLimit * 1000) {

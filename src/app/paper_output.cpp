@@ -184,7 +184,8 @@ std::vector<Section> paperSections(const PaperResult& result) {
 std::vector<Section> otherSections(const PaperResult& result) {
     std::vector<Section> sections;
     if (!result.series.empty()) {
-        sections.push_back({"Sweeps in " + result.scenes.front().name, seriesTable(result.series)});
+        sections.push_back({"Sweeps in " + result.scenes.front().name + "; of voxels in the builtin head",
+                            seriesTable(result.series)});
     }
     if (!result.polygons.empty()) {
         sections.push_back({"Which of " + std::to_string(result.polygonTriangles) + " triangles touch, in " +

@@ -220,37 +220,6 @@ Result<HostScene> makeHostScene(const CompareData& data) {
     return HostScene{std::move(*volume), std::move(*function), std::move(*mesh), std::move(*yesNo)};
 }
 
-/// The first of the random poses that touch.
-Result<void> choosePoses(const BenchOptions& options, const std::string& name, CompareData& data) {
-    Result<HostScene> host = makeHostScene(data);
-    if (!host.ok()) {
-        return host.error();
-    }
-    const std::uint64_t most = std::min<std::uint64_t>(std::uint64_t{kTries} * options.poses, UINT32_MAX);
-    std::uint64_t end = options.poses;
-    for (std::uint64_t tried = 0; data.poses.size() < options.poses; tried = end, end = std::min(2 * end, most)) {
-        if (tried == most) {
-            return badArgument("--poses: of " + std::to_string(tried) + " random poses of " + name + " only " +
-                               std::to_string(data.poses.size()) + " touch");
-        }
-        const std::vector<Mat4> all =
-            randomPoses(data.volume.grid, data.mesh.view(), static_cast<std::uint32_t>(end), options.seed);
-        const std::span<const Mat4> fresh = std::span(all).subspan(tried);
-        const cpu::BatchItem item{&host->mesh, &host->volume, &host->function, fresh};
-        const Result<BatchAnswer> answer = host->yesNo.detect({{&item, 1}, data.view, kDefaultThreshold});
-        if (!answer.ok()) {
-            return answer.error();
-        }
-        for (const PairAnswer& pair : answer->pairs) {
-            if (pair.hit && data.poses.size() < options.poses) {
-                data.poseNumbers.push_back(static_cast<std::uint32_t>(data.poses.size()));
-                data.poses.push_back(fresh[pair.pose]);
-            }
-        }
-    }
-    return {};
-}
-
 std::string opacityText(const std::vector<ControlPoint>& points) {
     std::string text;
     for (const ControlPoint& point : points) {
@@ -281,13 +250,47 @@ Result<PaperInput> makeInput(const BenchOptions& options, std::string name, cons
         return view.error();
     }
     input.data.view = *view;
-    if (Result<void> chosen = choosePoses(options, input.scene.name, input.data); !chosen.ok()) {
+    if (Result<void> chosen = chooseTouching(options.poses, options.seed, input.scene.name, input.data); !chosen.ok()) {
         return chosen.error();
     }
     return input;
 }
 
 } // namespace
+
+Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::string& name, CompareData& data) {
+    data.poses.clear();
+    data.poseNumbers.clear();
+    Result<HostScene> host = makeHostScene(data);
+    if (!host.ok()) {
+        return host.error();
+    }
+    const std::uint64_t most = std::min<std::uint64_t>(std::uint64_t{kTries} * count, UINT32_MAX);
+    std::uint64_t end = count;
+    for (std::uint64_t tried = 0; data.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
+        if (tried == most) {
+            return badArgument("--poses: of " + std::to_string(tried) + " random poses of " + name + " only " +
+                               std::to_string(data.poses.size()) + " touch in a view of " +
+                               std::to_string(data.view.width) + "x" + std::to_string(data.view.height) +
+                               " pixels (--size)");
+        }
+        const std::vector<Mat4> all =
+            randomPoses(data.volume.grid, data.mesh.view(), static_cast<std::uint32_t>(end), seed);
+        const std::span<const Mat4> fresh = std::span(all).subspan(tried);
+        const cpu::BatchItem item{&host->mesh, &host->volume, &host->function, fresh};
+        const Result<BatchAnswer> answer = host->yesNo.detect({{&item, 1}, data.view, kDefaultThreshold});
+        if (!answer.ok()) {
+            return answer.error();
+        }
+        for (const PairAnswer& pair : answer->pairs) {
+            if (pair.hit && data.poses.size() < count) {
+                data.poseNumbers.push_back(static_cast<std::uint32_t>(data.poses.size()));
+                data.poses.push_back(fresh[pair.pose]);
+            }
+        }
+    }
+    return {};
+}
 
 Result<std::vector<PaperInput>> loadPaperScenes(const BenchOptions& options) {
     if (Result<void> there = checkData(options); !there.ok()) {

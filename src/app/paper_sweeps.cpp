@@ -3,6 +3,7 @@
 
 #include "app/compare_timing.h"
 #include "app/paper_integration.h"
+#include "app/paper_scenes.h"
 
 #include <algorithm>
 
@@ -38,8 +39,15 @@ Result<CompareData> headOf(const CompareOptions& options, const CompareData& v1s
     head.transferFunction.path.clear();
     head.transferFunction.opacity = kOpacity;
     head.transferFunction.domain.reset();
-    head.count = static_cast<std::uint32_t>(v1s1.poses.size());
-    return readCompareData(head);
+    Result<CompareData> data = readCompareData(head);
+    if (!data.ok()) {
+        return data;
+    }
+    const auto poses = static_cast<std::uint32_t>(v1s1.poses.size());
+    if (Result<void> chosen = chooseTouching(poses, options.seed, kVolume, *data); !chosen.ok()) {
+        return chosen.error();
+    }
+    return data;
 }
 
 /// What is timed, and on what.

@@ -137,8 +137,10 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
 
 /// Every method in turn. `round` counts from 1; in round 0 no time is kept.
 Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t round, PaperResult& result) {
-    const std::size_t pose = (round + work.input.data.poses.size() - 1) % work.input.data.poses.size();
-    const bool backwards = round % 2 == 0;
+    const std::size_t poses = work.input.data.poses.size();
+    const std::size_t pose = (round + poses - 1) % poses;
+    // A pose that comes again, after an even number of rounds too, is taken the other way round.
+    const bool backwards = (round + (round + poses - 1) / poses) % 2 == 0;
     for (std::size_t i = 0; i < work.methods.size() && result.disagreement.empty(); ++i) {
         const std::size_t method = backwards ? work.methods.size() - 1 - i : i;
         PaperRow* row = round == 0 ? nullptr : &result.rows[work.firstRow + method];

@@ -99,7 +99,7 @@ const report = (() => {
         chart.getDatasetMeta(i).data.forEach((point, k) => {
           const low = set.low ? set.low[k] : set.data[k]?.low;
           const high = set.high ? set.high[k] : set.data[k]?.high;
-          if (!(low > 0) || !(high > 0)) return;
+          if (!Number.isFinite(low) || !Number.isFinite(high) || (y.type === 'logarithmic' && low <= 0)) return;
           const top = y.getPixelForValue(high);
           const bottom = y.getPixelForValue(low);
           ctx.beginPath();

@@ -90,14 +90,13 @@
       }) });
   }
 
-  function drawOverhead(parent, clock) {
-    const known = methods.filter((method) => names.some((name) => rowOf(name, method)?.[clock.key]?.collision_percent));
+  function drawPercent(parent, clock, key, chart) {
+    const known = methods.filter((method) => names.some((name) => rowOf(name, method)?.[clock.key]?.[key]));
     if (known.length === 0) return;
-    drawBarChart(parent, { title: 'Collision, in percent of the rendering', logarithmic: true, labels: names,
-      yTitle: 'collision / rendering, %', band: { low: least, high: most, text: `the paper: ${least} to ${most} %` },
-      text: `Medians, ${clock.name}; the whiskers are the confidence interval.`,
+    drawBarChart(parent, { ...chart, labels: names,
+      band: { low: least, high: most, text: `the paper's overhead: ${least} to ${most} %` },
       sets: known.map((method) => {
-        const spread = (name) => rowOf(name, method)?.[clock.key]?.collision_percent;
+        const spread = (name) => rowOf(name, method)?.[clock.key]?.[key];
         const set = barsBy(method, look(method).colour, (name) => spread(name)?.median ?? null);
         return { ...set, low: names.map((name) => spread(name)?.low), high: names.map((name) => spread(name)?.high) };
       }) });
@@ -111,7 +110,12 @@
     parent.appendChild(pair);
     drawFrames(pair, clock);
     drawCollision(pair, clock);
-    drawOverhead(parent, clock);
+    const whiskers = `Medians, ${clock.name}; the whiskers are the confidence interval.`;
+    drawPercent(parent, clock, 'overhead_percent', { title: 'Overhead', yTitle: '(total - rendering) / rendering, %',
+      text: `Frames with the detection in them against frames without, round by round. ${whiskers}` });
+    drawPercent(parent, clock, 'collision_percent', { title: 'Collision, in percent of the rendering', logarithmic: true,
+      yTitle: 'collision / rendering, %',
+      text: `The detection alone over the picture alone: the overhead if nothing else differed. ${whiskers}` });
     drawSweep(parent, 'voxels', 'Time against the volume\'s size',
       'The same mesh, poses, camera and viewport; a volume of the same extent and contents from coarse to fine. A fragment takes ' +
       'one sample, however many voxels there are.', 'voxels a side', (s) => Math.round(Math.cbrt(s.voxels.reduce((product, side) => product * side))), true);

@@ -91,7 +91,8 @@ class SmoothGroups {
     [[nodiscard]] bool isSmooth(std::uint32_t triangle, std::uint32_t other) const {
         const Vec3& a = normals_[triangle];
         const Vec3& b = normals_[other];
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] >= leastCosine_;
+        // Rounding may take it out of the range of cosines.
+        return std::clamp(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1.0, 1.0) >= leastCosine_;
     }
     [[nodiscard]] std::uint32_t find(std::uint32_t corner) const {
         while (groups_[corner] != corner) {
