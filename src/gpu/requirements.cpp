@@ -140,6 +140,11 @@ std::span<const char* const> optionalDeviceExtensions() noexcept {
     return kOptionalExtensions;
 }
 
+FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept {
+    return {on(properties.shaderSignedZeroInfNanPreserveFloat32), on(properties.shaderRoundingModeRTEFloat32),
+            on(properties.shaderDenormPreserveFloat32)};
+}
+
 EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept {
     EnabledFeatures out;
     if (features == nullptr) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/device_functions.h"
+#include "gpu/float_controls.h"
 #include "voxtact/context.h"
 
 namespace voxtact {
@@ -27,6 +28,7 @@ struct DeviceSupport {
 /// promises four.
 inline constexpr std::uint32_t kComputeStorageBuffers = 6;
 
+[[nodiscard]] FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept;
 /// Null reads as nothing enabled.
 [[nodiscard]] EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept;
 [[nodiscard]] bool debugUtilsEnabled(const ContextDesc& desc) noexcept;
