@@ -248,6 +248,11 @@ bool Context::supports(CountingMethod method) const noexcept {
                                [&](const MethodSupport& entry) { return entry.method == method && entry.available; });
 }
 
+bool Context::supports(CountingMethod method, Projection projection) const noexcept {
+    const bool certified = method == CountingMethod::Compute && missingFloatControl(impl_->floatControls) == nullptr;
+    return supports(method) && (projection != Projection::Conservative || certified);
+}
+
 CountingMethod Context::defaultMethod() const noexcept {
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic}) {
         if (supports(method)) {

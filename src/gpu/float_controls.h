@@ -12,9 +12,6 @@ struct FloatControls {
     bool keepsSpecials = false;   ///< signed zeros, infinities and NaN are what IEEE 754 says
     bool roundsToNearest = false; ///< ties to even
     bool keepsDenormals = false;
-
-    /// The bounds of shaders/certified.h hold. They do without denormals (core/certified_constants.h).
-    [[nodiscard]] bool certified() const noexcept { return keepsSpecials && roundsToNearest; }
 };
 
 /// The module, every entry point of which asks for what the device promises (SPV_KHR_float_controls, which is part of

@@ -141,7 +141,7 @@ TEST_F(ConservativeTest, OutputsAreTheHosts) {
     const MeshData scalpel = take(makeScalpel());
     const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
     const Sides sides(context(), queue(), head.view(), {points, {0, 255}, kDefaultTableSize}, scalpel.view(), true);
-    const std::vector<Mat4> poses = randomPoses(head.grid, 4, 1, random);
+    const std::vector<Mat4> poses = randomPoses(head.grid, 16, 1, random);
     const BatchItem item = sides.item(poses);
     const cpu::BatchItem hostItem = sides.hostItem(poses);
     constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
