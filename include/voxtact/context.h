@@ -109,6 +109,9 @@ class Context {
 
     [[nodiscard]] VOXTACT_API std::span<const MethodSupport> methods() const noexcept;
     [[nodiscard]] VOXTACT_API bool supports(CountingMethod method) const noexcept;
+    /// Whether it can be had in a projection: `conservative` is for `compute` alone, and wants 32-bit floats that keep
+    /// infinities and NaN and round to the nearest (VkPhysicalDeviceFloatControlsProperties).
+    [[nodiscard]] VOXTACT_API bool supports(CountingMethod method, Projection projection) const noexcept;
     /// The exact method that needs least: query, else atomic, else query-any.
     [[nodiscard]] VOXTACT_API CountingMethod defaultMethod() const noexcept;
     /// Largest viewport: {width, height}.

@@ -134,7 +134,8 @@ Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits, 
 CountingMethod conservativeMethod(const Session& session, const AutoLimits& limits) {
     const VkPhysicalDeviceType type = session.device.physical().type;
     const bool gpu = type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU || type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
-    const bool onDevice = !limits.host || (gpu && session.context.supports(CountingMethod::Compute));
+    const bool onDevice =
+        !limits.host || (gpu && session.context.supports(CountingMethod::Compute, Projection::Conservative));
     return onDevice ? CountingMethod::Compute : CountingMethod::Cpu;
 }
 

@@ -128,12 +128,6 @@ Result<void> addDevice(const Session& session, const BenchVolume& volume, const 
     return {};
 }
 
-bool isAvailable(const Session& session, CountingMethod method) {
-    return std::ranges::any_of(session.context.methods(), [method](const MethodSupport& support) {
-        return support.method == method && support.available;
-    });
-}
-
 /// Those whose method the device can do.
 Result<void> addDevices(const Session& session, const BenchVolume& volume, const BenchMesh& mesh, Engines& engines) {
     const DetectorDesc all{
@@ -141,7 +135,7 @@ Result<void> addDevices(const Session& session, const BenchVolume& volume, const
     DetectorDesc yesNo = all;
     yesNo.stopAtFirst = true;
     for (const DetectorDesc& desc : {yesNo, all, DetectorDesc{.method = CountingMethod::Query}}) {
-        if (!isAvailable(session, desc.method)) {
+        if (!session.context.supports(desc.method, desc.projection)) {
             continue;
         }
         if (Result<void> added = addDevice(session, volume, mesh, desc, engines); !added.ok()) {
@@ -193,7 +187,7 @@ Result<void> addDeviceOutputs(const Session& session, const BenchVolume& volume,
     const std::size_t view = engines.size();
     std::size_t bare = view;
     for (const Projection projection : projections()) {
-        if (projection == Projection::Conservative && method != CountingMethod::Compute) {
+        if (!session.context.supports(method, projection)) {
             continue;
         }
         bare = projection == withOutputs ? engines.size() : bare;
@@ -282,7 +276,7 @@ Result<Engines> makeOutputEngines(const BenchVolume& volume, const BenchMesh& me
         {CountingMethod::Compute, Projection::Conservative},
     };
     for (const auto& [method, withOutputs] : kOfDevice) {
-        if (session == nullptr || !isAvailable(*session, method)) {
+        if (session == nullptr || !session->context.supports(method, withOutputs)) {
             continue;
         }
         if (Result<void> added = addDeviceOutputs(*session, volume, mesh, method, withOutputs, engines); !added.ok()) {

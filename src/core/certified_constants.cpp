@@ -17,6 +17,14 @@ namespace {
 constexpr double kFloatError = 0x1p-21;
 /// The products of matrices in double, with the voxels' scale.
 constexpr double kDoubleError = 0x1p-48;
+/// The smallest normal float. Devices may take what is smaller for zero, wherever they load or compute it.
+constexpr double kLeastNormal = 0x1p-126;
+/// Such losses of a coordinate of a vertex relative to the reference: it, the reference, their difference; one more
+/// for what that adds to the computed error.
+constexpr double kLostNormals = 4;
+/// Entries a stored value. Up to there, what a device takes for zero is less than 2^-26 of an entry; beyond, it may be
+/// an entry and more, in a volume whose voxels are all as small.
+constexpr double kMostEntryScale = 0x1p100;
 /// Object units. A reference beyond it is worse than none.
 constexpr double kFarthestReference = 1e12;
 
@@ -95,10 +103,12 @@ shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_w
     for (std::size_t row = 0; row < 3; ++row) {
         double place = rows.value[12 + row];
         double magnitude = rows.magnitude[12 + row];
+        double lost = 0;
         for (std::size_t column = 0; column < 3; ++column) {
             const double element = rows.value[4 * column + row];
             place += element * static_cast<double>(reference[column]);
             magnitude += rows.magnitude[4 * column + row] * std::abs(static_cast<double>(reference[column]));
+            lost += kLostNormals * kLeastNormal * std::abs(element);
             out.voxel_from_reference[row][column] = static_cast<float>(element);
             worst[column] = std::max(worst[column],
                                      kFloatError * std::abs(element) + kDoubleError * rows.magnitude[4 * column + row]);
@@ -107,7 +117,7 @@ shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_w
         for (std::size_t column = 0; column < 4; ++column) {
             fits = fits && std::isfinite(out.voxel_from_reference[row][column]);
         }
-        worst[3] = std::max(worst[3], kFloatError * std::abs(place) + kDoubleError * magnitude);
+        worst[3] = std::max(worst[3], kFloatError * std::abs(place) + kDoubleError * magnitude + lost);
     }
     std::copy(reference.begin(), reference.end(), out.reference.begin());
     for (std::size_t column = 0; column < 4; ++column) {
@@ -120,6 +130,17 @@ shader::CertifiedPair certifiedPair(const Grid& grid, const Mat4& texture_from_w
     return out;
 }
 
+namespace {
+
+/// Whether entry coordinates are as exact as shaders/certified_cell.h says, also where denormals are taken for zero.
+bool entriesAreKnown(double entryScale, double threshold) {
+    const double magnitude = std::abs(entryScale);
+    // Comparing opacities with a threshold that is taken for zero calls all of them opaque.
+    return magnitude >= kLeastNormal && magnitude <= kMostEntryScale && (threshold == 0 || threshold >= kLeastNormal);
+}
+
+} // namespace
+
 shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double intercept, const ValueRange& domain,
                                     std::size_t tableSize, double threshold, double resolution) noexcept {
     const double width = domain.hi - domain.lo;
@@ -128,7 +149,10 @@ shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double inter
     const double middle = std::round((domain.lo / 2 + domain.hi / 2 - intercept) / slope);
     const float reference = std::abs(middle) < 0x1p24 ? static_cast<float>(middle) : 0;
     shader::CertifiedItem item{};
-    item.entryScale = static_cast<float>(slope / width * entries);
+    const double entryScale = slope / width * entries;
+    // NaN is any entry of the table: what may be opaque is *possible*.
+    item.entryScale = entriesAreKnown(entryScale, threshold) ? static_cast<float>(entryScale)
+                                                             : std::numeric_limits<float>::quiet_NaN();
     item.entryBias =
         static_cast<float>((slope * static_cast<double>(reference) + intercept - domain.lo) / width * entries - 0.5);
     item.storedReference = reference;

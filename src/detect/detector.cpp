@@ -93,6 +93,13 @@ Result<void> checkProjection(const ContextImpl& context, const DetectorDesc& des
                                  "not by ") +
                          toString(desc.method)};
     }
+    if (const char* control = missingFloatControl(context.floatControls);
+        desc.projection == Projection::Conservative && control != nullptr) {
+        return Error{ErrorCode::Unsupported, 0,
+                     std::string("the projection conservative cannot be had by compute on this device: its "
+                                 "VkPhysicalDeviceFloatControlsProperties do not report ") +
+                         control + "; the host engine (voxtact/cpu.h) has it"};
+    }
     if (desc.stopAtFirst && desc.projection != Projection::Conservative) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "DetectorDesc::stopAtFirst is for the projection conservative; a boolean query is query-any"};

@@ -25,12 +25,16 @@ void readProperties(ContextImpl& context) {
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
     maintenance3.pNext = &driver;
+    VkPhysicalDeviceFloatControlsProperties floats{};
+    floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
+    driver.pNext = &floats;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &maintenance3;
     context.vk.GetPhysicalDeviceProperties2(context.physicalDevice, &properties);
     context.limits = properties.properties.limits;
     context.maxAllocation = maintenance3.maxMemoryAllocationSize;
+    context.floatControls = readFloatControls(floats);
     context.flushAfterQuery = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     context.vk.GetPhysicalDeviceMemoryProperties(context.physicalDevice, &context.memory);
 }
@@ -242,6 +246,11 @@ std::span<const MethodSupport> Context::methods() const noexcept {
 bool Context::supports(CountingMethod method) const noexcept {
     return std::ranges::any_of(impl_->methods,
                                [&](const MethodSupport& entry) { return entry.method == method && entry.available; });
+}
+
+bool Context::supports(CountingMethod method, Projection projection) const noexcept {
+    const bool certified = method == CountingMethod::Compute && missingFloatControl(impl_->floatControls) == nullptr;
+    return supports(method) && (projection != Projection::Conservative || certified);
 }
 
 CountingMethod Context::defaultMethod() const noexcept {

@@ -10,10 +10,11 @@ namespace voxtact {
 namespace {
 
 Result<Owned<VkShaderModule>> makeModule(ContextImpl& context, std::span<const std::uint32_t> spirv) {
+    const std::vector<std::uint32_t> words = withFloatControls(spirv, context.floatControls);
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = spirv.size_bytes();
-    info.pCode = spirv.data();
+    info.codeSize = words.size() * sizeof(std::uint32_t);
+    info.pCode = words.data();
     VkShaderModule handle = VK_NULL_HANDLE;
     if (const VkResult result = context.vk.CreateShaderModule(context.device, &info, context.allocator, &handle);
         result != VK_SUCCESS) {

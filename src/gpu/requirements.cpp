@@ -78,6 +78,9 @@ DeviceSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
     }
     VkPhysicalDeviceSubgroupProperties subgroup{};
     subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    VkPhysicalDeviceFloatControlsProperties floats{};
+    floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
+    subgroup.pNext = &floats;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &subgroup;
@@ -94,7 +97,8 @@ DeviceSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
     return {has(VK_SHADER_STAGE_FRAGMENT_BIT,
                 VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
             has(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT),
-            properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers};
+            properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers,
+            readFloatControls(floats)};
 }
 
 /// One thing that a method needs, and what to say when it is not there.
@@ -138,6 +142,18 @@ std::span<const Requirement> requirements() noexcept {
 
 std::span<const char* const> optionalDeviceExtensions() noexcept {
     return kOptionalExtensions;
+}
+
+FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept {
+    return {on(properties.shaderSignedZeroInfNanPreserveFloat32), on(properties.shaderRoundingModeRTEFloat32),
+            on(properties.shaderDenormPreserveFloat32)};
+}
+
+const char* missingFloatControl(const FloatControls& floats) noexcept {
+    if (!floats.keepsSpecials) {
+        return "shaderSignedZeroInfNanPreserveFloat32";
+    }
+    return floats.roundsToNearest ? nullptr : "shaderRoundingModeRTEFloat32";
 }
 
 EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept {
@@ -215,6 +231,10 @@ CheckReport check(const ContextDesc& desc) {
             report.missing.emplace_back(std::string(requirement.structure) + "::" + requirement.feature +
                                         " is not enabled: " + requirement.without);
         }
+    }
+    if (const char* control = device.floats ? missingFloatControl(*device.floats) : nullptr; control != nullptr) {
+        report.missing.emplace_back(std::string("VkPhysicalDeviceFloatControlsProperties::") + control +
+                                    " is not reported: no projection conservative by the method compute");
     }
     report.methods = methodSupport(enabled, device);
     return report;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "gpu/device_functions.h"
+#include "gpu/float_controls.h"
 #include "voxtact/context.h"
+
+#include <optional>
 
 namespace voxtact {
 
@@ -20,13 +23,17 @@ struct EnabledFeatures {
 struct DeviceSupport {
     bool fragmentBallotAndShuffle = false; ///< subgroup operations of the stages
     bool computeArithmetic = false;
-    bool computeBuffers = false; ///< kComputeStorageBuffers in the compute stage
+    bool computeBuffers = false;         ///< kComputeStorageBuffers in the compute stage
+    std::optional<FloatControls> floats; ///< nothing: the device could not be asked
 };
 
 /// Storage buffers of the compute stage: bricks, the table's extremes, transforms, results, vertices, indices. Vulkan
 /// promises four.
 inline constexpr std::uint32_t kComputeStorageBuffers = 6;
 
+[[nodiscard]] FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept;
+/// What the projection conservative lacks by the method compute, as Vulkan spells it; null: nothing.
+[[nodiscard]] const char* missingFloatControl(const FloatControls& floats) noexcept;
 /// Null reads as nothing enabled.
 [[nodiscard]] EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept;
 [[nodiscard]] bool debugUtilsEnabled(const ContextDesc& desc) noexcept;

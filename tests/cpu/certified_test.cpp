@@ -6,6 +6,7 @@
 // voxtact_cpu_tests --gtest_filter='*AgainstTheOracle/0'
 #include "certified_judge.h"
 #include "cpu/engine_fixture.h"
+#include "denormal_scenes.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -205,6 +206,23 @@ TEST(CertifiedExtremes, APoseBeyondFloatsIsNotCalledACertainMiss) {
             EXPECT_EQ(oracle.certainty, Certainty::Certain);
             EXPECT_EQ(complaints(take(askEngine(detector, c)), oracle, {}), "");
         }
+    }
+}
+
+TEST(CertifiedExtremes, WhatDependsOnDenormalsIsPossible) {
+    cpu::Detector detector = take(
+        cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
+    for (const DenormalScene& denormal : denormalScenes()) {
+        SCOPED_TRACE(denormal.name);
+        const cpu::CertifiedOracle oracle = take(cpu::certifiedOracle(denormal.scene.scene.pair()));
+        EXPECT_EQ(oracle.certainty, Certainty::Certain);
+        const EngineSays says = take(askEngine(detector, denormal.scene));
+        EXPECT_EQ(complaints(says, oracle, {}), "");
+        EXPECT_FALSE(says.pair.hit);
+        EXPECT_TRUE(says.pair.possible);
+    }
+    for (const double scale : {1.0, 0x1p-90, 0x1p90, 0x1p110}) {
+        EXPECT_TRUE(take(askEngine(detector, scaledTriangle(scale))).pair.hit) << scale;
     }
 }
 

@@ -3,6 +3,7 @@
 #include "gpu_fixture.h"
 
 #include "cpu/certified_scenes.h"
+#include "cpu/denormal_scenes.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
@@ -140,7 +141,7 @@ TEST_F(ConservativeTest, OutputsAreTheHosts) {
     const MeshData scalpel = take(makeScalpel());
     const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
     const Sides sides(context(), queue(), head.view(), {points, {0, 255}, kDefaultTableSize}, scalpel.view(), true);
-    const std::vector<Mat4> poses = randomPoses(head.grid, 4, 1, random);
+    const std::vector<Mat4> poses = randomPoses(head.grid, 16, 1, random);
     const BatchItem item = sides.item(poses);
     const cpu::BatchItem hostItem = sides.hostItem(poses);
     constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
@@ -160,6 +161,23 @@ TEST_F(ConservativeTest, OutputsAreTheHosts) {
     // A witness is opaque up to the rounding of its place.
     for (const Contact& contact : onHost.contacts) {
         EXPECT_GE(contact.opacity, kDefaultThreshold - 1e-3) << seed;
+    }
+}
+
+/// All four touch; a device that takes denormals for zero may not know.
+TEST_F(ConservativeTest, WhatDependsOnDenormalsIsPossible) {
+    BlockingDetector device = detector(kDevice);
+    cpu::Detector host = hostDetector();
+    for (const DenormalScene& denormal : denormalScenes()) {
+        const cpu::OraclePair pair = denormal.scene.scene.pair();
+        const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, true);
+        const std::span poses(&pair.world_from_object, 1);
+        const BatchItem item = sides.item(poses);
+        const cpu::BatchItem hostItem = sides.hostItem(poses);
+        const BatchAnswer onDevice = take(device.detect({{&item, 1}, {}, pair.threshold}));
+        const BatchAnswer onHost = take(host.detect({{&hostItem, 1}, {}, pair.threshold}));
+        expectSame(onDevice.pairs[0], onHost.pairs[0], denormal.name);
+        EXPECT_TRUE(onDevice.pairs[0].possible) << denormal.name;
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which methods a device can do, and the self-test.
 #include "gpu_fixture.h"
+#include "interception.h"
 
 #include <gmock/gmock.h>
 
@@ -10,6 +11,7 @@
 namespace voxtact::test {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 
 class MethodsTest : public GpuTest {
@@ -72,6 +74,74 @@ TEST_F(MethodsTest, ComputeNeedsInt64) {
     ASSERT_FALSE(detector.ok());
     EXPECT_THAT(detector.error().text, HasSubstr("shaderInt64"));
     EXPECT_THAT(Detector::create(context, {.method = CountingMethod::Cpu}).error().text, HasSubstr("voxtact/cpu.h"));
+}
+
+PFN_vkGetPhysicalDeviceProperties2 realProperties = nullptr;
+PFN_vkCreateShaderModule realShaderModule = nullptr;
+bool bareFloats = false; ///< the device is taken for one that promises nothing
+std::vector<std::vector<std::uint32_t>> madeModules;
+
+void VKAPI_PTR propertiesOfFloats(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {
+    realProperties(device, properties);
+    for (auto* next = static_cast<VkBaseOutStructure*>(properties->pNext); next != nullptr && bareFloats;
+         next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES) {
+            auto* floats = reinterpret_cast<VkPhysicalDeviceFloatControlsProperties*>(next);
+            floats->shaderSignedZeroInfNanPreserveFloat32 = VK_FALSE;
+            floats->shaderRoundingModeRTEFloat32 = VK_FALSE;
+            floats->shaderDenormPreserveFloat32 = VK_FALSE;
+        }
+    }
+}
+
+VkResult VKAPI_PTR keptModule(VkDevice device, const VkShaderModuleCreateInfo* info,
+                              const VkAllocationCallbacks* allocator, VkShaderModule* module) {
+    madeModules.emplace_back(info->pCode, info->pCode + info->codeSize / sizeof(std::uint32_t));
+    return realShaderModule(device, info, allocator, module);
+}
+
+bool hasCapability(const std::vector<std::uint32_t>& spirv, std::uint32_t capability) {
+    for (std::size_t at = 5; at < spirv.size() && (spirv[at] & 0xffffU) == 17; at += 2) {
+        if (spirv[at + 1] == capability) {
+            return true;
+        }
+    }
+    return false;
+}
+
+TEST_F(MethodsTest, ConservativeNeedsIeeeFloats) {
+    Interception loader(gpu().instance.getInstanceProcAddr());
+    ContextDesc desc = gpu().device.contextDesc();
+    realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+        desc.getInstanceProcAddr(desc.instance, "vkGetPhysicalDeviceProperties2"));
+    realShaderModule = reinterpret_cast<PFN_vkCreateShaderModule>(reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+        desc.getInstanceProcAddr(desc.instance, "vkGetDeviceProcAddr"))(desc.device, "vkCreateShaderModule"));
+    loader.replace("vkGetPhysicalDeviceProperties2", &propertiesOfFloats);
+    loader.replace("vkCreateShaderModule", &keptModule);
+    desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
+    constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    for (const bool bare : {false, true}) {
+        bareFloats = bare;
+        madeModules.clear();
+        const Context context = take(Context::create(desc));
+        EXPECT_TRUE(context.supports(CountingMethod::Compute, Projection::View));
+        EXPECT_FALSE(context.supports(CountingMethod::Query, Projection::Conservative));
+        EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Compute}).ok());
+        EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Query}).ok());
+        const Result<Detector> certified = Detector::create(context, kCertified);
+        ASSERT_EQ(certified.ok(), context.supports(CountingMethod::Compute, Projection::Conservative));
+        EXPECT_FALSE(certified.ok() && bare);
+        if (bare) {
+            EXPECT_EQ(certified.error().code, ErrorCode::Unsupported);
+            EXPECT_THAT(certified.error().text, HasSubstr("shaderSignedZeroInfNanPreserveFloat32"));
+            EXPECT_THAT(check(desc).missing, Contains(HasSubstr("shaderSignedZeroInfNanPreserveFloat32")));
+        }
+        EXPECT_GE(madeModules.size(), 3U);
+        for (const std::vector<std::uint32_t>& module : madeModules) {
+            EXPECT_EQ(hasCapability(module, 4466), certified.ok()); // SignedZeroInfNanPreserve
+            EXPECT_EQ(hasCapability(module, 4467), certified.ok()); // RoundingModeRTE
+        }
+    }
 }
 
 TEST_F(MethodsTest, RequiredFeaturesAreNamedWhenMissing) {

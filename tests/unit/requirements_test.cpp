@@ -9,7 +9,9 @@
 namespace voxtact::test {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -20,17 +22,25 @@ VkShaderStageFlags fakeSubgroupStages = kBothStages;
 constexpr std::uint32_t kManyBuffers = 16;
 std::uint32_t fakeStorageBuffers = kManyBuffers;
 
+VkPhysicalDeviceFloatControlsProperties fakeFloats{};
+
 void VKAPI_PTR doNothing() {}
 
 void VKAPI_PTR fakeProperties(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
     properties->properties.apiVersion = fakeDeviceVersion;
     std::strcpy(properties->properties.deviceName, "fake");
     properties->properties.limits.maxPerStageDescriptorStorageBuffers = fakeStorageBuffers;
-    auto* subgroup = static_cast<VkPhysicalDeviceSubgroupProperties*>(properties->pNext);
-    if (subgroup != nullptr && subgroup->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
-        subgroup->supportedStages = fakeSubgroupStages;
-        subgroup->supportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
-                                        VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    for (auto* next = static_cast<VkBaseOutStructure*>(properties->pNext); next != nullptr; next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
+            auto* subgroup = reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next);
+            subgroup->supportedStages = fakeSubgroupStages;
+            subgroup->supportedOperations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
+                                            VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES) {
+            auto* floats = reinterpret_cast<VkPhysicalDeviceFloatControlsProperties*>(next);
+            floats->shaderSignedZeroInfNanPreserveFloat32 = fakeFloats.shaderSignedZeroInfNanPreserveFloat32;
+            floats->shaderRoundingModeRTEFloat32 = fakeFloats.shaderRoundingModeRTEFloat32;
+        }
     }
 }
 
@@ -58,6 +68,8 @@ class RequirementsTest : public testing::Test {
         fakeAbsent = nullptr;
         fakeSubgroupStages = kBothStages;
         fakeStorageBuffers = kManyBuffers;
+        fakeFloats.shaderSignedZeroInfNanPreserveFloat32 = VK_TRUE;
+        fakeFloats.shaderRoundingModeRTEFloat32 = VK_TRUE;
         desc_.getInstanceProcAddr = &fakeLoader;
         // Never dereferenced: the fake loader's functions take no notice of them.
         desc_.instance = reinterpret_cast<VkInstance>(std::uintptr_t{1});
@@ -125,6 +137,20 @@ TEST_F(RequirementsTest, FewStorageBuffersCostCompute) {
         EXPECT_EQ(method.available, method.method != CountingMethod::Compute) << method.reason;
     }
     EXPECT_THAT(check(desc_).methods.back().reason, HasSubstr("maxPerStageDescriptorStorageBuffers"));
+}
+
+TEST_F(RequirementsTest, FloatsThatAreNotIeeeCostTheCertifiedAnswerAlone) {
+    fakeFloats.shaderRoundingModeRTEFloat32 = VK_FALSE;
+    const CheckReport rounding = check(desc_);
+    EXPECT_TRUE(rounding.usable);
+    EXPECT_THAT(rounding.missing, ElementsAre(AllOf(HasSubstr("shaderRoundingModeRTEFloat32 is not reported"),
+                                                    HasSubstr("no projection conservative"))));
+    fakeFloats.shaderSignedZeroInfNanPreserveFloat32 = VK_FALSE;
+    const CheckReport both = check(desc_);
+    EXPECT_THAT(both.missing, ElementsAre(HasSubstr("shaderSignedZeroInfNanPreserveFloat32 is not reported")));
+    for (const MethodSupport& method : both.methods) {
+        EXPECT_TRUE(method.available) << method.reason;
+    }
 }
 
 TEST_F(RequirementsTest, SingleFeatureStructsAreRead) {
