@@ -167,7 +167,8 @@ TEST(PaperOutput, TextAndCsvHaveTheRestToo) {
     addTheRest(result);
     EXPECT_THAT(written(result, "text"), AllOf(HasSubstr("\n# " + title + "\nentries"),
                                                HasSubstr("Which of 3068 triangles touch, in v1s1, on 4 poses together"),
-                                               HasSubstr("13.0 (10.0 to 16.0)"), HasSubstr("# Sweeps in v1s1; of voxels in the builtin head\nsweep")));
+                                               HasSubstr("13.0 (10.0 to 16.0)"),
+                                               HasSubstr("# Sweeps in v1s1; of voxels in the builtin head\nsweep")));
     const std::string csv = written(result, "csv");
     EXPECT_THAT(csv, AllOf(HasSubstr("\n# " + title + "\n# entries,"), HasSubstr("\n# 256,3,3,5,"),
                            HasSubstr("\n# polygon,24544,70,30,2,3,41,"), HasSubstr("\n# leaf,,,,,0,")));
