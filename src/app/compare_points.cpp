@@ -41,6 +41,11 @@ Result<void> takeSample(Point& point) {
 Result<bool> warmUp(Point& point, double share, double most) {
     Work some = point.work;
     some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
+    // The first pass may make pipelines: only the second one says how long a batch takes.
+    if (const Result<MethodRunner::Pass> first = point.runner->run(some, point.perSubmission, point.frames);
+        !first.ok()) {
+        return first.error();
+    }
     const Result<MethodRunner::Pass> pass = point.runner->run(some, point.perSubmission, point.frames);
     if (!pass.ok()) {
         return pass.error();
