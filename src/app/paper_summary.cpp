@@ -112,7 +112,7 @@ void addPercents(const PaperResult& result, std::vector<std::string>& sentences)
 }
 
 /// On a slow renderer a small overhead is lost in how much its frames differ.
-void addCertainty(const PaperResult& result, std::vector<std::string>& sentences) {
+void addIntervals(const PaperResult& result, std::vector<std::string>& sentences) {
     for (const NamedClock& clock : kClocks) {
         std::uint64_t all = 0;
         std::uint64_t apart = 0;
@@ -123,7 +123,7 @@ void addCertainty(const PaperResult& result, std::vector<std::string>& sentences
         }
         if (all > 0) {
             sentences.push_back("in " + grouped(apart) + " of " + grouped(all) +
-                                " rows the median of what detection adds is certainly not 0 (95 %), " + clock.name);
+                                " rows the interval (95 %) of what detection adds leaves out 0, " + clock.name);
         }
     }
 }
@@ -201,7 +201,7 @@ std::string shortNumber(double value) {
 
 std::vector<std::string> paperSummary(const PaperResult& result) {
     std::vector<std::string> sentences;
-    for (const auto add : {addAgreement, addPercents, addCertainty, addPairs, addPolygons, addIntegration}) {
+    for (const auto add : {addAgreement, addPercents, addIntervals, addPairs, addPolygons, addIntegration}) {
         add(result, sentences);
     }
     return sentences;

@@ -83,7 +83,8 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
         "survivors by their opacity, from dark gray to white), triangles (those that touch for certain, red)");
     addNumber(
         parser, "--through", [&options](double part) { options.through = part; },
-        "how much of what is painted is seen through the tissue before it; default: 0.8, for discarded 1",
+        "how much of what is painted is seen through the tissue before it; default: " + number(kContactsThrough) +
+            ", for discarded " + number(kDiscardedThrough),
         [](double part) { return part >= 0 && part <= 1; }, "from 0 to 1", "");
     parser.get_option("--show")->needs("--mesh");
     parser.get_option("--through")->needs("--show");

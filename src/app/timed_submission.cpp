@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/timed_submission.h"
 
-#include "app/timed_commands.h"
-
 #include <chrono>
 
 namespace voxtact::app {
@@ -13,53 +11,42 @@ using Clock = std::chrono::steady_clock;
 
 } // namespace
 
-struct TimedSubmission::State {
-    TimedCommands commands;
-
-    Result<void> submit(const std::function<Result<void>(VkCommandBuffer)>& record);
-};
-
-Result<void> TimedSubmission::State::submit(const std::function<Result<void>(VkCommandBuffer)>& record) {
-    const Result<VkCommandBuffer> begun = commands.begin();
+Result<void> TimedSubmission::submit(const std::function<Result<void>(VkCommandBuffer)>& record) {
+    const Result<VkCommandBuffer> begun = commands_.begin();
     if (!begun.ok()) {
         return begun.error();
     }
-    commands.cmdStamp(0);
+    commands_.cmdStamp(0);
     if (Result<void> recorded = record(*begun); !recorded.ok()) {
         return recorded;
     }
-    commands.cmdStamp(1);
-    if (Result<void> ended = commands.end(); !ended.ok()) {
+    commands_.cmdStamp(1);
+    if (Result<void> ended = commands_.end(); !ended.ok()) {
         return ended;
     }
-    if (Result<void> submitted = commands.submit(); !submitted.ok()) {
+    if (Result<void> submitted = commands_.submit(); !submitted.ok()) {
         return submitted;
     }
-    return commands.wait();
+    return commands_.wait();
 }
-
-TimedSubmission::TimedSubmission(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
-TimedSubmission::TimedSubmission(TimedSubmission&&) noexcept = default;
-TimedSubmission& TimedSubmission::operator=(TimedSubmission&&) noexcept = default;
-TimedSubmission::~TimedSubmission() = default;
 
 Result<TimedSubmission> TimedSubmission::create(const Session& session) {
     Result<TimedCommands> commands = TimedCommands::create(session, 2);
     if (!commands.ok()) {
         return commands.error();
     }
-    return TimedSubmission(std::unique_ptr<State>(new State{.commands = std::move(*commands)}));
+    return TimedSubmission(std::move(*commands));
 }
 
 Result<TimedSubmission::Times> TimedSubmission::run(const std::function<Result<void>(VkCommandBuffer)>& record) {
     const auto begun = Clock::now();
-    if (const Result<void> done = state_->submit(record); !done.ok()) {
-        state_->commands.waitForAll();
+    if (const Result<void> done = submit(record); !done.ok()) {
+        commands_.waitForAll();
         return done.error();
     }
     Times times;
     times.wallMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
-    const Result<std::optional<double>> gpu = state_->commands.between(0, 1);
+    const Result<std::optional<double>> gpu = commands_.between(0, 1);
     if (!gpu.ok()) {
         return gpu.error();
     }

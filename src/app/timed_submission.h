@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/session.h"
+#include "app/timed_commands.h"
 
 #include <functional>
-#include <memory>
 #include <optional>
 
 namespace voxtact::app {
@@ -20,18 +19,14 @@ class TimedSubmission {
 
     /// The session must outlive it.
     [[nodiscard]] static Result<TimedSubmission> create(const Session& session);
-    TimedSubmission(TimedSubmission&&) noexcept;
-    TimedSubmission& operator=(TimedSubmission&&) noexcept;
-    ~TimedSubmission();
-
     /// `record` records outside a render pass. Nothing is in flight afterwards, not after an error either.
     [[nodiscard]] Result<Times> run(const std::function<Result<void>(VkCommandBuffer)>& record);
 
-    struct State;
-
   private:
-    explicit TimedSubmission(std::unique_ptr<State> state) noexcept;
-    std::unique_ptr<State> state_;
+    explicit TimedSubmission(TimedCommands commands) noexcept : commands_(std::move(commands)) {}
+    Result<void> submit(const std::function<Result<void>(VkCommandBuffer)>& record);
+
+    TimedCommands commands_;
 };
 
 } // namespace voxtact::app
