@@ -13,12 +13,14 @@ allowed() {
     render) echo "core gpu render" ;;
     io) echo "core io" ;;
     cpu) echo "core cpu" ;;
-    app) echo "core gpu detect render io cpu app" ;;
+    oracle) echo "core oracle" ;;
+    device) echo "core gpu detect device" ;;
+    app) echo "core gpu detect render io cpu oracle device app" ;;
     *) return 1 ;;
     esac
 }
 
-parts="core gpu detect render io cpu app"
+parts="core gpu detect render io cpu oracle device app"
 wrong=0
 complain() {
     printf '%s\n' "$1" >&2
@@ -41,7 +43,7 @@ done
 # No Vulkan in the parts that promise to do without.
 while IFS= read -r hit; do
     complain "$hit: no Vulkan here"
-done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu 2>/dev/null | cut -d: -f1,2)
+done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu src/oracle 2>/dev/null | cut -d: -f1,2)
 
 while IFS=: read -r file line text; do
     case "$text" in

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare_localize.h"
 
-#include "cpu/brick_occupancy.h"
-#include "cpu/oracle.h"
+#include "cpu/certified/brick_occupancy.h"
 #include "detect/localize.h"
 #include "detect/trace.h"
+#include "oracle/oracle.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare_verify.h"
 
-#include "cpu/oracle.h"
 #include "detect/trace.h"
+#include "oracle/oracle.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cache_folder.h"
-#include "app/vulkan_device.h"
+#include "device/vulkan_device.h"
 
 #include <cstddef>
 #include <string>

@@ -5,7 +5,7 @@
 #include "app/outcome.h"
 #include "app/pipeline_cache.h"
 #include "app/shared_options.h"
-#include "app/vulkan_device.h"
+#include "device/vulkan_device.h"
 #include "voxtact/context.h"
 
 #include <memory>

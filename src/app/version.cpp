@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/version.h"
 
-#include "app/vulkan_device.h"
+#include "device/vulkan_device.h"
 
 #include "voxtact_version.h"
 

@@ -3,9 +3,9 @@
 #include "core/guard.h"
 #include "core/projection.h"
 #include "cpu/batch_check.h"
-#include "cpu/certified_run.h"
-#include "cpu/count_run.h"
+#include "cpu/certified/certified_run.h"
 #include "cpu/outputs.h"
+#include "cpu/raster/count_run.h"
 
 #include <algorithm>
 #include <chrono>

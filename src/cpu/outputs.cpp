@@ -3,8 +3,8 @@
 #include "core/output_pair.h"
 #include "core/pair_transform.h"
 #include "core/sort_contacts.h"
-#include "cpu/lone_triangle.h"
-#include "cpu/scalar_sample.h"
+#include "cpu/raster/lone_triangle.h"
+#include "cpu/raster/scalar_sample.h"
 
 #include <algorithm>
 #include <limits>

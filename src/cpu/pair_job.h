@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/occupancy.h"
-#include "cpu/scene_impl.h"
+#include "cpu/raster/occupancy.h"
+#include "cpu/scene/scene_impl.h"
 #include "shared.h"
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/tasks.h"
-#include "cpu/scene_impl.h"
+#include "cpu/scene/scene_impl.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 // Scenes whose counts are known, for the engine and the reference alike.
 #include "cpu/engine_fixture.h"
 #include "cpu/random_scene.h"
-#include "cpu/reference.h"
+#include "cpu/raster/reference.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which boxes may have an opaque sample: never wrong where something touches, and not always yes.
-#include "cpu/brick_occupancy.h"
+#include "cpu/certified/brick_occupancy.h"
 
 #include "cpu/random_scene.h"
 #include "engine_fixture.h"

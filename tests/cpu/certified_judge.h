@@ -3,7 +3,7 @@
 
 #include "certified_scenes.h"
 
-#include "cpu/certified_oracle.h"
+#include "oracle/certified_oracle.h"
 #include "voxtact/cpu.h"
 
 #include <string>

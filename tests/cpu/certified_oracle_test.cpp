@@ -2,8 +2,8 @@
 // The certified oracle against scenes whose answer is known beforehand.
 #include "certified_scenes.h"
 
-#include "cpu/certified_oracle.h"
 #include "cpu/engine_fixture.h"
+#include "oracle/certified_oracle.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the certified oracle is made of: bounds of values and of opacities, cuts.
-#include "cpu/certified_sample.h"
 #include "cpu/engine_fixture.h"
 #include "cpu/random_scene.h"
+#include "oracle/certified_sample.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "core/voxel_value.h"
 #include "cpu/engine_fixture.h"
 #include "cpu/random_scene.h"
-#include "cpu/scene_impl.h"
+#include "cpu/scene/scene_impl.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/oracle.h"
+#include "oracle/oracle.h"
 
 #include <random>
 #include <vector>

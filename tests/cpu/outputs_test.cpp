@@ -2,8 +2,8 @@
 // The outputs beside the counts, on the host: against the counts, against the oracle, and against solids whose normals
 // and depths are known.
 #include "cpu/engine_fixture.h"
-#include "cpu/oracle.h"
 #include "cpu/random_scene.h"
+#include "oracle/oracle.h"
 #include "support/contact_scenes.h"
 
 #include <gmock/gmock.h>

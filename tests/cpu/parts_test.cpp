@@ -4,10 +4,10 @@
 #include "core/opaque_ranges.h"
 #include "core/pair_transform.h"
 #include "cpu/engine_fixture.h"
-#include "cpu/occupancy.h"
 #include "cpu/random_scene.h"
-#include "cpu/row_spans.h"
-#include "cpu/scalar_sample.h"
+#include "cpu/raster/occupancy.h"
+#include "cpu/raster/row_spans.h"
+#include "cpu/raster/scalar_sample.h"
 #include "cpu/thread_pool.h"
 #include "voxtact/builtin.h"
 

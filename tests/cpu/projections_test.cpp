@@ -2,9 +2,9 @@
 // The projections two-view and dominant-axis by the engine: against the reference and the oracle, and where the counts
 // are known.
 #include "cpu/engine_fixture.h"
-#include "cpu/oracle.h"
 #include "cpu/random_scene.h"
-#include "cpu/reference.h"
+#include "cpu/raster/reference.h"
+#include "oracle/oracle.h"
 #include "voxtact/builtin.h"
 
 #include <gmock/gmock.h>

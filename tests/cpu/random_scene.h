@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/reference.h"
+#include "cpu/raster/reference.h"
 #include "voxtact/cpu.h"
 
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bricks on the device: the host's ranges, and a wide range counted voxel by voxel.
-#include "cpu/stored_image.h"
+#include "cpu/scene/stored_image.h"
 #include "gpu/scene_impl.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"

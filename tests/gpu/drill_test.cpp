@@ -3,7 +3,7 @@
 // the host and in plain data that the oracles look at.
 #include "gpu_fixture.h"
 
-#include "cpu/certified_oracle.h"
+#include "oracle/certified_oracle.h"
 #include "raw_vulkan.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"

@@ -3,9 +3,9 @@
 // by fragment.
 #include "gpu_fixture.h"
 
-#include "cpu/oracle.h"
 #include "cpu/random_scene.h"
 #include "detect/trace.h"
+#include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"

@@ -2,11 +2,11 @@
 // The paper's two ways to say which triangles touch, against each other and against the fragments themselves.
 #include "gpu_fixture.h"
 
-#include "cpu/brick_occupancy.h"
-#include "cpu/oracle.h"
+#include "cpu/certified/brick_occupancy.h"
 #include "cpu/random_scene.h"
 #include "detect/localize.h"
 #include "detect/trace.h"
+#include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/io.h"

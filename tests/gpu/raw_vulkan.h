@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/vulkan_device.h"
+#include "device/vulkan_device.h"
 
 #include <cstring>
 #include <span>

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/certified/certified_occupancy.h"
+#include "core/certified_constants.h"
+
+namespace voxtact::cpu {
+
+namespace {
+/// A larger box is likely to have a cell that may be opaque, and long to look through.
+constexpr std::uint32_t kMostBricks = 27;
+} // namespace
+
+CertifiedOccupancy::CertifiedOccupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
+                                       double resolution)
+    : item_(certifiedItem(volume.grid, 1, volume.storedIntercept, function.domain, function.table.size(), threshold,
+                          resolution)),
+      extremes_(function.table), count_(volume.bricks.count) {
+    classify(volume);
+    sums_ = BrickSums<std::uint32_t>(count_, [this](std::size_t brick) { return std::uint32_t{mixed_[brick]}; });
+}
+
+void CertifiedOccupancy::classify(const VolumeImpl& volume) {
+    const shader::OpacityTable opacities = table();
+    mixed_.resize(volume.bricks.lo.size());
+    for (std::size_t brick = 0; brick < mixed_.size(); ++brick) {
+        const bool may =
+            shader::certifiedRangeMayBeOpaque(opacities, item_, volume.bricks.lo[brick], volume.bricks.hi[brick]);
+        mixed_[brick] = may ? 1 : 0;
+    }
+    bricks_ = CertifiedBricks(mixed_);
+}
+
+bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const {
+    const BrickBox box = cells.bricks();
+    const std::uint32_t mixed = sums_.within(box);
+    if (mixed == 0 || mixed > kMostBricks) {
+        return mixed != 0;
+    }
+    for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
+        for (std::int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
+            for (std::int32_t x = box.lo[0]; x <= box.hi[0]; ++x) {
+                const std::array<std::int32_t, 3> brick{x, y, z};
+                if (mayBeOpaque(brickNumber(brick)) && this->cells(volume, brick).any(cells.within(brick))) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+} // namespace voxtact::cpu

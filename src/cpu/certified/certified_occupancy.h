@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/table_extremes.h"
+#include "cpu/certified/certified_bricks.h"
+#include "cpu/raster/brick_sums.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// One volume under one transfer function, threshold and resolution, as the projection `conservative` sees it: what the
+/// bricks hold of the real interpolant, not of the exact arithmetic's samples.
+class CertifiedOccupancy {
+  public:
+    CertifiedOccupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
+                       double resolution);
+
+    [[nodiscard]] const shader::CertifiedItem& item() const noexcept { return item_; }
+    /// Valid while this object lives.
+    [[nodiscard]] shader::OpacityTable table() const noexcept {
+        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data()};
+    }
+    [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {
+        return (static_cast<std::size_t>(brick[2]) * static_cast<std::size_t>(count_[1]) +
+                static_cast<std::size_t>(brick[1])) *
+                   static_cast<std::size_t>(count_[0]) +
+               static_cast<std::size_t>(brick[0]);
+    }
+    /// Whether a brick may have an opaque point.
+    [[nodiscard]] bool mayBeOpaque(std::size_t number) const noexcept { return mixed_[number] != 0; }
+    /// Whether some brick of a box may.
+    [[nodiscard]] bool mayBeOpaque(const BrickBox& box) const noexcept { return sums_.within(box) != 0; }
+    /// Whether some cell of a box may, as far as a look at a few bricks tells. `volume` is the one of the constructor.
+    [[nodiscard]] bool mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const;
+    [[nodiscard]] bool nothingOpaque() const noexcept { return sums_.all() == 0; }
+    /// The cells of a brick that may have an opaque point. `volume` is the one of the constructor.
+    [[nodiscard]] const BrickCells& cells(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
+        return bricks_.at(volume, item_, table(), brickNumber(brick), brick);
+    }
+
+  private:
+    void classify(const VolumeImpl& volume);
+
+    shader::CertifiedItem item_;
+    TableExtremes extremes_;
+    std::array<std::int32_t, 3> count_;
+    std::vector<std::uint8_t> mixed_;
+    CertifiedBricks bricks_;
+    BrickSums<std::uint32_t> sums_; ///< of mixed_
+};
+
+} // namespace voxtact::cpu

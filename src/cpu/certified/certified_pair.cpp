@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/certified/certified_pair.h"
+#include "core/clusters.h"
+#include "cpu/scene/stored_voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using shader::CertifiedTriangle;
+using shader::CertifiedVertex;
+using shader::VoxelPoint;
+
+CellBox cellsOf(const shader::CertifiedBounds& bounds) {
+    return {{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
+}
+
+/// The most vertices that a cluster has, padding included.
+constexpr std::size_t kMostVertices = 3 * std::size_t{kClusterTriangles} + kMeshAlignment;
+
+/// Vertices of a cluster in voxel space.
+struct Vertices {
+    float x[kMostVertices];
+    float y[kMostVertices];
+    float z[kMostVertices];
+    float error[kMostVertices];
+
+    [[nodiscard]] CertifiedVertex at(std::size_t i) const { return {{x[i], y[i], z[i]}, error[i]}; }
+};
+
+template <class Kept> class Decider {
+  public:
+    Decider(const CertifiedJob& job, const Kept* voxels, const CertifiedSink& sink)
+        : job_(job), voxels_(voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()) {}
+
+    CertifiedTally run() {
+        if (job_.stopAtFirst) {
+            probeAndDecide();
+        } else {
+            descend([this](std::uint32_t run) {
+                decideRun(run);
+                return true;
+            });
+        }
+        return tally_;
+    }
+
+  private:
+    [[nodiscard]] bool done() const { return job_.stopAtFirst && tally_.certain > 0; }
+
+    template <class Visit> void descend(const Visit& visit) {
+        job_.mesh.tree.descend(
+            job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); }, visit);
+    }
+
+    /// A vertex in opaque matter is found sooner than a fragment is decided, so all runs are probed before any is
+    /// decided.
+    void probeAndDecide() {
+        std::vector<std::uint32_t> runs;
+        descend([&](std::uint32_t run) {
+            runs.push_back(run);
+            probeRun(run);
+            return !done();
+        });
+        for (std::size_t i = 0; i < runs.size() && !done(); ++i) {
+            decideRun(runs[i]);
+        }
+    }
+
+    void probeRun(std::uint32_t run) {
+        if (!delta_.usable) {
+            return;
+        }
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = beginRun(run);
+        for (std::size_t at = first; at < first + kRunTriangles && mesh.numbers[at] != kNoTriangle; ++at) {
+            for (const std::uint8_t corner : {mesh.corner0[at], mesh.corner1[at], mesh.corner2[at]}) {
+                if (!probed_[corner]) {
+                    probed_[corner] = true;
+                    if (vertexProves(vertices_.at(corner).point)) {
+                        tally_.certain = 1;
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool vertexProves(const VoxelPoint& vertex) const {
+        const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
+        std::array<std::int32_t, 3> cell{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float at = voxelAlong(vertex, static_cast<int>(axis));
+            if (!(at >= -0.5F && at <= static_cast<float>(size[axis]) - 0.5F)) {
+                return false;
+            }
+            cell[axis] = std::min(at < 0 ? -1 : static_cast<std::int32_t>(at), size[axis] - 1);
+        }
+        const CellBox box{cell, cell};
+        const std::array<std::int32_t, 3> brick = box.bricks().lo;
+        if (!job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber(brick))) {
+            return false;
+        }
+        const BrickCells& known = job_.occupancy.cells(job_.volume, brick);
+        if (!known.any(box.within(brick))) {
+            return false;
+        }
+        const shader::CertifiedCell here = shader::certifiedCell(item_, cornersOf(cell[0], cell[1], cell[2], known),
+                                                                 cell[0], cell[1], cell[2], delta_.delta);
+        return shader::certifiedVertexProves(table_, here, vertex, cell[0], cell[1], cell[2]);
+    }
+
+    /// Whether the triangles in a box of object space may pass through a brick that may have an opaque point.
+    [[nodiscard]] bool mayTouch(const RunBox& box) {
+        const shader::CertifiedBounds& bounds = delta_ = shader::certifiedBoxBounds(
+            item_, job_.transform, {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]});
+        const CellBox cells = cellsOf(bounds);
+        if (cells.empty()) {
+            return false;
+        }
+        // A triangle that is not usable is undecided wherever its bricks may have an opaque point.
+        return bounds.usable ? job_.occupancy.mayBeOpaque(job_.volume, cells)
+                             : job_.occupancy.mayBeOpaque(cells.bricks());
+    }
+
+    /// The number of the run's first triangle in the mesh's arrays; its vertices are then at hand.
+    std::size_t beginRun(std::uint32_t run) {
+        const std::uint32_t cluster = run / ClusterTree::kRunsOfCluster;
+        const ClusterPlace& place = job_.mesh.clusters[cluster];
+        if (cluster != transformed_) {
+            transform(place);
+            transformed_ = cluster;
+            probed_.fill(false);
+        }
+        return place.firstTriangle + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+    }
+
+    void decideRun(std::uint32_t run) {
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = beginRun(run);
+        for (std::size_t at = first; at < first + kRunTriangles && !done(); ++at) {
+            if (mesh.numbers[at] == kNoTriangle) {
+                return;
+            }
+            number_ = mesh.numbers[at];
+            decideTriangle(vertices_.at(mesh.corner0[at]), vertices_.at(mesh.corner1[at]),
+                           vertices_.at(mesh.corner2[at]));
+        }
+    }
+
+    void transform(const ClusterPlace& place) {
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = place.firstVertex;
+        for (std::size_t i = 0; i < place.vertexCount; ++i) {
+            const CertifiedVertex vertex =
+                shader::certifiedVertex(job_.transform, mesh.x[first + i], mesh.y[first + i], mesh.z[first + i]);
+            vertices_.x[i] = vertex.point.x;
+            vertices_.y[i] = vertex.point.y;
+            vertices_.z[i] = vertex.point.z;
+            vertices_.error[i] = vertex.error;
+        }
+    }
+
+    void decideTriangle(const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
+        const shader::CertifiedBounds bounds = shader::certifiedBounds(item_, a, b, c);
+        const CellBox cells = cellsOf(bounds);
+        if (cells.empty()) {
+            return;
+        }
+        const BrickBox bricks = cells.bricks();
+        const bool several = bricks.lo != bricks.hi;
+        if (several && !job_.occupancy.mayBeOpaque(bricks)) {
+            return;
+        }
+        const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
+        for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
+            for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {
+                for (std::int32_t x = bricks.lo[0]; x <= bricks.hi[0] && !done(); ++x) {
+                    if (job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber({x, y, z}))) {
+                        if (!bounds.usable) {
+                            tally_.undecided = true;
+                            return;
+                        }
+                        decideBrick(triangle, cells, {x, y, z}, several);
+                    }
+                }
+            }
+        }
+    }
+
+    void decideBrick(const CertifiedTriangle& triangle, const CellBox& cells, const std::array<std::int32_t, 3>& brick,
+                     bool several) {
+        constexpr float kRadius = 0.5F * kBrickSide;
+        const CellBox within = cells.within(brick);
+        const BrickCells& known = job_.occupancy.cells(job_.volume, brick);
+        if (!known.any(within)) {
+            return;
+        }
+        if (several) {
+            const VoxelPoint centre{static_cast<float>((brick[0] << kBrickShift) - 1) + kRadius,
+                                    static_cast<float>((brick[1] << kBrickShift) - 1) + kRadius,
+                                    static_cast<float>((brick[2] << kBrickShift) - 1) + kRadius};
+            if (shader::certifiedPlaneMisses(triangle, centre, kRadius)) {
+                return;
+            }
+        }
+        decideCells(triangle, within, known, brick, cells.single());
+    }
+
+    /// `within` is numbered within the brick.
+    void decideCells(const CertifiedTriangle& triangle, const CellBox& within, const BrickCells& known,
+                     const std::array<std::int32_t, 3>& brick, bool single) {
+        const auto cell = [&](std::int32_t number, std::size_t axis) {
+            return (brick[axis] << kBrickShift) - 1 + number;
+        };
+        for (std::int32_t z = within.lo[2]; z <= within.hi[2]; ++z) {
+            for (std::int32_t y = within.lo[1]; y <= within.hi[1]; ++y) {
+                for (unsigned row = known.row(within, y, z); row != 0; row &= row - 1) {
+                    const std::int32_t x = std::countr_zero(row);
+                    const VoxelPoint centre{static_cast<float>(cell(x, 0)) + 0.5F,
+                                            static_cast<float>(cell(y, 1)) + 0.5F,
+                                            static_cast<float>(cell(z, 2)) + 0.5F};
+                    if (single || !shader::certifiedPlaneMisses(triangle, centre, 0.5F)) {
+                        decideCell(triangle, cell(x, 0), cell(y, 1), cell(z, 2), known);
+                        if (done()) {
+                            return;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] shader::CertifiedCorners cornersOf(std::int32_t x, std::int32_t y, std::int32_t z,
+                                                     const BrickCells& known) const {
+        const auto& stride = job_.volume.image.stride;
+        const Kept* at = voxels_ + (x + 1) + (y + 1) * stride[1] + (z + 1) * stride[2];
+        const auto stored = [&](std::int64_t offset) { return storedValue(at[offset]); };
+        return {stored(0),
+                stored(1),
+                stored(stride[1]),
+                stored(stride[1] + 1),
+                stored(stride[2]),
+                stored(stride[2] + 1),
+                stored(stride[2] + stride[1]),
+                stored(stride[2] + stride[1] + 1),
+                known.wideLo,
+                known.wideHi};
+    }
+
+    void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
+                    const BrickCells& known) {
+        VoxelPoint witness{};
+        const shader::CertifiedCell cell =
+            shader::certifiedCell(item_, cornersOf(x, y, z, known), x, y, z, triangle.delta);
+        const int verdict = shader::certifiedFragment(table_, item_, triangle, cell, x, y, z, witness);
+        if (verdict == CERTIFIED_CERTAIN) {
+            ++tally_.certain;
+            if (sink_) {
+                sink_(number_, witness);
+            }
+        } else if (verdict == CERTIFIED_UNDECIDED) {
+            tally_.undecided = true;
+        }
+    }
+
+    const CertifiedJob& job_;
+    const Kept* voxels_;
+    const CertifiedSink& sink_;
+    shader::CertifiedItem item_;
+    shader::OpacityTable table_;
+    CertifiedTally tally_;
+    std::uint32_t number_ = 0; ///< of the triangle at hand
+    Vertices vertices_;        ///< of cluster `transformed_`
+    std::uint32_t transformed_ = 0xffffffffU;
+    std::array<bool, kMostVertices> probed_{}; ///< of the same cluster
+    shader::CertifiedBounds delta_{};          ///< of the box that was looked at last; not less than its triangles'
+};
+
+} // namespace
+
+CertifiedTally decide(const CertifiedJob& job, const CertifiedSink& sink) {
+    if (job.occupancy.nothingOpaque()) {
+        return {};
+    }
+    return job.volume.image.visit([&](const auto* voxels) { return Decider(job, voxels, sink).run(); });
+}
+
+} // namespace voxtact::cpu

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/raster/kernel.h"
+#include "cpu/raster/occupancy.h"
+#include "cpu/raster/occupancy_cache.h"
+#include "cpu/thread_pool.h"
+#include "voxtact/cpu.h"
+
+#include <span>
+
+namespace voxtact::cpu {
+
+using Occupancies = OccupancyCache<Occupancy, 1>;
+
+/// What the threads of a detector keep from call to call; a scratch for each thread of the pool.
+struct Workshop {
+    ThreadPool& pool;
+    std::span<const ScratchPointer> scratches;
+};
+
+/// The answers of a checked batch in the projections that have samples: view, two-view, dominant-axis.
+[[nodiscard]] BatchAnswer runCounts(const Batch& batch, std::uint32_t pairs, const DetectorDesc& desc,
+                                    const Workshop& workshop, Occupancies& occupancies);
+
+} // namespace voxtact::cpu

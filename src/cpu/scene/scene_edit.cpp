@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "core/edit_rows.h"
+#include "core/guard.h"
+#include "core/voxel_value.h"
+#include "cpu/scene/scene_impl.h"
+
+namespace voxtact::cpu {
+
+Result<void> Volume::set(const VoxelRegion& region, double value) {
+    return guard([&]() -> Result<void> {
+        const Result<VoxelBox> bounds = voxelBounds(region, impl_->grid);
+        if (!bounds.ok()) {
+            return bounds.error();
+        }
+        const Result<VoxelBytes> voxel = voxelOf(impl_->type, value);
+        if (!voxel.ok()) {
+            return voxel.error();
+        }
+        const std::vector<VoxelRow> rows = voxelRows(region, impl_->grid);
+        for (const VoxelRow& row : rows) {
+            impl_->image.replace(row, impl_->type, voxel->data(), 0);
+        }
+        if (!rows.empty()) {
+            impl_->edited(*bounds);
+        }
+        return {};
+    });
+}
+
+Result<void> Volume::write(const VoxelBox& box, std::span<const std::byte> voxels) {
+    return guard([&]() -> Result<void> {
+        if (const Result<VoxelBox> bounds = voxelBounds(box, impl_->grid); !bounds.ok()) {
+            return bounds.error();
+        }
+        if (Result<void> checked = checkVoxels(impl_->type, box, voxels); !checked.ok()) {
+            return checked.error();
+        }
+        const std::size_t step = bytesPerVoxel(impl_->type);
+        const std::vector<VoxelRow> rows = voxelRows(box, impl_->grid);
+        const std::byte* from = voxels.data();
+        for (const VoxelRow& row : rows) {
+            impl_->image.replace(row, impl_->type, from, step);
+            from += step * box.size[0];
+        }
+        if (!rows.empty()) {
+            impl_->edited(box);
+        }
+        return {};
+    });
+}
+
+} // namespace voxtact::cpu

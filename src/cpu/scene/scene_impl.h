@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/clusters.h"
+#include "cpu/scene/cluster_tree.h"
+#include "cpu/scene/stored_image.h"
+#include "voxtact/cpu.h"
+
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// Tells one object from another that is made later at the same address.
+[[nodiscard]] std::uint64_t nextObjectId() noexcept;
+
+struct VolumeImpl {
+    explicit VolumeImpl(const VolumeView& data);
+
+    /// Brings everything that is made from the image up to date, after voxels of a box (not an empty one) changed.
+    void edited(const VoxelBox& box);
+
+    std::uint64_t id = nextObjectId(); ///< another one after every edit
+    Grid grid;
+    ScalarType type;
+    Mat4 texture_from_world;
+    double storedIntercept; ///< value = stored + storedIntercept
+    StoredImage image;
+    BrickRanges bricks;
+};
+
+struct TransferFunctionImpl {
+    std::uint64_t id = nextObjectId();
+    ValueRange domain;
+    std::vector<float> table;
+};
+
+/// Vertices and triangles of a cluster begin at multiples of this in MeshImpl's arrays, so that vectors of any target
+/// can be loaded whole.
+inline constexpr std::uint32_t kMeshAlignment = 16;
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
+
+/// Where a cluster's vertices and triangles are in MeshImpl's arrays, padding included.
+struct ClusterPlace {
+    std::uint32_t firstVertex = 0;
+    std::uint32_t vertexCount = 0;
+    std::uint32_t firstTriangle = 0;
+    std::uint32_t triangleCount = 0;
+};
+
+struct MeshImpl {
+    MeshImpl(const MeshView& data, const MeshFacts& checked);
+
+    MeshFacts facts;
+    std::vector<ClusterPlace> clusters;
+    std::vector<float> x, y, z;                          ///< vertices, cluster by cluster; the padding repeats the last
+    std::vector<std::uint8_t> corner0, corner1, corner2; ///< of triangles: vertices of the cluster; padding: all 0
+    std::vector<std::uint32_t> numbers;                  ///< of triangles in the mesh; of the padding: kNoTriangle
+    /// Centres and half sides of the clusters' boxes, padded to kMeshAlignment. Rounded outward.
+    std::vector<float> centreX, centreY, centreZ, halfX, halfY, halfZ;
+    ClusterTree tree;
+};
+
+} // namespace voxtact::cpu

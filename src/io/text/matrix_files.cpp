@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "core/text.h"
+#include "io/errors.h"
+#include "io/text/text_lines.h"
+#include "voxtact/io.h"
+
+#include <ostream>
+
+namespace voxtact::io {
+
+namespace {
+
+constexpr std::size_t kElements = 16;
+
+std::string lineName(const std::filesystem::path& path, std::uint64_t line) {
+    return path.string() + " line " + std::to_string(line);
+}
+
+/// The file holds rows, Mat4 holds columns.
+std::size_t columnMajor(std::size_t rowMajor) {
+    return 4 * (rowMajor % 4) + rowMajor / 4;
+}
+
+Result<Mat4> parsePose(const std::vector<std::string_view>& tokens, const std::filesystem::path& path,
+                       std::uint64_t line) {
+    Mat4 pose{};
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        double value = 0;
+        if (const auto reason = parseNumber(tokens[i], value)) {
+            return badLine(path, line, *reason);
+        }
+        if (i < kElements) {
+            pose[columnMajor(i)] = value;
+        }
+    }
+    if (tokens.size() != kElements) {
+        return badLine(path, line,
+                       std::to_string(tokens.size()) + (tokens.size() == 1 ? " number" : " numbers") +
+                           ", a pose has 16 (row by row)");
+    }
+    if (Result<void> affine = checkAffine(pose, lineName(path, line)); !affine.ok()) {
+        return Error{ErrorCode::Format, 0, affine.error().text};
+    }
+    return pose;
+}
+
+void writeRows(std::ostream& stream, const Mat4& matrix) {
+    std::string line;
+    for (std::size_t i = 0; i < kElements; ++i) {
+        line += number(matrix[columnMajor(i)]);
+        line += i + 1 < kElements ? ' ' : '\n';
+    }
+    stream << line;
+}
+
+} // namespace
+
+Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
+    return guard([&]() -> Result<std::vector<Mat4>> {
+        Result<LineReader> lines = LineReader::open(path);
+        if (!lines.ok()) {
+            return lines.error();
+        }
+        std::vector<Mat4> poses;
+        std::vector<std::string_view> tokens;
+        while (const auto line = lines->next()) {
+            splitTokens(*line, tokens);
+            if (tokens.empty()) {
+                continue;
+            }
+            const Result<Mat4> pose = parsePose(tokens, path, lines->lineNumber());
+            if (!pose.ok()) {
+                return pose.error();
+            }
+            poses.push_back(*pose);
+        }
+        if (poses.empty()) {
+            return cannotRead(path, "it holds no pose; a pose is a line of 16 numbers, row by row");
+        }
+        return poses;
+    });
+}
+
+Result<void> writePoses(const std::filesystem::path& path, std::span<const Mat4> world_from_object) {
+    return guard([&]() -> Result<void> {
+        for (std::size_t i = 0; i < world_from_object.size(); ++i) {
+            if (Result<void> affine = checkAffine(world_from_object[i], "pose " + std::to_string(i)); !affine.ok()) {
+                return affine;
+            }
+        }
+        return writeFile(path, [&](std::ostream& stream) -> Result<void> {
+            stream << "# world_from_object, 16 numbers a line, row by row\n";
+            for (const Mat4& pose : world_from_object) {
+                writeRows(stream, pose);
+            }
+            return {};
+        });
+    });
+}
+
+Result<Mat4> readCamera(const std::filesystem::path& path) {
+    return guard([&]() -> Result<Mat4> {
+        Result<LineReader> lines = LineReader::open(path);
+        if (!lines.ok()) {
+            return lines.error();
+        }
+        Mat4 clip_from_world{};
+        std::size_t count = 0;
+        std::vector<std::string_view> tokens;
+        while (const auto line = lines->next()) {
+            splitTokens(*line, tokens);
+            for (const std::string_view token : tokens) {
+                if (count == kElements) {
+                    return badLine(path, lines->lineNumber(), "more than 16 numbers, a camera has 16 (row by row)");
+                }
+                if (const auto reason = parseNumber(token, clip_from_world[columnMajor(count)])) {
+                    return badLine(path, lines->lineNumber(), *reason);
+                }
+                ++count;
+            }
+        }
+        if (count != kElements) {
+            return cannotRead(path, std::to_string(count) + (count == 1 ? " number" : " numbers") +
+                                        ", a camera has 16 (row by row)");
+        }
+        if (!inverse(clip_from_world).ok()) {
+            return cannotRead(path, "the matrix is singular, so it is no camera");
+        }
+        return clip_from_world;
+    });
+}
+
+} // namespace voxtact::io

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "core/text.h"
+#include "io/errors.h"
+#include "io/text/text_lines.h"
+#include "voxtact/io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::io {
+
+namespace {
+
+using Json = nlohmann::json;
+using Points = std::vector<ControlPoint>;
+
+/// The reason why the point cannot follow those before it, if any.
+std::optional<std::string> addPoint(Points& points, double value, double opacity) {
+    if (!std::isfinite(value)) {
+        return "the value is not finite";
+    }
+    if (!(opacity >= 0 && opacity <= 1)) {
+        return "the opacity " + number(opacity) + " is outside 0..1";
+    }
+    if (!points.empty() && value < points.back().value) {
+        return "the value " + number(value) + " is below the one before it (" + number(points.back().value) +
+               "); values must ascend";
+    }
+    points.push_back({value, opacity});
+    return std::nullopt;
+}
+
+Result<Points> readText(const std::filesystem::path& path) {
+    Result<LineReader> lines = LineReader::open(path);
+    if (!lines.ok()) {
+        return lines.error();
+    }
+    Points points;
+    std::vector<std::string_view> tokens;
+    while (const auto line = lines->next()) {
+        splitTokens(*line, tokens);
+        if (tokens.empty()) {
+            continue;
+        }
+        std::array<double, 2> numbers{};
+        for (std::size_t i = 0; i < tokens.size(); ++i) {
+            double value = 0;
+            if (const auto reason = parseNumber(tokens[i], value)) {
+                return badLine(path, lines->lineNumber(), *reason);
+            }
+            numbers[i % 2] = value;
+        }
+        if (tokens.size() != 2) {
+            return badLine(path, lines->lineNumber(),
+                           std::to_string(tokens.size()) + (tokens.size() == 1 ? " number" : " numbers") +
+                               ", a point has 2 (value opacity)");
+        }
+        if (const auto reason = addPoint(points, numbers[0], numbers[1])) {
+            return badLine(path, lines->lineNumber(), *reason);
+        }
+    }
+    if (points.empty()) {
+        return cannotRead(path, "it holds no point; a point is a line 'value opacity'");
+    }
+    return points;
+}
+
+/// [value, opacity] or {"value": ..., "opacity": ...}
+std::optional<ControlPoint> pointOf(const Json& item) {
+    if (item.is_array() && item.size() == 2 && item[0].is_number() && item[1].is_number()) {
+        return ControlPoint{item[0].get<double>(), item[1].get<double>()};
+    }
+    if (item.is_object()) {
+        const auto value = item.find("value");
+        const auto opacity = item.find("opacity");
+        if (value != item.end() && opacity != item.end() && value->is_number() && opacity->is_number()) {
+            return ControlPoint{value->get<double>(), opacity->get<double>()};
+        }
+    }
+    return std::nullopt;
+}
+
+/// "[json.exception.parse_error.101] parse error at line 2, column 5: ..." without the name of the exception.
+std::string reasonOf(const Json::exception& problem) {
+    const std::string_view text = problem.what();
+    const std::size_t end = text.find("] ");
+    return oneLine(end == std::string_view::npos ? text : text.substr(end + 2));
+}
+
+Result<Json> parseJson(const std::filesystem::path& path) {
+    try {
+        std::ifstream file(path, std::ios::binary);
+        return Json::parse(file);
+    } catch (const Json::exception& problem) {
+        return cannotRead(path, reasonOf(problem));
+    }
+}
+
+Result<Points> readJson(const std::filesystem::path& path) {
+    const Result<Json> parsed = parseJson(path);
+    if (!parsed.ok()) {
+        return parsed.error();
+    }
+    const Json& root = *parsed;
+    const auto list = root.is_object() ? root.find("points") : root.end();
+    if (list == root.end() || !list->is_array() || list->empty()) {
+        return cannotRead(path, "it has no 'points'; expected {\"points\": [[value, opacity], ...]}");
+    }
+    Points points;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        const auto point = pointOf((*list)[i]);
+        const auto reason = point ? addPoint(points, point->value, point->opacity)
+                                  : "expected [value, opacity] or {\"value\": ..., \"opacity\": ...}";
+        if (reason) {
+            return cannotRead(path, "points[" + std::to_string(i) + "]: " + *reason);
+        }
+    }
+    return points;
+}
+
+/// Told by the first character.
+Result<bool> isJson(const std::filesystem::path& path) {
+    Result<LineReader> lines = LineReader::open(path);
+    if (!lines.ok()) {
+        return lines.error();
+    }
+    while (const auto line = lines->next()) {
+        if (!line->empty()) {
+            return line->front() == '{' || line->front() == '[';
+        }
+    }
+    return false;
+}
+
+/// The reason why the colour cannot follow those before it, if any.
+std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const Json& item) {
+    constexpr std::size_t kNumbers = 4;
+    if (!item.is_array() || item.size() != kNumbers ||
+        !std::all_of(item.begin(), item.end(), [](const Json& number) { return number.is_number(); })) {
+        return "expected [value, red, green, blue]";
+    }
+    ColourPoint point{item[0].get<double>(), {}};
+    for (std::size_t channel = 0; channel < point.colour.size(); ++channel) {
+        point.colour[channel] = item[channel + 1].get<double>();
+        if (!(point.colour[channel] >= 0 && point.colour[channel] <= 1)) {
+            return "the channel " + number(point.colour[channel]) + " is outside 0..1";
+        }
+    }
+    if (!colours.empty() && point.value < colours.back().value) {
+        return "the value " + number(point.value) + " is below the one before it (" + number(colours.back().value) +
+               "); values must ascend";
+    }
+    colours.push_back(point);
+    return std::nullopt;
+}
+
+} // namespace
+
+Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path) {
+    return guard([&]() -> Result<Points> {
+        const Result<bool> json = isJson(path);
+        if (!json.ok()) {
+            return json.error();
+        }
+        return *json ? readJson(path) : readText(path);
+    });
+}
+
+Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path) {
+    return guard([&]() -> Result<std::vector<ColourPoint>> {
+        const Result<bool> json = isJson(path);
+        if (!json.ok()) {
+            return json.error();
+        }
+        std::vector<ColourPoint> colours;
+        if (!*json) {
+            return colours;
+        }
+        const Result<Json> root = parseJson(path);
+        if (!root.ok()) {
+            return root.error();
+        }
+        const auto list = root->is_object() ? root->find("colours") : root->end();
+        if (list == root->end()) {
+            return colours;
+        }
+        if (!list->is_array()) {
+            return cannotRead(path, "'colours' is not a list of [value, red, green, blue]");
+        }
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            if (const auto reason = addColour(colours, (*list)[i])) {
+                return cannotRead(path, "colours[" + std::to_string(i) + "]: " + *reason);
+            }
+        }
+        return colours;
+    });
+}
+
+Result<std::vector<ControlPoint>> parseOpacity(std::string_view text) {
+    return guard([&]() -> Result<Points> {
+        const auto refuse = [&](std::size_t item, std::string_view reason) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "opacity '" + std::string(text) + "': point " + std::to_string(item + 1) + ": " +
+                             std::string(reason)};
+        };
+        Points points;
+        for (std::size_t begin = 0; begin <= text.size();) {
+            const std::size_t end = std::min(text.find(',', begin), text.size());
+            const std::string_view item = trimmed(text.substr(begin, end - begin));
+            const std::size_t colon = item.find(':');
+            if (colon == std::string_view::npos) {
+                return refuse(points.size(), "expected value:opacity");
+            }
+            double value = 0;
+            double opacity = 0;
+            auto reason = parseNumber(trimmed(item.substr(0, colon)), value);
+            if (!reason) {
+                reason = parseNumber(trimmed(item.substr(colon + 1)), opacity);
+            }
+            if (!reason) {
+                reason = addPoint(points, value, opacity);
+            }
+            if (reason) {
+                return refuse(points.size(), *reason);
+            }
+            begin = end + 1;
+        }
+        return points;
+    });
+}
+
+} // namespace voxtact::io

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/volume/volume_container.h"
+#include "voxtact/data.h"
+
+#include <itkImageIOBase.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxtact::io {
+
+using ImageIo = itk::ImageIOBase::Pointer;
+
+/// A new reader and writer.
+[[nodiscard]] ImageIo makeImageIo(VolumeFormat format);
+
+/// What ITK's exceptions say, without its source files and addresses.
+[[nodiscard]] std::string itkReason(const itk::ExceptionObject& problem);
+
+/// An image as ITK delivers it.
+struct ItkImage {
+    Grid grid;
+    itk::IOComponentEnum component = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
+    std::vector<std::byte> voxels;
+};
+
+/// Asks ITK for the geometry; refuses what is not one 3D image of scalars.
+[[nodiscard]] Result<ItkImage> readInformation(itk::ImageIOBase& io, const std::filesystem::path& path);
+/// Appends the voxels of the image that `readInformation` was called for.
+void readVoxels(itk::ImageIOBase& io, std::vector<std::byte>& voxels);
+
+/// Takes the voxels to one of ScalarType, exactly where they are integers, and says so in the notes.
+[[nodiscard]] Result<VolumeData> toScalars(ItkImage image, const std::filesystem::path& path);
+
+/// Refuses a DICOM file that ends before its pixels do: GDCM fills them up without a word.
+[[nodiscard]] Result<void> checkDicomSlice(const std::filesystem::path& path);
+
+/// A folder with one DICOM series.
+[[nodiscard]] Result<ItkImage> readDicomFolder(const std::filesystem::path& folder, std::vector<std::string>& notes);
+
+} // namespace voxtact::io

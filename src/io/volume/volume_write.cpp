@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "core/guard.h"
+#include "io/errors.h"
+#include "io/volume/itk_image.h"
+#include "io/volume/itk_session.h"
+#include "voxtact/io.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+itk::IOComponentEnum componentOf(ScalarType type) {
+    switch (type) {
+    case ScalarType::UInt8:
+        return itk::IOComponentEnum::UCHAR;
+    case ScalarType::Int16:
+        return itk::IOComponentEnum::SHORT;
+    case ScalarType::UInt16:
+        return itk::IOComponentEnum::USHORT;
+    case ScalarType::Float32:
+        break;
+    }
+    return itk::IOComponentEnum::FLOAT;
+}
+
+void writeImage(itk::ImageIOBase& io, const fs::path& path, const VolumeView& volume) {
+    io.SetFileName(path.string());
+    io.SetNumberOfDimensions(3);
+    itk::ImageIORegion region(3);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        io.SetDimensions(axis, volume.grid.size[axis]);
+        io.SetSpacing(axis, volume.grid.spacing[axis]);
+        io.SetOrigin(axis, volume.grid.origin[axis]);
+        const double* column = volume.grid.direction.data() + std::size_t{3} * axis;
+        io.SetDirection(axis, std::vector<double>(column, column + 3));
+        region.SetIndex(axis, 0);
+        region.SetSize(axis, volume.grid.size[axis]);
+    }
+    io.SetIORegion(region);
+    io.SetPixelType(itk::IOPixelEnum::SCALAR);
+    io.SetNumberOfComponents(1);
+    io.SetComponentType(componentOf(volume.type));
+    io.Write(volume.voxels.data());
+}
+
+/// The largest distance in millimetres between the places of the same corner of the image.
+double displacement(const Grid& a, const Grid& b) {
+    const Mat4 world_from_a = worldFromTexture(a);
+    const Mat4 world_from_b = worldFromTexture(b);
+    double most = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 texture{corner & 1U ? 1.0 : 0.0, corner & 2U ? 1.0 : 0.0, corner & 4U ? 1.0 : 0.0};
+        const Vec3 p = transformPoint(world_from_a, texture);
+        const Vec3 q = transformPoint(world_from_b, texture);
+        most = std::max(most, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    }
+    return most;
+}
+
+/// NIfTI holds single precision, and only directions at right angles; ITK squares others without a word.
+Result<void> checkWritten(const fs::path& temporary, const fs::path& path, VolumeFormat format, const Grid& grid) {
+    const ImageIo io = makeImageIo(format);
+    const Result<ItkImage> written = readInformation(*io, temporary);
+    constexpr double kShare = 0.01;
+    const double tolerance = kShare * *std::min_element(grid.spacing.begin(), grid.spacing.end());
+    if (!written.ok() || written->grid.size != grid.size || !(displacement(written->grid, grid) <= tolerance)) {
+        return cannotWrite(path, "this format cannot hold the image's size, place or direction; write a .nrrd file",
+                           ErrorCode::Format);
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> writeVolume(const fs::path& path, const VolumeView& volume) {
+    return guard([&]() -> Result<void> {
+        const std::string ending = lowerEnding(path);
+        if (ending != ".nii" && ending != ".nii.gz" && ending != ".nrrd" && ending != ".mha") {
+            return cannotWrite(path, "the ending of a volume is .nii, .nii.gz, .nrrd or .mha",
+                               ErrorCode::InvalidArgument);
+        }
+        if (const Result<ValueRange> range = checkVolume(volume); !range.ok()) {
+            return cannotWrite(path, range.error().text, range.error().code);
+        }
+        const VolumeFormat format = volumeFormat(path).value_or(VolumeFormat::Nrrd);
+        return writeFileAt(path, [&](const fs::path& temporary) -> Result<void> {
+            const ItkSession session;
+            try {
+                writeImage(*makeImageIo(format), temporary, volume);
+                return checkWritten(temporary, path, format, volume.grid);
+            } catch (const itk::ExceptionObject& problem) {
+                return cannotWrite(path, itkReason(problem));
+            }
+        });
+    });
+}
+
+} // namespace voxtact::io
