@@ -26,7 +26,7 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutate"
 SOURCE = WORK / "source"
-BUILD = WORK / "build"
+BUILD = SOURCE / "build" / "release" # where a checkout has it, so that ccache knows its files
 SECONDS_A_TEST = 300
 
 
@@ -71,7 +71,7 @@ def copy_sources():
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, target)
     for target in SOURCE.rglob("*"):
-        if target.is_file() and target not in kept:
+        if target.is_file() and target not in kept and BUILD.parent not in target.parents:
             target.unlink()
     # Tests look for it beside the checkout.
     shared = WORK / "shared"
@@ -114,7 +114,8 @@ def targets_of(mutants):
 def prepare(mutants):
     copy_sources()
     if not (BUILD / "build.ninja").is_file():
-        configured = subprocess.run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"],
+        configured = subprocess.run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                                     "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"],
                                     capture_output=True, text=True)
         if configured.returncode != 0:
             fail(configured.stderr)
