@@ -27,7 +27,7 @@ the outputs (touched triangles, bounds, labels, contacts) costs beside the bare 
 Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
 scene: builtin:scalpel:3068 against builtin:head:128.
 
---paper, the default: the tables of the paper (Volume-Surface Collision Detection, section 6) measured again: what
+--paper, the default: the tables of the paper (Volume-Surface Collision Detection, Tables 1 and 2) measured again: what
 detection adds to a frame, in the scenes v1s1, v1s2, v2s1 and v2s2. v1 is a head of 256x256x256 voxels, v2 a sparse
 volume of 256x256x128, s1 an instrument of 3068 triangles, s2 a body of 49998; every pose touches. The frame is of
 --size, from the front: the mesh in the volume by ray casting and, with detection, one pair by one method in the same
@@ -36,7 +36,7 @@ the volume's size, the triangles, the viewport and the pairs in a batch, as voxt
 touch, by one query a polygon and by better ways; and the making of the pre-integrated table. --data DIR: a folder with
 any of volumes/mrhead_256.nii.gz, volumes/bonsai_256x256x128.nrrd and meshes/armadillo_49998.ply, which then stand for
 v1, v2 and s2; else builtins do, with transfer functions that make as many of their voxels opaque. It needs a device, and
-has 8 poses and 9 repetitions unless told otherwise.
+has 7 poses and 7 repetitions unless told otherwise.
 
 Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,

@@ -90,14 +90,8 @@ Cell alone(const std::vector<double>& samples) {
     return samples.empty() ? Cell() : Cell(shortNumber(spreadOf(samples).median));
 }
 
-/// "4.3 (3.9 to 4.8)": there may be a minus.
 Cell withInterval(const std::vector<double>& samples) {
-    if (samples.empty()) {
-        return {};
-    }
-    const std::optional<MedianInterval> interval = medianInterval(samples, kConfidence);
-    return shortNumber(spreadOf(samples).median) +
-           (interval ? " (" + shortNumber(interval->low) + " to " + shortNumber(interval->high) + ")" : "");
+    return samples.empty() ? Cell() : Cell(overheadText(samples));
 }
 
 /// A row of the paper's tables.
@@ -155,6 +149,17 @@ NamedCells integrationCells(const IntegrationPoint& point) {
             {"wall_ms_p10", part(point.wall, &Spread::p10)},     {"wall_ms_p90", part(point.wall, &Spread::p90)}};
 }
 
+NamedCells publishedCells(const published::Row& row) {
+    return {{"table", std::to_string(row.table)},
+            {"scene", std::string(row.scene)},
+            {"mesh", row.mesh},
+            {"volume", row.volume},
+            {"collision", row.collision},
+            {"total rendering", row.rendering},
+            {"total", row.total},
+            {"overhead %", row.overhead}};
+}
+
 struct Section {
     std::string title;
     Table table;
@@ -173,11 +178,20 @@ std::vector<Section> paperSections(const PaperResult& result) {
         if (hasTimes(clock, result)) {
             sections.push_back(
                 {std::string(clock.title) + ", ms: medians, with the 10th and 90th percentile; of the overhead, the "
-                                            "interval that has the median with a confidence of 95 % or more",
+                                            "interval that has the median with a confidence of 95 % or more; an overhead below 0 is noise",
                  tableOf(rowsOf(result.rows, [&](const PaperRow& row) { return paperCells(row, clock, result); }))});
         }
     }
     return sections;
+}
+
+/// As the paper prints them, for comparison.
+Section publishedSection() {
+    std::string title = "The paper's own tables, average ms a frame as printed";
+    for (std::size_t i = 0; i < published::kHardware.size(); ++i) {
+        title += "; Table " + std::to_string(i + 1) + ": " + published::kHardware.at(i);
+    }
+    return {title, tableOf(rowsOf(published::kTables, publishedCells))};
 }
 
 /// What there is beside those.
@@ -269,6 +283,13 @@ Json paperSceneJson(const PaperScene& scene) {
             {"step_mm", rounded(scene.step)}};
 }
 
+Json publishedJson(const published::Row& row) {
+    return {{"table", row.table},         {"scene", row.scene},
+            {"mesh_ms", row.mesh},        {"volume_ms", row.volume},
+            {"collision_ms", row.collision}, {"rendering_ms", row.rendering},
+            {"total_ms", row.total},      {"overhead_percent", row.overhead}};
+}
+
 Json rowJson(const PaperRow& row, const PaperResult& result) {
     return {{"scene", result.scenes[row.scene].name},
             {"method", row.method},
@@ -306,7 +327,9 @@ Json paperJson(const BenchOptions& options, const PaperResult& result) {
     json["width"] = result.width;
     json["height"] = result.height;
     json["published"] = {{"pairs_per_s", published::kPairsPerSecond},
-                         {"overhead_percent", {published::kLeastOverhead, published::kMostOverhead}},
+                         {"overhead_percent", {published::kOverhead.lo, published::kOverhead.hi}},
+                         {"hardware", published::kHardware},
+                         {"tables", arrayOf(published::kTables, publishedJson)},
                          {"preintegration_ms", published::kIntegrationMilliseconds}};
     json["summary"] = paperSummary(result);
     json["agrees"] = result.disagreement.empty();
@@ -334,10 +357,11 @@ void writePaper(std::ostream& out, const BenchOptions& options, const PaperResul
     if (format == Format::Text) {
         writeText(out, {scenes});
         writeText(out, paperSections(result));
+        writeText(out, {publishedSection()});
         writeText(out, otherSections(result));
     } else {
         writeTable(out, format, tableOf(fullRows(result)));
-        writeCommented(out, {scenes});
+        writeCommented(out, {scenes, publishedSection()});
         writeCommented(out, otherSections(result));
     }
     for (const std::string& sentence : paperSummary(result)) {

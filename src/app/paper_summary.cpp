@@ -86,6 +86,12 @@ struct NamedClock {
 };
 constexpr NamedClock kClocks[] = {{"by GPU timestamps", &PaperRow::gpu}, {"by wall clock", &PaperRow::wall}};
 
+/// "2.6 %", or "nothing that can be measured (noise: -1.8 %)".
+std::string percentText(double median) {
+    const std::string text = shortNumber(median) + " %";
+    return median < 0 ? "nothing that can be measured (noise: " + text + ")" : text;
+}
+
 void addPercents(const PaperResult& result, std::vector<std::string>& sentences) {
     struct Way {
         const char* begin;
@@ -94,7 +100,7 @@ void addPercents(const PaperResult& result, std::vector<std::string>& sentences)
     };
     const Way ways[] = {
         {"detection adds to a frame", overheadPercent,
-         "; published: " + number(published::kLeastOverhead) + " to " + number(published::kMostOverhead) + " %" +
+         "; published: " + number(published::kOverhead.lo) + " to " + number(published::kOverhead.hi) + " %" +
              kElsewhere},
         {"detection alone takes, of the time of rendering,", collisionPercent, ""},
     };
@@ -102,9 +108,9 @@ void addPercents(const PaperResult& result, std::vector<std::string>& sentences)
         for (const NamedClock& clock : kClocks) {
             const auto found = extremes(result, [&](const PaperRow& row) { return way.percent(row.*clock.columns); });
             if (found) {
-                sentences.push_back(std::string(way.begin) + " " + shortNumber(found->first.median) + " % (" +
-                                    nameOf(*found->first.row, result) + ") to " + shortNumber(found->second.median) +
-                                    " % (" + nameOf(*found->second.row, result) + "), " + clock.name + ", medians" +
+                sentences.push_back(std::string(way.begin) + " " + percentText(found->first.median) + " (" +
+                                    nameOf(*found->first.row, result) + ") to " + percentText(found->second.median) +
+                                    " (" + nameOf(*found->second.row, result) + "), " + clock.name + ", medians" +
                                     way.end);
             }
         }
@@ -120,6 +126,12 @@ void addIntervals(const PaperResult& result, std::vector<std::string>& sentences
             const auto interval = medianInterval(overheadPercent(row.*clock.columns), kConfidence);
             all += interval ? 1 : 0;
             apart += interval && (interval->low > 0 || interval->high < 0) ? 1 : 0;
+        }
+        const bool timed = std::ranges::any_of(
+            result.rows, [&](const PaperRow& row) { return !overheadPercent(row.*clock.columns).empty(); });
+        if (timed && all == 0) {
+            sentences.push_back("no interval (95 %) of what detection adds is known, " + std::string(clock.name) +
+                                ": too few samples");
         }
         if (all > 0) {
             sentences.push_back("in " + grouped(apart) + " of " + grouped(all) +
@@ -197,6 +209,13 @@ std::string shortNumber(double value) {
     char text[64];
     static_cast<void>(std::snprintf(text, sizeof text, "%.*f", digits, value));
     return text;
+}
+
+std::string overheadText(const std::vector<double>& percents) {
+    const double median = spreadOf(percents).median;
+    const std::optional<MedianInterval> interval = medianInterval(percents, kConfidence);
+    return (median < 0 ? "noise" : shortNumber(median)) +
+           (interval ? " (" + shortNumber(interval->low) + " to " + shortNumber(interval->high) + ")" : " (no interval)");
 }
 
 std::vector<std::string> paperSummary(const PaperResult& result) {

@@ -19,7 +19,7 @@ constexpr const char* kOpacity = "40:0,80:1";
 /// Of those of the scene: a query a polygon takes its time.
 constexpr std::uint32_t kPolygonPoses = 4;
 /// For the samples of a sweep.
-constexpr double kSeconds = 30;
+constexpr double kSeconds = 15;
 
 CompareOptions optionsFor(const BenchOptions& options, const CompareData& data) {
     CompareOptions out;

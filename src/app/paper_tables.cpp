@@ -12,7 +12,8 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr std::array<FramePart, 3> kParts{FramePart::Rendering, FramePart::Detection, FramePart::Both};
+/// What is timed of each method.
+constexpr std::array<FramePart, 2> kParts{FramePart::Detection, FramePart::Both};
 
 /// A scene on the device and the host, with what was verified of it.
 struct PaperWork {
@@ -112,7 +113,7 @@ void keep(FramePart part, const FrameSample& sample, PaperRow& row) {
     }
 }
 
-/// The three frames of a method at a pose. A count that is not the verified one is the result's disagreement.
+/// The two frames of a method at a pose. A count that is not the verified one is the result's disagreement.
 Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t method, std::size_t pose, bool backwards,
                         PaperRow* row, PaperResult& result) {
     const std::uint64_t verified = work.counts[method].counts[pose];
@@ -135,13 +136,32 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
     return {};
 }
 
-/// Every method in turn. `round` counts from 1; in round 0 no time is kept.
+/// A frame without detection. It is the same by every method, so that a round takes one for all of them.
+Result<void> takeRendering(FrameLoop& frames, const PaperWork& work, std::size_t pose, bool kept, PaperResult& result) {
+    const Result<FrameSample> sample =
+        frames.run(FramePart::Rendering, work.methods.front(), work.input.data.poses[pose]);
+    if (!sample.ok()) {
+        return sample.error();
+    }
+    for (std::size_t method = 0; kept && method < work.methods.size(); ++method) {
+        keep(FramePart::Rendering, *sample, result.rows[work.firstRow + method]);
+    }
+    return {};
+}
+
+/// Every method in turn, and in their middle the frame that they are held against. `round` counts from 1; in round 0 no
+/// time is kept.
 Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t round, PaperResult& result) {
     const std::size_t poses = work.input.data.poses.size();
     const std::size_t pose = (round + poses - 1) % poses;
     // A pose that comes again, after an even number of rounds too, is taken the other way round.
     const bool backwards = (round + (round + poses - 1) / poses) % 2 == 0;
     for (std::size_t i = 0; i < work.methods.size() && result.disagreement.empty(); ++i) {
+        if (i == work.methods.size() / 2) {
+            if (Result<void> taken = takeRendering(frames, work, pose, round > 0, result); !taken.ok()) {
+                return taken;
+            }
+        }
         const std::size_t method = backwards ? work.methods.size() - 1 - i : i;
         PaperRow* row = round == 0 ? nullptr : &result.rows[work.firstRow + method];
         if (Result<void> taken = takeFrames(frames, work, method, pose, backwards, row, result); !taken.ok()) {

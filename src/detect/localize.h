@@ -12,7 +12,8 @@ namespace voxtact {
 
 struct LocalizerImpl;
 
-/// The paper's two ways to say which triangles touch (section 3): an occlusion query a triangle.
+/// The paper's two ways to say which triangles touch: an occlusion query a triangle (section 3),
+/// or one for the set of triangles in a leaf of an OBB tree (section 6).
 enum class Localization {
     Polygon,    ///< each triangle of the mesh
     Leaf,       ///< each leaf of an OBB tree that meets the volume's box together with every node above it

@@ -77,7 +77,7 @@ TEST_F(AnalyticTest, OutsideTheTextureDomainNothingSurvives) {
 }
 
 TEST_F(AnalyticTest, EdgeOnTriangleIsInvisibleToTheView) {
-    // The paper's limitation (section 7): the triangle is in the middle of an opaque volume.
+    // The paper's limitation (section 4): the triangle is in the middle of an opaque volume.
     const Mesh edgeOn = upload(makeRectangle({0.5, 0.2, 0.2}, {0.5, 0.8, 0.2}, {0.5, 0.8, 0.8}, {0.5, 0.2, 0.8}));
     EXPECT_EQ(survivors(edgeOn, full(), ramp(), flatView(0, 1, 64, 64)), 0U);
     const Mesh tilted = upload(makeRectangle({0.4, 0.2, 0.2}, {0.4, 0.8, 0.2}, {0.6, 0.8, 0.8}, {0.6, 0.2, 0.8}));
