@@ -2,6 +2,7 @@
 #include "app/frame_target.h"
 
 #include "app/timed_commands.h"
+#include "device/created.h"
 
 namespace voxtact::app {
 
@@ -57,7 +58,7 @@ Result<void> FrameTarget::State::makeMemory() {
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     info.allocationSize = needs.size;
     info.memoryTypeIndex = chosen;
-    VkResult result = vk.vkAllocateMemory(device.handle(), &info, nullptr, &memory);
+    VkResult result = createdOrNull(vk.vkAllocateMemory(device.handle(), &info, nullptr, &memory), memory);
     if (result == VK_SUCCESS) {
         result = vk.vkBindImageMemory(device.handle(), image, memory, 0);
     }
@@ -75,7 +76,8 @@ Result<void> FrameTarget::State::makeImage(VkFormat format, VkExtent2D extent) {
     info.arrayLayers = 1;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    if (const VkResult result = vk.vkCreateImage(device.handle(), &info, nullptr, &image); result != VK_SUCCESS) {
+    if (const VkResult result = createdOrNull(vk.vkCreateImage(device.handle(), &info, nullptr, &image), image);
+        result != VK_SUCCESS) {
         return vulkanError(result, "making the image of the frame failed");
     }
     if (Result<void> made = makeMemory(); !made.ok()) {
@@ -87,7 +89,7 @@ Result<void> FrameTarget::State::makeImage(VkFormat format, VkExtent2D extent) {
     viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.format = format;
     viewInfo.subresourceRange = kWhole;
-    const VkResult result = vk.vkCreateImageView(device.handle(), &viewInfo, nullptr, &view);
+    const VkResult result = createdOrNull(vk.vkCreateImageView(device.handle(), &viewInfo, nullptr, &view), view);
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "making the image of the frame failed");
 }
 

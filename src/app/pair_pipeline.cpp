@@ -2,7 +2,9 @@
 #include "app/pair_pipeline.h"
 
 #include "app/batch_cutter.h"
+#include "device/created.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -37,7 +39,7 @@ struct PairPipeline::State {
     Result<void> launch(Flight& flight, const Batch& part);
     Result<void> land(Flight& flight, const Sink& sink, const OutputSink& outputs);
     Result<void> run(const Batch& batch, const Sink& sink, const OutputSink& outputs);
-    void drain() noexcept;
+    bool drain() noexcept;
 
     const VulkanDevice& device;
     const Detector& detector;
@@ -49,6 +51,9 @@ struct PairPipeline::State {
 
 PairPipeline::State::~State() {
     const VolkDeviceTable& vk = device.table();
+    if (!drain()) {
+        return;
+    }
     for (const Flight& flight : flights) {
         vk.vkDestroyFence(device.handle(), flight.fence, nullptr);
         vk.vkDestroyCommandPool(device.handle(), flight.pool, nullptr);
@@ -61,7 +66,7 @@ Result<void> PairPipeline::State::makeFlight(Flight& flight) const {
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = device.queueAccess().family;
-    VkResult result = vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &flight.pool);
+    VkResult result = createdOrNull(vk.vkCreateCommandPool(device.handle(), &pool, nullptr, &flight.pool), flight.pool);
     if (result == VK_SUCCESS) {
         VkCommandBufferAllocateInfo commands{};
         commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -73,7 +78,7 @@ Result<void> PairPipeline::State::makeFlight(Flight& flight) const {
     if (result == VK_SUCCESS) {
         VkFenceCreateInfo fence{};
         fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-        result = vk.vkCreateFence(device.handle(), &fence, nullptr, &flight.fence);
+        result = createdOrNull(vk.vkCreateFence(device.handle(), &fence, nullptr, &flight.fence), flight.fence);
     }
     if (result != VK_SUCCESS) {
         return vulkanError(result, "making a command buffer failed");
@@ -109,6 +114,10 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
     }
     result = vk.vkEndCommandBuffer(flight.commands);
     if (result == VK_SUCCESS) {
+        // Before the submission, so that a failure leaves no fence that says too early that the next one is done.
+        result = vk.vkResetFences(device.handle(), 1, &flight.fence);
+    }
+    if (result == VK_SUCCESS) {
         VkCommandBufferSubmitInfo commands{};
         commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
         commands.commandBuffer = flight.commands;
@@ -116,26 +125,23 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
         submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
         submit.commandBufferInfoCount = 1;
         submit.pCommandBufferInfos = &commands;
+        flight.pending = true;
         result = vk.vkQueueSubmit2(device.queueAccess().queue, 1, &submit, flight.fence);
     }
     if (result != VK_SUCCESS) {
         return vulkanError(result, "submitting the pairs failed");
     }
-    flight.pending = true;
     return {};
 }
 
 Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink, const OutputSink& outputs) {
     const VolkDeviceTable& vk = device.table();
-    VkResult result =
+    const VkResult result =
         vk.vkWaitForFences(device.handle(), 1, &flight.fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
-    if (result == VK_SUCCESS) {
-        flight.pending = false;
-        result = vk.vkResetFences(device.handle(), 1, &flight.fence);
-    }
     if (result != VK_SUCCESS) {
         return vulkanError(result, "waiting for the pairs failed");
     }
+    flight.pending = false;
     const Result<std::span<const PairResult>> read = results.read(flight.frame);
     if (!read.ok()) {
         return read.error();
@@ -193,12 +199,19 @@ Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink, cons
     return {};
 }
 
-/// After an error: nothing that a submission uses may end before it does.
-void PairPipeline::State::drain() noexcept {
-    device.table().vkDeviceWaitIdle(device.handle());
+/// After an error: nothing that a submission uses may end before it does. False where waiting for it fails too.
+bool PairPipeline::State::drain() noexcept {
+    if (std::ranges::none_of(flights, &Flight::pending)) {
+        return true;
+    }
+    const VkResult result = device.table().vkDeviceWaitIdle(device.handle());
+    if (result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST) {
+        return false;
+    }
     for (Flight& flight : flights) {
         flight.pending = false;
     }
+    return true;
 }
 
 PairPipeline::PairPipeline(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -229,9 +242,13 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
 }
 
 Result<void> PairPipeline::run(const Batch& batch, const Sink& sink, const OutputSink& outputs) {
+    // Answers of an earlier batch, which failed, are nobody's.
+    if (!state_->drain()) {
+        return Error{ErrorCode::Vulkan, 0, "recording the pairs failed: earlier ones cannot be waited for"};
+    }
     Result<void> done = state_->run(batch, sink, outputs);
     if (!done.ok()) {
-        state_->drain();
+        static_cast<void>(state_->drain());
     }
     return done;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/pipeline_cache.h"
 
+#include "device/created.h"
+
 #include <algorithm>
 #include <cstring>
 #include <exception>
@@ -33,11 +35,13 @@ PipelineCache::PipelineCache(const VulkanDevice& device, const CacheFolder& fold
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
     info.initialDataSize = blob.size();
     info.pInitialData = blob.data();
-    VkResult result = device_.table().vkCreatePipelineCache(device_.handle(), &info, nullptr, &handle_);
+    VkResult result =
+        createdOrNull(device_.table().vkCreatePipelineCache(device_.handle(), &info, nullptr, &handle_), handle_);
     if (result != VK_SUCCESS && !blob.empty()) {
         blob.clear();
         info.initialDataSize = 0;
-        result = device_.table().vkCreatePipelineCache(device_.handle(), &info, nullptr, &handle_);
+        result =
+            createdOrNull(device_.table().vkCreatePipelineCache(device_.handle(), &info, nullptr, &handle_), handle_);
     }
     if (result != VK_SUCCESS) {
         handle_ = VK_NULL_HANDLE;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/timed_commands.h"
 
+#include "device/created.h"
+
 #include <array>
 #include <limits>
 #include <vector>
@@ -40,6 +42,8 @@ struct TimedCommands::State {
     ~State();
 
     Result<void> make(const Session& session);
+    /// Waits for everything on the device; false where even that fails.
+    bool waitForAll() noexcept;
 
     const VulkanDevice& device;
     std::uint32_t stamps = 0;
@@ -48,12 +52,23 @@ struct TimedCommands::State {
     VkFence fence = VK_NULL_HANDLE;
     VkQueryPool timestamps = VK_NULL_HANDLE;
     QueueClock clock;
+    bool inFlight = false; ///< submitted, or perhaps so, and not known to be done
 };
+
+bool TimedCommands::State::waitForAll() noexcept {
+    const VkResult result = device.table().vkDeviceWaitIdle(device.handle());
+    if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) {
+        inFlight = false;
+    }
+    return !inFlight;
+}
 
 TimedCommands::State::~State() {
     const VolkDeviceTable& vk = device.table();
-    // After an error: nothing that a submission uses may end before it does.
-    vk.vkDeviceWaitIdle(device.handle());
+    // After an error: nothing that a submission uses may end before it does. What cannot be waited for keeps it.
+    if (inFlight && !waitForAll()) {
+        return;
+    }
     vk.vkDestroyQueryPool(device.handle(), timestamps, nullptr);
     vk.vkDestroyFence(device.handle(), fence, nullptr);
     vk.vkDestroyCommandPool(device.handle(), pool, nullptr);
@@ -65,7 +80,7 @@ Result<void> TimedCommands::State::make(const Session& session) {
     poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     poolInfo.queueFamilyIndex = device.queueAccess().family;
-    VkResult result = vk.vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool);
+    VkResult result = createdOrNull(vk.vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool), pool);
     if (result == VK_SUCCESS) {
         VkCommandBufferAllocateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -77,14 +92,14 @@ Result<void> TimedCommands::State::make(const Session& session) {
     if (result == VK_SUCCESS) {
         VkFenceCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-        result = vk.vkCreateFence(device.handle(), &info, nullptr, &fence);
+        result = createdOrNull(vk.vkCreateFence(device.handle(), &info, nullptr, &fence), fence);
     }
     if (result == VK_SUCCESS && device.hasTimestamps()) {
         VkQueryPoolCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
         info.queryType = VK_QUERY_TYPE_TIMESTAMP;
         info.queryCount = stamps;
-        result = vk.vkCreateQueryPool(device.handle(), &info, nullptr, &timestamps);
+        result = createdOrNull(vk.vkCreateQueryPool(device.handle(), &info, nullptr, &timestamps), timestamps);
         clock = clockOf(session);
     }
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "making a command buffer failed");
@@ -109,6 +124,9 @@ VkQueryPool TimedCommands::timestamps() const noexcept {
 
 Result<VkCommandBuffer> TimedCommands::begin() {
     const VolkDeviceTable& vk = state_->device.table();
+    if (state_->inFlight && !state_->waitForAll()) {
+        return Error{ErrorCode::Vulkan, 0, "recording failed: an earlier submission cannot be waited for"};
+    }
     VkResult result = vk.vkResetCommandPool(state_->device.handle(), state_->pool, 0);
     if (result == VK_SUCCESS) {
         VkCommandBufferBeginInfo info{};
@@ -145,23 +163,28 @@ Result<void> TimedCommands::submit() {
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &commands;
-    const VkResult result =
-        state_->device.table().vkQueueSubmit2(state_->device.queueAccess().queue, 1, &info, state_->fence);
+    const VolkDeviceTable& vk = state_->device.table();
+    // Before the submission, so that a failure leaves no fence that says too early that the next one is done.
+    VkResult result = vk.vkResetFences(state_->device.handle(), 1, &state_->fence);
+    if (result == VK_SUCCESS) {
+        state_->inFlight = true;
+        result = vk.vkQueueSubmit2(state_->device.queueAccess().queue, 1, &info, state_->fence);
+    }
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "submitting failed");
 }
 
 Result<void> TimedCommands::wait() {
     const VolkDeviceTable& vk = state_->device.table();
-    VkResult result = vk.vkWaitForFences(state_->device.handle(), 1, &state_->fence, VK_TRUE,
-                                         std::numeric_limits<std::uint64_t>::max());
+    const VkResult result = vk.vkWaitForFences(state_->device.handle(), 1, &state_->fence, VK_TRUE,
+                                               std::numeric_limits<std::uint64_t>::max());
     if (result == VK_SUCCESS) {
-        result = vk.vkResetFences(state_->device.handle(), 1, &state_->fence);
+        state_->inFlight = false;
     }
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "waiting for the device failed");
 }
 
 void TimedCommands::waitForAll() const {
-    state_->device.table().vkDeviceWaitIdle(state_->device.handle());
+    static_cast<void>(state_->waitForAll());
 }
 
 Result<std::optional<double>> TimedCommands::between(std::uint32_t from, std::uint32_t to) const {

@@ -13,9 +13,9 @@ namespace voxtact {
 struct BlockingDetector::State {
     ContextImpl& context;
     Detector detector;
-    Submitter submitter;
     ResultsDesc resultsDesc;
     std::optional<Results> results;
+    Submitter submitter;
 };
 
 namespace {
@@ -83,7 +83,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }
         return BlockingDetector(std::make_unique<State>(
-            State{context.impl(), std::move(*detector), std::move(*submitter), resultsDesc, std::nullopt}));
+            State{context.impl(), std::move(*detector), resultsDesc, std::nullopt, std::move(*submitter)}));
     });
 }
 
@@ -91,6 +91,11 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
     return guard([&]() -> Result<BatchAnswer> {
         const auto start = std::chrono::steady_clock::now();
         State& s = *state_;
+        // First of all: a submission whose wait failed may still be using the Results.
+        const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
+        if (!commandBuffer.ok()) {
+            return commandBuffer.error();
+        }
         if (const std::optional<ResultsDesc> wanted = largerFor(batch, s.resultsDesc, s.results)) {
             Result<Results> larger = Results::create(s.context, *wanted);
             if (!larger.ok()) {
@@ -98,10 +103,6 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
             }
             s.results = std::move(*larger);
             s.resultsDesc = *wanted;
-        }
-        const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
-        if (!commandBuffer.ok()) {
-            return commandBuffer.error();
         }
         if (Result<void> recorded = s.detector.cmdDetect(*commandBuffer, batch, *s.results); !recorded.ok()) {
             return recorded.error();
@@ -121,7 +122,11 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         if (Result<void> outputs = s.results->readOutputs(answer); !outputs.ok()) {
             return outputs.error();
         }
-        if (const Result<double> milliseconds = s.results->gpuMilliseconds(); milliseconds.ok()) {
+        if (s.resultsDesc.timestamps) {
+            const Result<double> milliseconds = s.results->gpuMilliseconds();
+            if (!milliseconds.ok()) {
+                return milliseconds.error();
+            }
             answer.gpuMilliseconds = *milliseconds;
         }
         answer.wallMilliseconds =

@@ -17,10 +17,10 @@ namespace voxtact {
 
 struct LocalizerImpl {
     ContextImpl& context;
-    Submitter submitter;
     std::optional<ViewPass> pass{};
     std::optional<Results> results{}; ///< for the transform and the timestamps; counts nothing
     Owned<VkQueryPool> queries{};
+    Submitter submitter;
 };
 
 namespace {

@@ -246,6 +246,9 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
 Result<double> Results::gpuMilliseconds() {
     return guard([&]() -> Result<double> {
         const ResultsImpl& r = *impl_;
+        if (Result<void> alive = r.context.alive(); !alive.ok()) {
+            return alive.error();
+        }
         if (!r.timestamps) {
             return notReady("the Results were made without timestamps");
         }

@@ -17,7 +17,6 @@ namespace voxtact {
 
 struct FragmentTraceImpl {
     ContextImpl& context;
-    Submitter submitter;
     Owned<VkDescriptorSetLayout> setLayout{};
     Owned<VkPipelineLayout> layout{};
     std::optional<ViewPass> pass{};
@@ -25,6 +24,7 @@ struct FragmentTraceImpl {
     Buffer list{};
     Buffer readBack{};
     DescriptorSet descriptors{};
+    Submitter submitter;
 };
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_device.h"
 
+#include "device/created.h"
 #include "device/vulkan_instance.h"
 
 #include <algorithm>
@@ -252,7 +253,8 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<std::uint32_t>(state->extensions.size());
     info.ppEnabledExtensionNames = state->extensions.data();
-    const VkResult result = functions.createDevice(physical.handle, &info, nullptr, &state->device);
+    const VkResult result =
+        createdOrNull(functions.createDevice(physical.handle, &info, nullptr, &state->device), state->device);
     if (result != VK_SUCCESS) {
         return vulkanError(result, "making a Vulkan device on '" + physical.name + "' failed");
     }

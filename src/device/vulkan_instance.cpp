@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_instance.h"
 
+#include "device/created.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -125,7 +127,7 @@ Result<void> createInstance(const InstanceOptions& options, VulkanInstance::Stat
     info.enabledExtensionCount = static_cast<std::uint32_t>(state.extensions.size());
     info.ppEnabledExtensionNames = state.extensions.data();
 
-    const VkResult result = vkCreateInstance(&info, nullptr, &state.instance);
+    const VkResult result = createdOrNull(vkCreateInstance(&info, nullptr, &state.instance), state.instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         return Error{ErrorCode::Unsupported, result, kNoDevice};
     }
@@ -209,8 +211,9 @@ Result<VulkanInstance> VulkanInstance::create(const InstanceOptions& options) {
     }
     if (options.validate) {
         const VkDebugUtilsMessengerCreateInfoEXT info = messengerInfo(state->messages.get());
-        const VkResult result =
-            state->functions.createDebugUtilsMessenger(state->instance, &info, nullptr, &state->messenger);
+        const VkResult result = createdOrNull(
+            state->functions.createDebugUtilsMessenger(state->instance, &info, nullptr, &state->messenger),
+            state->messenger);
         if (result != VK_SUCCESS) {
             return vulkanError(result, "making a debug messenger failed");
         }

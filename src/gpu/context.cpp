@@ -48,10 +48,13 @@ Result<void> makeSampler(ContextImpl& context) {
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    if (const VkResult result = context.vk.CreateSampler(context.device, &info, context.allocator, &context.sampler);
+    // What a failed call leaves in it is nothing to destroy.
+    VkSampler made = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateSampler(context.device, &info, context.allocator, &made);
         result != VK_SUCCESS) {
         return context.failure(result, "making a sampler");
     }
+    context.sampler = made;
     nameObject(context, VK_OBJECT_TYPE_SAMPLER, context.sampler, "linear sampler");
     return {};
 }
@@ -168,6 +171,9 @@ Result<void> makeOutputLayouts(ContextImpl& context) {
 } // namespace
 
 ContextImpl::~ContextImpl() {
+    if (givenUp.load()) {
+        return;
+    }
     for (const VkPipelineLayout layout :
          {rasterLayout, dominantLayout, computeLayout, rasterOutputLayout, computeOutputLayout}) {
         if (layout != VK_NULL_HANDLE) {

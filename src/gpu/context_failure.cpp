@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/guard.h"
 #include "gpu/context_impl.h"
 
 namespace voxtact {
@@ -18,7 +19,26 @@ Error ContextImpl::failure(VkResult result, const char* what) noexcept {
     }
 }
 
+void ContextImpl::giveUp(VkResult result) noexcept {
+    givenUp.store(true);
+    lost.store(true);
+    // What cannot be said for want of memory is left out.
+    static_cast<void>(guard([&]() -> Result<void> {
+        log("a submission cannot be waited for (VkResult " + std::to_string(static_cast<std::int32_t>(result)) +
+            "): the device counts as lost, and what the Context made is left to it");
+        return {};
+    }));
+}
+
+bool mayDestroy(const ContextImpl& context) noexcept {
+    return !context.givenUp.load();
+}
+
 Result<void> ContextImpl::alive() const {
+    if (givenUp.load()) {
+        return Error{ErrorCode::DeviceLost, VK_ERROR_DEVICE_LOST,
+                     "a submission could not be waited for earlier: the device counts as lost"};
+    }
     if (lost.load()) {
         return Error{ErrorCode::DeviceLost, VK_ERROR_DEVICE_LOST, "the device was lost earlier"};
     }

@@ -57,6 +57,7 @@ struct ContextImpl {
     VkPipelineLayout computeOutputLayout = VK_NULL_HANDLE;
 
     std::atomic<bool> lost{false};
+    std::atomic<bool> givenUp{false}; ///< then it is lost too
 
     ContextImpl() = default;
     ContextImpl(const ContextImpl&) = delete;
@@ -65,6 +66,9 @@ struct ContextImpl {
 
     /// An Error for a VkResult that is not a success, with `what` it was that failed. Remembers a lost device.
     [[nodiscard]] Error failure(VkResult result, const char* what) noexcept;
+    /// For a submission that cannot be waited for: the device counts as lost, and as the submission may still be
+    /// using whatever there is, nothing of this context is destroyed any more.
+    void giveUp(VkResult result) noexcept;
     /// Success, or the sticky error of a lost device.
     [[nodiscard]] Result<void> alive() const;
     void log(const std::string& text) const noexcept;

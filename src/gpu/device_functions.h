@@ -78,6 +78,7 @@ namespace voxtact {
     X(FlushMappedMemoryRanges)                                                                                         \
     X(MapMemory)                                                                                                       \
     X(QueueSubmit2)                                                                                                    \
+    X(QueueWaitIdle)                                                                                                   \
     X(ResetCommandPool)                                                                                                \
     X(ResetFences)                                                                                                     \
     X(UpdateDescriptorSets)                                                                                            \

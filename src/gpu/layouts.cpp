@@ -11,10 +11,13 @@ Result<void> makeSetLayout(ContextImpl& context, VkDescriptorSetLayout& out,
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     info.pBindings = bindings.data();
-    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &out);
+    // What a failed call leaves in it is nothing to destroy.
+    VkDescriptorSetLayout made = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateDescriptorSetLayout(context.device, &info, context.allocator, &made);
         result != VK_SUCCESS) {
         return context.failure(result, "making a descriptor set layout");
     }
+    out = made;
     nameObject(context, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, out, name);
     return {};
 }
@@ -40,10 +43,12 @@ Result<void> makePipelineLayout(ContextImpl& context, VkPipelineLayout& out,
     info.pSetLayouts = sets.data();
     info.pushConstantRangeCount = static_cast<std::uint32_t>(constants.size());
     info.pPushConstantRanges = constants.data();
-    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &out);
+    VkPipelineLayout made = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreatePipelineLayout(context.device, &info, context.allocator, &made);
         result != VK_SUCCESS) {
         return context.failure(result, "making a pipeline layout");
     }
+    out = made;
     nameObject(context, VK_OBJECT_TYPE_PIPELINE_LAYOUT, out, name);
     return {};
 }

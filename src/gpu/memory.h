@@ -13,6 +13,9 @@ namespace voxtact {
 
 struct ContextImpl;
 
+/// False once the context is given up: ContextImpl::giveUp().
+[[nodiscard]] bool mayDestroy(const ContextImpl& context) noexcept;
+
 /// One owned Vulkan object: destroyed with its context's device and allocator. Move-only.
 template <class Handle> class Owned {
   public:
@@ -37,8 +40,12 @@ template <class Handle> class Owned {
     [[nodiscard]] Handle get() const noexcept { return handle_; }
     explicit operator bool() const noexcept { return handle_ != Handle{}; }
     void reset() noexcept {
-        if (handle_ != Handle{}) {
-            destroy_(*context_, std::exchange(handle_, Handle{}));
+        if (handle_ == Handle{}) {
+            return;
+        }
+        const Handle ended = std::exchange(handle_, Handle{});
+        if (mayDestroy(*context_)) {
+            destroy_(*context_, ended);
         }
     }
 

@@ -4,6 +4,13 @@
 
 namespace voxtact {
 
+namespace {
+
+/// Before a submission that cannot be waited for is given up.
+constexpr int kLastTries = 8;
+
+} // namespace
+
 Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& queue) {
     if (Result<void> alive = context.alive(); !alive.ok()) {
         return alive.error();
@@ -51,9 +58,53 @@ Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& que
     return out;
 }
 
+Submitter::Submitter(Submitter&& other) noexcept
+    : context_(other.context_), queue_(other.queue_), work_(std::exchange(other.work_, Work::None)),
+      pool_(std::move(other.pool_)), fence_(std::move(other.fence_)), commandBuffer_(other.commandBuffer_) {}
+
+Submitter::~Submitter() {
+    VkResult result = VK_SUCCESS;
+    for (int tries = 0; work_ != Work::None && tries < kLastTries; ++tries) {
+        result = settle();
+    }
+    if (work_ != Work::None) {
+        context_->giveUp(result);
+    }
+}
+
+VkResult Submitter::wait() noexcept {
+    const VkFence fence = fence_.get();
+    const VkResult result = context_->vk.WaitForFences(context_->device, 1, &fence, VK_TRUE, UINT64_MAX);
+    if (result == VK_SUCCESS) {
+        work_ = Work::None;
+    }
+    return result;
+}
+
+VkResult Submitter::settle() noexcept {
+    if (work_ == Work::None || (work_ == Work::Submitted && wait() == VK_SUCCESS)) {
+        return VK_SUCCESS;
+    }
+    if (queue_.lock != nullptr) {
+        queue_.lock(queue_.user);
+    }
+    const VkResult result = context_->vk.QueueWaitIdle(queue_.queue);
+    if (queue_.unlock != nullptr) {
+        queue_.unlock(queue_.user);
+    }
+    // A lost device uses nothing any more.
+    if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) {
+        work_ = Work::None;
+    }
+    return result;
+}
+
 Result<VkCommandBuffer> Submitter::begin() {
     if (Result<void> alive = context_->alive(); !alive.ok()) {
         return alive.error();
+    }
+    if (const VkResult result = settle(); result != VK_SUCCESS) {
+        return context_->failure(result, "waiting for an earlier submission");
     }
     if (const VkResult result = context_->vk.ResetCommandPool(context_->device, pool_.get(), 0); result != VK_SUCCESS) {
         return context_->failure(result, "resetting a command pool");
@@ -71,6 +122,11 @@ Result<void> Submitter::submitAndWait() {
     if (const VkResult result = context_->vk.EndCommandBuffer(commandBuffer_); result != VK_SUCCESS) {
         return context_->failure(result, "ending a command buffer");
     }
+    // Before the submission, so that a failure leaves no fence that says too early that the next one is done.
+    const VkFence fence = fence_.get();
+    if (const VkResult result = context_->vk.ResetFences(context_->device, 1, &fence); result != VK_SUCCESS) {
+        return context_->failure(result, "resetting a fence");
+    }
     VkCommandBufferSubmitInfo commands{};
     commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
     commands.commandBuffer = commandBuffer_;
@@ -81,20 +137,21 @@ Result<void> Submitter::submitAndWait() {
     if (queue_.lock != nullptr) {
         queue_.lock(queue_.user);
     }
-    const VkResult submitted = context_->vk.QueueSubmit2(queue_.queue, 1, &info, fence_.get());
+    const VkResult submitted = context_->vk.QueueSubmit2(queue_.queue, 1, &info, fence);
     if (queue_.unlock != nullptr) {
         queue_.unlock(queue_.user);
     }
     if (submitted != VK_SUCCESS) {
+        // For want of memory nothing was submitted: Vulkan promises that of these two and of no other.
+        const bool nothing = submitted == VK_ERROR_OUT_OF_HOST_MEMORY || submitted == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        work_ = nothing ? Work::None : Work::Unknown;
+        settle();
         return context_->failure(submitted, "submitting to the queue");
     }
-    const VkFence fence = fence_.get();
-    if (const VkResult result = context_->vk.WaitForFences(context_->device, 1, &fence, VK_TRUE, UINT64_MAX);
-        result != VK_SUCCESS) {
+    work_ = Work::Submitted;
+    if (const VkResult result = wait(); result != VK_SUCCESS) {
+        settle();
         return context_->failure(result, "waiting for the device");
-    }
-    if (const VkResult result = context_->vk.ResetFences(context_->device, 1, &fence); result != VK_SUCCESS) {
-        return context_->failure(result, "resetting a fence");
     }
     return {};
 }

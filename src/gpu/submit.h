@@ -7,20 +7,38 @@
 namespace voxtact {
 
 /// A command buffer of voxtact's own on the caller's queue, for the blocking conveniences. One submission at a time.
+/// An object that owns one has it as its last member: what a submission uses then ends after the wait for it.
 class Submitter {
   public:
     [[nodiscard]] static Result<Submitter> create(ContextImpl& context, const QueueAccess& queue);
+    Submitter(Submitter&& other) noexcept;
+    Submitter& operator=(Submitter&&) = delete;
+    /// Waits for what is in flight. Where even that fails, the context is given up: ContextImpl::giveUp().
+    ~Submitter();
 
-    /// Begins the command buffer anew.
+    /// Begins the command buffer anew. Nothing is in flight then: a submission whose wait failed is waited for, and
+    /// where that fails again, so does this. What earlier submissions used may be replaced only afterwards.
     [[nodiscard]] Result<VkCommandBuffer> begin();
-    /// Ends it, submits it between the caller's lock callbacks, and waits for the fence.
+    /// Ends it, submits it between the caller's lock callbacks, and waits for the fence. After an error it tries to
+    /// wait in other ways, so that nothing is in flight as a rule.
     [[nodiscard]] Result<void> submitAndWait();
 
   private:
     Submitter(ContextImpl& context, const QueueAccess& queue) noexcept : context_(&context), queue_(queue) {}
+    /// What the device may still be doing.
+    enum class Work {
+        None,
+        Submitted, ///< the fence will say when it is done
+        Unknown,   ///< the submission failed in a way that does not say that nothing was submitted
+    };
+    /// Waits for the fence.
+    VkResult wait() noexcept;
+    /// Waits until nothing is in flight, by the fence or, where that cannot be had, by the whole queue.
+    VkResult settle() noexcept;
 
     ContextImpl* context_;
     QueueAccess queue_;
+    Work work_ = Work::None;
     Owned<VkCommandPool> pool_;
     Owned<VkFence> fence_;
     VkCommandBuffer commandBuffer_ = VK_NULL_HANDLE;

@@ -63,18 +63,14 @@ void cmdReadBack(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
 struct BlockingRenderer::State {
     ContextImpl& context;
     Renderer renderer;
+    std::optional<Frame> frame;
     Submitter submitter;
-    std::optional<Frame> frame{};
 
-    Result<void> record(const Scene& scene);
+    Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene);
 };
 
-Result<void> BlockingRenderer::State::record(const Scene& scene) {
-    const Result<VkCommandBuffer> commandBuffer = submitter.begin();
-    if (!commandBuffer.ok()) {
-        return commandBuffer.error();
-    }
-    barrier(context, *commandBuffer, frame->image.image.get(),
+Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, const Scene& scene) {
+    barrier(context, commandBuffer, frame->image.image.get(),
             {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
             {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
@@ -82,10 +78,10 @@ Result<void> BlockingRenderer::State::record(const Scene& scene) {
     target.view = frame->image.view.get();
     target.extent = frame->targets.extent();
     target.targets = &frame->targets;
-    if (Result<void> recorded = renderer.cmdRender(*commandBuffer, scene, target); !recorded.ok()) {
+    if (Result<void> recorded = renderer.cmdRender(commandBuffer, scene, target); !recorded.ok()) {
         return recorded;
     }
-    cmdReadBack(context, *commandBuffer, *frame);
+    cmdReadBack(context, commandBuffer, *frame);
     return {};
 }
 
@@ -105,13 +101,18 @@ Result<BlockingRenderer> BlockingRenderer::create(const Context& context, const 
             return submitter.error();
         }
         return BlockingRenderer(
-            std::make_unique<State>(State{context.impl(), std::move(*renderer), std::move(*submitter)}));
+            std::make_unique<State>(State{context.impl(), std::move(*renderer), std::nullopt, std::move(*submitter)}));
     });
 }
 
 Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent) {
     return guard([&]() -> Result<Picture> {
         State& state = *state_;
+        // First of all: a submission whose wait failed may still be using the frame.
+        const Result<VkCommandBuffer> commandBuffer = state.submitter.begin();
+        if (!commandBuffer.ok()) {
+            return commandBuffer.error();
+        }
         const VkExtent2D kept = state.frame ? state.frame->targets.extent() : VkExtent2D{};
         if (!state.frame || kept.width != extent.width || kept.height != extent.height) {
             state.frame.reset();
@@ -121,7 +122,7 @@ Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent) 
             }
             state.frame.emplace(std::move(*frame));
         }
-        if (Result<void> recorded = state.record(scene); !recorded.ok()) {
+        if (Result<void> recorded = state.record(*commandBuffer, scene); !recorded.ok()) {
             return recorded.error();
         }
         if (Result<void> done = state.submitter.submitAndWait(); !done.ok()) {
