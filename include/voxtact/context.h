@@ -85,10 +85,10 @@ struct CheckReport {
 [[nodiscard]] VOXTACT_API CheckReport check(const ContextDesc& desc);
 
 /// A queue of the caller's for the blocking conveniences. lock and unlock, where given, bracket each vkQueueSubmit2
-/// so that the queue can be shared with the caller's own threads. The wait is on a fence, outside the lock.
+/// and, after a failure, vkQueueWaitIdle: threads can share the queue. The wait is on a fence, outside the lock.
 struct QueueAccess {
     VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t family = 0; ///< must support graphics
+    std::uint32_t family = 0; ///< of the device; with graphics or, for upload(), compute
     void (*lock)(void* user) = nullptr;
     void (*unlock)(void* user) = nullptr;
     void* user = nullptr;
@@ -97,7 +97,7 @@ struct QueueAccess {
 /// voxtact on one device: a private function table, pipeline and descriptor layouts. No global state: any number of
 /// contexts on any number of devices live in one process.
 ///
-/// Lifetime: everything made with a Context must be destroyed before it, and it before the device.
+/// Lifetime: what was made with a Context may outlive it. All of it must end before the device.
 /// Thread-safety: the const functions, and making objects with it, are safe from any thread.
 class Context {
   public:

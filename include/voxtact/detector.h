@@ -115,7 +115,7 @@ class Results {
     ///   leaves   the host copy readable once the submission is complete
     ///   queries  not affected; bound state: none is lost
     VOXTACT_API Result<void> cmdReadBack(VkCommandBuffer commandBuffer);
-    /// The host copy. The caller knows that the submission with cmdReadBack() is complete (its fence or semaphore).
+    /// The host copy, of a submission that the caller knows to be complete; NotReady where it can be seen not to be.
     /// Valid until the next cmdReadBack() executes, or the Results end.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read();
     /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and

@@ -25,7 +25,7 @@
 ///
 /// Colours are in the space of the picture: nothing is converted. For an sRGB picture in a UNORM image they are sRGB.
 ///
-/// Lifetime: a Renderer must outlive what is made with it, and everything the command buffers that use it.
+/// Lifetime: everything must outlive the command buffers that use it. What a Renderer made may outlive it.
 /// Thread-safety: const functions are safe from any thread; all others need the caller's own lock.
 namespace voxtact {
 

@@ -22,7 +22,7 @@
 ///   queries             an active occlusion query is not affected
 ///   bound state         none is lost
 ///
-/// Lifetime: an object must outlive the command buffers that use it, and end before its Context.
+/// Lifetime: an object must outlive the command buffers that use it, and end before the device.
 /// Thread-safety: const functions are safe from any thread; all others need the caller's own lock.
 namespace voxtact {
 
@@ -35,14 +35,14 @@ struct LabelMapImpl;
 struct WrappedVolume {
     VkImageView view = VK_NULL_HANDLE;     ///< 3D, one mip level, component r sampled
     VkFormat format = VK_FORMAT_UNDEFINED; ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
-    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while voxtact's commands execute
+    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< or GENERAL; while commands execute
     Grid grid;
     /// value = slope * stored + intercept, where stored is the integer behind a UNORM or SNORM texel, or the float.
     double slope = 1;
     double intercept = 0;
     /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp.
     std::optional<ValueRange> boundaryValues;
-    /// As in VolumeOptions. They are not filled before the first Volume::cmdUpdateBricks(), of the whole grid.
+    /// As in VolumeOptions. Not to be used before the first Volume::cmdUpdateBricks(), of the whole grid.
     bool bricks = false;
 };
 
@@ -97,8 +97,8 @@ class Volume {
     ///   queries             an active occlusion query is not affected
     ///   bound state         with bricks lost as by cmdUpdateBricks(), otherwise none
     ///
-    /// Gives all voxels of a region one value, in the image's units; what of a Ball is beyond the faces is left out.
-    /// Refuses a value that the volume's type cannot hold exactly, and what voxelBounds() refuses.
+    /// Gives all voxels of a region one value, in the image's units; floats the nearest one. The faces cut a Ball off.
+    /// Refuses what cpu::Volume::set() does: NaN, infinite, out of the type's range or, for integers, not whole.
     VOXTACT_API Result<void> cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value);
     /// Writes the voxels of a box: scalars of the volume's type, as in VolumeView. They are kept in the command buffer
     /// itself, which is for small edits; a large one is a cmdCopy(). Refuses what checkVolume() refuses.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/enum_check.h"
 #include "core/guard.h"
 #include "core/voxel_visit.h"
 
@@ -29,9 +30,9 @@ const char* toString(ScalarType type) noexcept {
     case ScalarType::UInt16:
         return "uint16";
     case ScalarType::Float32:
-        break;
+        return "float";
     }
-    return "float";
+    return "unknown";
 }
 
 namespace {
@@ -67,6 +68,9 @@ Result<ValueRange> checkVolume(const VolumeView& volume) {
     return guard([&]() -> Result<ValueRange> {
         if (Result<void> grid = checkGrid(volume.grid); !grid.ok()) {
             return grid.error();
+        }
+        if (Result<void> type = checkScalarType(volume.type); !type.ok()) {
+            return type.error();
         }
         const std::uint64_t expected = voxelCount(volume.grid) * bytesPerVoxel(volume.type);
         if (volume.voxels.size() != expected) {

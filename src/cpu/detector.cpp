@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/certified_constants.h"
+#include "core/enum_check.h"
 #include "core/guard.h"
 #include "core/projection.h"
 #include "cpu/batch_check.h"
@@ -29,10 +30,11 @@ struct DetectorImpl {
 
 namespace {
 
-Result<void> checkProjection(const DetectorDesc& desc) {
-    if (std::ranges::find(projections(), desc.projection) == projections().end()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "there is no projection number " + std::to_string(static_cast<std::uint32_t>(desc.projection))};
+Result<void> checkDesc(const DetectorDesc& desc) {
+    for (const Result<void>& known : {checkProjection(desc.projection), checkBoundary(desc.boundary)}) {
+        if (!known.ok()) {
+            return known;
+        }
     }
     if (Result<void> samples = checkSamples(desc.samplesPerVoxel); !samples.ok()) {
         return samples;
@@ -49,8 +51,8 @@ Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
-        if (Result<void> projection = checkProjection(desc); !projection.ok()) {
-            return projection.error();
+        if (Result<void> checked = checkDesc(desc); !checked.ok()) {
+            return checked.error();
         }
         if (Result<void> outputs = checkOutputs(desc); !outputs.ok()) {
             return outputs.error();

@@ -3,6 +3,7 @@
 #include "core/projection.h"
 #include "core/text.h"
 #include "gpu/scene_impl.h"
+#include "gpu/submit.h"
 
 #include <algorithm>
 #include <array>
@@ -63,6 +64,17 @@ Result<void> checkDominant(const ContextImpl& context, const DetectorDesc& desc,
     return checkLimits(context, {side, side}, which + ": " + dominantNeeds(grid, desc.samplesPerVoxel));
 }
 
+/// What of an item was never uploaded; null: all was.
+const char* missingUpload(const BatchItem& item) {
+    if (!item.mesh->impl().uploaded) {
+        return "the mesh";
+    }
+    if (!item.volume->impl().uploaded) {
+        return "the volume";
+    }
+    return item.transferFunction->impl().uploaded ? nullptr : "the transfer function";
+}
+
 Result<void> checkItem(const ContextImpl& context, const BatchItem& item, const std::string& which) {
     if (item.mesh == nullptr || item.volume == nullptr || item.transferFunction == nullptr) {
         return refuse(which + ": mesh, volume or transferFunction is null");
@@ -70,6 +82,9 @@ Result<void> checkItem(const ContextImpl& context, const BatchItem& item, const 
     if (&item.mesh->impl().context != &context || &item.volume->impl().context != &context ||
         &item.transferFunction->impl().context != &context) {
         return refuse(which + ": mesh, volume or transferFunction belongs to another Context");
+    }
+    if (const char* what = missingUpload(item); what != nullptr) {
+        return neverUploaded(which + ": " + what);
     }
     for (std::size_t pose = 0; pose < item.world_from_object.size(); ++pose) {
         // The text is made for a bad pose only: this is the hot loop of recording.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
@@ -90,7 +91,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
 Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
     return guard([&]() -> Result<BatchAnswer> {
         const auto start = std::chrono::steady_clock::now();
-        State& s = *state_;
+        State& s = live(state_);
         // First of all: a submission whose wait failed may still be using the Results.
         const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
         if (!commandBuffer.ok()) {
@@ -136,7 +137,7 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
 }
 
 const Detector& BlockingDetector::detector() const noexcept {
-    return state_->detector;
+    return live(state_).detector;
 }
 
 } // namespace voxtact

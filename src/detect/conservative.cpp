@@ -36,6 +36,12 @@ Result<void> ConservativePass::check(const Batch& batch) const {
             return Error{ErrorCode::InvalidArgument, 0,
                          which + "a volume with bricks (VolumeOptions::bricks, WrappedVolume::bricks)"};
         }
+        if (!item.volume->impl().bricksFilled) {
+            return Error{ErrorCode::NotReady, 0,
+                         "batch item " + std::to_string(i) +
+                             ": the bricks of the wrapped volume were never filled: record "
+                             "Volume::cmdUpdateBricks() of the whole grid first"};
+        }
         if (!item.transferFunction->impl().hasExtremes()) {
             return Error{ErrorCode::InvalidArgument, 0,
                          which + "a transfer function whose table the host knows (WrappedTransferFunction::table)"};

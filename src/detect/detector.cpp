@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/certified_constants.h"
+#include "core/enum_check.h"
 #include "core/guard.h"
+#include "core/live.h"
 #include "core/opaque_ranges.h"
 #include "core/projection.h"
 #include "detect/batch.h"
@@ -22,6 +24,7 @@ using AnyPass = std::variant<ViewPass, ComputePass, ConservativePass>;
 
 struct DetectorImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     DetectorDesc desc;
     AnyPass pass;
 };
@@ -82,10 +85,12 @@ Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& d
     return {};
 }
 
-Result<void> checkProjection(const ContextImpl& context, const DetectorDesc& desc) {
-    if (std::ranges::find(projections(), desc.projection) == projections().end()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "there is no projection number " + std::to_string(static_cast<std::uint32_t>(desc.projection))};
+Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
+    for (const Result<void>& known :
+         {checkProjection(desc.projection), checkFilter(desc.filter), checkBoundary(desc.boundary)}) {
+        if (!known.ok()) {
+            return known;
+        }
     }
     if (desc.projection == Projection::Conservative && desc.method != CountingMethod::Compute) {
         return Error{ErrorCode::InvalidArgument, 0,
@@ -131,7 +136,7 @@ Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const Detec
     if (!pass.ok()) {
         return pass.error();
     }
-    return std::make_unique<DetectorImpl>(DetectorImpl{context, desc, std::move(*pass)});
+    return std::make_unique<DetectorImpl>(DetectorImpl{.context = context, .desc = desc, .pass = std::move(*pass)});
 }
 
 } // namespace
@@ -150,8 +155,8 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         if (Result<void> method = checkMethod(context, desc.method); !method.ok()) {
             return method.error();
         }
-        if (Result<void> projection = checkProjection(c, desc); !projection.ok()) {
-            return projection.error();
+        if (Result<void> checked = checkDesc(c, desc); !checked.ok()) {
+            return checked.error();
         }
         if (Result<void> outputs = checkOutputs(c, desc); !outputs.ok()) {
             return outputs.error();
@@ -169,15 +174,15 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
 
 Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const {
     return guard([&]() -> Result<void> {
-        ContextImpl& context = impl_->context;
+        ContextImpl& context = live(impl_).context;
         ResultsImpl& slot = results.impl();
-        if (Result<void> alive = context.alive(); !alive.ok()) {
-            return alive;
+        if (Result<void> recordable = context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
         }
         if (&slot.context != &context) {
             return Error{ErrorCode::InvalidArgument, 0, "the Results belong to another Context"};
         }
-        const Result<std::uint32_t> pairs = checkBatch(context, impl_->desc, batch);
+        const Result<std::uint32_t> pairs = checkBatch(context, live(impl_).desc, batch);
         if (!pairs.ok()) {
             return pairs.error();
         }
@@ -186,46 +191,47 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                          "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
                              std::to_string(slot.maxPairs)};
         }
-        if (const std::uint64_t views = std::uint64_t{*pairs} * viewsPerPair(impl_->desc.projection);
+        if (const std::uint64_t views = std::uint64_t{*pairs} * viewsPerPair(live(impl_).desc.projection);
             views > slot.maxTransforms) {
             return Error{ErrorCode::LimitExceeded, 0,
                          "the batch has " + std::to_string(views) + " views, the Results have room for " +
                              std::to_string(slot.maxTransforms) + " within the device's maxStorageBufferRange"};
         }
-        if (Result<void> outputs = checkOutputs(context, batch, impl_->desc.outputs, slot); !outputs.ok()) {
+        if (Result<void> outputs = checkOutputs(context, batch, live(impl_).desc.outputs, slot); !outputs.ok()) {
             return outputs;
         }
-        if (Result<void> checked = checkPass(impl_->pass, batch); !checked.ok()) {
+        if (Result<void> checked = checkPass(live(impl_).pass, batch); !checked.ok()) {
             return checked;
         }
         slot.pairs = *pairs;
+        slot.detectRecorded = true;
         slot.readBackRecorded = false;
         if (slot.outputs) {
-            slot.outputs->recorded = impl_->desc.outputs;
+            slot.outputs->recorded = live(impl_).desc.outputs;
         }
-        const Label label(context, commandBuffer, labelOf(impl_->desc, *pairs).c_str());
+        const Label label(context, commandBuffer, labelOf(live(impl_).desc, *pairs).c_str());
         if (*pairs == 0) {
             return {};
         }
-        prepareResults(context, commandBuffer, batch, slot, impl_->desc);
+        prepareResults(context, commandBuffer, batch, slot, live(impl_).desc);
         std::visit(
             [&](const auto& pass) {
                 pass.record(commandBuffer, batch, slot,
                             [&](const BatchItem& item) { return boundaryFor(item, batch.threshold); });
             },
-            impl_->pass);
-        publishResults(context, commandBuffer, slot, impl_->desc);
+            live(impl_).pass);
+        publishResults(context, commandBuffer, slot, live(impl_).desc);
         return {};
     });
 }
 
 const DetectorDesc& Detector::desc() const noexcept {
-    return impl_->desc;
+    return live(impl_).desc;
 }
 
 Boundary Detector::boundaryFor(const BatchItem& item, double threshold) const noexcept {
-    if (impl_->desc.boundary != Boundary::Auto) {
-        return impl_->desc.boundary;
+    if (live(impl_).desc.boundary != Boundary::Auto) {
+        return live(impl_).desc.boundary;
     }
     const VolumeImpl& volume = item.volume->impl();
     const TransferFunctionImpl& function = item.transferFunction->impl();

@@ -17,6 +17,7 @@ namespace voxtact {
 
 struct LocalizerImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     std::optional<ViewPass> pass{};
     std::optional<Results> results{}; ///< for the transform and the timestamps; counts nothing
     Owned<VkQueryPool> queries{};
@@ -145,6 +146,7 @@ Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& 
     const auto queries = static_cast<std::uint32_t>(triangles.size());
     ResultsImpl& results = localizer.results->impl();
     results.pairs = 1;
+    results.detectRecorded = true;
     {
         const Label label(context, *commandBuffer, "voxtact localize");
         prepareResults(context, *commandBuffer, batch, results, kDesc);

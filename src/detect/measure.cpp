@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/enum_check.h"
 #include "core/guard.h"
 #include "voxtact/builtin.h"
 #include "voxtact/detector.h"
@@ -165,6 +166,9 @@ Result<MeasureScene> makeMeasureScene() {
 Result<std::vector<MethodSpeed>> measureMethods(const Context& context, const QueueAccess& queue,
                                                 const MeasureDesc& desc) {
     return guard([&]() -> Result<std::vector<MethodSpeed>> {
+        if (Result<void> filter = checkFilter(desc.filter.value_or(Filter::Exact)); !filter.ok()) {
+            return filter.error();
+        }
         if (desc.scene != nullptr) {
             return measureOn(context, queue, desc, *desc.scene);
         }

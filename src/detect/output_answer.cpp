@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <span>
 
 namespace voxtact {
 
@@ -65,7 +66,7 @@ void unpackLabels(const OutputStore& store, BatchAnswer& answer) {
     });
 }
 
-Contact contactOf(const ContactResult& result, const std::vector<std::int32_t>* labels) {
+Contact contactOf(const ContactResult& result, const OutputItem& item) {
     return {.pair = result.pair,
             .triangle = result.triangle,
             .position = {result.x, result.y, result.z},
@@ -73,12 +74,23 @@ Contact contactOf(const ContactResult& result, const std::vector<std::int32_t>* 
             .depth = result.depth,
             .value = result.value,
             .opacity = result.opacity,
-            .label = labels == nullptr ? 0 : (*labels)[result.label]};
+            .label = item.labels == nullptr ? 0 : (*item.labels)[result.label]};
 }
 
-void unpackContacts(const OutputStore& store, BatchAnswer& answer) {
-    std::vector<const std::vector<std::int32_t>*> labels;
-    forEachPair(store, [&](std::uint32_t, const OutputItem& item) { labels.push_back(item.labels.get()); });
+/// The item of a contact's pair; null where the batch has no such contact.
+const OutputItem* itemOf(const ContactResult& result, std::span<const OutputItem* const> items) {
+    if (result.pair >= items.size()) {
+        return nullptr;
+    }
+    const OutputItem& item = *items[result.pair];
+    const bool known =
+        result.triangle < item.triangles && (item.labels == nullptr || result.label < item.labels->size());
+    return known ? &item : nullptr;
+}
+
+Result<void> unpackContacts(const OutputStore& store, BatchAnswer& answer) {
+    std::vector<const OutputItem*> items;
+    forEachPair(store, [&](std::uint32_t, const OutputItem& item) { items.push_back(&item); });
     const std::uint32_t* header = wordsAt(store, store.layout.contacts);
     answer.contactsFound = (std::uint64_t{header[1]} << 32U) | header[0];
     const std::uint64_t listed = std::min<std::uint64_t>(answer.contactsFound, store.room.contacts);
@@ -88,14 +100,24 @@ void unpackContacts(const OutputStore& store, BatchAnswer& answer) {
         ContactResult result{};
         static_assert(sizeof result == OUTPUT_CONTACT_WORDS * sizeof *words);
         std::memcpy(&result, words, sizeof result);
-        answer.contacts.push_back(contactOf(result, labels[result.pair]));
+        const OutputItem* item = itemOf(result, items);
+        if (item == nullptr) {
+            answer.contacts.clear();
+            return Error{ErrorCode::Internal, 0,
+                         "contact " + std::to_string(i) + " of the list is of pair " + std::to_string(result.pair) +
+                             ", triangle " + std::to_string(result.triangle) + ", label number " +
+                             std::to_string(result.label) +
+                             ", which the batch does not have: its buffer was overwritten"};
+        }
+        answer.contacts.push_back(contactOf(result, *item));
     }
     sortContacts(answer.contacts);
+    return {};
 }
 
 } // namespace
 
-void unpackOutputs(const OutputStore& store, BatchAnswer& answer) {
+Result<void> unpackOutputs(const OutputStore& store, BatchAnswer& answer) {
     const Outputs& outputs = store.recorded;
     if (outputs.triangles) {
         unpackTriangles(store, answer);
@@ -106,9 +128,7 @@ void unpackOutputs(const OutputStore& store, BatchAnswer& answer) {
     if (outputs.labels) {
         unpackLabels(store, answer);
     }
-    if (outputs.contacts) {
-        unpackContacts(store, answer);
-    }
+    return outputs.contacts ? unpackContacts(store, answer) : Result<void>();
 }
 
 } // namespace voxtact

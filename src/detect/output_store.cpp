@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/output_store.h"
+#include "core/live.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/scene_impl.h"
@@ -149,12 +150,12 @@ VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noex
 }
 
 BufferRange Results::triangleCounts() const noexcept {
-    const OutputStore* store = impl_->outputs.get();
+    const OutputStore* store = live(impl_).outputs.get();
     return store == nullptr ? BufferRange{} : rangeOf(*store, store->layout.triangles, store->room.triangles);
 }
 
 BufferRange Results::triangleMask() const noexcept {
-    const OutputStore* store = impl_->outputs.get();
+    const OutputStore* store = live(impl_).outputs.get();
     if (store == nullptr || store->room.triangles == 0) {
         return {};
     }
@@ -162,20 +163,20 @@ BufferRange Results::triangleMask() const noexcept {
 }
 
 BufferRange Results::contacts() const noexcept {
-    const OutputStore* store = impl_->outputs.get();
+    const OutputStore* store = live(impl_).outputs.get();
     return store == nullptr ? BufferRange{}
                             : rangeOf(*store, store->layout.contacts, store->layout.end - store->layout.contacts);
 }
 
 BufferRange Results::bounds() const noexcept {
-    const OutputStore* store = impl_->outputs.get();
+    const OutputStore* store = live(impl_).outputs.get();
     return store == nullptr
                ? BufferRange{}
                : rangeOf(*store, store->layout.bounds, std::uint64_t{store->maxPairs} * OUTPUT_BOUND_WORDS);
 }
 
 BufferRange Results::labelCounts() const noexcept {
-    const OutputStore* store = impl_->outputs.get();
+    const OutputStore* store = live(impl_).outputs.get();
     return store == nullptr ? BufferRange{} : rangeOf(*store, store->layout.labels, store->room.labels);
 }
 

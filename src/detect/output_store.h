@@ -55,8 +55,8 @@ void recordOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, co
 /// Records the copies of the outputs of the batch recorded last to the host. Between the barriers of cmdReadBack().
 void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, const OutputStore& store);
 
-/// From the host's copy.
-void unpackOutputs(const OutputStore& store, BatchAnswer& answer);
+/// From the host's copy. Internal where that holds a pair, triangle or label that the batch does not have.
+[[nodiscard]] Result<void> unpackOutputs(const OutputStore& store, BatchAnswer& answer);
 
 /// The set that VOXTACT_SET_LABELS is bound to.
 [[nodiscard]] VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noexcept;

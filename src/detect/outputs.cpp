@@ -2,6 +2,7 @@
 #include "detect/outputs.h"
 #include "core/output_pair.h"
 #include "gpu/scene_impl.h"
+#include "gpu/submit.h"
 
 namespace voxtact {
 
@@ -21,6 +22,9 @@ Result<void> checkLabelMaps(const ContextImpl& context, const Batch& batch, cons
         if (labels != nullptr && &labels->impl().context != &context) {
             return Error{ErrorCode::InvalidArgument, 0,
                          "batch item " + std::to_string(i) + ": the label map belongs to another Context"};
+        }
+        if (labels != nullptr && !labels->impl().uploaded) {
+            return neverUploaded("batch item " + std::to_string(i) + ": the label map");
         }
     }
     return {};

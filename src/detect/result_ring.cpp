@@ -4,10 +4,22 @@
 
 namespace voxtact {
 
+namespace {
+
+/// More frames than anybody has in flight.
+constexpr std::uint32_t kMostFrames = 4096;
+
+} // namespace
+
 Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t frames, const ResultsDesc& desc) {
     return guard([&]() -> Result<ResultRing> {
         if (frames == 0) {
             return Error{ErrorCode::InvalidArgument, 0, "a ring needs at least one frame"};
+        }
+        if (frames > kMostFrames) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "a ring of " + std::to_string(frames) +
+                             " frames is more than can be in flight: " + std::to_string(kMostFrames) + " at most"};
         }
         ResultRing out;
         for (std::uint32_t i = 0; i < frames; ++i) {
@@ -23,6 +35,9 @@ Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t fram
 
 Result<Results*> ResultRing::begin(std::uint64_t frame) {
     return guard([&]() -> Result<Results*> {
+        if (slots_.empty()) {
+            return Error{ErrorCode::InvalidArgument, 0, "the ring was moved from: it has no frames"};
+        }
         Slot& slot = slots_[frame % slots_.size()];
         if (slot.used && frame < slot.frame) {
             return Error{ErrorCode::InvalidArgument, 0,
@@ -37,6 +52,9 @@ Result<Results*> ResultRing::begin(std::uint64_t frame) {
 
 Result<Results*> ResultRing::find(std::uint64_t frame) {
     return guard([&]() -> Result<Results*> {
+        if (slots_.empty()) {
+            return Error{ErrorCode::InvalidArgument, 0, "the ring was moved from: it has no frames"};
+        }
         Slot& slot = slots_[frame % slots_.size()];
         if (!slot.used || slot.frame < frame) {
             return Error{ErrorCode::NotReady, 0, "frame " + std::to_string(frame) + " was never begun"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "detect/results_impl.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
 
 namespace voxtact {
@@ -47,6 +49,13 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
                          " bytes, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
+    if (desc.timestamps) {
+        constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+        if (Result<void> family = context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily");
+            !family.ok()) {
+            return family;
+        }
+    }
     if (desc.timestamps && context.timestampBits(desc.queueFamily) == 0) {
         return Error{ErrorCode::Unsupported, 0,
                      "queue family " + std::to_string(desc.queueFamily) + " has no timestamps"};
@@ -69,7 +78,8 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
         {out.transforms, VkDeviceSize{out.maxTransforms} * sizeof(shader::PairTransform), kTo, MemoryUse::Device,
          "pair transforms"},
         {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
-        {out.readBack, resultBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "pair results on the host"},
+        {out.readBack, resultBytes + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
+         "pair results on the host"},
     };
     for (const Wanted& each : wanted) {
         if (each.use == MemoryUse::ReadBack && !readBack) {
@@ -81,7 +91,17 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
         }
         each.buffer = std::move(*made);
     }
-    return {};
+    if (!readBack) {
+        return {};
+    }
+    std::memset(static_cast<std::byte*>(out.readBack.mapped) + resultBytes, 0, sizeof out.copies);
+    return flush(out.context, out.readBack);
+}
+
+/// Number of the copy that the host has; 0: none.
+std::uint32_t copyOnHost(const ResultsImpl& results) {
+    auto* at = static_cast<std::byte*>(results.readBack.mapped) + VkDeviceSize{results.maxPairs} * sizeof(PairResult);
+    return std::atomic_ref(*reinterpret_cast<std::uint32_t*>(at)).load(std::memory_order_acquire);
 }
 
 Result<void> makeQueries(ResultsImpl& out) {
@@ -125,6 +145,15 @@ Result<void> checkReadable(const ResultsImpl& results) {
     }
     if (!results.readBackRecorded) {
         return notReady("cmdReadBack() was not recorded after the last cmdDetect()");
+    }
+    if (results.pairs == 0) {
+        return {};
+    }
+    if (Result<void> visible = invalidate(results.context, results.readBack); !visible.ok()) {
+        return visible;
+    }
+    if (copyOnHost(results) != results.copies) {
+        return notReady("the submission with the last cmdReadBack() has not completed");
     }
     return {};
 }
@@ -172,37 +201,50 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
 }
 
 std::uint32_t Results::maxPairs() const noexcept {
-    return impl_->maxPairs;
+    return live(impl_).maxPairs;
 }
 
 std::uint32_t Results::pairs() const noexcept {
-    return impl_->pairs;
+    return live(impl_).pairs;
 }
 
 VkBuffer Results::buffer() const noexcept {
-    return impl_->results.get();
+    return live(impl_).results.get();
 }
 
 Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        ResultsImpl& r = *impl_;
+        ResultsImpl& r = live(impl_);
         if (!r.readBack.buffer) {
             return Error{ErrorCode::InvalidArgument, 0, "the Results were made without readBack"};
+        }
+        if (Result<void> recordable = r.context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        if (!r.detectRecorded) {
+            return notReady("there is nothing to read back: cmdDetect() was not recorded");
         }
         r.readBackRecorded = true;
         if (r.pairs == 0) {
             return {};
         }
+        r.copies = r.copies == UINT32_MAX ? 1 : r.copies + 1;
         const Label label(r.context, commandBuffer, "voxtact read back");
         // An earlier copy into the same memory must be done first.
-        barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
         const VkBufferCopy region{0, 0, VkDeviceSize{r.pairs} * sizeof(PairResult)};
         r.context.vk.CmdCopyBuffer(commandBuffer, r.results.get(), r.readBack.get(), 1, &region);
         if (r.outputs) {
             copyOutputs(r.context, commandBuffer, *r.outputs);
         }
+        // The number comes after everything that it speaks for.
         barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT);
+        r.context.vk.CmdFillBuffer(commandBuffer, r.readBack.get(), VkDeviceSize{r.maxPairs} * sizeof(PairResult),
+                                   sizeof r.copies, r.copies);
+        barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                 VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
         return {};
     });
@@ -210,12 +252,9 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
 
 Result<std::span<const PairResult>> Results::read() {
     return guard([&]() -> Result<std::span<const PairResult>> {
-        const ResultsImpl& r = *impl_;
+        const ResultsImpl& r = live(impl_);
         if (Result<void> readable = checkReadable(r); !readable.ok()) {
             return readable.error();
-        }
-        if (Result<void> visible = invalidate(r.context, r.readBack); !visible.ok()) {
-            return visible.error();
         }
         return std::span(static_cast<const PairResult*>(r.readBack.mapped), r.pairs);
     });
@@ -223,7 +262,7 @@ Result<std::span<const PairResult>> Results::read() {
 
 Result<void> Results::readOutputs(BatchAnswer& answer) {
     return guard([&]() -> Result<void> {
-        const ResultsImpl& r = *impl_;
+        const ResultsImpl& r = live(impl_);
         if (Result<void> readable = checkReadable(r); !readable.ok()) {
             return readable;
         }
@@ -238,19 +277,21 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
         if (Result<void> visible = invalidate(r.context, r.outputs->readBack); !visible.ok()) {
             return visible;
         }
-        unpackOutputs(*r.outputs, answer);
-        return {};
+        return unpackOutputs(*r.outputs, answer);
     });
 }
 
 Result<double> Results::gpuMilliseconds() {
     return guard([&]() -> Result<double> {
-        const ResultsImpl& r = *impl_;
+        const ResultsImpl& r = live(impl_);
         if (Result<void> alive = r.context.alive(); !alive.ok()) {
             return alive.error();
         }
         if (!r.timestamps) {
             return notReady("the Results were made without timestamps");
+        }
+        if (!r.detectRecorded) {
+            return notReady("cmdDetect() was not recorded");
         }
         if (r.pairs == 0) {
             return 0.0;

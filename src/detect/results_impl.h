@@ -2,21 +2,24 @@
 #pragma once
 
 #include "detect/output_store.h"
-#include "gpu/memory.h"
+#include "gpu/context_impl.h"
 #include "voxtact/detector.h"
 
 namespace voxtact {
 
 struct ResultsImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     std::uint32_t maxPairs = 0;
     std::uint32_t pairs = 0;         ///< of the batch recorded last
     std::uint32_t timestampBits = 0; ///< valid bits; 0: no timestamps
+    bool detectRecorded = false;     ///< cmdDetect() was recorded
     bool readBackRecorded = false;   ///< cmdReadBack() came after the last cmdDetect()
+    std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
     Buffer transforms{};             ///< maxTransforms PairTransforms
     Buffer results{};                ///< maxPairs PairResults
-    Buffer readBack{};               ///< the host's copy; empty when not asked for
+    Buffer readBack{};               ///< the host's copy, then the number of it; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};

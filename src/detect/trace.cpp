@@ -17,6 +17,7 @@ namespace voxtact {
 
 struct FragmentTraceImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     Owned<VkDescriptorSetLayout> setLayout{};
     Owned<VkPipelineLayout> layout{};
     std::optional<ViewPass> pass{};

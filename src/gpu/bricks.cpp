@@ -66,8 +66,9 @@ Result<void> makeBricks(VolumeImpl& volume, const char* name) {
     return {};
 }
 
-void cmdBricks(const VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& changed) {
+void cmdBricks(VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& changed) {
     ContextImpl& context = volume.context;
+    volume.bricksFilled = volume.bricksFilled || changed.size == volume.grid.size;
     const DeviceFunctions& vk = context.vk;
     const Label label(context, commandBuffer, "voxtact bricks");
     // Earlier readers of the bricks must be done, earlier writers of the bricks and of the image too.

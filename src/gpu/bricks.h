@@ -13,7 +13,7 @@ namespace voxtact {
 /// Records the brick pass for the bricks that voxels of `changed`, a box in the grid, have a part in. Earlier writes of
 /// the image are waited for; the bricks are then readable by every shader stage. Loses the compute pipeline, the
 /// descriptor sets of the compute bind point and the push constants.
-void cmdBricks(const VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& changed);
+void cmdBricks(VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox& changed);
 
 [[nodiscard]] inline bool isEmpty(const VoxelBox& box) {
     return box.size[0] == 0 || box.size[1] == 0 || box.size[2] == 0;

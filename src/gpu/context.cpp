@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
 #include "gpu/layouts.h"
@@ -201,18 +202,46 @@ void ContextImpl::log(const std::string& text) const noexcept {
     }
 }
 
-std::uint32_t ContextImpl::timestampBits(std::uint32_t family) const {
+std::vector<VkQueueFamilyProperties> ContextImpl::families() const {
     std::uint32_t count = 0;
     vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, families.data());
-    return family < count ? families[family].timestampValidBits : 0;
+    std::vector<VkQueueFamilyProperties> out(count);
+    vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, out.data());
+    return out;
+}
+
+std::uint32_t ContextImpl::timestampBits(std::uint32_t family) const {
+    const std::vector<VkQueueFamilyProperties> all = families();
+    return family < all.size() ? all[family].timestampValidBits : 0;
+}
+
+Result<void> ContextImpl::checkFamily(std::uint32_t family, VkQueueFlags anyOf, const char* what) const {
+    const std::vector<VkQueueFamilyProperties> all = families();
+    if (family >= all.size()) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string(what) + " is " + std::to_string(family) + ", the device has " +
+                         std::to_string(all.size()) + " queue families"};
+    }
+    if ((all[family].queueFlags & anyOf) == 0) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string(what) + " is " + std::to_string(family) + ", a family of queues that " +
+                         ((anyOf & VK_QUEUE_COMPUTE_BIT) != 0 ? "can neither draw nor compute" : "cannot draw")};
+    }
+    return {};
 }
 
 Context::Context(std::unique_ptr<ContextImpl> impl) noexcept : impl_(std::move(impl)) {}
 Context::Context(Context&&) noexcept = default;
-Context& Context::operator=(Context&&) noexcept = default;
-Context::~Context() = default;
+Context& Context::operator=(Context&& other) noexcept {
+    if (this != &other) {
+        ContextImpl::letGo(impl_);
+        impl_ = std::move(other.impl_);
+    }
+    return *this;
+}
+Context::~Context() {
+    ContextImpl::letGo(impl_);
+}
 
 Result<Context> Context::create(const ContextDesc& desc) {
     return guard([&]() -> Result<Context> {
@@ -220,7 +249,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
         if (!report.usable) {
             return refusal(report);
         }
-        auto impl = std::make_unique<ContextImpl>();
+        auto impl = std::make_shared<ContextImpl>();
         impl->instance = desc.instance;
         impl->physicalDevice = desc.physicalDevice;
         impl->device = desc.device;
@@ -241,21 +270,22 @@ Result<Context> Context::create(const ContextDesc& desc) {
         for (const std::string& line : report.missing) {
             impl->log(line);
         }
-        return Context(std::move(impl));
+        return Context(ContextImpl::hold(impl));
     });
 }
 
 std::span<const MethodSupport> Context::methods() const noexcept {
-    return impl_->methods;
+    return live(impl_).methods;
 }
 
 bool Context::supports(CountingMethod method) const noexcept {
-    return std::ranges::any_of(impl_->methods,
+    return std::ranges::any_of(live(impl_).methods,
                                [&](const MethodSupport& entry) { return entry.method == method && entry.available; });
 }
 
 bool Context::supports(CountingMethod method, Projection projection) const noexcept {
-    const bool certified = method == CountingMethod::Compute && missingFloatControl(impl_->floatControls) == nullptr;
+    const bool certified =
+        method == CountingMethod::Compute && missingFloatControl(live(impl_).floatControls) == nullptr;
     return supports(method) && (projection != Projection::Conservative || certified);
 }
 
@@ -269,13 +299,13 @@ CountingMethod Context::defaultMethod() const noexcept {
 }
 
 VkExtent2D Context::maxViewport() const noexcept {
-    const VkPhysicalDeviceLimits& limits = impl_->limits;
+    const VkPhysicalDeviceLimits& limits = live(impl_).limits;
     return {std::min(limits.maxViewportDimensions[0], limits.maxFramebufferWidth),
             std::min(limits.maxViewportDimensions[1], limits.maxFramebufferHeight)};
 }
 
 bool Context::deviceLost() const noexcept {
-    return impl_->lost.load();
+    return live(impl_).lost.load();
 }
 
 } // namespace voxtact

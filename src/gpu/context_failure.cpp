@@ -19,6 +19,13 @@ Error ContextImpl::failure(VkResult result, const char* what) noexcept {
     }
 }
 
+Result<void> ContextImpl::recordable(VkCommandBuffer commandBuffer) const {
+    if (commandBuffer == VK_NULL_HANDLE) {
+        return Error{ErrorCode::InvalidArgument, 0, "the command buffer is null"};
+    }
+    return alive();
+}
+
 void ContextImpl::giveUp(VkResult result) noexcept {
     givenUp.store(true);
     lost.store(true);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/shared_impl.h"
 #include "gpu/device_functions.h"
 #include "gpu/memory.h"
 #include "gpu/requirements.h"
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <mutex>
 
 namespace voxtact {
@@ -19,7 +21,7 @@ enum class SetIndex : std::uint32_t { Volume = 0, TransferFunction = 1, Pairs = 
 inline constexpr std::uint32_t kOutputSets = 5;
 inline constexpr std::uint32_t kOutputStorageBuffers = 8;
 
-struct ContextImpl {
+struct ContextImpl : SharedImpl<ContextImpl> {
     DeviceFunctions vk;
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
@@ -71,9 +73,16 @@ struct ContextImpl {
     void giveUp(VkResult result) noexcept;
     /// Success, or the sticky error of a lost device.
     [[nodiscard]] Result<void> alive() const;
+    /// The same, and the refusal of a null command buffer, before anything is recorded.
+    [[nodiscard]] Result<void> recordable(VkCommandBuffer commandBuffer) const;
     void log(const std::string& text) const noexcept;
     /// The family's timestamps have this many valid bits; 0: it has none.
     [[nodiscard]] std::uint32_t timestampBits(std::uint32_t family) const;
+    /// Refuses a queue family that the device does not have, or that has none of `anyOf`. `what` begins the text.
+    [[nodiscard]] Result<void> checkFamily(std::uint32_t family, VkQueueFlags anyOf, const char* what) const;
+
+  private:
+    [[nodiscard]] std::vector<VkQueueFamilyProperties> families() const;
 };
 
 } // namespace voxtact

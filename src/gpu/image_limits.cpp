@@ -5,8 +5,7 @@
 
 namespace voxtact {
 
-Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage,
-                              std::size_t bytesOfVoxel, const std::string& what) {
+Result<void> checkSides(const ContextImpl& context, const Grid& grid, const std::string& what) {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (grid.size[axis] > context.limits.maxImageDimension3D) {
@@ -15,6 +14,25 @@ Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat f
                              ", the device's maxImageDimension3D is " +
                              std::to_string(context.limits.maxImageDimension3D)};
         }
+    }
+    return {};
+}
+
+Result<void> checkSampledLayout(VkImageLayout layout, const char* what) {
+    if (layout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL || layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL ||
+        layout == VK_IMAGE_LAYOUT_GENERAL) {
+        return {};
+    }
+    return Error{ErrorCode::InvalidArgument, 0,
+                 std::string(what) + " (VkImageLayout " + std::to_string(static_cast<std::int64_t>(layout)) +
+                     ") is none in which an image of scalars can be sampled: SHADER_READ_ONLY_OPTIMAL, "
+                     "READ_ONLY_OPTIMAL and GENERAL"};
+}
+
+Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage,
+                              std::size_t bytesOfVoxel, const std::string& what) {
+    if (Result<void> sides = checkSides(context, grid, what); !sides.ok()) {
+        return sides;
     }
     VkImageFormatProperties properties{};
     const VkResult result = context.vk.GetPhysicalDeviceImageFormatProperties(

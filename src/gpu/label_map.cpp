@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "core/output_pair.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -92,26 +93,30 @@ Result<LabelMap> LabelMap::upload(const Context& context, const QueueAccess& que
 
 Result<void> LabelMap::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!impl_->staging.buffer) {
+        if (!live(impl_).staging.buffer) {
             return notUploadable("label map");
         }
-        const Label label(impl_->context, commandBuffer, "voxtact label map upload");
-        cmdFillImage(impl_->context, commandBuffer, impl_->staging.get(), impl_->image.image.get(),
-                     extentOf(impl_->grid));
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Label label(live(impl_).context, commandBuffer, "voxtact label map upload");
+        cmdFillImage(live(impl_).context, commandBuffer, live(impl_).staging.get(), live(impl_).image.image.get(),
+                     extentOf(live(impl_).grid));
+        live(impl_).uploaded = true;
         return {};
     });
 }
 
 void LabelMap::releaseStaging() noexcept {
-    impl_->staging = {};
+    live(impl_).staging = {};
 }
 
 const Grid& LabelMap::grid() const noexcept {
-    return impl_->grid;
+    return live(impl_).grid;
 }
 
 std::span<const std::int32_t> LabelMap::values() const noexcept {
-    return *impl_->values;
+    return *live(impl_).values;
 }
 
 } // namespace voxtact

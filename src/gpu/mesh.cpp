@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/clusters.h"
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
@@ -173,10 +174,14 @@ Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const Me
 
 Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
     return guard([&]() -> Result<Mesh> {
+        if (Result<void> alive = context.impl().alive(); !alive.ok()) {
+            return alive.error();
+        }
         if (Result<void> checked = checkWrapped(wrapped); !checked.ok()) {
             return checked.error();
         }
         auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = context.impl()});
+        impl->uploaded = true;
         impl->vertices = wrapped.vertices;
         impl->vertexOffset = wrapped.vertexOffset;
         impl->vertexStride = wrapped.vertexStride;
@@ -200,25 +205,29 @@ Result<Mesh> Mesh::upload(const Context& context, const QueueAccess& queue, cons
 
 Result<void> Mesh::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!impl_->staging.buffer) {
+        if (!live(impl_).staging.buffer) {
             return notUploadable("mesh");
         }
-        const Label label(impl_->context, commandBuffer, "voxtact mesh upload");
-        cmdFillBuffer(impl_->context, commandBuffer, impl_->staging, impl_->buffer);
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Label label(live(impl_).context, commandBuffer, "voxtact mesh upload");
+        cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
+        live(impl_).uploaded = true;
         return {};
     });
 }
 
 void Mesh::releaseStaging() noexcept {
-    impl_->staging = {};
+    live(impl_).staging = {};
 }
 
 std::uint32_t Mesh::triangles() const noexcept {
-    return impl_->triangleCount;
+    return live(impl_).triangleCount;
 }
 
 std::optional<MeshFacts> Mesh::facts() const noexcept {
-    return impl_->facts;
+    return live(impl_).facts;
 }
 
 } // namespace voxtact

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "gpu/memory.h"
+#include "gpu/context_impl.h"
 #include "voxtact/scene.h"
 
 #include <vector>
@@ -10,6 +10,7 @@ namespace voxtact {
 
 struct VolumeImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     Grid grid{};
     Mat4 texture_from_world{};
     ScalarType type = ScalarType::UInt8; ///< of what was uploaded
@@ -25,16 +26,20 @@ struct VolumeImpl {
     VkImageView view = VK_NULL_HANDLE;
     Buffer bricks{}; ///< vec4(lo, hi, wideLo, wideHi) of stored values for each brick, x fastest; empty without
     std::array<std::int32_t, 3> brickCount{}; ///< zero without bricks
+    bool bricksFilled = false;                ///< recorded, of the whole grid
+    bool uploaded = false;                    ///< recorded, or the caller's own
     DescriptorSet descriptors{};              ///< VOXTACT_SET_VOLUME: the image, the bricks
 };
 
 struct TransferFunctionImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     ValueRange domain{};
     std::vector<float> table{};  ///< the host's copy; empty for a wrapped one without
     Image image{};               ///< empty when wrapped
     Buffer extremes{};           ///< TableExtremes::values(), which begin with the table; empty without a host's table
     Buffer staging{};            ///< the same
+    bool uploaded = false;       ///< recorded, or the caller's own
     DescriptorSet descriptors{}; ///< VOXTACT_SET_TRANSFER_FUNCTION: the table, its extremes
 
     [[nodiscard]] bool hasExtremes() const noexcept { return static_cast<bool>(extremes.buffer); }
@@ -42,6 +47,7 @@ struct TransferFunctionImpl {
 
 struct MeshImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     VkBuffer vertices = VK_NULL_HANDLE;
     VkDeviceSize vertexOffset = 0;
     VkDeviceSize vertexStride = 12;
@@ -56,6 +62,7 @@ struct MeshImpl {
     std::uint32_t clusterCount = 0; ///< 0: none on the device
     std::uint32_t clusterWord = 0;
     Buffer staging{};
+    bool uploaded = false; ///< recorded, or the caller's own
 };
 
 /// The format of a label map: numbers of labels.
@@ -63,10 +70,12 @@ inline constexpr VkFormat kLabelFormat = VK_FORMAT_R16_UINT;
 
 struct LabelMapImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     Grid grid{};
     std::shared_ptr<const std::vector<std::int32_t>> values{}; ///< shared with the Results that are still to be read
     Image image{};
     Buffer staging{};
+    bool uploaded = false; ///< recorded
     DescriptorSet descriptors{};
 };
 

@@ -11,7 +11,7 @@ constexpr int kLastTries = 8;
 
 } // namespace
 
-Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& queue) {
+Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& queue, VkQueueFlags anyOf) {
     if (Result<void> alive = context.alive(); !alive.ok()) {
         return alive.error();
     }
@@ -20,6 +20,9 @@ Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& que
     }
     if ((queue.lock == nullptr) != (queue.unlock == nullptr)) {
         return Error{ErrorCode::InvalidArgument, 0, "QueueAccess has only one of lock and unlock"};
+    }
+    if (Result<void> family = context.checkFamily(queue.family, anyOf, "QueueAccess::family"); !family.ok()) {
+        return family.error();
     }
     Submitter out(context, queue);
     VkCommandPoolCreateInfo poolInfo{};

@@ -10,7 +10,9 @@ namespace voxtact {
 /// An object that owns one has it as its last member: what a submission uses then ends after the wait for it.
 class Submitter {
   public:
-    [[nodiscard]] static Result<Submitter> create(ContextImpl& context, const QueueAccess& queue);
+    /// Refuses a queue whose family has none of `anyOf`.
+    [[nodiscard]] static Result<Submitter> create(ContextImpl& context, const QueueAccess& queue,
+                                                  VkQueueFlags anyOf = VK_QUEUE_GRAPHICS_BIT);
     Submitter(Submitter&& other) noexcept;
     Submitter& operator=(Submitter&&) = delete;
     /// Waits for what is in flight. Where even that fails, the context is given up: ContextImpl::giveUp().
@@ -47,7 +49,7 @@ class Submitter {
 /// One upload(): records `object.cmdUpload()`, submits, waits, and frees the staging buffer.
 template <class Object>
 [[nodiscard]] Result<void> uploadNow(ContextImpl& context, const QueueAccess& queue, Object& object) {
-    Result<Submitter> submitter = Submitter::create(context, queue);
+    Result<Submitter> submitter = Submitter::create(context, queue, VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT);
     if (!submitter.ok()) {
         return submitter.error();
     }
@@ -74,6 +76,11 @@ template <class Object>
         }
     }
     return created;
+}
+
+/// What the users of an object say whose cmdUpload() was not recorded. `what` begins the text ("the volume").
+[[nodiscard]] inline Error neverUploaded(const std::string& what) {
+    return {ErrorCode::NotReady, 0, what + " was never uploaded: record its cmdUpload() first"};
 }
 
 /// What cmdUpload() says when there is nothing to upload from.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/domain.h"
 #include "core/guard.h"
+#include "core/live.h"
 #include "core/table_extremes.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
+#include "gpu/image_limits.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 #include "shared.h"
@@ -110,7 +112,8 @@ void cmdBeginFilling(const TransferFunctionImpl& function, VkCommandBuffer comma
 }
 
 /// Takes the table from the extremes' first level, and leaves both readable.
-void cmdFilled(const TransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
+void cmdFilled(TransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
+    function.uploaded = true;
     barrier(function.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT);
     cmdFillImage(function.context, commandBuffer, function.extremes.get(), function.image.image.get(),
@@ -161,8 +164,14 @@ Result<TransferFunction> TransferFunction::create(const Context& context, const 
 
 Result<TransferFunction> TransferFunction::wrap(const Context& context, const WrappedTransferFunction& wrapped) {
     return guard([&]() -> Result<TransferFunction> {
+        if (Result<void> alive = context.impl().alive(); !alive.ok()) {
+            return alive.error();
+        }
         if (wrapped.view == VK_NULL_HANDLE) {
             return Error{ErrorCode::InvalidArgument, 0, "WrappedTransferFunction::view is null"};
+        }
+        if (Result<void> layout = checkSampledLayout(wrapped.layout, "WrappedTransferFunction::layout"); !layout.ok()) {
+            return layout.error();
         }
         if (Result<void> domain = checkDomain(wrapped.domain, "WrappedTransferFunction::domain"); !domain.ok()) {
             return domain.error();
@@ -171,6 +180,7 @@ Result<TransferFunction> TransferFunction::wrap(const Context& context, const Wr
             TransferFunctionImpl{.context = context.impl(),
                                  .domain = wrapped.domain,
                                  .table = std::vector<float>(wrapped.table.begin(), wrapped.table.end())});
+        impl->uploaded = true;
         if (!impl->table.empty()) {
             if (Result<void> made = makeExtremes(*impl, TableExtremes(impl->table), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                                  MemoryUse::Upload, "wrapped transfer function", impl->extremes);
@@ -193,48 +203,56 @@ Result<TransferFunction> TransferFunction::upload(const Context& context, const 
 
 Result<void> TransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!impl_->staging.buffer) {
+        if (!live(impl_).staging.buffer) {
             return notUploadable("transfer function");
         }
-        const Label label(impl_->context, commandBuffer, "voxtact transfer function upload");
-        cmdBeginFilling(*impl_, commandBuffer);
-        const VkBufferCopy whole{0, 0, impl_->extremes.size};
-        impl_->context.vk.CmdCopyBuffer(commandBuffer, impl_->staging.get(), impl_->extremes.get(), 1, &whole);
-        cmdFilled(*impl_, commandBuffer);
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Label label(live(impl_).context, commandBuffer, "voxtact transfer function upload");
+        cmdBeginFilling(live(impl_), commandBuffer);
+        const VkBufferCopy whole{0, 0, live(impl_).extremes.size};
+        live(impl_).context.vk.CmdCopyBuffer(commandBuffer, live(impl_).staging.get(), live(impl_).extremes.get(), 1,
+                                             &whole);
+        cmdFilled(live(impl_), commandBuffer);
         return {};
     });
 }
 
 Result<void> TransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<void> {
-        if (Result<void> checked = checkUpdate(*impl_, desc); !checked.ok()) {
+        if (Result<void> checked = checkUpdate(live(impl_), desc); !checked.ok()) {
             return checked;
+        }
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
         }
         Result<std::vector<float>> table = sampleTable(desc);
         if (!table.ok()) {
             return table.error();
         }
         const TableExtremes extremes(*table);
-        const Label label(impl_->context, commandBuffer, "voxtact transfer function update");
-        cmdBeginFilling(*impl_, commandBuffer);
-        cmdUpdateBuffer(impl_->context, commandBuffer, impl_->extremes.get(), 0, std::as_bytes(extremes.values()));
-        cmdFilled(*impl_, commandBuffer);
-        impl_->domain = desc.domain;
-        impl_->table = std::move(*table);
+        const Label label(live(impl_).context, commandBuffer, "voxtact transfer function update");
+        cmdBeginFilling(live(impl_), commandBuffer);
+        cmdUpdateBuffer(live(impl_).context, commandBuffer, live(impl_).extremes.get(), 0,
+                        std::as_bytes(extremes.values()));
+        cmdFilled(live(impl_), commandBuffer);
+        live(impl_).domain = desc.domain;
+        live(impl_).table = std::move(*table);
         return {};
     });
 }
 
 void TransferFunction::releaseStaging() noexcept {
-    impl_->staging = {};
+    live(impl_).staging = {};
 }
 
 ValueRange TransferFunction::domain() const noexcept {
-    return impl_->domain;
+    return live(impl_).domain;
 }
 
 std::uint32_t TransferFunction::tableSize() const noexcept {
-    return static_cast<std::uint32_t>(impl_->table.size());
+    return static_cast<std::uint32_t>(live(impl_).table.size());
 }
 
 } // namespace voxtact

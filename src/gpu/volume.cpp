@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/boundary.h"
+#include "core/enum_check.h"
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"
@@ -152,7 +154,7 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const Volume
     return describe(volume, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, name);
 }
 
-Result<void> checkWrapped(const WrappedVolume& wrapped) {
+Result<void> checkWrapped(const ContextImpl& context, const WrappedVolume& wrapped) {
     if (wrapped.view == VK_NULL_HANDLE) {
         return Error{ErrorCode::InvalidArgument, 0, "WrappedVolume::view is null"};
     }
@@ -165,7 +167,13 @@ Result<void> checkWrapped(const WrappedVolume& wrapped) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "WrappedVolume::slope and intercept must be finite, the slope not zero"};
     }
-    return checkGrid(wrapped.grid);
+    if (Result<void> layout = checkSampledLayout(wrapped.layout, "WrappedVolume::layout"); !layout.ok()) {
+        return layout;
+    }
+    if (Result<void> grid = checkGrid(wrapped.grid); !grid.ok()) {
+        return grid;
+    }
+    return checkSides(context, wrapped.grid, "WrappedVolume::grid");
 }
 
 } // namespace
@@ -180,6 +188,9 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         ContextImpl& c = context.impl();
         if (Result<void> alive = c.alive(); !alive.ok()) {
             return alive.error();
+        }
+        if (Result<void> type = checkScalarType(data.type); !type.ok()) {
+            return type.error();
         }
         const Result<Mat4> texture_from_world = textureFromWorld(data.grid);
         if (!texture_from_world.ok()) {
@@ -214,7 +225,10 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
 Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped) {
     return guard([&]() -> Result<Volume> {
         ContextImpl& c = context.impl();
-        if (Result<void> checked = checkWrapped(wrapped); !checked.ok()) {
+        if (Result<void> alive = c.alive(); !alive.ok()) {
+            return alive.error();
+        }
+        if (Result<void> checked = checkWrapped(c, wrapped); !checked.ok()) {
             return checked.error();
         }
         if (Result<void> format = checkFormat(c, wrapped.format, "the caller's"); !format.ok()) {
@@ -230,6 +244,7 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
             impl->boundary = {*wrapped.boundaryValues};
         }
         impl->view = wrapped.view;
+        impl->uploaded = true;
         if (wrapped.bricks) {
             if (Result<void> made = makeBricks(*impl, "wrapped volume"); !made.ok()) {
                 return made.error();
@@ -249,53 +264,63 @@ Result<Volume> Volume::upload(const Context& context, const QueueAccess& queue, 
 
 Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!impl_->staging.buffer) {
+        if (!live(impl_).staging.buffer) {
             return notUploadable("volume");
         }
-        const Label label(impl_->context, commandBuffer, "voxtact volume upload");
-        cmdFillImage(impl_->context, commandBuffer, impl_->staging.get(), impl_->image.image.get(),
-                     extentOf(impl_->grid));
-        if (impl_->bricks.buffer) {
-            cmdBricks(*impl_, commandBuffer, wholeBox(impl_->grid));
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
         }
+        const Label label(live(impl_).context, commandBuffer, "voxtact volume upload");
+        cmdFillImage(live(impl_).context, commandBuffer, live(impl_).staging.get(), live(impl_).image.image.get(),
+                     extentOf(live(impl_).grid));
+        if (live(impl_).bricks.buffer) {
+            cmdBricks(live(impl_), commandBuffer, wholeBox(live(impl_).grid));
+        }
+        live(impl_).uploaded = true;
         return {};
     });
 }
 
 Result<void> Volume::cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed) {
     return guard([&]() -> Result<void> {
-        if (!impl_->bricks.buffer) {
+        if (!live(impl_).bricks.buffer) {
             return Error{ErrorCode::InvalidArgument, 0, "the volume has no bricks"};
         }
-        const Result<VoxelBox> box = voxelBounds(changed, impl_->grid);
+        if (!live(impl_).uploaded) {
+            return neverUploaded("the volume");
+        }
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Result<VoxelBox> box = voxelBounds(changed, live(impl_).grid);
         if (!box.ok()) {
             return box.error();
         }
         if (!isEmpty(*box)) {
-            cmdBricks(*impl_, commandBuffer, *box);
+            cmdBricks(live(impl_), commandBuffer, *box);
         }
         return {};
     });
 }
 
 void Volume::releaseStaging() noexcept {
-    impl_->staging = {};
+    live(impl_).staging = {};
 }
 
 const Grid& Volume::grid() const noexcept {
-    return impl_->grid;
+    return live(impl_).grid;
 }
 
 std::optional<ValueRange> Volume::valueRange() const noexcept {
-    return impl_->valueRange;
+    return live(impl_).valueRange;
 }
 
 VkImageView Volume::view() const noexcept {
-    return impl_->view;
+    return live(impl_).view;
 }
 
 VkFormat Volume::format() const noexcept {
-    return impl_->format;
+    return live(impl_).format;
 }
 
 } // namespace voxtact

@@ -2,16 +2,16 @@
 // Edits of a volume in place: through a scratch buffer of one slice, or from a buffer of the caller's.
 #include "core/edit_rows.h"
 #include "core/guard.h"
-#include "core/text.h"
+#include "core/live.h"
+#include "core/voxel_value.h"
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"
+#include "gpu/submit.h"
 #include "gpu/texels.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 namespace voxtact {
 
@@ -27,45 +27,28 @@ Error refuse(std::string text) {
     return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
 }
 
-Result<void> checkEditable(const VolumeImpl& volume) {
-    if (volume.editScratch.buffer) {
-        return {};
+Result<void> checkEditable(const VolumeImpl& volume, VkCommandBuffer commandBuffer) {
+    if (!volume.editScratch.buffer) {
+        return refuse(volume.image.image ? "the volume was made without VolumeOptions::editable"
+                                         : "the volume is wrapped: its voxels are the caller's");
     }
-    return refuse(volume.image.image ? "the volume was made without VolumeOptions::editable"
-                                     : "the volume is wrapped: its voxels are the caller's");
+    if (!volume.uploaded) {
+        return neverUploaded("the volume");
+    }
+    return volume.context.recordable(commandBuffer);
 }
 
-/// The bits of a value in a texel, as often as they fit 32 bits.
-template <class Scalar> Result<std::uint32_t> wordOf(double value, ScalarType type) {
-    // NaN and whatever is out of range fail the comparisons, before a conversion that would not be defined.
-    const bool inRange = value >= static_cast<double>(std::numeric_limits<Scalar>::lowest()) &&
-                         value <= static_cast<double>(std::numeric_limits<Scalar>::max());
-    if (!inRange || static_cast<double>(static_cast<Scalar>(value)) != value) {
-        return refuse("the value " + number(value) + " is not one that a voxel of type " + toString(type) +
-                      " can have");
-    }
-    const auto voxel = static_cast<Scalar>(value);
+/// The texel of a voxel, as often as it fits 32 bits.
+std::uint32_t wordOf(const VoxelBytes& voxel, ScalarType type) {
+    VoxelBytes texel{};
+    fillTexels(type, voxel, texel.data());
     std::array<std::byte, kWord> word{};
-    for (std::size_t at = 0; at < word.size(); at += sizeof voxel) {
-        fillTexels(type, std::as_bytes(std::span(&voxel, 1)), word.data() + at);
+    for (std::size_t at = 0; at < word.size(); ++at) {
+        word[at] = texel[at % bytesPerVoxel(type)];
     }
     std::uint32_t bits = 0;
     std::memcpy(&bits, word.data(), sizeof bits);
     return bits;
-}
-
-Result<std::uint32_t> wordOf(double value, ScalarType type) {
-    switch (type) {
-    case ScalarType::UInt8:
-        return wordOf<std::uint8_t>(value, type);
-    case ScalarType::Int16:
-        return wordOf<std::int16_t>(value, type);
-    case ScalarType::UInt16:
-        return wordOf<std::uint16_t>(value, type);
-    case ScalarType::Float32:
-        break;
-    }
-    return wordOf<float>(value, type);
 }
 
 VkBufferImageCopy copyOf(const VoxelBox& box, VkDeviceSize offset) {
@@ -195,12 +178,6 @@ void set(VolumeImpl& volume, Edit& edit, const std::vector<VoxelRow>& rows, std:
     edit.flushCopiesFromScratch();
 }
 
-Result<ValueRange> checkVoxels(const VolumeImpl& volume, const VoxelBox& box, std::span<const std::byte> voxels) {
-    Grid grid;
-    grid.size = box.size;
-    return checkVolume({grid, volume.type, voxels});
-}
-
 /// Writes as many slices at once as the scratch buffer holds.
 void write(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::span<const std::byte> voxels) {
     const auto slice = static_cast<std::size_t>(bytesOf(volume, VkDeviceSize{box.size[0]} * box.size[1]));
@@ -218,47 +195,49 @@ void write(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::span<const 
 
 Result<void> Volume::cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value) {
     return guard([&]() -> Result<void> {
-        VolumeImpl& volume = *impl_;
-        if (Result<void> editable = checkEditable(volume); !editable.ok()) {
+        VolumeImpl& volume = live(impl_);
+        if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
             return editable;
         }
         const Result<VoxelBox> bounds = voxelBounds(region, volume.grid);
         if (!bounds.ok()) {
             return bounds.error();
         }
-        const Result<std::uint32_t> word = wordOf(value, volume.type);
-        if (!word.ok()) {
-            return word.error();
+        const Result<VoxelBytes> voxel = voxelOf(volume.type, value);
+        if (!voxel.ok()) {
+            return voxel.error();
         }
         if (isEmpty(*bounds)) {
             return {};
         }
+        const std::uint32_t word = wordOf(*voxel, volume.type);
+        const double held = valueOf(volume.type, *voxel);
         Edit edit(volume, commandBuffer, *bounds);
         if (std::holds_alternative<VoxelBox>(region)) {
-            set(volume, edit, *bounds, *word);
+            set(volume, edit, *bounds, word);
         } else {
-            set(volume, edit, voxelRows(region, volume.grid), *word);
+            set(volume, edit, voxelRows(region, volume.grid), word);
         }
-        edit.finish(ValueRange{value, value});
+        edit.finish(ValueRange{held, held});
         return {};
     });
 }
 
 Result<void> Volume::cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box, std::span<const std::byte> voxels) {
     return guard([&]() -> Result<void> {
-        VolumeImpl& volume = *impl_;
-        if (Result<void> editable = checkEditable(volume); !editable.ok()) {
+        VolumeImpl& volume = live(impl_);
+        if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
             return editable;
         }
         if (const Result<VoxelBox> bounds = voxelBounds(box, volume.grid); !bounds.ok()) {
             return bounds.error();
         }
-        if (isEmpty(box) && voxels.empty()) {
-            return {};
-        }
-        const Result<ValueRange> values = checkVoxels(volume, box, voxels);
+        const Result<ValueRange> values = checkVoxels(volume.type, box, voxels);
         if (!values.ok()) {
             return values.error();
+        }
+        if (isEmpty(box)) {
+            return {};
         }
         Edit edit(volume, commandBuffer, box);
         write(volume, edit, box, voxels);
@@ -269,8 +248,8 @@ Result<void> Volume::cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box
 
 Result<void> Volume::cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box, VkBuffer source, VkDeviceSize offset) {
     return guard([&]() -> Result<void> {
-        VolumeImpl& volume = *impl_;
-        if (Result<void> editable = checkEditable(volume); !editable.ok()) {
+        VolumeImpl& volume = live(impl_);
+        if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
             return editable;
         }
         if (const Result<VoxelBox> bounds = voxelBounds(box, volume.grid); !bounds.ok()) {

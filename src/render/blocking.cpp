@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/barriers.h"
 #include "gpu/submit.h"
 #include "render/render_impl.h"
@@ -107,7 +108,7 @@ Result<BlockingRenderer> BlockingRenderer::create(const Context& context, const 
 
 Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent) {
     return guard([&]() -> Result<Picture> {
-        State& state = *state_;
+        State& state = live(state_);
         // First of all: a submission whose wait failed may still be using the frame.
         const Result<VkCommandBuffer> commandBuffer = state.submitter.begin();
         if (!commandBuffer.ok()) {
@@ -139,7 +140,7 @@ Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent) 
 }
 
 const Renderer& BlockingRenderer::renderer() const noexcept {
-    return state_->renderer;
+    return live(state_).renderer;
 }
 
 } // namespace voxtact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -85,17 +86,21 @@ Result<MeshNormals> MeshNormals::upload(const Renderer& renderer, const QueueAcc
 
 Result<void> MeshNormals::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!impl_->staging.buffer) {
+        if (!live(impl_).staging.buffer) {
             return notUploadable("normals");
         }
-        const Label label(impl_->context, commandBuffer, "voxtact normals upload");
-        cmdFillBuffer(impl_->context, commandBuffer, impl_->staging, impl_->buffer);
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Label label(live(impl_).context, commandBuffer, "voxtact normals upload");
+        cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
+        live(impl_).uploaded = true;
         return {};
     });
 }
 
 void MeshNormals::releaseStaging() noexcept {
-    impl_->staging = {};
+    live(impl_).staging = {};
 }
 
 } // namespace voxtact

@@ -63,6 +63,10 @@ Result<void> checkPaint(const ContextImpl& context, const Scene& scene) {
     if (paint.what == Paint::Plain) {
         return {};
     }
+    if (paint.what > Paint::Triangles) {
+        return refuse("Scene::paint: there is no paint number " +
+                      std::to_string(static_cast<std::uint32_t>(paint.what)));
+    }
     if (scene.mesh == nullptr) {
         return refuse("Scene::paint is given without a mesh");
     }

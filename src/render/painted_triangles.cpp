@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -126,23 +127,28 @@ Result<PaintedTriangles> PaintedTriangles::wrap(const Renderer& renderer, const 
         if (Result<void> made = describe(*impl, renderer.impl(), mask); !made.ok()) {
             return made.error();
         }
+        impl->uploaded = true;
         return PaintedTriangles(std::move(impl));
     });
 }
 
 Result<void> PaintedTriangles::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!impl_->staging.buffer) {
+        if (!live(impl_).staging.buffer) {
             return notUploadable("painted triangles");
         }
-        const Label label(impl_->context, commandBuffer, "voxtact painted triangles upload");
-        cmdFillBuffer(impl_->context, commandBuffer, impl_->staging, impl_->buffer);
+        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Label label(live(impl_).context, commandBuffer, "voxtact painted triangles upload");
+        cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
+        live(impl_).uploaded = true;
         return {};
     });
 }
 
 void PaintedTriangles::releaseStaging() noexcept {
-    impl_->staging = {};
+    live(impl_).staging = {};
 }
 
 } // namespace voxtact

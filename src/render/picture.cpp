@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
+#include "gpu/submit.h"
 #include "render/render_impl.h"
 
 namespace voxtact {
@@ -41,6 +43,33 @@ Result<void> checkMeshParts(const ContextImpl& context, const Scene& scene) {
     return {};
 }
 
+/// Of a scene whose parts belong together.
+Result<void> checkAllUploaded(const Scene& scene) {
+    const MeshPaint& paint = scene.paint;
+    const bool byTriangles = paint.what == Paint::Triangles;
+    const bool byFunction = paint.what == Paint::Contacts || paint.what == Paint::Discarded;
+    struct Part {
+        bool uploaded;
+        const char* what;
+    };
+    for (const Part& part :
+         {Part{scene.volume->impl().uploaded, "Scene::volume"},
+          Part{scene.transferFunction->impl().uploaded, "Scene::transferFunction"},
+          Part{scene.mesh == nullptr || scene.mesh->impl().uploaded, "Scene::mesh"},
+          Part{scene.normals == nullptr || scene.normals->impl().uploaded, "Scene::normals"},
+          Part{!byTriangles || paint.triangles->impl().uploaded, "Scene::paint.triangles"},
+          Part{!byFunction || paint.transferFunction->impl().uploaded, "Scene::paint.transferFunction"}}) {
+        if (!part.uploaded) {
+            return neverUploaded(part.what);
+        }
+    }
+    if (scene.bricks != nullptr && !scene.volume->impl().bricksFilled) {
+        return Error{ErrorCode::NotReady, 0,
+                     "Scene::bricks were never filled: record Volume::cmdUpdateBricks() of the whole grid first"};
+    }
+    return {};
+}
+
 Result<void> checkScene(const ContextImpl& context, const Scene& scene) {
     if (scene.volume == nullptr || scene.transferFunction == nullptr) {
         return refuse("Scene::volume or transferFunction is null");
@@ -54,7 +83,10 @@ Result<void> checkScene(const ContextImpl& context, const Scene& scene) {
     if (Result<void> checked = checkMeshParts(context, scene); !checked.ok()) {
         return checked;
     }
-    return checkPaint(context, scene);
+    if (Result<void> checked = checkPaint(context, scene); !checked.ok()) {
+        return checked;
+    }
+    return checkAllUploaded(scene);
 }
 
 Result<void> checkTarget(const ContextImpl& context, const Target& target) {
@@ -228,9 +260,9 @@ void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, c
 
 Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const {
     return guard([&]() -> Result<void> {
-        ContextImpl& context = impl_->context;
-        if (Result<void> alive = context.alive(); !alive.ok()) {
-            return alive;
+        ContextImpl& context = live(impl_).context;
+        if (Result<void> recordable = context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
         }
         if (Result<void> checked = checkScene(context, scene); !checked.ok()) {
             return checked;
@@ -245,11 +277,11 @@ Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& sce
         const Label label(context, commandBuffer, "voxtact picture");
         writeTimestamp(context, commandBuffer, target, 0);
         cmdConstants(target.targets->impl(), commandBuffer, setup->constants);
-        bindMeshSets(*impl_, commandBuffer, scene, setup->paintedBy, target);
-        cmdMeshPass(*impl_, commandBuffer, scene, *setup, target);
+        bindMeshSets(live(impl_), commandBuffer, scene, setup->paintedBy, target);
+        cmdMeshPass(live(impl_), commandBuffer, scene, *setup, target);
         writeTimestamp(context, commandBuffer, target, 1);
-        bindVolumeSets(*impl_, commandBuffer, scene, target);
-        cmdVolumePass(*impl_, commandBuffer, target);
+        bindVolumeSets(live(impl_), commandBuffer, scene, target);
+        cmdVolumePass(live(impl_), commandBuffer, target);
         writeTimestamp(context, commandBuffer, target, 2);
         return {};
     });

@@ -18,8 +18,11 @@ inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
 enum class PaintBy : std::uint32_t { Nobody, Fragments, Triangles };
 inline constexpr std::size_t kPaintBys = 3;
 
-struct RendererImpl {
+struct RendererImpl : SharedImpl<RendererImpl> {
+    RendererImpl(ContextImpl& c, const RendererDesc& d) : context(c), desc(d) {}
+
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     RendererDesc desc{};
     Owned<VkDescriptorSetLayout> makingLayout{};   ///< of the table's pass
     Owned<VkDescriptorSetLayout> functionLayout{}; ///< PICTURE_SET_FUNCTION
@@ -37,6 +40,7 @@ struct RendererImpl {
 
 struct RenderTransferFunctionImpl {
     const RendererImpl& renderer;
+    std::shared_ptr<const RendererImpl> owner = renderer.shared_from_this();
     ValueRange domain{};
     double step = 0;
     std::vector<float> table{};     ///< the opacities
@@ -46,10 +50,12 @@ struct RenderTransferFunctionImpl {
     Buffer extremes{};
     DescriptorSet making{};
     DescriptorSet reading{};
+    bool uploaded = false; ///< recorded
 };
 
 struct RenderTargetsImpl {
     const RendererImpl& renderer;
+    std::shared_ptr<const RendererImpl> owner = renderer.shared_from_this();
     VkExtent2D extent{};
     Image colour{};
     Image distance{};
@@ -60,22 +66,27 @@ struct RenderTargetsImpl {
 
 struct MeshNormalsImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     std::uint32_t vertices = 0;
     Buffer buffer{};
     Buffer staging{};
+    bool uploaded = false; ///< recorded
 };
 
 struct RenderBricksImpl {
     const RendererImpl& renderer;
+    std::shared_ptr<const RendererImpl> owner = renderer.shared_from_this();
     const VolumeImpl* volume = nullptr;
     DescriptorSet descriptors{};
 };
 
 struct PaintedTrianglesImpl {
     ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     std::uint64_t room = 0; ///< triangles that there are bits for
     Buffer buffer{};        ///< empty when wrapped
     Buffer staging{};
+    bool uploaded = false; ///< recorded, or the caller's own
     DescriptorSet descriptors{};
 };
 

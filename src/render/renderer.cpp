@@ -159,8 +159,16 @@ Result<void> makeNoBricks(RendererImpl& renderer) {
 
 Renderer::Renderer(std::unique_ptr<RendererImpl> impl) noexcept : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
-Renderer::~Renderer() = default;
+Renderer& Renderer::operator=(Renderer&& other) noexcept {
+    if (this != &other) {
+        RendererImpl::letGo(impl_);
+        impl_ = std::move(other.impl_);
+    }
+    return *this;
+}
+Renderer::~Renderer() {
+    RendererImpl::letGo(impl_);
+}
 
 Result<Renderer> Renderer::create(const Context& context, const RendererDesc& desc) {
     return guard([&]() -> Result<Renderer> {
@@ -171,13 +179,13 @@ Result<Renderer> Renderer::create(const Context& context, const RendererDesc& de
         if (Result<void> formats = checkFormats(c, desc.colorFormat); !formats.ok()) {
             return formats.error();
         }
-        auto impl = std::make_unique<RendererImpl>(RendererImpl{.context = c, .desc = desc});
+        auto impl = std::make_shared<RendererImpl>(c, desc);
         for (const auto make : {makeSetLayouts, makePipelineLayouts, makePipelines, makeNoBricks}) {
             if (Result<void> made = make(*impl); !made.ok()) {
                 return made.error();
             }
         }
-        return Renderer(std::move(impl));
+        return Renderer(RendererImpl::hold(impl));
     });
 }
 

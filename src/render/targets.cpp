@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "render/render_impl.h"
 
 #include <algorithm>
@@ -116,7 +117,7 @@ Result<RenderTargets> RenderTargets::create(const Renderer& renderer, VkExtent2D
 }
 
 VkExtent2D RenderTargets::extent() const noexcept {
-    return impl_->extent;
+    return live(impl_).extent;
 }
 
 } // namespace voxtact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/live.h"
 #include "core/table_extremes.h"
 #include "core/text.h"
 #include "gpu/barriers.h"
@@ -201,19 +202,26 @@ Result<RenderTransferFunction> RenderTransferFunction::upload(const Renderer& re
 
 Result<void> RenderTransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        const Label label(impl_->renderer.context, commandBuffer, "voxtact pre-integration");
-        cmdMake(*impl_, commandBuffer);
+        if (Result<void> recordable = live(impl_).renderer.context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        const Label label(live(impl_).renderer.context, commandBuffer, "voxtact pre-integration");
+        cmdMake(live(impl_), commandBuffer);
+        live(impl_).uploaded = true;
         return {};
     });
 }
 
 Result<void> RenderTransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, const RenderTransferFunctionDesc& desc) {
     return guard([&]() -> Result<void> {
-        if (desc.opacity.tableSize != impl_->table.size()) {
+        if (desc.opacity.tableSize != live(impl_).table.size()) {
             return refuse("the new table has " + std::to_string(desc.opacity.tableSize) +
-                          " entries, that of the transfer function " + std::to_string(impl_->table.size()));
+                          " entries, that of the transfer function " + std::to_string(live(impl_).table.size()));
         }
-        if (Result<void> set = setFunction(*impl_, desc); !set.ok()) {
+        if (Result<void> recordable = live(impl_).renderer.context.recordable(commandBuffer); !recordable.ok()) {
+            return recordable;
+        }
+        if (Result<void> set = setFunction(live(impl_), desc); !set.ok()) {
             return set;
         }
         return cmdUpload(commandBuffer);
@@ -221,7 +229,7 @@ Result<void> RenderTransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, co
 }
 
 bool RenderTransferFunction::visible() const noexcept {
-    return std::ranges::any_of(impl_->table, [](float opacity) { return opacity > 0; });
+    return std::ranges::any_of(live(impl_).table, [](float opacity) { return opacity > 0; });
 }
 
 } // namespace voxtact

@@ -4,6 +4,7 @@
 #include "gpu/texels.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"
+#include "voxtact/cpu.h"
 
 #include <gmock/gmock.h>
 
@@ -305,18 +306,20 @@ TEST_F(EditTest, WhatTheHostKnowsIsWidened) {
 TEST_F(EditTest, ValuesThatATypeCannotHold) {
     std::mt19937_64 random(testSeed());
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const std::vector<double> refused[] = {{-1, 256, 0.5}, {-32769, 32768, 0.1}, {-1, 65536, 1e300}, {0.1, 1e39}};
-    const std::vector<double> taken[] = {{0, 255}, {-32768, 32767}, {0, 65535}, {0.5, -3.4028234663852886e38}};
+    const std::vector<double> refused[] = {{-1, 256, 0.5}, {-32769, 32768, 0.1}, {-1, 65536, 1e300}, {-1e39, 3.41e38}};
+    const std::vector<double> taken[] = {{0, 255}, {-32768, 32767}, {0, 65535}, {0.1, -3.4028234663852886e38}};
     for (std::size_t i = 0; i < 4; ++i) {
         const VolumeData data = randomVolume({3, 3, 3}, kTypes[i], random);
         Volume volume = editable(data);
+        cpu::Volume onHost = take(cpu::Volume::create(data.view()));
         const VoxelBox box{{0, 0, 0}, {1, 1, 1}};
         const VkCommandBuffer commands = raw().begin();
-        for (const double value : refused[i]) {
-            EXPECT_THAT(volume.cmdSet(commands, box, value).error().text, HasSubstr("is not one that a voxel"));
-        }
-        for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
-            EXPECT_FALSE(volume.cmdSet(commands, box, value).ok());
+        std::vector<double> values = refused[i];
+        values.insert(values.end(), {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity});
+        for (const double value : values) {
+            const std::string text = volume.cmdSet(commands, box, value).error().text;
+            EXPECT_THAT(text, HasSubstr("is not one that a voxel"));
+            EXPECT_EQ(text, onHost.set(box, value).error().text) << "one contract on both sides";
         }
         raw().submitAndWait(commands);
         ASSERT_NO_FATAL_FAILURE(expectSame(volume, data));
@@ -327,6 +330,12 @@ TEST_F(EditTest, ValuesThatATypeCannotHold) {
             take(volume.cmdSet(more, box, value));
             raw().submitAndWait(more);
             ASSERT_NO_FATAL_FAILURE(expectSame(volume, edited));
+            EXPECT_TRUE(onHost.set(box, value).ok());
+            // A float is held as the nearest one, and the range holds that.
+            const double held =
+                kTypes[i] == ScalarType::Float32 ? static_cast<double>(static_cast<float>(value)) : value;
+            EXPECT_LE(volume.valueRange()->lo, held);
+            EXPECT_GE(volume.valueRange()->hi, held);
         }
     }
 }
@@ -353,7 +362,9 @@ TEST_F(EditTest, BadInputIsRefused) {
     EXPECT_THAT(volume.cmdWrite(commands, beyond, two).error().text, HasSubstr("ends at 6 along y"));
     EXPECT_THAT(volume.cmdCopy(commands, beyond, source, 0).error().text, HasSubstr("ends at 6 along y"));
     EXPECT_FALSE(volume.cmdSet(commands, Ball{{0, 0, 0}, -1}, 1).ok());
-    EXPECT_FALSE(volume.cmdWrite(commands, one, two).ok()) << "too many voxels";
+    EXPECT_EQ(volume.cmdWrite(commands, one, two).error().text,
+              take(cpu::Volume::create(data.view())).write(one, two).error().text)
+        << "too many voxels";
     EXPECT_FALSE(volume.cmdWrite(commands, one, {}).ok()) << "too few voxels";
     EXPECT_FALSE(volume.cmdWrite(commands, {}, two).ok()) << "voxels for an empty box";
     EXPECT_THAT(volume.cmdCopy(commands, one, VK_NULL_HANDLE, 0).error().text, HasSubstr("null"));
@@ -368,6 +379,8 @@ TEST_F(EditTest, BadInputIsRefused) {
     Volume real = editable(makeVolume<float>(unitGrid(2), ScalarType::Float32, [](auto...) { return 0.0; }));
     const VkCommandBuffer more = raw().begin();
     EXPECT_THAT(real.cmdWrite(more, {{}, {2, 2, 2}}, std::as_bytes(std::span(floats))).error().text, HasSubstr("NaN"));
+    take(real.cmdSet(more, VoxelBox{{}, {1, 1, 1}}, 0.1));
+    EXPECT_EQ(real.valueRange()->hi, static_cast<double>(0.1F)) << "what is held";
     raw().submitAndWait(more);
 }
 

@@ -79,8 +79,7 @@ class SubmissionTest : public GpuTest {
     [[nodiscard]] const Volume& volume() const { return *volume_; }
     [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
 
-    /// Large, so that the device is still at work when a wait is not made.
-    static constexpr std::uint32_t kSide = 1024;
+    static constexpr std::uint32_t kSide = 32;
 
   private:
     std::optional<Interception> loader_;
@@ -134,7 +133,7 @@ TEST_F(SubmissionTest, WhatCannotBeWaitedForIsNotTouched) {
 }
 
 TEST_F(SubmissionTest, AnUploadThatFailsLeavesNothingInUse) {
-    const VolumeData data = makeBytes(unitGrid(96), [](auto x, auto...) { return x % 256; });
+    const VolumeData data = makeBytes(unitGrid(32), [](auto x, auto...) { return x % 256; });
     for (const char* function : kSubmission) {
         for (const VkResult result : kTransient) {
             SCOPED_TRACE(function);
@@ -146,20 +145,55 @@ TEST_F(SubmissionTest, AnUploadThatFailsLeavesNothingInUse) {
             }
         }
     }
+    // The wait, the wait once more and the wait for the queue: what is left is to wait at the end of the upload.
+    callFault = {.functions = {"vkWaitForFences", "vkQueueWaitIdle"}, .failing = 3};
+    EXPECT_FALSE(Volume::upload(faulty(), queue(), data.view(), {.bricks = true}).ok());
+    EXPECT_EQ(callFault.calls, 4U);
     callFault = {};
     EXPECT_TRUE(Volume::upload(faulty(), queue(), data.view(), {.bricks = true}).ok());
+    EXPECT_FALSE(faulty().deviceLost());
+}
+
+TEST_F(SubmissionTest, ADeviceThatNobodyCanWaitForCountsAsLost) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "what is left to the device is a leak";
+#endif
+    // A device of its own, which what cannot be destroyed is left to, and no validation layer, which would say so.
+    const app::VulkanInstance instance = take(app::VulkanInstance::create());
+    const app::PhysicalDevice physical = take(app::chooseDevice(take(instance.devices()), {}));
+    const app::VulkanDevice device = take(app::VulkanDevice::create(instance, physical));
+    Interception loader(instance.getInstanceProcAddr());
+    faultyCall<&VolkDeviceTable::vkWaitForFences>(loader, device.table(), "vkWaitForFences");
+    faultyCall<&VolkDeviceTable::vkQueueWaitIdle>(loader, device.table(), "vkQueueWaitIdle");
+    {
+        ContextDesc desc = device.contextDesc();
+        desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
+        const Context context = take(Context::create(desc));
+        callFault = {.functions = {"vkWaitForFences", "vkQueueWaitIdle"}, .failing = UINT32_MAX};
+        const MeshData square = makeFlat(0, 1, 0, 1, 0.5);
+        const Result<Mesh> mesh = Mesh::upload(context, device.queueAccess(), square.view());
+        ASSERT_FALSE(mesh.ok());
+        EXPECT_EQ(mesh.error().code, ErrorCode::OutOfMemory) << "what failed, before all else was tried";
+        EXPECT_TRUE(context.deviceLost());
+        const Result<Mesh> next = Mesh::create(context, square.view());
+        ASSERT_FALSE(next.ok());
+        EXPECT_EQ(next.error().code, ErrorCode::DeviceLost);
+        EXPECT_THAT(next.error().text, HasSubstr("could not be waited for"));
+    }
+    callFault = {};
+    device.table().vkDeviceWaitIdle(device.handle());
 }
 
 TEST_F(SubmissionTest, NoFailureGivesAnOldPicture) {
     constexpr ControlPoint kNothing[] = {{0, 0}, {255, 0}};
-    constexpr VkExtent2D kExtents[] = {{640, 480}, {640, 480}, {320, 240}};
+    constexpr VkExtent2D kExtents[] = {{64, 48}, {64, 48}, {32, 24}};
     const Renderer renderer = take(Renderer::create(faulty()));
     const RenderTransferFunction function =
         take(RenderTransferFunction::upload(renderer, queue(), {.opacity = {kNothing, {0, 255}, 16}}));
     Scene scene;
     scene.volume = &volume();
     scene.transferFunction = &function;
-    scene.clip_from_world = flatView(0, 1, 640, 480).clip_from_world;
+    scene.clip_from_world = flatView(0, 1, 64, 48).clip_from_world;
     for (const char* name : kSubmission) {
         for (std::uint32_t at = 1; at <= std::size(kExtents); ++at) {
             SCOPED_TRACE(std::string(name) + " fails at call " + std::to_string(at));

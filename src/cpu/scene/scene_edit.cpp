@@ -32,7 +32,7 @@ Result<void> Volume::write(const VoxelBox& box, std::span<const std::byte> voxel
         if (const Result<VoxelBox> bounds = voxelBounds(box, impl_->grid); !bounds.ok()) {
             return bounds.error();
         }
-        if (Result<void> checked = checkVoxels(impl_->type, box, voxels); !checked.ok()) {
+        if (const Result<ValueRange> checked = checkVoxels(impl_->type, box, voxels); !checked.ok()) {
             return checked.error();
         }
         const std::size_t step = bytesPerVoxel(impl_->type);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+#include "voxtact/methods.h"
+
+namespace voxtact {
+
+// Each refuses a number that is none of the enumeration's, and says which.
+[[nodiscard]] Result<void> checkProjection(Projection projection);
+[[nodiscard]] Result<void> checkFilter(Filter filter);
+[[nodiscard]] Result<void> checkBoundary(Boundary boundary);
+[[nodiscard]] Result<void> checkScalarType(ScalarType type);
+
+} // namespace voxtact

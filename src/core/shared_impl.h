@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+
+namespace voxtact {
+
+/// Of the Impl of an object that others are made with: they keep it, by shared_from_this(), when the object ends. The
+/// object's own pointer stands for a share that the Impl holds of itself, and lets go of that instead of deleting.
+template <class Impl> class SharedImpl : public std::enable_shared_from_this<Impl> {
+  public:
+    /// The pointer for the object.
+    [[nodiscard]] static std::unique_ptr<Impl> hold(const std::shared_ptr<Impl>& impl) noexcept {
+        impl->self_ = impl;
+        return std::unique_ptr<Impl>(impl.get());
+    }
+    /// For the object's destructor, and before it is assigned to. There may be nothing behind the pointer.
+    static void letGo(std::unique_ptr<Impl>& pointer) noexcept {
+        if (Impl* impl = pointer.release(); impl != nullptr) {
+            const std::shared_ptr<Impl> share = std::move(impl->self_);
+        }
+    }
+
+  private:
+    std::shared_ptr<Impl> self_;
+};
+
+} // namespace voxtact

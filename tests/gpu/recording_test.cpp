@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Several batches into one Results in one command buffer, in their order. Synchronization validation, which every test
+// here runs under, finds a barrier that is not there.
+#include "raw_fixture.h"
+#include "support/scenes.h"
+
+#include <array>
+
+namespace voxtact::test {
+namespace {
+
+class RecordingTest : public RawGpuTest {};
+
+TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
+    const Volume volume = take(Volume::upload(
+        context(), queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view(), {.bricks = true}));
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const std::array poses{translation({0, 0, 3}), identity()}; // that misses and that touches
+    std::vector<DetectorDesc> descs;
+    for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Compute}) {
+        if (context().supports(method)) {
+            descs.push_back({.method = method});
+            descs.push_back({.method = method, .outputs = {.triangles = true, .contacts = true, .bounds = true}});
+        }
+    }
+    if (context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Conservative});
+    }
+    for (const DetectorDesc& desc : descs) {
+        SCOPED_TRACE(std::string(toString(desc.method)) + " " + toString(desc.projection));
+        const Detector detector = take(Detector::create(context(), desc));
+        for (const bool readBetween : {true, false}) {
+            Results results = take(Results::create(context(), {.room = OutputRoom{.triangles = 64}}));
+            const VkCommandBuffer commands = raw().begin();
+            for (const std::size_t touching : {1, 0, 1}) {
+                const BatchItem item{&mesh, &volume, &function, std::span(poses).subspan(touching, 1)};
+                take(detector.cmdDetect(commands, {std::span(&item, 1), flatView(0, 1, 64, 64), 0.5}, results));
+                if (readBetween) {
+                    take(results.cmdReadBack(commands));
+                }
+            }
+            if (!readBetween) {
+                take(results.cmdReadBack(commands));
+            }
+            raw().submitAndWait(commands);
+            const std::uint32_t count = (*results.read())[0].countLow;
+            if (desc.projection == Projection::Conservative) {
+                EXPECT_GT(count, 0U);
+            } else {
+                EXPECT_EQ(count, 64U * 64U);
+            }
+            if (desc.outputs.contacts) {
+                BatchAnswer answer;
+                take(results.readOutputs(answer));
+                EXPECT_EQ(answer.contacts.size(), 64U * 64U);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace voxtact::test
