@@ -117,7 +117,7 @@ std::filesystem::path pathOf(const std::string& uri) {
                                       : -1;
     };
     if (uri.find("://") != std::string::npos) {
-        throw GltfRefusal{"its buffer " + quoted(uri) + " is on the network; save it beside the file"};
+        throw GltfRefusal{"its buffer " + inQuotes(uri) + " is on the network; save it beside the file"};
     }
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -152,12 +152,12 @@ void GltfDocument::checkVersion() const {
     for (const char* key : {"version", "minVersion"}) {
         const std::string version = textOf(*asset, key);
         if (!version.starts_with("2.") && !(version.empty() && key[0] == 'm')) {
-            throw GltfRefusal{"it is glTF " + quoted(version) + "; glTF 2 is needed"};
+            throw GltfRefusal{"it is glTF " + inQuotes(version) + "; glTF 2 is needed"};
         }
     }
     const std::string least = textOf(*asset, "minVersion");
     if (!least.empty() && least != "2.0") {
-        throw GltfRefusal{"it needs a reader of glTF " + quoted(least) + "; this one reads 2.0"};
+        throw GltfRefusal{"it needs a reader of glTF " + inQuotes(least) + "; this one reads 2.0"};
     }
 }
 
@@ -169,7 +169,7 @@ void GltfDocument::takeExtensions() {
             }
             const auto extension = name.get<std::string>();
             if (key == std::string_view("extensionsRequired") && !isHarmless(extension)) {
-                throw GltfRefusal{"it requires the extension " + quoted(extension) +
+                throw GltfRefusal{"it requires the extension " + inQuotes(extension) +
                                   ", which is not supported; export it without"};
             }
             extensions_.insert(extension);
@@ -205,7 +205,7 @@ std::string GltfDocument::load(std::uint64_t index, const std::string& uri) cons
     }
     const std::filesystem::path path = pathOf(uri);
     if (!source_.other) {
-        throw GltfRefusal{"its buffer " + quoted(uri) + " is another file"};
+        throw GltfRefusal{"its buffer " + inQuotes(uri) + " is another file"};
     }
     Result<std::string> content = source_.other(path);
     if (!content.ok()) {

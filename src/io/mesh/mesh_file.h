@@ -39,7 +39,4 @@ struct MeshFile {
 /// By the ending.
 [[nodiscard]] Result<MeshFile> readMeshFile(const MeshSource& source);
 
-/// readMesh() of a file that is in memory.
-[[nodiscard]] Result<MeshData> meshFromMemory(const MeshSource& source, const MeshReadOptions& options);
-
 } // namespace voxtact::io

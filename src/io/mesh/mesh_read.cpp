@@ -125,6 +125,30 @@ class Gatherer {
     std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, PositionHash> vertices_;
 };
 
+Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& options) {
+    if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+        return Error{ErrorCode::InvalidArgument, 0, "the scale of a mesh must be positive and finite"};
+    }
+    Result<MeshFile> file = readMeshFile(source);
+    if (!file.ok()) {
+        return file.error();
+    }
+    if (file->faceSizes.empty()) {
+        return cannotRead(source.path, "it holds no triangle");
+    }
+    MeshData mesh;
+    mesh.name = source.path.filename().string();
+    mesh.notes = std::move(file->notes);
+    if (file->pointsAndLines != 0) {
+        mesh.notes.push_back(std::to_string(file->pointsAndLines) + " points or lines left out");
+    }
+    const Mat4 object_from_file = objectFromFile(options);
+    if (const auto reason = Gatherer(*file, object_from_file, mesh).gather()) {
+        return cannotRead(source.path, *reason);
+    }
+    return mesh;
+}
+
 } // namespace
 
 Result<MeshFile> readMeshFile(const MeshSource& source) {
@@ -150,32 +174,6 @@ Result<MeshFile> readMeshFile(const MeshSource& source) {
     return cannotRead(source.path, "its ending is none of .stl, .obj, .ply, .off, .gltf and .glb; convert it");
 }
 
-Result<MeshData> meshFromMemory(const MeshSource& source, const MeshReadOptions& options) {
-    return guard([&]() -> Result<MeshData> {
-        if (!(options.scale > 0) || !std::isfinite(options.scale)) {
-            return Error{ErrorCode::InvalidArgument, 0, "the scale of a mesh must be positive and finite"};
-        }
-        Result<MeshFile> file = readMeshFile(source);
-        if (!file.ok()) {
-            return file.error();
-        }
-        if (file->faceSizes.empty()) {
-            return cannotRead(source.path, "it holds no triangle");
-        }
-        MeshData mesh;
-        mesh.name = source.path.filename().string();
-        mesh.notes = std::move(file->notes);
-        if (file->pointsAndLines != 0) {
-            mesh.notes.push_back(std::to_string(file->pointsAndLines) + " points or lines left out");
-        }
-        const Mat4 object_from_file = objectFromFile(options);
-        if (const auto reason = Gatherer(*file, object_from_file, mesh).gather()) {
-            return cannotRead(source.path, *reason);
-        }
-        return mesh;
-    });
-}
-
 Result<MeshData> readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {
     return guard([&]() -> Result<MeshData> {
         const Result<std::string> content = readWholeFile(path);
@@ -185,7 +183,15 @@ Result<MeshData> readMesh(const std::filesystem::path& path, const MeshReadOptio
         const auto other = [&](const std::filesystem::path& beside) {
             return readWholeFile(path.parent_path() / beside);
         };
-        return meshFromMemory({path, *content, other}, options);
+        return makeMesh({path, *content, other}, options);
+    });
+}
+
+Result<MeshData> readMesh(std::span<const std::byte> content, const std::filesystem::path& name,
+                          const MeshReadOptions& options) {
+    return guard([&] {
+        const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
+        return makeMesh({name, text}, options);
     });
 }
 

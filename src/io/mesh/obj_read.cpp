@@ -43,11 +43,11 @@ class ObjReader {
             return element(word.front(), number);
         }
         if (isOneOf(word, kUnsupported)) {
-            return quoted(word) + " is not supported (curved surfaces, included files); write polygons";
+            return inQuotes(word) + " is not supported (curved surfaces, included files); write polygons";
         }
         // A damaged `v` or `f` would be such a word, and all numbers after it would be wrong.
         return isOneOf(word, kNoGeometry) ? std::nullopt
-                                          : std::optional<std::string>(quoted(word) + " is no word of an OBJ file");
+                                          : std::optional<std::string>(inQuotes(word) + " is no word of an OBJ file");
     }
 
     /// Indices may be used before their vertex, so the largest is known to be right only at the end.
@@ -58,7 +58,12 @@ class ObjReader {
                    : std::nullopt;
     }
     [[nodiscard]] std::uint64_t lineOfLargest() const noexcept { return lineOfLargest_; }
-    [[nodiscard]] MeshFile& file() noexcept { return file_; }
+    [[nodiscard]] MeshFile takeFile() {
+        if (empty_ != 0) {
+            file_.notes.push_back(std::to_string(empty_) + " faces or lines without a corner left out");
+        }
+        return std::move(file_);
+    }
 
   private:
     /// x y z, x y z w, or x y z r g b.
@@ -87,7 +92,8 @@ class ObjReader {
     std::optional<std::string> element(char kind, std::uint64_t line) {
         const std::size_t size = tokens_.size() - 1;
         if (size == 0) {
-            return "this element has no corner";
+            ++empty_;
+            return std::nullopt;
         }
         const std::size_t begin = file_.corners.size();
         for (std::size_t i = 1; i < tokens_.size(); ++i) {
@@ -115,7 +121,7 @@ class ObjReader {
         const bool clean = token.find_first_not_of("0123456789/-") == std::string_view::npos;
         constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
         if (text.empty() || end.ec != std::errc{} || end.ptr != text.data() + text.size() || !clean) {
-            return quoted(token) + " is not a vertex number";
+            return inQuotes(token) + " is not a vertex number";
         }
         const auto count = static_cast<std::int64_t>(file_.vertices.size());
         if (index == 0 || index > kMost || index < -count) {
@@ -132,6 +138,7 @@ class ObjReader {
 
     std::vector<std::string_view> tokens_;
     MeshFile file_;
+    std::uint64_t empty_ = 0; ///< faces and lines without a corner
     std::uint64_t largest_ = 0;
     std::uint64_t lineOfLargest_ = 0;
 };
@@ -167,7 +174,7 @@ Result<MeshFile> readObj(const MeshSource& source) {
     if (const auto reason = reader.finish()) {
         return badLine(source.path, reader.lineOfLargest(), *reason);
     }
-    return std::move(reader.file());
+    return reader.takeFile();
 }
 
 } // namespace voxtact::io

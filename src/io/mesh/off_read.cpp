@@ -64,14 +64,15 @@ class OffReader {
             tokens_.clear();
         }
         // The third, the number of edges, means nothing.
-        const auto first = tokens_.empty() ? std::nullopt : parseNatural(tokens_[0]);
-        const auto second = tokens_.size() < 2 ? std::nullopt : parseNatural(tokens_[1]);
-        if (!first || !second || tokens_.size() > 3 || *first > std::numeric_limits<std::uint32_t>::max()) {
-            return cannotRead(path_, "its OFF header does not state the numbers of vertices and faces");
+        constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+        if (tokens_.size() == 2 || tokens_.size() == 3) {
+            vertices = parseNatural(tokens_[0]).value_or(kMost + 1);
+            faces = parseNatural(tokens_[1]).value_or(kMost + 1);
+            if (vertices <= kMost && faces <= kMost) {
+                return {};
+            }
         }
-        vertices = *first;
-        faces = *second;
-        return {};
+        return cannotRead(path_, "its OFF header does not state the numbers of vertices and faces");
     }
 
     [[nodiscard]] Error truncated(std::uint64_t present, std::uint64_t stated, const std::string& what) const {
@@ -99,7 +100,7 @@ class OffReader {
         for (std::size_t i = 1; i <= *corners; ++i) {
             const std::optional<std::uint64_t> vertex = parseNatural(tokens_[i]);
             if (!vertex || *vertex >= file_.vertices.size()) {
-                return quoted(tokens_[i]) + " is not the number of one of the " +
+                return inQuotes(tokens_[i]) + " is not the number of one of the " +
                        std::to_string(file_.vertices.size()) + " vertices";
             }
             file_.corners.push_back(static_cast<std::uint32_t>(*vertex));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/text.h"
 #include "io/byte_source.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
@@ -50,7 +51,7 @@ class TextBody final : public Body {
             if (element.properties[i].countType) {
                 const auto stated = rest_.empty() ? std::nullopt : parseNatural(rest_.front());
                 if (!stated) {
-                    return rest_.empty() ? tooFew() : quoted(rest_.front()) + " is not the length of a list";
+                    return rest_.empty() ? tooFew() : inQuotes(rest_.front()) + " is not the length of a list";
                 }
                 count = *stated;
                 rest_ = rest_.subspan(1);
@@ -186,7 +187,7 @@ class PlyReader {
                 return "it holds triangle strips, which are not supported; write faces";
             }
             if (element.properties.empty() && element.count != 0) {
-                return "its element " + quoted(element.name) + " has no properties";
+                return "its element " + inQuotes(element.name) + " has no properties";
             }
             if (auto reason = takeElement(element)) {
                 return reason;
@@ -241,7 +242,8 @@ class PlyReader {
         }
         for (const double corner : face) {
             if (!(corner >= 0 && corner < static_cast<double>(vertices_) && corner == std::floor(corner))) {
-                return "it uses vertex " + number(corner) + ", the file has " + std::to_string(vertices_) + " vertices";
+                return "it uses vertex " + voxtact::number(corner) + ", the file has " + std::to_string(vertices_) +
+                       " vertices";
             }
             file_.corners.push_back(static_cast<std::uint32_t>(corner));
         }

@@ -59,7 +59,7 @@ class AsciiStl {
         if (word == "endloop") {
             return enter(inLoop_, inLoop_, false);
         }
-        return word == "endfacet" ? endFacet() : quoted(tokens[0]) + " is no word of an STL file";
+        return word == "endfacet" ? endFacet() : inQuotes(tokens[0]) + " is no word of an STL file";
     }
 
     [[nodiscard]] bool isOpen() const noexcept { return inSolid_; }
