@@ -22,7 +22,6 @@ endif()
 if(VOXTACT_BUILD_IO)
   enable_language(C) # ITK's look for HDF5 compiles a C file
   find_package(ITK 5.2 CONFIG REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGDCM)
-  find_package(assimp CONFIG REQUIRED)
   find_package(nlohmann_json 3.10 CONFIG REQUIRED)
   find_package(GDCM CONFIG REQUIRED) # behind ITK's DICOM reader; only to silence it
   find_package(ZLIB REQUIRED)

@@ -3,6 +3,7 @@
 
 #include "voxtact/data.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -12,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-/// Files (target voxtact::io). Volumes through ITK, meshes through assimp. Errors name the file and the reason, and
-/// where there is one the line.
+/// Files (target voxtact::io). Errors name the file and the reason, and where there is one the line. A folder, pipe,
+/// socket or device in the place of a file is refused before it is opened.
 /// Thread-safety: safe from any thread on different files. ITK's readers share global state, so calls for volumes wait
 /// for each other, and ITK's global warning display is off while one runs.
 namespace voxtact::io {
@@ -43,16 +44,24 @@ struct MeshReadOptions {
     double scale = 1;                 ///< millimetres in a unit of the file; positive
 };
 
-/// STL (ascii, binary), OBJ, PLY, OFF, glTF 2, GLB, by the ending in any case. Node transforms are applied (a mirrored
-/// node's triangles are turned, so that outward stays outward), polygons are cut into triangles, all meshes of a file
-/// become one; points and lines are left out and said in `notes`. Corners with bit-identical positions are merged (-0
-/// is 0), vertices that no triangle uses are left out, degenerate triangles stay. The file is read strictly: the number
-/// of triangles is the number that the file states, or the file is refused. Refuses files without a triangle, NaN or
-/// infinite vertices, indices out of range, malformed numbers, truncated files, polygons that cannot be cut, glTF with
-/// compressed or quantized geometry, and a scale that is not positive and finite. Text coordinates may differ from the
-/// nearest float in the last bits (assimp's number reader).
+/// STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, glTF 2, GLB, by the ending in any case.
+/// Node transforms are applied (a mirrored node's triangles are turned, so that outward stays outward), and so are
+/// skins and morph targets as they stand in the file; animations are left out. Polygons are cut into triangles: a fan
+/// around the first corner where that stays inside, else ear by ear. All meshes of a file become one; points and lines
+/// are left out. What is left out or chosen is said in `notes`. Corners with bit-identical positions are merged (-0 is
+/// 0), vertices that no triangle uses are left out, degenerate triangles stay, in the order of the file. Coordinates
+/// are the floats nearest to what the file says, scaled in double precision. The file is read strictly: what is not
+/// understood is refused. So are files without a triangle, NaN or infinite vertices and such as no float holds, indices
+/// out of range, malformed numbers, truncated files and files that go on after what their header states, polygons that
+/// cross themselves, OBJ with curved surfaces or weights other than 1, PLY with triangle strips, glTF that requires an
+/// extension other than KHR_mesh_quantization and those about looks and lights, and a scale that is not positive and
+/// finite.
 [[nodiscard]] VOXTACT_API Result<MeshData> readMesh(const std::filesystem::path& path,
                                                     const MeshReadOptions& options = {});
+/// The same for a file in memory. Messages call it `name`, and the ending of that is the format. glTF that refers to
+/// other files is refused.
+[[nodiscard]] VOXTACT_API Result<MeshData>
+readMesh(std::span<const std::byte> content, const std::filesystem::path& name, const MeshReadOptions& options = {});
 
 /// STL (binary), OBJ or PLY (binary), by the ending. Coordinates are written as they are. Written to a temporary name
 /// and renamed. Refuses what checkMesh() refuses.

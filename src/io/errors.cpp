@@ -14,6 +14,23 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+/// What is there in the place of a file; null for a file, and where that is not known.
+const char* kindOfNoFile(std::filesystem::file_type type) {
+    switch (type) {
+    case std::filesystem::file_type::directory:
+        return "it is a folder, not a file";
+    case std::filesystem::file_type::fifo:
+        return "it is a pipe, not a file; write what it gives to a file first";
+    case std::filesystem::file_type::socket:
+        return "it is a socket, not a file";
+    case std::filesystem::file_type::character:
+    case std::filesystem::file_type::block:
+        return "it is a device, not a file";
+    default:
+        return nullptr;
+    }
+}
+
 } // namespace
 
 Error cannotRead(const std::filesystem::path& path, std::string_view reason, ErrorCode code) {
@@ -50,8 +67,9 @@ Result<std::uint64_t> readableFile(const std::filesystem::path& path) {
     if (status.type() == std::filesystem::file_type::not_found) {
         return cannotRead(path, "there is no such file", ErrorCode::File);
     }
-    if (status.type() == std::filesystem::file_type::directory) {
-        return cannotRead(path, "it is a folder, not a file", ErrorCode::File);
+    // Opening a pipe waits for a writer, and a device may give bytes for ever.
+    if (const char* const kind = kindOfNoFile(status.type())) {
+        return cannotRead(path, kind, ErrorCode::File);
     }
     errno = 0;
     const std::ifstream file(path, std::ios::binary);

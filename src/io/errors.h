@@ -22,7 +22,8 @@ namespace voxtact::io {
 /// What libraries say, in one line: line breaks and runs of blanks become one blank.
 [[nodiscard]] std::string oneLine(std::string_view text);
 
-/// The length of a file; refuses what is not there, folders, and files that cannot be opened.
+/// The length of a file; refuses what is not there, what is no file (folders, pipes, sockets, devices), before it is
+/// opened, and files that cannot be opened.
 [[nodiscard]] Result<std::uint64_t> readableFile(const std::filesystem::path& path);
 /// The whole file.
 [[nodiscard]] Result<std::string> readWholeFile(const std::filesystem::path& path);

@@ -3,6 +3,8 @@
 // a device, except volumes.
 #include "cli_fixture.h"
 
+#include <sys/stat.h>
+
 namespace voxtact::test {
 namespace {
 
@@ -41,6 +43,24 @@ TEST_F(BadFilesTest, MissingFilesAreNamed) {
     for (const char* option : {"--poses", "--camera", "--transfer-function"}) {
         EXPECT_THAT(badDetect({"--projection", "view", option, path("no.txt")}), HasSubstr(path("no.txt")));
     }
+}
+
+/// Opening a pipe would wait for a writer.
+TEST_F(BadFilesTest, PipesAndDevicesAreRefused) {
+    constexpr const char* kPipe = "it is a pipe, not a file; write what it gives to a file first";
+    for (const char* name : {"pipe.nii", "pipe.stl", "pipe"}) {
+        ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
+    }
+    EXPECT_THAT(refused(1, {"detect", "--volume", path("pipe.nii"), "--mesh", "builtin:scalpel:500"}),
+                AllOf(HasSubstr(path("pipe.nii")), HasSubstr(kPipe)));
+    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", path("pipe.stl")}),
+                AllOf(HasSubstr(path("pipe.stl")), HasSubstr(kPipe)));
+    for (const char* option : {"--poses", "--camera", "--transfer-function", "--labels"}) {
+        EXPECT_THAT(badDetect({"--projection", "view", option, path("pipe")}),
+                    AllOf(HasSubstr(path("pipe")), HasSubstr(kPipe)))
+            << option;
+    }
+    EXPECT_THAT(badDetect({"--poses", "/dev/zero"}), HasSubstr("it is a device, not a file"));
 }
 
 TEST_F(BadFilesTest, AMissingVolumeIsFoundBeforeTheFirstIsDone) {

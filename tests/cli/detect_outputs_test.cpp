@@ -5,12 +5,12 @@
 #include "voxtact/cpu.h"
 #include "voxtact/io.h"
 
-#include <assimp/Importer.hpp>
-#include <assimp/scene.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <sstream>
 
 namespace voxtact::test {
 namespace {
@@ -274,66 +274,98 @@ TEST_F(DetectOutputsTest, SeveralMeshesAndVolumesAreNamedAtTheEnd) {
     }
 }
 
-TEST_F(DetectOutputsTest, PlyIsReadByOthers) {
+/// The vertices of a binary PLY file, as its header says: the numbers of each by the names of its properties.
+std::vector<std::map<std::string, double>> verticesOf(const std::string& ply) {
+    std::vector<std::pair<std::string, std::string>> properties; // type and name
+    std::size_t count = 0;
+    std::istringstream header(ply.substr(0, ply.find("end_header\n")));
+    for (std::string line; std::getline(header, line);) {
+        std::istringstream words(line);
+        std::string word;
+        std::string type;
+        std::string name;
+        words >> word >> type >> name;
+        if (word == "element") {
+            EXPECT_EQ(type, "vertex") << "points only";
+            count = std::stoul(name);
+        } else if (word == "property") {
+            properties.emplace_back(type, name);
+        }
+    }
+    EXPECT_THAT(ply, StartsWith("ply\nformat binary_little_endian 1.0\n"));
+    std::size_t at = ply.find("end_header\n") + std::strlen("end_header\n");
+    const auto take = [&](auto number) {
+        std::memcpy(&number, ply.substr(at, sizeof number).data(), sizeof number);
+        at += sizeof number;
+        return static_cast<double>(number);
+    };
+    std::vector<std::map<std::string, double>> vertices(count);
+    for (auto& vertex : vertices) {
+        for (const auto& [type, name] : properties) {
+            vertex[name] = type == "float"   ? take(float{})
+                           : type == "uchar" ? take(std::uint8_t{})
+                           : type == "int"   ? take(std::int32_t{})
+                                             : take(std::uint32_t{});
+        }
+    }
+    EXPECT_EQ(at, ply.size());
+    return vertices;
+}
+
+TEST_F(DetectOutputsTest, PlyIsWhatItsHeaderSays) {
     output(detect({"--contacts", path("c.ply"), "--labels", map()}));
     output(detect({"--contacts", path("c.csv"), "--labels", map()}));
     const auto rows = rowsOf(readText(path("c.csv")));
-    Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(path("c.ply"), 0);
-    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
-    ASSERT_EQ(scene->mNumMeshes, 1U);
-    const aiMesh& mesh = *scene->mMeshes[0];
-    ASSERT_EQ(mesh.mNumVertices, rows.size());
-    ASSERT_TRUE(mesh.HasNormals() && mesh.HasVertexColors(0));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            EXPECT_NEAR(mesh.mVertices[i][axis], std::stof(rows[i].at(2 + axis)), 1e-5);
-            EXPECT_NEAR(mesh.mNormals[i][axis], std::stof(rows[i].at(5 + axis)), 2e-6);
-        }
-    }
-    // What assimp does not know: read as the header says. The last properties of each vertex are 7 words.
     const std::string ply = readText(path("c.ply"));
-    const std::string end = "end_header\n";
-    const std::string body = ply.substr(ply.find(end) + end.size());
-    constexpr std::size_t kStride = 6 * 4 + 3 + 3 * 4 + 5 * 4;
-    ASSERT_EQ(body.size(), rows.size() * kStride);
-    EXPECT_THAT(ply,
-                HasSubstr("property float opacity\nproperty int label\nproperty uint pose\nproperty uint triangle\n"
-                          "property uint mesh\nproperty uint volume\nend_header\n"));
     EXPECT_THAT(ply, HasSubstr("comment colour: depth from 0 (dark violet) to 10 mm"));
+    const auto vertices = verticesOf(ply);
+    ASSERT_EQ(vertices.size(), rows.size());
+    struct Column {
+        const char* name;
+        std::size_t number;
+        double tolerance;
+    };
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        std::array<float, 3> reals{};
-        std::array<std::int32_t, 5> wholes{};
-        std::memcpy(reals.data(), body.data() + i * kStride + 27, sizeof reals);
-        std::memcpy(wholes.data(), body.data() + i * kStride + 39, sizeof wholes);
-        EXPECT_NEAR(reals[0], std::stof(rows[i].at(8)), 2e-6);
-        EXPECT_FLOAT_EQ(reals[1], std::stof(rows[i].at(9)));
-        EXPECT_NEAR(reals[2], std::stof(rows[i].at(10)), 2e-6);
-        EXPECT_THAT(wholes,
-                    ElementsAre(std::stoi(rows[i].at(11)), std::stoi(rows[i].at(0)), std::stoi(rows[i].at(1)), 0, 0));
+        for (const Column& column : {Column{"x", 2, 1e-5},
+                                     {"y", 3, 1e-5},
+                                     {"z", 4, 1e-5},
+                                     {"nx", 5, 2e-6},
+                                     {"ny", 6, 2e-6},
+                                     {"nz", 7, 2e-6},
+                                     {"depth", 8, 2e-6},
+                                     {"value", 9, 1e-5},
+                                     {"opacity", 10, 2e-6},
+                                     {"label", 11, 0},
+                                     {"pose", 0, 0},
+                                     {"triangle", 1, 0}}) {
+            EXPECT_NEAR(vertices[i].at(column.name), std::stod(rows[i].at(column.number)), column.tolerance)
+                << column.name << " of " << i;
+        }
+        EXPECT_EQ(vertices[i].at("mesh"), 0);
+        EXPECT_EQ(vertices[i].at("volume"), 0);
+        for (const char* channel : {"red", "green", "blue"}) {
+            EXPECT_TRUE(vertices[i].contains(channel));
+        }
     }
 }
 
 TEST_F(DetectOutputsTest, ColoursGoFromVioletToYellow) {
     output(detect({"--contacts", path("c.ply"), "--max-depth", "3"}));
-    Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(path("c.ply"), 0);
-    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
-    const aiMesh& mesh = *scene->mMeshes[0];
     output(detect({"--contacts", path("c.csv"), "--max-depth", "3"}));
+    const auto vertices = verticesOf(readText(path("c.ply")));
     const auto rows = rowsOf(readText(path("c.csv")));
+    ASSERT_EQ(vertices.size(), rows.size());
     bool deepest = false;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const aiColor4D& colour = mesh.mColors[0][i];
         if (std::stod(rows[i].at(8)) == 3) {
-            EXPECT_NEAR(colour.r * 255, 253, 0.5);
-            EXPECT_NEAR(colour.g * 255, 231, 0.5);
-            EXPECT_NEAR(colour.b * 255, 37, 0.5);
+            EXPECT_EQ(vertices[i].at("red"), 253);
+            EXPECT_EQ(vertices[i].at("green"), 231);
+            EXPECT_EQ(vertices[i].at("blue"), 37);
             deepest = true;
         } else {
             // Between the colours of its eighth.
-            EXPECT_LE(colour.g, 231.5 / 255);
-            EXPECT_GE(colour.g, 0.5 / 255);
+            EXPECT_LE(vertices[i].at("green"), 231);
+            EXPECT_GE(vertices[i].at("green"), 1);
         }
     }
     EXPECT_TRUE(deepest);

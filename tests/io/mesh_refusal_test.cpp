@@ -35,24 +35,37 @@ TEST(MeshRefusal, Files) {
 TEST(MeshRefusal, Obj) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     expectAllRefused(
-        "m.obj", {{corners, "it holds no triangle"},
-                  {corners + "p 1\nl 1 2\n", "it holds no triangle"},
-                  {corners + "f 1 2 4\n", "line 4: a face uses vertex 4, the file has 3"},
-                  {corners + "f 1 2 0\n", "line 4: a face uses vertex 0, which does not exist"},
-                  {corners + "f 1 2 -4\n", "line 4: a face uses vertex -4, which does not exist (3 before it)"},
-                  {corners + "f 1 2 x\n", "line 4: 'x' is not a vertex number"},
-                  {corners + "f 1 2 3.5\n", "line 4: '3.5' is not a vertex number"},
-                  {corners + "foo 1 2 3\n", "line 4: 'foo' is not supported"},
-                  {corners + " f 1 2 3\n", "line 4: a line must not begin with a blank"},
-                  {corners + "f 1 2 \\", "it is truncated"},
-                  {"v 0 0\n" + corners + "f 1 2 3\n", "line 1: a vertex has 3, 4 or 6 numbers, this one has 2"},
-                  {"v 0 0 0 1 1\n" + corners + "f 1 2 3\n", "line 1: a vertex has 3, 4 or 6 numbers, this one has 5"},
-                  {"v 0 0 0 0\n" + corners + "f 1 2 3\n", "line 1: the vertex lies at infinity"},
-                  {"v 0 0,5 0\n" + corners + "f 1 2 3\n", "line 1: '0,5' is not a number"},
-                  {"v 0 nan 0\n" + corners + "f 1 2 3\n", "line 1: 'nan' is not a finite number"},
-                  {"v 0 0 inf\n" + corners + "f 1 2 3\n", "line 1: 'inf' is not a finite number"},
-                  {std::string("\xFE\xFF\0v", 4) + corners, "its text is UTF-16"},
-                  {std::string("\0v", 2) + corners, "it is not text"}});
+        "m.obj",
+        {{corners, "it holds no triangle"},
+         {corners + "p 1\nl 1 2\n", "it holds no triangle"},
+         {corners + "f 1 2 4\n", "line 4: a face uses vertex 4, the file has 3"},
+         {corners + "f 1 2 0\n", "line 4: a face uses vertex 0, which does not exist"},
+         {corners + "f 1 2 -4\n", "line 4: a face uses vertex -4, which does not exist (3 before it)"},
+         {corners + "f 1 2 x\n", "line 4: 'x' is not a vertex number"},
+         {corners + "f 1 2 3.5\n", "line 4: '3.5' is not a vertex number"},
+         {corners + "f 1 2 3/\x80\n", "line 4: '3/?' is not a vertex number"},
+         {corners + "f 1 2 99999999999\n", "line 4: a face uses vertex 99999999999, which does not exist"},
+         {corners + "foo 1 2 3\n", "line 4: 'foo' is no word of an OBJ file"},
+         {"w 0 0 0\n" + corners + "f 1 2 3\n", "line 1: 'w' is no word of an OBJ file"},
+         {"V 0 0 0\n" + corners + "f 1 2 3\n", "line 1: 'V' is no word of an OBJ file"},
+         {corners + "cstype bezier\nsurf 0 1 0 1 1 2 3\n", "line 4: 'cstype' is not supported (curved"},
+         {corners + "call more.obj\nf 1 2 3\n", "line 4: 'call' is not supported"},
+         {corners + "f 1 2 3\nf 1 2 \\\n", "it is truncated"},
+         {corners + "f 1 2 \\", "it is truncated"},
+         {"v 0 0\n" + corners + "f 1 2 3\n", "line 1: a vertex has 3, 4 or 6 numbers, this one has 2"},
+         {"v 0 0 0 1 1\n" + corners + "f 1 2 3\n", "line 1: a vertex has 3, 4 or 6 numbers, this one has 5"},
+         {"v 0 0 0 0\n" + corners + "f 1 2 3\n", "line 1: the vertex has the weight 0, which programs read in"},
+         {"v 0 0 0 0.5\n" + corners + "f 1 2 3\n", "line 1: the vertex has the weight 0.5"},
+         {"v 0 1e400 0\n" + corners + "f 1 2 3\n", "line 1: '1e400' is outside what a double holds"},
+         {"v 0 1e39 0\n" + corners + "f 1 2 4\nf 1 2 3\n", "triangle 1 has a corner that is NaN, infinite, or too far"},
+         {"v 0 ++1 0\n" + corners + "f 1 2 3\n", "line 1: '++1' is not a number"},
+         {"v 0 0x10 0\n" + corners + "f 1 2 3\n", "line 1: '0x10' is not a number"},
+         {"v 0 . 0\n" + corners + "f 1 2 3\n", "line 1: '.' is not a number"},
+         {"v 0 0,5 0\n" + corners + "f 1 2 3\n", "line 1: '0,5' is not a number"},
+         {"v 0 nan 0\n" + corners + "f 1 2 3\n", "line 1: 'nan' is not a finite number"},
+         {"v 0 0 inf\n" + corners + "f 1 2 3\n", "line 1: 'inf' is not a finite number"},
+         {std::string("\xFE\xFF\0v", 4) + corners, "its text is UTF-16"},
+         {std::string("\0v", 2) + corners, "it is not text"}});
 }
 
 std::string binaryStl(std::uint32_t stated, std::size_t present, float coordinate = 1) {
@@ -88,7 +101,8 @@ TEST(MeshRefusal, Stl) {
          {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1x\n", "line 4: '1x' is not a number"},
          {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nendloop\nendfacet\n",
           "line 6: a facet needs 3 vertices, this one has 1"},
-         {"solid\nhello\n", "line 2: 'hello' is no word of an STL file"}});
+         {"solid\nhello\n", "line 2: 'hello' is no word of an STL file"},
+         {"SOLID\nHELLO\n", "line 2: 'HELLO' is no word of an STL file"}});
 }
 
 TEST(MeshStl, BinaryFilesMayBeginWithSolid) {
@@ -120,28 +134,44 @@ TEST(MeshRefusal, Ply) {
     const TemporaryFolder folder;
     ASSERT_TRUE(isOk(io::readMesh(folder.write("m.ply", ply("binary_little_endian", binary)))));
     ASSERT_TRUE(isOk(io::readMesh(folder.write("m.ply", ply("ascii", corners + "3 0 1 2\n")))));
+    EXPECT_TRUE(isOk(io::readMesh(folder.write("m.ply", ply("binary_little_endian", binary + "\r\n")))));
     for (std::size_t length = 1; length < binary.size(); ++length) {
         expectRefused(io::readMesh(folder.write("m.ply", ply("binary_little_endian", binary.substr(0, length)))),
                       "truncated");
     }
     expectAllRefused(
-        "m.ply", {{ply("ascii", corners + "3 0 1"), "face 0: the file is truncated"},
-                  {ply("ascii", corners, "0"), "it holds no triangle"},
-                  {ply("ascii", corners + "3 0 1 3\n"), "face 0: it uses vertex 3, the file has 3 vertices"},
-                  {ply("ascii", corners + "3 0 1 -1\n"), "face 0: it uses vertex -1"},
-                  {ply("ascii", corners + "2 0 1\n"), "face 0: a face needs 3 corners or more, this one has 2"},
-                  {ply("ascii", "0 0 zero\n" + corners), "vertex 0: 'zero' is not a number"},
-                  {ply("ascii", "0 0 nan\n" + corners), "vertex 0: 'nan' is not a finite number"},
-                  {ply("ascii", corners + "3 0 1 2\n", "99999999999"), "face 1: the file is truncated"},
-                  {ply("ascii", "", "1", "99999999999"), "vertex 0: the file is truncated"},
-                  {ply("binary", corners), "line 2: unknown PLY format"},
-                  {"ply\nformat ascii 1.0\nelement vertex 3\n", "its PLY header does not end"},
-                  {"ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 3\n"
-                   "property float x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n" +
-                       corners,
-                   "its faces come before its vertices"},
-                  {"ply\nformat ascii 1.0\nelement vertex x\nend_header\n", "line 3: an element needs its number"},
-                  {"ply\nproperty quux x\nend_header\n", "line 2"}});
+        "m.ply",
+        {{ply("ascii", corners + "3 0 1"), "face 0: the file is truncated"},
+         {ply("ascii", corners, "0"), "it holds no triangle"},
+         {ply("ascii", corners + "3 0 1 3\n"), "face 0: it uses vertex 3, the file has 3 vertices"},
+         {ply("ascii", corners + "3 0 1 -1\n"), "face 0: it uses vertex -1"},
+         {ply("ascii", corners + "2 0 1\n"), "face 0: a face needs 3 corners or more, this one has 2"},
+         {ply("ascii", "0 0 zero\n" + corners), "vertex 0: 'zero' is not a number"},
+         {ply("ascii", "0 0 nan\n" + corners), "vertex 0: 'nan' is not a finite number"},
+         {ply("ascii", corners + "3 0 1 2\n", "99999999999"), "face 1: the file is truncated"},
+         {ply("ascii", "", "1", "99999999999"), "vertex 0: the file is truncated"},
+         {ply("binary", corners), "line 2: unknown PLY format"},
+         {"ply\nformat ascii 1.0\nelement vertex 3\n", "its PLY header does not end"},
+         {ply("binary_little_endian", binary + "x"), "it holds more than its header states"},
+         {ply("ascii", corners + "3 0 1 2\n3 0 1 2\n"), "it holds more than its header states"},
+         {ply("ascii", "0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "vertex 0: its line has more numbers"},
+         {ply("ascii", "0 0\n0 1 0\n0 0 1 0\n3 0 1 2\n"), "vertex 0: its line has fewer numbers"},
+         {ply("ascii", corners + "3 0 1 1.5\n"), "face 0: it uses vertex 1.5"},
+         {ply("ascii", corners + "-3 0 1 2\n"), "face 0: '-3' is not the length of a list"},
+         {ply("ascii", corners + "99999999999 0 1 2\n"), "face 0: the file is truncated"},
+         {"ply\nformat ascii 1.0\nelement nothing 99999999999\nend_header\n", "has no properties"},
+         {"ply\nformat ascii 1.0\nelement vertex 0\nelement vertex 3\n", "line 4: there are two elements"},
+         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+          "its vertices have no x, y and z"},
+         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty int x\n",
+          "line 5: the element has two properties of this name"},
+         {"ply\nelement vertex 1\nproperty float x\nend_header\n0\n", "its PLY header has no format"},
+         {"ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_indices\n",
+          "line 4: the length of a list is of a type that is not whole"},
+         {"ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n3 0 1 2\n",
+          "it holds triangle strips"},
+         {"ply\nformat ascii 1.0\nelement vertex x\nend_header\n", "line 3: an element needs its number"},
+         {"ply\nproperty quux x\nend_header\n", "line 2"}});
 }
 
 TEST(MeshRefusal, Off) {
@@ -154,6 +184,9 @@ TEST(MeshRefusal, Off) {
                   {"OFF\n3 1 0\n" + corners + "3 0 1\n", "line 6: a face is its number of corners"},
                   {"OFF\n3 0 0\n" + corners, "it holds no triangle"},
                   {"OFF\n3\n" + corners, "its OFF header does not state"},
+                  {"OFF\n3 1 0\n" + corners + "3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 faces"},
+                  {"OFF\n3 1 0\n" + corners + "3 0 1 -1\n", "line 6: '-1' is not the number"},
+                  {"OFF BINARY\n3 1 0\n" + corners, "it is not a plain OFF file"},
                   {"COFF\n3 1 0\n", "it is not a plain OFF file"}});
 }
 

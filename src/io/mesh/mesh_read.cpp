@@ -1,56 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "io/errors.h"
-#include "io/mesh/mesh_census.h"
-#include "voxtact/io.h"
+#include "io/mesh/mesh_file.h"
+#include "io/mesh/polygon.h"
 
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <unordered_map>
 
 namespace voxtact::io {
 
 namespace {
-
-struct FaceCount {
-    std::uint64_t triangles = 0;
-    std::uint64_t others = 0; ///< points and lines
-};
-
-FaceCount countFaces(const aiScene& scene) {
-    FaceCount count;
-    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-        const aiMesh& mesh = *scene.mMeshes[m];
-        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-            const unsigned corners = mesh.mFaces[f].mNumIndices;
-            count.triangles += corners >= 3 ? corners - 2 : 0;
-            count.others += corners < 3 ? 1 : 0;
-        }
-    }
-    return count;
-}
-
-Mat4 toMat4(const aiMatrix4x4& matrix) {
-    Mat4 result{};
-    for (unsigned row = 0; row < 4; ++row) {
-        for (unsigned column = 0; column < 4; ++column) {
-            result[std::size_t{4} * column + row] = static_cast<double>(matrix[row][column]);
-        }
-    }
-    return result;
-}
-
-double determinant(const Mat4& m) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-           m[8] * (m[1] * m[6] - m[2] * m[5]);
-}
 
 Mat4 objectFromFile(const MeshReadOptions& options) {
     const double flip = options.space == MeshSpace::RAS ? -options.scale : options.scale;
@@ -72,59 +36,68 @@ struct PositionHash {
     }
 };
 
-/// All triangles of the scene in one mesh; corners with the same bits become one vertex.
+/// All triangles of the file in one mesh; corners with the same bits become one vertex.
 class Gatherer {
   public:
-    Gatherer(const aiScene& scene, MeshData& mesh) : scene_(scene), mesh_(mesh) {}
+    Gatherer(const MeshFile& file, const Mat4& object_from_file, MeshData& mesh)
+        : file_(file), object_from_file_(object_from_file), mesh_(mesh) {}
 
-    /// The reason why the scene cannot be used. Nodes nest as deeply as the file says, hence no recursion.
-    std::optional<std::string> gather(const Mat4& object_from_file) {
-        std::vector<std::pair<const aiNode*, Mat4>> pending{{scene_.mRootNode, object_from_file}};
-        while (!pending.empty()) {
-            const auto [node, object_from_parent] = pending.back();
-            pending.pop_back();
-            const Mat4 object_from_node = multiply(object_from_parent, toMat4(node->mTransformation));
-            for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-                if (auto reason = add(*scene_.mMeshes[node->mMeshes[i]], object_from_node)) {
-                    return reason;
-                }
+    /// The reason why the file cannot be used.
+    std::optional<std::string> gather() {
+        std::span<const std::uint32_t> rest = file_.corners;
+        for (const std::uint32_t size : file_.faceSizes) {
+            if (auto reason = addFace(rest.first(size))) {
+                return reason;
             }
-            for (unsigned i = node->mNumChildren; i > 0; --i) {
-                pending.emplace_back(node->mChildren[i - 1], object_from_node);
-            }
+            rest = rest.subspan(size);
         }
         return std::nullopt;
     }
 
   private:
-    std::optional<std::string> add(const aiMesh& part, const Mat4& object_from_node) {
-        // A mirroring node turns triangles inside out.
-        const bool mirrored = determinant(object_from_node) < 0;
-        for (unsigned f = 0; f < part.mNumFaces; ++f) {
-            const aiFace& face = part.mFaces[f];
-            if (face.mNumIndices != 3) {
-                continue;
+    std::optional<std::string> addFace(std::span<const std::uint32_t> face) {
+        constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+        if (mesh_.indices.size() + 3 * face.size() > kMost) {
+            return "it has more triangles than 32 bits count";
+        }
+        if (face.size() == 3) {
+            return addTriangle(face[0], face[1], face[2]);
+        }
+        polygon_.clear();
+        for (const std::uint32_t corner : face) {
+            const Vec3& vertex = file_.vertices[corner];
+            if (!std::isfinite(vertex[0]) || !std::isfinite(vertex[1]) || !std::isfinite(vertex[2])) {
+                return nowhere();
             }
-            for (const unsigned corner : {0U, mirrored ? 2U : 1U, mirrored ? 1U : 2U}) {
-                const unsigned index = face.mIndices[corner];
-                if (index >= part.mNumVertices) {
-                    return "a triangle uses vertex " + std::to_string(index) + ", its mesh has " +
-                           std::to_string(part.mNumVertices);
-                }
-                if (!addCorner(part.mVertices[index], object_from_node)) {
-                    return "triangle " + std::to_string(mesh_.indices.size() / 3) +
-                           " has a corner that is NaN, infinite, or too far away for a float";
-                }
+            polygon_.push_back(vertex);
+        }
+        if (auto reason = cutPolygon(polygon_, triangles_)) {
+            return reason;
+        }
+        for (const std::array<std::uint32_t, 3>& triangle : triangles_) {
+            if (auto reason = addTriangle(face[triangle[0]], face[triangle[1]], face[triangle[2]])) {
+                return reason;
             }
         }
-        constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
-        return mesh_.indices.size() > kMost ? std::optional<std::string>("it has too many triangles") : std::nullopt;
+        return std::nullopt;
     }
 
-    bool addCorner(const aiVector3D& corner, const Mat4& object_from_node) {
-        const Vec3 point =
-            transformPoint(object_from_node, {static_cast<double>(corner.x), static_cast<double>(corner.y),
-                                              static_cast<double>(corner.z)});
+    std::optional<std::string> addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        for (const std::uint32_t corner : {a, b, c}) {
+            if (!addCorner(file_.vertices[corner])) {
+                return nowhere();
+            }
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::string nowhere() const {
+        return "triangle " + std::to_string(mesh_.indices.size() / 3) +
+               " has a corner that is NaN, infinite, or too far away for a float";
+    }
+
+    bool addCorner(const Vec3& corner) {
+        const Vec3 point = transformPoint(object_from_file_, corner);
         std::array<std::uint32_t, 3> bits{};
         std::array<float, 3> position{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -144,72 +117,81 @@ class Gatherer {
         return true;
     }
 
-    const aiScene& scene_;
+    const MeshFile& file_;
+    const Mat4& object_from_file_;
     MeshData& mesh_;
+    std::vector<Vec3> polygon_;
+    std::vector<std::array<std::uint32_t, 3>> triangles_;
     std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, PositionHash> vertices_;
 };
 
-/// The scene with polygons cut into triangles; refuses what is not what the file states.
-Result<const aiScene*> import(Assimp::Importer& importer, const std::filesystem::path& path, MeshData& mesh) {
-    const Result<std::uint64_t> stated = statedTriangles(path);
-    if (!stated.ok()) {
-        return stated.error();
+Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& options) {
+    if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+        return Error{ErrorCode::InvalidArgument, 0, "the scale of a mesh must be positive and finite"};
     }
-    if (*stated == 0) {
-        return cannotRead(path, "it holds no triangle");
+    Result<MeshFile> file = readMeshFile(source);
+    if (!file.ok()) {
+        return file.error();
     }
-    // Its own wish for speed is not ours: a mesh must not be split or sorted.
-    const aiScene* scene = importer.ReadFile(path.string(), 0);
-    if (scene == nullptr || scene->mRootNode == nullptr) {
-        return cannotRead(path, oneLine(importer.GetErrorString()));
+    if (file->faceSizes.empty()) {
+        return cannotRead(source.path, "it holds no triangle");
     }
-    const FaceCount before = countFaces(*scene);
-    if (before.triangles != *stated) {
-        return cannotRead(path, "only " + std::to_string(before.triangles) + " of the " + std::to_string(*stated) +
-                                    " triangles that it states can be used (indices out of range?); repair the file");
+    MeshData mesh;
+    mesh.name = source.path.filename().string();
+    mesh.notes = std::move(file->notes);
+    if (file->pointsAndLines != 0) {
+        mesh.notes.push_back(std::to_string(file->pointsAndLines) + " points or lines left out");
     }
-    if (before.others != 0) {
-        mesh.notes.push_back(std::to_string(before.others) + " points or lines left out");
+    const Mat4 object_from_file = objectFromFile(options);
+    if (const auto reason = Gatherer(*file, object_from_file, mesh).gather()) {
+        return cannotRead(source.path, *reason);
     }
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    if (scene == nullptr || countFaces(*scene).triangles != *stated) {
-        return cannotRead(path, "a polygon cannot be cut into triangles (it crosses itself?); triangulate the file");
-    }
-    return scene;
-}
-
-void noteBones(const aiScene& scene, MeshData& mesh) {
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-        if (scene.mMeshes[i]->mNumBones != 0 || scene.mMeshes[i]->mNumAnimMeshes != 0) {
-            mesh.notes.emplace_back("bones and morph targets are left out: the mesh is as it lies in the file");
-            return;
-        }
-    }
+    return mesh;
 }
 
 } // namespace
 
+Result<MeshFile> readMeshFile(const MeshSource& source) {
+    if (source.content.empty()) {
+        return cannotRead(source.path, "the file is empty");
+    }
+    const std::string ending = lowerEnding(source.path);
+    if (ending == ".stl") {
+        return readStl(source);
+    }
+    if (ending == ".obj") {
+        return readObj(source);
+    }
+    if (ending == ".ply") {
+        return readPly(source);
+    }
+    if (ending == ".off") {
+        return readOff(source);
+    }
+    if (ending == ".gltf" || ending == ".glb") {
+        return readGltf(source);
+    }
+    return cannotRead(source.path, "its ending is none of .stl, .obj, .ply, .off, .gltf and .glb; convert it");
+}
+
 Result<MeshData> readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {
     return guard([&]() -> Result<MeshData> {
-        if (!(options.scale > 0) || !std::isfinite(options.scale)) {
-            return Error{ErrorCode::InvalidArgument, 0, "the scale of a mesh must be positive and finite"};
+        const Result<std::string> content = readWholeFile(path);
+        if (!content.ok()) {
+            return content.error();
         }
-        MeshData mesh;
-        mesh.name = path.filename().string();
-        Assimp::Importer importer;
-        importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-        const Result<const aiScene*> scene = import(importer, path, mesh);
-        if (!scene.ok()) {
-            return scene.error();
-        }
-        noteBones(**scene, mesh);
-        if (const auto reason = Gatherer(**scene, mesh).gather(objectFromFile(options))) {
-            return cannotRead(path, *reason);
-        }
-        if (mesh.indices.empty()) {
-            return cannotRead(path, "its scene holds no triangle");
-        }
-        return mesh;
+        const auto other = [&](const std::filesystem::path& beside) {
+            return readWholeFile(path.parent_path() / beside);
+        };
+        return makeMesh({path, *content, other}, options);
+    });
+}
+
+Result<MeshData> readMesh(std::span<const std::byte> content, const std::filesystem::path& name,
+                          const MeshReadOptions& options) {
+    return guard([&] {
+        const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
+        return makeMesh({name, text}, options);
     });
 }
 

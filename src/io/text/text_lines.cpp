@@ -13,16 +13,16 @@ namespace {
 constexpr std::string_view kBlanks = " \t\v\f\r\n";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-std::string quoted(std::string_view token) {
+} // namespace
+
+std::string inQuotes(std::string_view token) {
     constexpr std::size_t kLongest = 40;
     std::string text = "'";
     for (const char c : token.substr(0, kLongest)) {
-        text += c >= ' ' && c != '\x7F' ? c : '?';
+        text += c >= ' ' && c <= '~' ? c : '?';
     }
     return text + (token.size() > kLongest ? "...'" : "'");
 }
-
-} // namespace
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
     if (const Result<std::uint64_t> size = readableFile(path); !size.ok()) {
@@ -61,16 +61,16 @@ std::optional<std::string> parseNumber(std::string_view token, double& value) {
     const std::string_view digits = token.substr(plus ? 1 : 0);
     const std::from_chars_result end = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end.ptr != digits.data() + digits.size() || digits.empty() || (plus && digits.starts_with('-'))) {
-        return quoted(token) + " is not a number";
+        return inQuotes(token) + " is not a number";
     }
     if (end.ec == std::errc::result_out_of_range) {
-        return quoted(token) + " is outside what a double holds";
+        return inQuotes(token) + " is outside what a double holds";
     }
     if (end.ec != std::errc{}) {
-        return quoted(token) + " is not a number";
+        return inQuotes(token) + " is not a number";
     }
     if (!std::isfinite(value)) {
-        return quoted(token) + " is not a finite number";
+        return inQuotes(token) + " is not a finite number";
     }
     return std::nullopt;
 }
