@@ -16,10 +16,7 @@ struct VoxelBox {
     std::array<std::uint32_t, 3> size{};  ///< voxels along each axis; 0: empty
 };
 
-/// The voxels whose centre is within a distance of a point: a ball in millimetres, whatever the spacing. A centre at
-/// that very distance belongs to it. The numbers are taken as they are, and nothing rounds: the centre of voxel i is
-/// origin + direction * (spacing * i) of the grid, so that with a spacing of 0.1, which stands for a little more, a
-/// voxel at "0.3 mm" is a little farther than a radius of 0.3.
+/// The voxels whose centre is at most a distance (mm) from a point, by exact arithmetic on these and the grid.
 struct Ball {
     Vec3 centre{};     ///< world, mm
     double radius = 0; ///< mm; not negative
