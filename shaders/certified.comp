@@ -120,19 +120,21 @@ void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range,
     if (!single && certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), 0.5)) {
         return;
     }
-    const CertifiedCell known =
-        certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
+    const CertifiedCorners corners = cornersOf(cell, range);
+    const CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.delta);
     if (!certifiedCellMayBeOpaque(opacities(), known)) {
         return;
     }
-    VoxelPoint witness;
+    CertifiedWitness witness;
     const int verdict =
         certifiedFragment(opacities(), constants.item, triangle, known, cell.x, cell.y, cell.z, witness);
     if (verdict == CERTIFIED_CERTAIN) {
         ++survivors;
 #ifdef OUTPUTS
-        const VoxelPoint at = certifiedTexture(constants.item, witness);
-        emitSurvivor(pair, number, vec3(at.x, at.y, at.z));
+        const CertifiedProof proof =
+            certifiedProof(opacities(), constants.item, corners, witness, cell.x, cell.y, cell.z);
+        emitSurvivor(pair, number, contactVector(proof.texture.x, proof.texture.y, proof.texture.z),
+                     contactSample(proof.stored, proof.opacity));
 #endif
     } else if (verdict == CERTIFIED_UNDECIDED) {
         undecided = true;

@@ -124,32 +124,44 @@ EXACT bool certifiedCrossingProves(OpacityTable table, CertifiedSamples samples,
     return samples.some && certainlySomeOpaque(table, above, below);
 }
 
-/// A point on the way from one sample to the other that is as opaque as the table has between them: the witness.
-EXACT VoxelPoint certifiedWitness(OpacityTable table, CertifiedCell cell, CertifiedSamples samples) {
-    VoxelPoint from = samples.atLo;
-    VoxelPoint to = samples.atHi;
-    float entryFrom = samples.lo;
-    float entryTo = samples.hi;
-    const float last = float(table.size - 1);
+EXACT VoxelPoint certifiedMiddle(VoxelPoint a, VoxelPoint b) {
+    return voxelPoint(exactLerp(a.x, b.x, 0.5f), exactLerp(a.y, b.y, 0.5f), exactLerp(a.z, b.z, 0.5f));
+}
+
+/// What proves a touch: a point of the fragment, relative to the cell's corner, and an opaque entry coordinate.
+struct CertifiedWitness {
+    VoxelPoint point;
+    float entry;  // certainly opaque
+    bool between; // it is not the interpolant at the point, but that of a place within rounding of the point
+};
+
+EXACT CertifiedWitness certifiedWitnessAt(VoxelPoint point, float entry) {
+    CertifiedWitness witness;
+    witness.point = point;
+    witness.entry = entry;
+    witness.between = false;
+    return witness;
+}
+
+/// The witness of certifiedCrossingProves(): an opaque entry coordinate that some point on the way from one sample to
+/// the other has, and the place to which halving that way leads.
+EXACT CertifiedWitness certifiedWitnessBetween(OpacityTable table, CertifiedCell cell, CertifiedSamples samples) {
+    PRECISE float above = samples.lo + cell.margin;
+    PRECISE float below = samples.hi - cell.margin;
+    CertifiedWitness witness;
+    witness.point = samples.atLo;
+    witness.entry = opaqueBetween(table, above, below);
+    witness.between = true;
+    VoxelPoint beyond = samples.atHi;
     for (int step = 0; step < 24; ++step) {
-        const float opacityFrom = opacityAt(table, opacityEntry(table, entryFrom, 0.0f));
-        const float opacityTo = opacityAt(table, opacityEntry(table, entryTo, last));
-        if (opacityFrom >= table.threshold || opacityTo >= table.threshold) {
-            return opacityFrom >= opacityTo ? from : to;
-        }
-        const VoxelPoint middle =
-            voxelPoint(exactLerp(from.x, to.x, 0.5f), exactLerp(from.y, to.y, 0.5f), exactLerp(from.z, to.z, 0.5f));
-        const float entry = certifiedInterpolate(cell, middle.x, middle.y, middle.z);
-        const bool lower = entry >= entryFrom && mayBeOpaque(table, entryFrom, entry);
-        if (lower) {
-            to = middle;
-            entryTo = entry;
+        const VoxelPoint middle = certifiedMiddle(witness.point, beyond);
+        if (certifiedInterpolate(cell, middle.x, middle.y, middle.z) <= witness.entry) {
+            witness.point = middle;
         } else {
-            from = middle;
-            entryFrom = entry;
+            beyond = middle;
         }
     }
-    return from;
+    return witness;
 }
 
 /// Whether no point of a piece is safe, because all lie beyond the same side of the box that is.
@@ -168,10 +180,6 @@ EXACT bool certifiedHopeless(CertifiedCell cell, CertifiedPiece piece, Certified
     PRECISE float width = range.hi - range.lo;
     const bool sampled = certifiedSafe(cell, piece.a) && certifiedSafe(cell, piece.b) && certifiedSafe(cell, piece.c);
     return (!(width > cell.margin) && sampled) || certifiedAllUnsafe(cell, piece);
-}
-
-EXACT VoxelPoint certifiedMiddle(VoxelPoint a, VoxelPoint b) {
-    return voxelPoint(exactLerp(a.x, b.x, 0.5f), exactLerp(a.y, b.y, 0.5f), exactLerp(a.z, b.z, 0.5f));
 }
 
 /// Whether every point of the cell is certainly opaque, and every point that a displacement may make of one.
@@ -200,7 +208,7 @@ EXACT bool certifiedSafeCorner(CertifiedCell cell, ARRAY(VoxelPoint, corners, CE
 
 /// Decides a fragment: the polygon of certifiedClip() in its cell. `witness` is set where it is certain.
 EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resolution,
-                          ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count, OUT(VoxelPoint) witness) {
+                          ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count, OUT(CertifiedWitness) witness) {
     CertifiedPiece stack[CERTIFIED_STACK];
     CertifiedSamples samples;
     samples.some = false;
@@ -208,7 +216,7 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
     samples.hi = 0.0f;
     samples.atLo = corners[0];
     samples.atHi = corners[0];
-    witness = corners[0];
+    witness = certifiedWitnessAt(corners[0], 0.0f);
     int waiting = 0;
     for (int i = count - 2; i > 0; --i) {
         stack[waiting].a = corners[0];
@@ -221,9 +229,9 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
         if (pieces == CERTIFIED_MAX_PIECES) {
             // Corners of pieces that were not looked at: certifiedVertexProves() does not depend on their order.
             for (int i = 0; i < count; ++i) {
-                witness = corners[i];
-                if (certifiedPointProves(table, cell, witness,
-                                         certifiedInterpolate(cell, witness.x, witness.y, witness.z))) {
+                const float entry = certifiedInterpolate(cell, corners[i].x, corners[i].y, corners[i].z);
+                if (certifiedPointProves(table, cell, corners[i], entry)) {
+                    witness = certifiedWitnessAt(corners[i], entry);
                     return CERTIFIED_CERTAIN;
                 }
             }
@@ -237,22 +245,22 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
             continue;
         }
         if (certifiedPointProves(table, cell, piece.a, range.atA)) {
-            witness = piece.a;
+            witness = certifiedWitnessAt(piece.a, range.atA);
             return CERTIFIED_CERTAIN;
         }
         if (certifiedPointProves(table, cell, piece.b, range.atB)) {
-            witness = piece.b;
+            witness = certifiedWitnessAt(piece.b, range.atB);
             return CERTIFIED_CERTAIN;
         }
         if (certifiedPointProves(table, cell, piece.c, range.atC)) {
-            witness = piece.c;
+            witness = certifiedWitnessAt(piece.c, range.atC);
             return CERTIFIED_CERTAIN;
         }
         certifiedSample(cell, piece.a, range.atA, samples);
         certifiedSample(cell, piece.b, range.atB, samples);
         certifiedSample(cell, piece.c, range.atC, samples);
         if (certifiedCrossingProves(table, samples, cell.margin)) {
-            witness = certifiedWitness(table, cell, samples);
+            witness = certifiedWitnessBetween(table, cell, samples);
             return CERTIFIED_CERTAIN;
         }
         const float ab = voxelLength(voxelDifference(piece.b, piece.a));
@@ -284,12 +292,44 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
     return open ? CERTIFIED_UNDECIDED : CERTIFIED_NONE;
 }
 
-/// The texture coordinate of a point of voxel space.
-EXACT VoxelPoint certifiedTexture(CertifiedItem item, VoxelPoint point) {
-    PRECISE float x = (point.x + 0.5f) * exactReciprocal(float(item.sizeX));
-    PRECISE float y = (point.y + 0.5f) * exactReciprocal(float(item.sizeY));
-    PRECISE float z = (point.z + 0.5f) * exactReciprocal(float(item.sizeZ));
-    return voxelPoint(x, y, z);
+/// The texture coordinate along an axis of a place in a cell.
+EXACT float certifiedTexture(int cell, float within, int size) {
+    PRECISE float place = float(cell) + within;
+    PRECISE float shifted = place + 0.5f;
+    PRECISE float coordinate = shifted * exactReciprocal(float(size));
+    return coordinate;
+}
+
+/// What is said of a witness.
+struct CertifiedProof {
+    VoxelPoint texture; // its texture coordinate
+    float stored;       // the stored value there
+    float opacity;      // the opacity of that value: not below the threshold
+};
+
+/// Of a witness in the cell (x, y, z).
+EXACT CertifiedProof certifiedProof(OpacityTable table, CertifiedItem item, CertifiedCorners corners,
+                                    CertifiedWitness witness, int x, int y, int z) {
+    const VoxelPoint at = witness.point;
+    CertifiedProof proof;
+    proof.texture = voxelPoint(certifiedTexture(x, at.x, item.sizeX), certifiedTexture(y, at.y, item.sizeY),
+                               certifiedTexture(z, at.z, item.sizeZ));
+    if (witness.between) {
+        PRECISE float above = witness.entry - item.entryBias;
+        PRECISE float scaled = above * exactReciprocal(item.entryScale);
+        PRECISE float stored = scaled + item.storedReference;
+        proof.stored = stored;
+    } else {
+        const float v00 = exactLerp(corners.s000, corners.s100, at.x);
+        const float v10 = exactLerp(corners.s010, corners.s110, at.x);
+        const float v01 = exactLerp(corners.s001, corners.s101, at.x);
+        const float v11 = exactLerp(corners.s011, corners.s111, at.x);
+        proof.stored = exactLerp(exactLerp(v00, v10, at.y), exactLerp(v01, v11, at.y), at.z);
+    }
+    // It is opaque, and known up to OPACITY_ERROR.
+    const float opacity = opacityAt(table, opacityEntry(table, witness.entry, 0.0f));
+    proof.opacity = opacity >= table.threshold ? opacity : table.threshold;
+    return proof;
 }
 
 /// The range of an axis that a triangle's part in a cell lies in, relative to the cell's corner.
@@ -337,12 +377,11 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
     return certifiedMayBeOpaque(table, least, greatest, cell.pointError);
 }
 
-/// A fragment's verdict. Expects a cell that may have an opaque point. `witness` is in voxel space, set where it is
-/// certain.
+/// A fragment's verdict. Expects a cell that may have an opaque point. `witness` is set where it is certain.
 EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTriangle triangle, CertifiedCell cell,
-                            int x, int y, int z, OUT(VoxelPoint) witness) {
+                            int x, int y, int z, OUT(CertifiedWitness) witness) {
     const VoxelPoint origin = voxelPoint(float(x), float(y), float(z));
-    witness = origin;
+    witness = certifiedWitnessAt(voxelPoint(0.0f, 0.0f, 0.0f), 0.0f);
     const bool full = certifiedCellAllOpaque(table, cell);
     if (!full && !certifiedPartMayBeOpaque(table, triangle, cell, origin)) {
         return CERTIFIED_NONE;
@@ -354,12 +393,10 @@ EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTri
     }
     VoxelPoint within;
     if (full && certifiedSafeCorner(cell, polygon, count, within)) {
-        witness = voxelPoint(origin.x + within.x, origin.y + within.y, origin.z + within.z);
+        witness = certifiedWitnessAt(within, certifiedInterpolate(cell, within.x, within.y, within.z));
         return CERTIFIED_CERTAIN;
     }
-    const int verdict = certifiedDecide(table, cell, item.resolution, polygon, count, within);
-    witness = voxelPoint(origin.x + within.x, origin.y + within.y, origin.z + within.z);
-    return verdict;
+    return certifiedDecide(table, cell, item.resolution, polygon, count, witness);
 }
 
 /// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a

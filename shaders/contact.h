@@ -70,6 +70,19 @@ struct ContactVector {
     float x, y, z;
 };
 
+/// What a contact says of its place.
+struct ContactSample {
+    float stored;
+    float opacity;
+};
+
+EXACT ContactSample contactSample(float stored, float opacity) {
+    ContactSample found;
+    found.stored = stored;
+    found.opacity = opacity;
+    return found;
+}
+
 #ifndef __cplusplus
 float contactOpacity(OutputPair pair, ContactVector at);
 #endif

@@ -97,6 +97,29 @@ EXACT bool certainlySomeOpaque(OpacityTable table, float lo, float hi) {
     return opacityAt(table, from) >= safe || opacityAt(table, to) >= safe;
 }
 
+/// One of the coordinates of [lo, hi] that are certainly opaque: of the entries the one of the greatest opacity, an end
+/// where none of them is opaque. Expects certainlySomeOpaque().
+EXACT float opaqueBetween(OpacityTable table, float lo, float hi) {
+    const float from = opacityEntry(table, lo, 0.0f);
+    const float to = opacityEntry(table, hi, 0.0f);
+    int inner = wholeAbove(from);
+    int outer = wholeBelow(to);
+    if (inner > outer || !(opacityMaximum(table, inner, outer) >= table.threshold)) {
+        return opacityAt(table, from) >= opacityAt(table, to) ? lo : hi;
+    }
+    while (inner < outer) {
+        const int middle = (inner + outer) / 2;
+        if (opacityMaximum(table, inner, middle) >= opacityMaximum(table, middle + 1, outer)) {
+            outer = middle;
+        } else {
+            inner = middle + 1;
+        }
+    }
+    // Beyond the table its ends are looked up: the coordinate itself stays in the range.
+    const float entry = float(inner);
+    return entry < lo ? lo : (entry > hi ? hi : entry);
+}
+
 #include "exact_language.h"
 
 #ifdef __cplusplus

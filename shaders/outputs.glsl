@@ -61,8 +61,16 @@ void writeVector(uint word, ContactVector vector) {
     outputs[word + 2u] = floatBitsToUint(vector.z);
 }
 
+/// What the `exact` filter finds at a texture coordinate.
+ContactSample sampleAt(OutputPair pair, ContactVector at) {
+    const ContactVector inside = contactClamp(at);
+    const float stored = exactStored(vec3(inside.x, inside.y, inside.z), pair.item.storedUnit);
+    return contactSample(stored, exactTable(stored, pair.item));
+}
+
 /// A ContactResult, where the list has room for it.
-void emitContact(OutputPair pair, uint number, uint triangle, ContactVector at, ContactVector position, uint label) {
+void emitContact(OutputPair pair, uint number, uint triangle, ContactVector at, ContactVector position, uint label,
+                 ContactSample found) {
     const uint before = atomicAdd(outputs[pair.contacts], 1u);
     if (before == 0xffffffffu) {
         atomicAdd(outputs[pair.contacts + 1u], 1u);
@@ -72,24 +80,21 @@ void emitContact(OutputPair pair, uint number, uint triangle, ContactVector at, 
     }
     const uint word = pair.contacts + OUTPUT_HEADER_WORDS + before * OUTPUT_CONTACT_WORDS;
     const ContactVector normal = contactNormal(pair, at);
-    const ContactVector inside = contactClamp(at);
-    const float stored = exactStored(vec3(inside.x, inside.y, inside.z), pair.item.storedUnit);
-    precise float scaled = stored * pair.valueScale;
+    precise float scaled = found.stored * pair.valueScale;
     precise float value = scaled + pair.valueBias;
     writeVector(word, position);
     writeVector(word + 3u, normal);
     outputs[word + 6u] = floatBitsToUint(contactDepth(pair, at, normal));
     outputs[word + 7u] = floatBitsToUint(value);
-    outputs[word + 8u] = floatBitsToUint(exactTable(stored, pair.item));
+    outputs[word + 8u] = floatBitsToUint(found.opacity);
     outputs[word + 9u] = number;
     outputs[word + 10u] = triangle;
     outputs[word + 11u] = label;
 }
 
-/// A survivor of the pair of that number.
-void emitSurvivor(uint number, uint triangle, vec3 textureCoordinate) {
+/// A survivor of the pair of that number, at a texture coordinate; `found` is for contacts alone.
+void emitSurvivor(uint number, uint triangle, ContactVector at, ContactSample found) {
     const OutputPair pair = outputPairs[number];
-    const ContactVector at = contactVector(textureCoordinate.x, textureCoordinate.y, textureCoordinate.z);
     const ContactVector position =
         contactTransform(pair.world_from_texture[0], pair.world_from_texture[1], pair.world_from_texture[2], at);
     if ((kOutputs & OUTPUT_TRIANGLES) != 0u) {
@@ -103,8 +108,18 @@ void emitSurvivor(uint number, uint triangle, vec3 textureCoordinate) {
         atomicAdd(outputs[pair.firstLabel + label], 1u);
     }
     if ((kOutputs & OUTPUT_CONTACTS) != 0u) {
-        emitContact(pair, number, triangle, at, position, label);
+        emitContact(pair, number, triangle, at, position, label, found);
     }
+}
+
+/// The same, where a contact says what is found by a look at its place.
+void emitSurvivor(uint number, uint triangle, vec3 textureCoordinate) {
+    const ContactVector at = contactVector(textureCoordinate.x, textureCoordinate.y, textureCoordinate.z);
+    ContactSample found = contactSample(0.0, 0.0);
+    if ((kOutputs & OUTPUT_CONTACTS) != 0u) {
+        found = sampleAt(outputPairs[number], at);
+    }
+    emitSurvivor(number, triangle, at, found);
 }
 
 #endif

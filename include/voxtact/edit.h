@@ -16,7 +16,7 @@ struct VoxelBox {
     std::array<std::uint32_t, 3> size{};  ///< voxels along each axis; 0: empty
 };
 
-/// The voxels whose centre is within a distance of a point: a ball in millimetres, whatever the spacing.
+/// The voxels whose centre is at most a distance (mm) from a point, by exact arithmetic on these and the grid.
 struct Ball {
     Vec3 centre{};     ///< world, mm
     double radius = 0; ///< mm; not negative

@@ -32,18 +32,18 @@ struct TouchedTriangle {
 struct Contact {
     std::uint32_t pair = 0;
     std::uint32_t triangle = 0; ///< number in the mesh
-    Vec3 position{};            ///< world, mm: on the triangle, in an opaque sample
+    Vec3 position{};            ///< world, mm: on the triangle, in an opaque sample up to rounding
     /// Unit vector in world space, against the gradient of opacity: out of what is opaque. The gradient is of
-    /// differences over one voxel to each side; where these vanish the step is doubled, up to maxDepth. Zero where they
-    /// all vanish.
+    /// differences over one voxel to each side, the span clamped to the image; where these vanish the step is doubled,
+    /// up to maxDepth. Zero where they all vanish.
     Vec3 normal{};
     /// mm along the normal from the position to where the opacity falls below the threshold, or the image ends. It is
     /// looked for in steps of half the smallest spacing, or of maxDepth/1024 where that is more, so that a thinner gap
     /// may be missed. maxDepth where there is none up to there, or where there is no normal.
     double depth = 0;
     double value = 0; ///< of the image, in its own units
-    /// Of that value. Contacts are looked up as Filter::Exact does, whatever the detector filters with: a survivor of
-    /// Filter::Hardware may be below the threshold here by what that filter is off.
+    /// Of that value, by Filter::Exact: a survivor of Filter::Hardware may be a little below the threshold. In
+    /// Projection::Conservative both are those that prove the touch, and it is not below the threshold (a float).
     double opacity = 0;
     std::int32_t label = 0; ///< of the nearest voxel of the label map; 0 without a map, and outside of it
 };

@@ -30,6 +30,11 @@ struct HostField {
     [[nodiscard]] float opacity(const OutputPair&, const ContactVector& inside) const {
         return opacityOf(stored(inside));
     }
+    /// What a contact says that a look at its place finds.
+    [[nodiscard]] ContactSample sample(const ContactVector& at) const {
+        const float value = stored(contactClamp(at));
+        return {value, opacityOf(value)};
+    }
 };
 
 Vec3 widened(const ContactVector& vector) {
@@ -128,7 +133,7 @@ OutputRun::Sink::Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std:
     }
 }
 
-void OutputRun::Sink::add(std::uint32_t triangle, const ContactVector& at) {
+void OutputRun::Sink::add(std::uint32_t triangle, const ContactVector& at, const std::optional<ContactSample>& known) {
     any_ = true;
     if (run_.outputs_.triangles) {
         std::vector<TouchedTriangle>& list = found_.triangles;
@@ -147,23 +152,23 @@ void OutputRun::Sink::add(std::uint32_t triangle, const ContactVector& at) {
         ++histogram_[label];
     }
     if (run_.outputs_.contacts && run_.contacts_.fetch_add(1, std::memory_order_relaxed) < run_.mostContacts_) {
-        addContact(at, position, triangle, label);
+        const HostField field{*item_.image, *item_.table, item_.pair.item};
+        addContact(at, position, triangle, label, known ? *known : field.sample(at));
     }
 }
 
 void OutputRun::Sink::addContact(const ContactVector& at, const Vec3& position, std::uint32_t triangle,
-                                 std::uint32_t label) {
+                                 std::uint32_t label, const ContactSample& sample) {
     const HostField field{*item_.image, *item_.table, item_.pair.item};
-    const float stored = field.stored(contactClamp(at));
     const ContactVector normal = contactNormal(field, item_.pair, at);
-    const float scaled = stored * item_.pair.valueScale;
+    const float scaled = sample.stored * item_.pair.valueScale;
     found_.contacts.push_back({.pair = pair_,
                                .triangle = triangle,
                                .position = position,
                                .normal = widened(normal),
                                .depth = contactDepth(field, item_.pair, at, normal),
                                .value = scaled + item_.pair.valueBias,
-                               .opacity = field.opacityOf(stored),
+                               .opacity = sample.opacity,
                                .label = item_.labels == nullptr ? 0 : item_.labels->values[label]});
 }
 

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace voxtact::cpu {
@@ -67,13 +68,16 @@ class OutputRun::Sink {
   public:
     Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread);
 
-    /// Texture space; in the domain, unless coordinates are clamped.
-    void add(std::uint32_t triangle, const shader::ContactVector& at);
+    /// Texture space; in the domain, unless coordinates are clamped. `known` is what a contact is to say of its place;
+    /// without it, what a look at the place finds.
+    void add(std::uint32_t triangle, const shader::ContactVector& at,
+             const std::optional<shader::ContactSample>& known = {});
     /// Once all were added.
     void publish();
 
   private:
-    void addContact(const shader::ContactVector& at, const Vec3& position, std::uint32_t triangle, std::uint32_t label);
+    void addContact(const shader::ContactVector& at, const Vec3& position, std::uint32_t triangle, std::uint32_t label,
+                    const shader::ContactSample& sample);
 
     OutputRun& run_;
     const ItemOutputs& item_;

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
+
 namespace voxtact::test {
 namespace {
 
@@ -35,6 +37,30 @@ TEST_F(HostTest, CountsWithoutADriver) {
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0], "pose,mesh,volume,hit,count,exact,method,projection");
     EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:32,1,[1-9][0-9]*,1,cpu,conservative"));
+}
+
+/// glibc fills what malloc gives out and takes back with a byte and its complement: a mesh beside the volume is a
+/// certain miss whatever they are, and the rows are the same.
+TEST_F(HostTest, FarPosesAreMissesWhateverMemoryHeld) {
+    constexpr std::array<std::array<const char*, 3>, 4> kPlaces{
+        {{"1000", "0", "0"}, {"0", "-500", "300"}, {"1e6", "1e6", "1e6"}, {"0", "0", "-1e30"}}};
+    std::string text;
+    for (const auto& [x, y, z] : kPlaces) {
+        text += std::string("0.5 0 0.866025 ") + x + " 0 1 0 " + y + " -0.866025 0 0.5 " + z + " 0 0 0 1\n";
+    }
+    writeText(path("far.txt"), text);
+    for (const char* fill : {"0", "1", "85", "128", "170", "255"}) {
+        const RunOptions dirty{.environment = {{"MALLOC_PERTURB_", fill},
+                                               {"VK_ICD_FILENAMES", "/nonexistent"},
+                                               {"VK_DRIVER_FILES", "/nonexistent"}}};
+        const auto lines = linesOf(output(detect({"--count", "cpu", "--poses", path("far.txt")}), dirty));
+        ASSERT_EQ(lines.size(), kPlaces.size() + 1);
+        for (std::size_t pose = 0; pose < kPlaces.size(); ++pose) {
+            EXPECT_EQ(lines[pose + 1],
+                      std::to_string(pose) + ",builtin:scalpel:500,builtin:head:32,0,0,1,cpu,conservative")
+                << "filled with " << fill;
+        }
+    }
 }
 
 TEST_F(HostTest, CountsWithoutALoader) {

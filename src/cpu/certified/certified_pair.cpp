@@ -256,14 +256,14 @@ template <class Kept> class Decider {
 
     void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
                     const BrickCells& known) {
-        VoxelPoint witness{};
-        const shader::CertifiedCell cell =
-            shader::certifiedCell(item_, cornersOf(x, y, z, known), x, y, z, triangle.delta);
+        shader::CertifiedWitness witness{};
+        const shader::CertifiedCorners corners = cornersOf(x, y, z, known);
+        const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
         const int verdict = shader::certifiedFragment(table_, item_, triangle, cell, x, y, z, witness);
         if (verdict == CERTIFIED_CERTAIN) {
             ++tally_.certain;
             if (sink_) {
-                sink_(number_, witness);
+                sink_(number_, shader::certifiedProof(table_, item_, corners, witness, x, y, z));
             }
         } else if (verdict == CERTIFIED_UNDECIDED) {
             tally_.undecided = true;

@@ -25,8 +25,8 @@ struct CertifiedTally {
     bool undecided = false;    ///< at least one fragment could not be decided
 };
 
-/// Called for each certain fragment with the number of its triangle and its witness in voxel space.
-using CertifiedSink = std::function<void(std::uint32_t triangle, const shader::VoxelPoint& witness)>;
+/// Called for each certain fragment with the number of its triangle and what is said of its witness.
+using CertifiedSink = std::function<void(std::uint32_t triangle, const shader::CertifiedProof& proof)>;
 
 /// Visits the fragments of a job. `sink` may be empty. What is skipped (clusters, triangles, bricks) is skipped only
 /// where it provably has no opaque point. Thread-safe.

@@ -67,9 +67,9 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
         CertifiedTally found;
         if (outputs) {
             outputs->collect(task.item, task.pair, thread, [&](OutputRun::Sink& sink) {
-                found = decide(job, [&](std::uint32_t triangle, const shader::VoxelPoint& witness) {
-                    const shader::VoxelPoint at = certifiedTexture(job.occupancy.item(), witness);
-                    sink.add(triangle, {at.x, at.y, at.z});
+                found = decide(job, [&](std::uint32_t triangle, const shader::CertifiedProof& proof) {
+                    const shader::VoxelPoint& at = proof.texture;
+                    sink.add(triangle, {at.x, at.y, at.z}, shader::ContactSample{proof.stored, proof.opacity});
                 });
             });
         } else {
