@@ -21,9 +21,11 @@ endif()
 # voxtact::io
 if(VOXTACT_BUILD_IO)
   enable_language(C) # ITK's look for HDF5 compiles a C file
-  find_package(ITK 5.2 CONFIG REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKIOGDCM)
+  find_package(ITK 5.2 CONFIG REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta)
   find_package(nlohmann_json 3.10 CONFIG REQUIRED)
-  find_package(GDCM CONFIG REQUIRED) # behind ITK's DICOM reader; only to silence it
+  # JPEG 2000 in DICOM files. OpenJPEG's own package file asks for its programs, which nobody needs.
+  find_path(VOXTACT_OPENJPEG_INCLUDE_DIR openjpeg.h PATH_SUFFIXES openjpeg-2.5 REQUIRED)
+  find_library(VOXTACT_OPENJPEG_LIBRARY openjp2 REQUIRED)
   find_package(ZLIB REQUIRED)
   find_path(VOXTACT_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED) # a header that writes PNG
 endif()
@@ -46,4 +48,7 @@ endif()
 
 if(VOXTACT_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  if(VOXTACT_BUILD_IO)
+    find_package(charls 2.3 CONFIG REQUIRED) # writes JPEG-LS
+  endif()
 endif()

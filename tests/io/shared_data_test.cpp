@@ -160,7 +160,7 @@ TEST_F(SharedData, DicomFoldersThatAreNotOneSeries) {
     copy(good / "N2D_0181.dcm");
     ASSERT_TRUE(isOk(io::readVolume(folder.path())));
     copy(good / "N2D_0183.dcm");
-    expectRefused(io::readVolume(folder.path()), "uneven");
+    expectRefused(io::readVolume(folder.path()), "a slice is missing between 'N2D_0181.dcm'");
     fs::copy_file(good / "N2D_0180.dcm", folder / "again.dcm");
     expectRefused(io::readVolume(folder.path()), "are at the same place");
     copy(tilted / "13.dcm");

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "core/text.h"
-#include "io/byte_source.h"
-#include "io/errors.h"
-#include "io/volume/itk_image.h"
+#include "io/volume/dicom_folder.h"
 
-#include <itkGDCMImageIO.h>
-#include <itkGDCMSeriesFileNames.h>
+#include "io/errors.h"
+#include "io/volume/dicom_stack.h"
+#include "io/volume/dicom_values.h"
+#include "io/volume/dicom_walker.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <array>
+#include <map>
+#include <optional>
 
 namespace voxtact::io {
 
@@ -17,208 +17,204 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Slice {
-    fs::path path;
-    ItkImage image;    ///< without voxels
-    double height = 0; ///< along the normal of the first slice, mm
+/// Files that hold no image by what they say they are (SOP classes, PS3.6): directories, reports, plans, measurements.
+bool holdsNoImage(const DicomFile& file) {
+    constexpr std::array<std::string_view, 12> kClasses{
+        "1.2.840.10008.1.3.10",          // DICOMDIR
+        "1.2.840.10008.5.1.4.1.1.11.",   // presentation states
+        "1.2.840.10008.5.1.4.1.1.66",    // raw data, registrations, fiducials (see below)
+        "1.2.840.10008.5.1.4.1.1.67",    // real-world value mapping
+        "1.2.840.10008.5.1.4.1.1.78.",   // eyes measured
+        "1.2.840.10008.5.1.4.1.1.88.",   // structured reports, key objects
+        "1.2.840.10008.5.1.4.1.1.9.",    // waveforms
+        "1.2.840.10008.5.1.4.1.1.104.",  // documents
+        "1.2.840.10008.5.1.4.1.1.481.3", // structure sets
+        "1.2.840.10008.5.1.4.1.1.481.4", // treatment records
+        "1.2.840.10008.5.1.4.1.1.481.5", // plans
+        "1.2.840.10008.5.1.4.1.1.200."}; // protocols
+    std::string_view uid = file.set.text(dicom::kSopClass);
+    if (uid.empty()) {
+        uid = file.set.text(dicom::kMediaStorage);
+    }
+    return !file.pixels && std::any_of(kClasses.begin(), kClasses.end(), [&](std::string_view one) {
+        return uid == one || (uid.starts_with(one) && (one.ends_with('.') || uid[one.size()] == '.'));
+    });
+}
+
+struct Survey {
+    std::vector<DicomFile> images;
+    std::size_t others = 0; ///< DICOM files that hold no image
+    bool hasDirectory = false;
+    std::optional<Error> unreadable; ///< the first, in the order of the names
 };
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// In thousandths, for messages.
-std::string millimetres(double length) {
-    return number(std::round(length * 1000) / 1000);
-}
-
-Vec3 normalOf(const Grid& grid) {
-    return {grid.direction[6], grid.direction[7], grid.direction[8]};
-}
-
-Result<std::vector<std::string>> seriesFiles(const fs::path& folder) {
-    const auto names = itk::GDCMSeriesFileNames::New();
-    names->SetUseSeriesDetails(false);
-    names->SetRecursive(false);
-    names->SetDirectory(folder.string());
-    const std::vector<std::string> series = names->GetSeriesUIDs();
-    if (series.empty()) {
-        return cannotRead(folder, "the folder holds no DICOM series");
-    }
-    if (series.size() > 1) {
-        std::string list;
-        for (const std::string& uid : series) {
-            list +=
-                (list.empty() ? "" : ", ") + uid + " (" + std::to_string(names->GetFileNames(uid).size()) + " files)";
-        }
-        return cannotRead(folder, "the folder holds " + std::to_string(series.size()) + " DICOM series: " + list +
-                                      "; put the one that is meant into a folder of its own");
-    }
-    return std::vector<std::string>(names->GetFileNames(series.front()));
-}
-
-/// A DICOM file that GDCM cannot read is left out of the series; at the end of the stack nobody would miss it.
-Result<void> checkNothingLeftOut(const fs::path& folder, const std::vector<std::string>& files) {
-    constexpr std::size_t kMagicEnd = 132;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        const bool taken = std::any_of(files.begin(), files.end(),
-                                       [&](const std::string& file) { return fs::path(file).filename() == name; });
-        if (taken || name == "DICOMDIR" || !entry.is_regular_file()) {
-            continue;
-        }
-        const Result<std::string> head = contentHead(entry.path(), kMagicEnd);
-        if (head.ok() && head->size() == kMagicEnd && head->ends_with("DICM")) {
-            return cannotRead(entry.path(),
-                              "it is a DICOM file without a readable image; get it again or take it away");
+/// Regular files, and links to them, by name.
+Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
+    std::error_code problem;
+    std::vector<fs::path> paths;
+    for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
+        std::error_code ignored;
+        if (entry->is_regular_file(ignored)) {
+            paths.push_back(entry->path());
         }
     }
-    return {};
-}
-
-Result<std::vector<Slice>> readSlices(const std::vector<std::string>& files) {
-    std::vector<Slice> slices;
-    for (const std::string& file : files) {
-        if (Result<void> whole = checkDicomSlice(file); !whole.ok()) {
-            return whole.error();
-        }
-        const auto io = itk::GDCMImageIO::New();
-        Result<ItkImage> image = readInformation(*io, file);
-        if (!image.ok()) {
-            return image.error();
-        }
-        if (image->grid.size[2] != 1) {
-            return cannotRead(file, "it holds " + std::to_string(image->grid.size[2]) +
-                                        " frames; only series with one slice a file are supported");
-        }
-        slices.push_back({file, std::move(*image), 0});
+    if (problem) {
+        return cannotRead(folder, problem.message(), ErrorCode::File);
     }
-    return slices;
+    std::sort(paths.begin(), paths.end());
+    return paths;
 }
 
-/// All slices must be of one size, type, spacing and direction.
-Result<void> checkAlike(const std::vector<Slice>& slices) {
-    const ItkImage& first = slices.front().image;
-    for (const Slice& slice : slices) {
-        const Grid& grid = slice.image.grid;
-        const char* what = nullptr;
-        if (grid.size != first.grid.size) {
-            what = "size";
-        } else if (slice.image.component != first.component) {
-            what = "voxel type";
-        }
-        constexpr double kTolerance = 1e-4;
-        for (std::size_t i = 0; i < grid.direction.size(); ++i) {
-            if (std::abs(grid.direction[i] - first.grid.direction[i]) > kTolerance) {
-                what = "direction";
+Result<Survey> survey(const fs::path& folder) {
+    constexpr std::string_view kDirectoryClass = "1.2.840.10008.1.3.10";
+    const Result<std::vector<fs::path>> paths = filesOf(folder);
+    if (!paths.ok()) {
+        return paths.error();
+    }
+    Survey found;
+    for (const fs::path& path : *paths) {
+        Result<std::optional<DicomFile>> file = readDicomFile(path);
+        if (!file.ok()) {
+            // Without a DICOM file in the folder it does not matter.
+            found.unreadable = found.unreadable ? found.unreadable : std::optional(file.error());
+            if (file.error().code != ErrorCode::File) {
+                return file.error();
             }
-        }
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            if (std::abs(grid.spacing[axis] - first.grid.spacing[axis]) > kTolerance * first.grid.spacing[axis]) {
-                what = "spacing";
-            }
-        }
-        if (what != nullptr) {
-            return cannotRead(slice.path, std::string("the slice's ") + what + " is not that of '" +
-                                              slices.front().path.filename().string() + "' in the same series");
-        }
-    }
-    return {};
-}
-
-void sortAlongNormal(std::vector<Slice>& slices) {
-    const Vec3 normal = normalOf(slices.front().image.grid);
-    for (Slice& slice : slices) {
-        slice.height = dot(slice.image.grid.origin, normal);
-    }
-    std::stable_sort(slices.begin(), slices.end(), [](const Slice& a, const Slice& b) { return a.height < b.height; });
-}
-
-/// Written positions are rounded, so a hundredth of a millimetre or a fiftieth of a gap is let pass.
-double tolerance(double gap) {
-    constexpr double kLeast = 0.01;
-    constexpr double kShare = 0.02;
-    return std::max(kLeast, kShare * gap);
-}
-
-Result<double> evenGap(const fs::path& folder, const std::vector<Slice>& slices) {
-    const double begin = slices.front().height;
-    const double gap = (slices.back().height - begin) / static_cast<double>(slices.size() - 1);
-    for (std::size_t i = 1; i < slices.size(); ++i) {
-        const double here = slices[i].height - slices[i - 1].height;
-        if (here < 1e-4) {
-            return cannotRead(folder, "'" + slices[i - 1].path.filename().string() + "' and '" +
-                                          slices[i].path.filename().string() + "' are at the same place");
+        } else if (*file && holdsNoImage(**file)) {
+            ++found.others;
+            found.hasDirectory = found.hasDirectory || (*file)->set.text(dicom::kMediaStorage) == kDirectoryClass;
+        } else if (*file && !(*file)->pixels) {
+            return cannotRead(path, "it is a DICOM file without an image, or it is truncated; get it again or take it "
+                                    "away");
+        } else if (*file) {
+            found.images.push_back(std::move(**file));
         }
     }
-    for (std::size_t i = 1; i < slices.size(); ++i) {
-        const double here = slices[i].height - slices[i - 1].height;
-        if (std::abs(slices[i].height - begin - gap * static_cast<double>(i)) > tolerance(gap) ||
-            std::abs(here - gap) > tolerance(gap)) {
-            return cannotRead(folder, "the gaps between its slices are uneven: " + millimetres(here) + " mm before '" +
-                                          slices[i].path.filename().string() + "', " + millimetres(gap) +
-                                          " mm on average; a slice is missing, or the series must be resampled");
-        }
+    if (found.images.empty()) {
+        return cannotRead(folder, found.hasDirectory
+                                      ? "the folder holds a DICOMDIR and no images beside it; give the folder below it "
+                                        "that holds the slices"
+                                      : "the folder holds no DICOM series");
     }
-    return gap;
+    if (found.unreadable) {
+        return *found.unreadable;
+    }
+    return found;
 }
 
-/// A tilted gantry shifts each slice within its plane, which spacing and direction cannot say.
-Result<void> checkUpright(const fs::path& folder, const std::vector<Slice>& slices, double gap) {
-    const Grid& first = slices.front().image.grid;
-    const Grid& last = slices.back().image.grid;
-    const Vec3 step{last.origin[0] - first.origin[0], last.origin[1] - first.origin[1],
-                    last.origin[2] - first.origin[2]};
-    const double rise = dot(step, normalOf(first));
-    const double shift = std::sqrt(std::max(0.0, dot(step, step) - rise * rise));
-    if (shift > std::max(tolerance(gap), 0.1 * std::min(first.spacing[0], first.spacing[1]))) {
-        const double degrees = std::atan2(shift, rise) * 180 / std::numbers::pi;
-        return cannotRead(folder, "its slices are sheared by " + number(std::round(degrees * 10) / 10) +
-                                      " degrees (tilted gantry); resample the series to an upright one");
+/// "1.2.3 (CT, 'Thorax', 120 files)"
+std::string describe(const std::string& uid, const std::vector<const DicomFile*>& files) {
+    const DicomDataSet& set = files.front()->set;
+    std::string text = (uid.empty() ? "one without SeriesInstanceUID" : printable(uid)) + " (";
+    for (const DicomTag tag : {dicom::kModality, dicom::kSeriesDescription}) {
+        if (set.find(tag) != nullptr) {
+            text += (tag == dicom::kModality ? printable(set.text(tag)) : "'" + printable(set.text(tag)) + "'") + ", ";
+        }
+    }
+    return text + std::to_string(files.size()) + (files.size() == 1 ? " file)" : " files)");
+}
+
+Result<void> checkOneSeries(const fs::path& folder, const std::vector<DicomFile>& files) {
+    constexpr std::size_t kMostListed = 8;
+    std::map<std::string, std::vector<const DicomFile*>> series;
+    for (const DicomFile& file : files) {
+        series[std::string(file.set.text(dicom::kSeries))].push_back(&file);
+    }
+    if (series.size() == 1) {
+        return {};
+    }
+    std::string list;
+    std::size_t listed = 0;
+    for (const auto& [uid, of] : series) {
+        if (++listed > kMostListed) {
+            list += ", ...";
+            break;
+        }
+        list += (list.empty() ? "" : ", ") + describe(uid, of);
+    }
+    return cannotRead(folder, "the folder holds " + std::to_string(series.size()) + " DICOM series: " + list +
+                                  "; put the one that is meant into a folder of its own");
+}
+
+/// What is compressed may claim to be anything; what series really become is far below a thousand times their files.
+Result<void> checkExpansion(const fs::path& folder, const std::vector<DicomFile>& files,
+                            const std::vector<DicomImage>& images) {
+    constexpr std::uint64_t kLet = std::uint64_t{1} << 28;
+    constexpr std::uint64_t kMost = 1000;
+    constexpr std::uint64_t kFar = std::uint64_t{1} << 50;
+    std::uint64_t stored = 0;
+    std::uint64_t claimed = 0;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (files[i].syntax->coding != DicomCoding::Native || files[i].syntax->deflated) {
+            stored += files[i].bytes;
+            claimed += std::min(kFar, images[i].frameBytes() * images[i].frames);
+        }
+        if (claimed > kLet && claimed / kMost > stored) {
+            return cannotRead(folder, "'" + printable(files[i].path.filename().string()) + "' claims " +
+                                          std::to_string(images[i].columns) + " x " + std::to_string(images[i].rows) +
+                                          " pixels in " + std::to_string(images[i].frames) + " frames, far more than " +
+                                          std::to_string(files[i].bytes) +
+                                          " compressed bytes hold; get the file again");
+        }
     }
     return {};
 }
 
 } // namespace
 
-Result<ItkImage> readDicomFolder(const fs::path& folder, std::vector<std::string>& notes) {
-    const Result<std::vector<std::string>> files = seriesFiles(folder);
-    if (!files.ok()) {
-        return files.error();
+Result<StoredImage> readDicomFolder(const fs::path& folder, std::vector<std::string>& notes) {
+    const Result<Survey> found = survey(folder);
+    if (!found.ok()) {
+        return found.error();
     }
-    if (Result<void> all = checkNothingLeftOut(folder, *files); !all.ok()) {
-        return all.error();
+    const std::vector<DicomFile>& files = found->images;
+    if (Result<void> one = checkOneSeries(folder, files); !one.ok()) {
+        return one.error();
     }
-    if (files->size() < 2) {
-        return cannotRead(folder, "the DICOM series has fewer than 2 slices; a 3D image is needed");
+    std::vector<DicomImage> images;
+    std::vector<DicomSlice> slices;
+    for (const DicomFile& file : files) {
+        const Result<DicomImage> image = dicomImage(file);
+        if (!image.ok()) {
+            return image.error();
+        }
+        const Result<std::vector<DicomSlice>> frames = dicomSlices(file, *image, images.size());
+        if (!frames.ok()) {
+            return frames.error();
+        }
+        images.push_back(*image);
+        slices.insert(slices.end(), frames->begin(), frames->end());
     }
-    Result<std::vector<Slice>> slices = readSlices(*files);
-    if (!slices.ok()) {
-        return slices.error();
-    }
-    sortAlongNormal(*slices);
-    if (Result<void> alike = checkAlike(*slices); !alike.ok()) {
+    if (Result<void> alike = checkAlike(files, images, slices); !alike.ok()) {
         return alike.error();
     }
-    const Result<double> gap = evenGap(folder, *slices);
-    if (!gap.ok()) {
-        return gap.error();
+    if (slices.size() < 2) {
+        return cannotRead(folder, "the DICOM series has fewer than 2 slices; a 3D image is needed");
     }
-    if (Result<void> upright = checkUpright(folder, *slices, *gap); !upright.ok()) {
-        return upright.error();
+    if (Result<void> sane = checkExpansion(folder, files, images); !sane.ok()) {
+        return sane.error();
     }
-    ItkImage image = slices->front().image;
-    image.grid.size[2] = static_cast<std::uint32_t>(slices->size());
-    image.grid.spacing[2] = *gap;
-    for (const Slice& slice : *slices) {
-        const auto io = itk::GDCMImageIO::New();
-        if (Result<ItkImage> information = readInformation(*io, slice.path); !information.ok()) {
-            return information;
-        }
-        readVoxels(*io, image.voxels);
+    const Result<Grid> grid = stackSlices(folder, files, images.front(), slices);
+    if (!grid.ok()) {
+        return grid.error();
     }
-    notes.push_back("DICOM series of " + std::to_string(slices->size()) + " slices, " + millimetres(*gap) +
+    const StoredType type = dicomType(images, slices);
+    Result<std::vector<std::byte>> voxels = dicomVoxels(files, images, slices, type);
+    if (!voxels.ok()) {
+        return voxels.error();
+    }
+    notes.push_back("DICOM series of " + std::to_string(slices.size()) + " slices, " + millimetres(grid->spacing[2]) +
                     " mm apart");
+    if (std::string note = rescaleNote(slices, type); !note.empty()) {
+        notes.push_back(std::move(note));
+    }
+    if (found->others > 0) {
+        notes.push_back(std::to_string(found->others) + " DICOM files without images left out");
+    }
+    StoredImage image;
+    image.grid = *grid;
+    image.type = type;
+    image.voxels = std::move(*voxels);
     return image;
 }
 

@@ -35,10 +35,4 @@ void readVoxels(itk::ImageIOBase& io, std::vector<std::byte>& voxels);
 /// Takes the voxels to one of ScalarType, exactly where they are integers, and says so in the notes.
 [[nodiscard]] Result<VolumeData> toScalars(ItkImage image, const std::filesystem::path& path);
 
-/// Refuses a DICOM file that ends before its pixels do: GDCM fills them up without a word.
-[[nodiscard]] Result<void> checkDicomSlice(const std::filesystem::path& path);
-
-/// A folder with one DICOM series.
-[[nodiscard]] Result<ItkImage> readDicomFolder(const std::filesystem::path& folder, std::vector<std::string>& notes);
-
 } // namespace voxtact::io

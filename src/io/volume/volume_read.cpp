@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "io/errors.h"
+#include "io/volume/dicom_folder.h"
 #include "io/volume/itk_image.h"
 #include "io/volume/itk_session.h"
 #include "voxtact/io.h"
@@ -24,12 +25,41 @@ Result<ItkImage> readFile(const std::filesystem::path& path, std::vector<std::st
     return image;
 }
 
+Result<ItkImage> fromStored(Result<StoredImage> stored) {
+    if (!stored.ok()) {
+        return stored.error();
+    }
+    ItkImage image;
+    image.grid = stored->grid;
+    image.voxels = std::move(stored->voxels);
+    switch (stored->type) {
+    case StoredType::UInt8:
+        image.component = itk::IOComponentEnum::UCHAR;
+        break;
+    case StoredType::Int16:
+        image.component = itk::IOComponentEnum::SHORT;
+        break;
+    case StoredType::UInt16:
+        image.component = itk::IOComponentEnum::USHORT;
+        break;
+    case StoredType::Int32:
+        image.component = itk::IOComponentEnum::INT;
+        break;
+    case StoredType::UInt32:
+        image.component = itk::IOComponentEnum::UINT;
+        break;
+    default:
+        image.component = itk::IOComponentEnum::FLOAT;
+        break;
+    }
+    return image;
+}
+
 Result<ItkImage> readAny(const std::filesystem::path& path, std::vector<std::string>& notes) {
     std::error_code ignored;
     try {
         if (std::filesystem::is_directory(path, ignored)) {
-            const ItkSession session;
-            return readDicomFolder(path, notes);
+            return fromStored(readDicomFolder(path, notes));
         }
         return readFile(path, notes);
     } catch (const itk::ExceptionObject& problem) {

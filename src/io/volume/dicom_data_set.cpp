@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "io/volume/dicom_data_set.h"
+
+#include "io/byte_source.h"
+#include "io/errors.h"
+#include "io/volume/dicom_stream.h"
+#include "io/volume/dicom_walker.h"
+
+#include <algorithm>
+#include <array>
+
+namespace voxtact::io {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array<DicomSyntax, 14> kSyntaxes{{
+    {"1.2.840.10008.1.2", false},
+    {"1.2.840.10008.1.2.1"},
+    {"1.2.840.10008.1.2.1.99", true, false, false, true},
+    {"1.2.840.10008.1.2.2", true, true, true},
+    {"1.2.840.113619.5.2", false, false, true}, // GE's own
+    {"1.2.840.10008.1.2.5", true, false, false, false, DicomCoding::Rle},
+    {"1.2.840.10008.1.2.4.50", true, false, false, false, DicomCoding::Jpeg},
+    {"1.2.840.10008.1.2.4.51", true, false, false, false, DicomCoding::Jpeg},
+    {"1.2.840.10008.1.2.4.57", true, false, false, false, DicomCoding::Jpeg},
+    {"1.2.840.10008.1.2.4.70", true, false, false, false, DicomCoding::Jpeg},
+    {"1.2.840.10008.1.2.4.80", true, false, false, false, DicomCoding::JpegLs},
+    {"1.2.840.10008.1.2.4.81", true, false, false, false, DicomCoding::JpegLs},
+    {"1.2.840.10008.1.2.4.90", true, false, false, false, DicomCoding::Jpeg2000},
+    {"1.2.840.10008.1.2.4.91", true, false, false, false, DicomCoding::Jpeg2000},
+}};
+constexpr const DicomSyntax* kUntyped = &kSyntaxes[0];
+constexpr const DicomSyntax* kTyped = &kSyntaxes[1];
+
+/// What those are that people have and this cannot read.
+std::string_view nameOfSyntax(std::string_view uid) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames{{
+        {"1.2.840.10008.1.2.1.98", "encapsulated uncompressed"},
+        {"1.2.840.10008.1.2.4.92", "JPEG 2000 part 2"},
+        {"1.2.840.10008.1.2.4.93", "JPEG 2000 part 2"},
+        {"1.2.840.10008.1.2.4.10", "MPEG video"},
+        {"1.2.840.10008.1.2.4.20", "high-throughput JPEG 2000"},
+        {"1.2.840.10008.1.2.4.", "a kind of JPEG"},
+    }};
+    const auto* known =
+        std::find_if(kNames.begin(), kNames.end(), [&](const auto& name) { return uid.starts_with(name.first); });
+    return known == kNames.end() ? "unknown"sv : known->second;
+}
+
+Result<const DicomSyntax*> syntaxNamed(const std::filesystem::path& path, std::string_view uid) {
+    const auto* known =
+        std::find_if(kSyntaxes.begin(), kSyntaxes.end(), [&](const DicomSyntax& syntax) { return syntax.uid == uid; });
+    if (known == kSyntaxes.end()) {
+        return cannotRead(path, "its transfer syntax " + printable(uid) + " (" + std::string(nameOfSyntax(uid)) +
+                                    ") is not supported; convert the series to explicit VR little endian");
+    }
+    return known;
+}
+
+/// Without a meta header: the first element is one of the first of group 0008, with a type and a length that fit it.
+const DicomSyntax* syntaxWithoutHeader(std::string_view head) {
+    constexpr std::uint16_t kFirstGroup = 8;
+    constexpr std::uint16_t kLastPlausible = 0x0018;
+    constexpr std::uint32_t kLongest = 64;
+    if (head.size() < 8 || numberAt<std::uint16_t>(head, 0) != kFirstGroup ||
+        numberAt<std::uint16_t>(head, 2) > kLastPlausible) {
+        return nullptr;
+    }
+    if (DicomWalker::isType(head.substr(4, 2))) {
+        return numberAt<std::uint16_t>(head, 6) <= kLongest ? kTyped : nullptr;
+    }
+    return numberAt<std::uint32_t>(head, 4) <= kLongest ? kUntyped : nullptr;
+}
+
+} // namespace
+
+std::string toText(DicomTag tag) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    std::string text = "(";
+    for (int shift = 28; shift >= 0; shift -= 4) {
+        text += kDigits[(tag >> shift) & 15U];
+        text += shift == 16 ? "," : "";
+    }
+    return text + ")";
+}
+
+const std::string* DicomDataSet::find(DicomTag tag) const {
+    const auto at = std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.first == tag; });
+    return at == values.end() || at->second.empty() ? nullptr : &at->second;
+}
+
+const std::vector<DicomDataSet>* DicomDataSet::items(DicomTag tag) const {
+    const auto at = std::find_if(sequences.begin(), sequences.end(), [&](const auto& one) { return one.first == tag; });
+    return at == sequences.end() || at->second.empty() ? nullptr : &at->second;
+}
+
+std::string_view DicomDataSet::text(DicomTag tag) const {
+    const std::string* value = find(tag);
+    return value == nullptr ? std::string_view() : std::string_view(*value);
+}
+
+Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path) {
+    constexpr std::size_t kMagicAt = 128;
+    constexpr std::string_view kMagic = "DICM";
+    Result<DicomStream> stream = DicomStream::open(path);
+    if (!stream.ok()) {
+        return stream.error();
+    }
+    DicomFile file;
+    file.path = path;
+    file.bytes = stream->mostLeft();
+    const bool magic = stream->peek(kMagicAt + kMagic.size()).substr(std::min(file.bytes, kMagicAt)) == kMagic;
+    const std::string_view head = stream->peek(8);
+    const bool metaFirst = head.starts_with("\x02\0\0\0UL\4\0"sv);
+    if (!magic && !metaFirst && syntaxWithoutHeader(head) == nullptr) {
+        return std::optional<DicomFile>();
+    }
+    if (magic && !stream->skip(kMagicAt + kMagic.size())) {
+        return cannotRead(path, "it is truncated: it ends within its header; get the file again");
+    }
+    DicomWalker walker(*stream, *kTyped);
+    if (!walker.meta(file.set)) {
+        return cannotRead(path, walker.problem());
+    }
+    if (const std::string* uid = file.set.find(dicom::kTransferSyntax); uid != nullptr) {
+        const Result<const DicomSyntax*> syntax = syntaxNamed(path, *uid);
+        if (!syntax.ok()) {
+            return syntax.error();
+        }
+        file.syntax = *syntax;
+    } else {
+        file.syntax = syntaxWithoutHeader(stream->peek(8));
+        if (file.syntax == nullptr) {
+            return cannotRead(path, "it says no TransferSyntaxUID (0002,0010); get the file again");
+        }
+    }
+    file.dataSetAt = stream->position();
+    if (file.syntax->deflated) {
+        if (Result<void> inflating = stream->inflateFromHere(); !inflating.ok()) {
+            return inflating.error();
+        }
+    }
+    DicomWalker data(*stream, *file.syntax);
+    if (!data.dataSet(file.set)) {
+        // What only looked like DICOM is left alone.
+        constexpr std::size_t kSure = 3;
+        if (!magic && !metaFirst && data.elements() < kSure) {
+            return std::optional<DicomFile>();
+        }
+        return cannotRead(path, data.problem());
+    }
+    file.pixels = data.pixels();
+    return std::optional(std::move(file));
+}
+
+} // namespace voxtact::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/volume/dicom_slice.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace voxtact::io {
+
+/// In thousandths, for messages.
+[[nodiscard]] std::string millimetres(double length);
+
+/// Refuses slices that do not lie alike: another size, spacing or orientation than most of the series, another frame of
+/// reference, rescaled where others are not. The odd one is named.
+[[nodiscard]] Result<void> checkAlike(const std::vector<DicomFile>& files, const std::vector<DicomImage>& images,
+                                      const std::vector<DicomSlice>& slices);
+
+/// Sorts the slices (at least two) along their normal and gives the grid that they make. Refuses two at one place, gaps
+/// that are uneven, and stacks that lean (a tilted gantry), saying where.
+[[nodiscard]] Result<Grid> stackSlices(const std::filesystem::path& folder, const std::vector<DicomFile>& files,
+                                       const DicomImage& image, std::vector<DicomSlice>& slices);
+
+} // namespace voxtact::io

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "io/volume/dicom_stream.h"
+
+#include "io/errors.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <zlib.h>
+
+namespace voxtact::io {
+
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 16;
+/// What one deflated byte becomes at most.
+constexpr std::uint64_t kMostInflation = 1032;
+
+} // namespace
+
+void DicomStream::InflateEnd::operator()(z_stream_s* stream) const noexcept {
+    inflateEnd(stream);
+    delete stream;
+}
+
+DicomStream::DicomStream(std::ifstream file, std::uint64_t size) : file_(std::move(file)), fileLeft_(size) {}
+DicomStream::DicomStream(DicomStream&&) noexcept = default;
+DicomStream& DicomStream::operator=(DicomStream&&) noexcept = default;
+DicomStream::~DicomStream() = default;
+
+Result<DicomStream> DicomStream::open(const std::filesystem::path& path) {
+    const Result<std::uint64_t> size = readableFile(path);
+    if (!size.ok()) {
+        return size.error();
+    }
+    return DicomStream(std::ifstream(path, std::ios::binary), *size);
+}
+
+void DicomStream::drop(std::size_t count) {
+    windowAt_ += count;
+    position_ += count;
+}
+
+bool DicomStream::fill() {
+    window_.erase(0, windowAt_);
+    windowAt_ = 0;
+    if (ended_) {
+        return false;
+    }
+    if (inflate_) {
+        return fillInflated();
+    }
+    const std::size_t before = window_.size();
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, fileLeft_));
+    window_.resize(before + wanted);
+    file_.read(window_.data() + before, static_cast<std::streamsize>(wanted));
+    const auto got = static_cast<std::size_t>(file_.gcount());
+    window_.resize(before + got);
+    fileLeft_ -= got;
+    ended_ = got == 0;
+    return !ended_;
+}
+
+bool DicomStream::fillInflated() {
+    const std::size_t before = window_.size();
+    window_.resize(before + kChunk);
+    inflate_->next_out = reinterpret_cast<Bytef*>(window_.data() + before);
+    inflate_->avail_out = static_cast<uInt>(kChunk);
+    int state = Z_OK;
+    while (inflate_->avail_out == kChunk && state == Z_OK) {
+        if (inflate_->avail_in == 0) {
+            compressed_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, fileLeft_)));
+            file_.read(compressed_.data(), static_cast<std::streamsize>(compressed_.size()));
+            const auto got = static_cast<std::size_t>(file_.gcount());
+            fileLeft_ -= got;
+            inflate_->next_in = reinterpret_cast<Bytef*>(compressed_.data());
+            inflate_->avail_in = static_cast<uInt>(got);
+        }
+        state = inflate(inflate_.get(), Z_NO_FLUSH);
+    }
+    window_.resize(before + kChunk - inflate_->avail_out);
+    ended_ = state != Z_OK;
+    return window_.size() > before;
+}
+
+Result<void> DicomStream::inflateFromHere() {
+    auto stream = std::make_unique<z_stream>();
+    *stream = {};
+    if (inflateInit2(stream.get(), -MAX_WBITS) != Z_OK) {
+        return Error{ErrorCode::OutOfMemory, 0, "out of host memory"};
+    }
+    inflate_.reset(stream.release());
+    compressed_ = window_.substr(windowAt_);
+    window_.clear();
+    windowAt_ = 0;
+    inflate_->next_in = reinterpret_cast<Bytef*>(compressed_.data());
+    inflate_->avail_in = static_cast<uInt>(compressed_.size());
+    ended_ = false;
+    return {};
+}
+
+std::uint64_t DicomStream::mostLeft() const noexcept {
+    const std::uint64_t here = window_.size() - windowAt_;
+    if (!inflate_) {
+        return here + fileLeft_;
+    }
+    return here + (ended_ ? 0 : kMostInflation * (fileLeft_ + inflate_->avail_in) + kChunk);
+}
+
+std::string_view DicomStream::peek(std::size_t count) {
+    while (window_.size() - windowAt_ < count && fill()) {
+    }
+    return std::string_view(window_).substr(windowAt_, count);
+}
+
+bool DicomStream::read(void* to, std::size_t count) {
+    auto* out = static_cast<char*>(to);
+    while (count > 0) {
+        if (windowAt_ == window_.size() && !fill()) {
+            return false;
+        }
+        const std::size_t part = std::min(count, window_.size() - windowAt_);
+        std::memcpy(out, window_.data() + windowAt_, part);
+        drop(part);
+        out += part;
+        count -= part;
+    }
+    return true;
+}
+
+bool DicomStream::skip(std::uint64_t count) {
+    const std::uint64_t here = std::min<std::uint64_t>(count, window_.size() - windowAt_);
+    drop(static_cast<std::size_t>(here));
+    count -= here;
+    if (!inflate_) {
+        if (count > fileLeft_) {
+            return false;
+        }
+        file_.seekg(static_cast<std::streamoff>(count), std::ios::cur);
+        fileLeft_ -= count;
+        position_ += count;
+        return true;
+    }
+    while (count > 0) {
+        if (windowAt_ == window_.size() && !fill()) {
+            return false;
+        }
+        const std::uint64_t part = std::min<std::uint64_t>(count, window_.size() - windowAt_);
+        drop(static_cast<std::size_t>(part));
+        count -= part;
+    }
+    return true;
+}
+
+} // namespace voxtact::io

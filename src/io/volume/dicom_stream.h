@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+struct z_stream_s;
+
+namespace voxtact::io {
+
+/// The bytes of a DICOM file, forward only: a window of them is in memory, the rest is skipped unread, and from a place
+/// on they may be deflated.
+class DicomStream {
+  public:
+    [[nodiscard]] static Result<DicomStream> open(const std::filesystem::path& path);
+
+    DicomStream(DicomStream&&) noexcept;
+    DicomStream& operator=(DicomStream&&) noexcept;
+    ~DicomStream();
+
+    /// The next `count` bytes, or fewer where the file ends before; valid until the next call of anything.
+    [[nodiscard]] std::string_view peek(std::size_t count);
+    /// False where so many are not left.
+    [[nodiscard]] bool read(void* to, std::size_t count);
+    [[nodiscard]] bool skip(std::uint64_t count);
+
+    /// Bytes taken so far, counted after inflation.
+    [[nodiscard]] std::uint64_t position() const noexcept { return position_; }
+    /// How many bytes may follow at most: exact for a plain file, a bound for a deflated one.
+    [[nodiscard]] std::uint64_t mostLeft() const noexcept;
+
+    /// What follows is a raw deflate stream.
+    [[nodiscard]] Result<void> inflateFromHere();
+
+  private:
+    DicomStream(std::ifstream file, std::uint64_t size);
+    /// Appends to the window; false at the end of the file, or where its compressed data is damaged.
+    bool fill();
+    bool fillInflated();
+    void drop(std::size_t count);
+
+    struct InflateEnd {
+        void operator()(z_stream_s* stream) const noexcept;
+    };
+
+    std::ifstream file_;
+    std::uint64_t fileLeft_;
+    std::uint64_t position_ = 0;
+    std::string window_;
+    std::size_t windowAt_ = 0;
+    std::string compressed_;
+    std::unique_ptr<z_stream_s, InflateEnd> inflate_;
+    bool ended_ = false;
+};
+
+} // namespace voxtact::io
