@@ -92,5 +92,33 @@ TEST(BrickOccupancyTest, ABallInTheMiddle) {
     EXPECT_TRUE(cpu::BrickOccupancy(volume, function, 0.5, 200).mayBeOpaque({{0.9, 0.4, 0.4}, {1, 0.6, 0.6}}));
 }
 
+/// A box that ends a hundredth of a voxel beyond the last voxel of a brick: a sample there has as much of the next
+/// voxel, and with a table this fine that is opaque. Each side of a box has to be taken outwards.
+TEST(BrickOccupancyTest, ABoxThatEndsJustBeyondABrick) {
+    constexpr std::uint32_t kSide = 24; // voxel 8 i - 1 is the last that brick i - 1 has, and the first of brick i
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const bool upper : {true, false}) {
+            const VolumeData data = makeBytes(unitGrid(kSide), [&](auto x, auto y, auto z) {
+                const std::uint32_t at = std::array{x, y, z}[axis];
+                return (upper ? at > 7 : at < 15) ? 255.0 : 0.0;
+            });
+            const cpu::Volume volume = take(cpu::Volume::create(data.view()));
+            const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}, 4096}));
+            const cpu::BrickOccupancy occupancy(volume, function, 0.005);
+            const auto slab = [&](double first, double last) { // voxels along the axis, and the whole of the others
+                Box box{{0, 0, 0}, {1, 1, 1}};
+                box.lo[axis] = (first + 0.5) / kSide;
+                box.hi[axis] = (last + 0.5) / kSide;
+                return box;
+            };
+            SCOPED_TRACE("axis " + std::to_string(axis) + (upper ? ", upper" : ", lower"));
+            EXPECT_TRUE(occupancy.mayBeOpaque(upper ? slab(2, 7.012) : slab(14.988, 20)));
+            // What filters with weights of 8 bits is off by up to a 256th of a voxel.
+            EXPECT_TRUE(occupancy.mayBeOpaque(upper ? slab(2, 6.997) : slab(15.003, 20)));
+            EXPECT_FALSE(occupancy.mayBeOpaque(upper ? slab(2, 6.9) : slab(15.1, 20)));
+        }
+    }
+}
+
 } // namespace
 } // namespace voxtact::test

@@ -3,12 +3,8 @@
 // and that one slip of the pen would get wrong. Each test says which.
 #include "certified_scenes.h"
 
-#include "core/certified_constants.h"
-#include "core/opaque_ranges.h"
-#include "cpu/certified/brick_occupancy.h"
 #include "cpu/certified/certified_occupancy.h"
 #include "cpu/engine_fixture.h"
-#include "cpu/random_scene.h"
 #include "oracle/certified_oracle.h"
 #include "support/scenes.h"
 
@@ -108,55 +104,6 @@ TEST(CertifiedMargins, OneUndecidedFragmentAmongThousandsIsKept) {
         EXPECT_FALSE(answer.hit);
         EXPECT_TRUE(answer.possible);
         EXPECT_EQ(answer.exactness, Exactness::LowerBound);
-    }
-}
-
-/// A box that ends a hundredth of a voxel beyond the last voxel of a brick: a sample there has as much of the next
-/// voxel, and with a table this fine that is opaque. Each side of a box has to be taken outwards.
-TEST(CertifiedMargins, ABoxThatEndsJustBeyondABrick) {
-    constexpr std::uint32_t kSide = 24; // voxel 8 i - 1 is the last that brick i - 1 has, and the first of brick i
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const bool upper : {true, false}) {
-            const VolumeData data = makeBytes(unitGrid(kSide), [&](auto x, auto y, auto z) {
-                const std::uint32_t at = std::array{x, y, z}[axis];
-                return (upper ? at > 7 : at < 15) ? 255.0 : 0.0;
-            });
-            const cpu::Volume volume = take(cpu::Volume::create(data.view()));
-            const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}, 4096}));
-            const cpu::BrickOccupancy occupancy(volume, function, 0.005);
-            const auto slab = [&](double first, double last) { // voxels along the axis, and the whole of the others
-                Box box{{0, 0, 0}, {1, 1, 1}};
-                box.lo[axis] = (first + 0.5) / kSide;
-                box.hi[axis] = (last + 0.5) / kSide;
-                return box;
-            };
-            SCOPED_TRACE("axis " + std::to_string(axis) + (upper ? ", upper" : ", lower"));
-            EXPECT_TRUE(occupancy.mayBeOpaque(upper ? slab(2, 7.012) : slab(14.988, 20)));
-            // What filters with weights of 8 bits is off by up to a 256th of a voxel.
-            EXPECT_TRUE(occupancy.mayBeOpaque(upper ? slab(2, 6.997) : slab(15.003, 20)));
-            EXPECT_FALSE(occupancy.mayBeOpaque(upper ? slab(2, 6.9) : slab(15.1, 20)));
-        }
-    }
-}
-
-/// Entries around the one that is opaque look it up where a sampler's weights are coarse; and entries around the one
-/// that is not are not certain.
-TEST(CertifiedMargins, EntriesBesideTheOneThatIsOpaque) {
-    constexpr std::size_t kEntries = 256;
-    std::vector<float> one(kEntries, 0.0F);
-    std::vector<float> allButOne(kEntries, 1.0F);
-    one[100] = 1;
-    allButOne[100] = 0;
-    const ValueRange domain{0, 256}; // entry i is at value i + 0.5
-    const OpaqueRanges rare(one, domain, 0.5);
-    const OpaqueRanges common(allButOne, domain, 0.5);
-    for (double entry = 98.2; entry < 101.95; entry += 0.1) {
-        EXPECT_TRUE(rare.mayBeOpaque({entry + 0.5, entry + 0.5})) << entry;
-        EXPECT_FALSE(common.certainlyOpaque({entry + 0.5, entry + 0.5})) << entry;
-    }
-    for (const double entry : {90.0, 110.0}) {
-        EXPECT_FALSE(rare.mayBeOpaque({entry + 0.5, entry + 0.5})) << entry;
-        EXPECT_TRUE(common.certainlyOpaque({entry + 0.5, entry + 0.5})) << entry;
     }
 }
 

@@ -105,6 +105,27 @@ TEST(OccupancyTest, BoxesAgreeWithTheirSamples) {
     EXPECT_GT(proven, 1000U);
 }
 
+/// Entries around the one that is opaque look it up where a sampler's weights are coarse; and entries around the one
+/// that is not are not certain.
+TEST(OpaqueRangesTest, EntriesBesideTheOneThatIsOpaque) {
+    constexpr std::size_t kEntries = 256;
+    std::vector<float> one(kEntries, 0.0F);
+    std::vector<float> allButOne(kEntries, 1.0F);
+    one[100] = 1;
+    allButOne[100] = 0;
+    const ValueRange domain{0, 256}; // entry i is at value i + 0.5
+    const OpaqueRanges rare(one, domain, 0.5);
+    const OpaqueRanges common(allButOne, domain, 0.5);
+    for (double entry = 98.2; entry < 101.95; entry += 0.1) {
+        EXPECT_TRUE(rare.mayBeOpaque({entry + 0.5, entry + 0.5})) << entry;
+        EXPECT_FALSE(common.certainlyOpaque({entry + 0.5, entry + 0.5})) << entry;
+    }
+    for (const double entry : {90.0, 110.0}) {
+        EXPECT_FALSE(rare.mayBeOpaque({entry + 0.5, entry + 0.5})) << entry;
+        EXPECT_TRUE(common.certainlyOpaque({entry + 0.5, entry + 0.5})) << entry;
+    }
+}
+
 TEST(OpaqueRangesTest, NeverCallsATransparentScalarOpaque) {
     std::mt19937_64 random(testSeed());
     std::size_t proven = 0;

@@ -210,7 +210,7 @@ TEST_F(ConservativeTest, TheWitnessOfASpikeIsTheHosts) {
     BlockingDetector device = detector(desc);
     cpu::Detector host = take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = kOutputs}));
     for (const bool falling : {false, true}) {
-        const SpikeScene spike = spikeScene(falling, 0);
+        const SpikeScene spike = spikeScene(ScalarType::UInt8, falling, 0); // as head:48 a kind of image
         const cpu::OraclePair pair = spike.scene.pair();
         const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, true);
         const std::span poses(&pair.world_from_object, 1);
