@@ -325,19 +325,11 @@ TEST_F(DetectOutputsTest, PlyIsWhatItsHeaderSays) {
         std::size_t number;
         double tolerance;
     };
+    const std::vector<Column> written{{"x", 2, 2e-5},        {"y", 3, 2e-5},   {"z", 4, 2e-5},     {"nx", 5, 2e-6},
+                                      {"ny", 6, 2e-6},       {"nz", 7, 2e-6},  {"depth", 8, 2e-6}, {"value", 9, 1e-4},
+                                      {"opacity", 10, 2e-6}, {"label", 11, 0}, {"pose", 0, 0},     {"triangle", 1, 0}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (const Column& column : {Column{"x", 2, 1e-5},
-                                     {"y", 3, 1e-5},
-                                     {"z", 4, 1e-5},
-                                     {"nx", 5, 2e-6},
-                                     {"ny", 6, 2e-6},
-                                     {"nz", 7, 2e-6},
-                                     {"depth", 8, 2e-6},
-                                     {"value", 9, 1e-5},
-                                     {"opacity", 10, 2e-6},
-                                     {"label", 11, 0},
-                                     {"pose", 0, 0},
-                                     {"triangle", 1, 0}}) {
+        for (const Column& column : written) {
             EXPECT_NEAR(vertices[i].at(column.name), std::stod(rows[i].at(column.number)), column.tolerance)
                 << column.name << " of " << i;
         }

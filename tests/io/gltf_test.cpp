@@ -189,8 +189,8 @@ TEST(Gltf, SparseAccessors) {
     Gltf zeros = file;
     zeros.json["accessors"][0].erase("bufferView");
     EXPECT_THAT(cornersOf(zeros), ElementsAre(0, 0, 0, 7, 8, 9, 4, 5, 6));
-    zeros.json["accessors"][0]["count"] = 3000000000U;
-    expectRefused(read(zeros.text()), "a sparse accessor states 3000000000 positions without data");
+    zeros.json["accessors"][0]["count"] = 3000000U;
+    expectRefused(read(zeros.text()), "a sparse accessor states 3000000 positions without data");
     Gltf bad = file;
     bad.json["accessors"][0]["sparse"]["count"] = 3;
     expectRefused(read(bad.text()), "accessor 0 reaches beyond its buffer");
@@ -339,7 +339,7 @@ TEST(Gltf, RepetitionEndsBeforeMemoryDoes) {
         file.json["nodes"].push_back({{"mesh", 0}});
         file.json["scenes"][0]["nodes"].push_back(i);
     }
-    expectRefused(read(file.text()), "it repeats its meshes to more than");
+    expectRefused(read(file.text()), "it repeats its meshes to 20000000 triangles");
 }
 
 TEST(Gltf, MalformedFiles) {

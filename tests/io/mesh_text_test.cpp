@@ -126,8 +126,8 @@ TEST(MeshText, PlyAsItsHeaderSays) {
         expected);
     for (const bool big : {false, true}) {
         std::string body("\xFF\3", 2);
-        for (const std::uint16_t corner : {0, 1, 2}) {
-            appendAs(body, corner, big);
+        for (const int corner : {0, 1, 2}) {
+            appendAs(body, static_cast<std::uint16_t>(corner), big);
         }
         appendAs(body, std::int32_t{7}, big);
         appendAs(body, std::int32_t{8}, big);

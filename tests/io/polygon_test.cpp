@@ -90,7 +90,7 @@ TEST(Polygons, Shapes) {
         {{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 0}, {2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}); // a hole and its bridge
     Polygon comb{{0, -1}};
     for (int i = 0; i < 100; ++i) {
-        comb.insert(comb.begin(), {{i, 10.0 * (i % 2)}});
+        comb.insert(comb.begin(), {{1.0 * i, 10.0 * (i % 2)}});
     }
     comb.insert(comb.begin(), {99, -1});
     expectCut(comb, {1, 0, 0}, {0, 1, 0});
@@ -124,13 +124,12 @@ TEST(Polygons, Refusals) {
     expectRefused(cut({{0, 3}, {2, -3}, {-3, 1}, {3, 1}, {-2, -3}}), kCrosses);
     Polygon saw;
     for (int i = 0; i < 5000; ++i) {
-        saw.push_back({i, i % 2});
+        saw.push_back({1.0 * i, 1.0 * (i % 2)});
     }
     saw.push_back({2500, 1000});
     expectRefused(cut(saw), "a polygon of 5001 corners is too large to be cut");
-    expectRefused(
-        io::readMesh(std::as_bytes(std::span("v -1e308 0 0\nv 1e308 0 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4\n", 52)), "m.obj"),
-        "larger than a double");
+    const std::string far = "v -1e308 0 0\nv 1e308 0 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4\n";
+    expectRefused(io::readMesh(std::as_bytes(std::span(far)), "m.obj"), "larger than a double");
 }
 
 /// Without area: whatever the cut, the triangles lie on the line, and none is dropped.

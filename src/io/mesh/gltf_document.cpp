@@ -133,7 +133,7 @@ std::filesystem::path pathOf(const std::string& uri) {
 
 } // namespace
 
-GltfDocument::GltfDocument(const MeshSource& source) : source_(source), bytesRead_(source.content.size()) {
+GltfDocument::GltfDocument(const MeshSource& source) : source_(source) {
     GlbChunks chunks{source.content, {}};
     if (lowerEnding(source.path) == ".glb" || source.content.starts_with("glTF")) {
         chunks = splitGlb(source.content);
@@ -234,7 +234,6 @@ std::string_view GltfDocument::buffer(std::uint64_t index) {
         const auto [entry, isNew] = loaded_.try_emplace(index);
         if (isNew) {
             entry->second = load(index, textOf(json, "uri"));
-            bytesRead_ += entry->second.size();
         }
         bytes = entry->second;
     }

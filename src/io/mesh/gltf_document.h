@@ -37,8 +37,6 @@ class GltfDocument {
     [[nodiscard]] std::string_view buffer(std::uint64_t index);
     /// The bytes of a view.
     [[nodiscard]] std::string_view view(std::uint64_t index);
-    /// What has been read: the file and its buffers.
-    [[nodiscard]] std::uint64_t bytesRead() const noexcept { return bytesRead_; }
 
   private:
     void checkVersion() const;
@@ -50,7 +48,6 @@ class GltfDocument {
     std::optional<std::string_view> binaryChunk_;
     std::set<std::string> extensions_;
     std::map<std::uint64_t, std::string> loaded_;
-    std::uint64_t bytesRead_ = 0;
 };
 
 /// The member, or null where there is none. `object` must be an object.

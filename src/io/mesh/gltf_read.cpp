@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace voxtact::io {
 
 namespace {
 
+constexpr std::uint64_t kMostTriangles = std::numeric_limits<std::uint32_t>::max() / 3;
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 double determinant(const Mat4& m) {
@@ -101,6 +103,7 @@ class GltfReader {
 
     MeshFile read() {
         const std::vector<GltfPlacement> placements = scene_.placements(file_.notes);
+        checkTotal(placements);
         for (const GltfPlacement& placement : placements) {
             const GltfJson& mesh = document_.item("meshes", placement.mesh);
             const std::vector<double> weights = morphWeights(placement, mesh);
@@ -160,7 +163,6 @@ class GltfReader {
             return;
         }
         const std::uint64_t triangles = trianglesOf(mode, corners);
-        checkTotal(triangles);
         std::optional<GltfSkinning> skinning;
         if (joints != nullptr) {
             // The node's own place means nothing to a skinned mesh.
@@ -198,14 +200,43 @@ class GltfReader {
         file_.corners.push_back(used_[vertex]);
     }
 
+    /// What the primitives of a mesh state. Adds to `stored` how many elements each of their accessors has in the file.
+    [[nodiscard]] std::uint64_t statedTriangles(std::uint64_t mesh, std::map<std::uint64_t, std::uint64_t>& stored) {
+        std::uint64_t total = 0;
+        for (const GltfJson& primitive : objects(document_.item("meshes", mesh), "primitives")) {
+            const GltfJson* const attributes = member(primitive, "attributes");
+            const std::optional<std::uint64_t> indices = natural(primitive, "indices");
+            const std::optional<std::uint64_t> positions =
+                attributes == nullptr ? std::nullopt : natural(*attributes, "POSITION");
+            const std::optional<std::uint64_t> index = indices ? indices : positions;
+            if (index && modeOf(primitive) >= Mode::Triangles) {
+                const GltfAccessor accessor(document_, *index, indices ? GltfUse::Indices : GltfUse::Positions);
+                stored[*index] = accessor.isStored() ? accessor.count() : 0;
+                total += std::min(trianglesOf(modeOf(primitive), accessor.count()), kMostTriangles + 1);
+            }
+        }
+        return std::min(total, kMostTriangles + 1);
+    }
+
     /// Nodes may repeat a mesh, and primitives an accessor, so that a small file states any number of triangles.
-    void checkTotal(std::uint64_t triangles) {
-        constexpr std::uint64_t kMostRepeated = std::uint64_t{1} << 24U;
-        constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max() / 3;
-        total_ += std::min(triangles, kMost + 1);
-        if (total_ > kMost || total_ > std::max(kMostRepeated, document_.bytesRead())) {
-            throw GltfRefusal{"it repeats its meshes to more than " + std::to_string(std::min(total_, kMost)) +
-                              " triangles"};
+    void checkTotal(const std::vector<GltfPlacement>& placements) {
+        std::vector<std::optional<std::uint64_t>> stated(document_.list("meshes").size());
+        std::map<std::uint64_t, std::uint64_t> stored;
+        std::uint64_t total = 0;
+        for (const GltfPlacement& placement : placements) {
+            std::optional<std::uint64_t>& triangles = stated[placement.mesh];
+            if (!triangles) {
+                triangles = statedTriangles(placement.mesh, stored);
+            }
+            total += *triangles;
+        }
+        std::uint64_t most = std::uint64_t{1} << 24U;
+        for (const auto& [accessor, elements] : stored) {
+            most += elements;
+        }
+        if (total > std::min(most, kMostTriangles)) {
+            throw GltfRefusal{"it repeats its meshes to " + std::to_string(total) + " triangles, more than " +
+                              std::to_string(std::min(most, kMostTriangles))};
         }
     }
 
@@ -213,7 +244,6 @@ class GltfReader {
     GltfScene scene_;
     MeshFile file_;
     std::vector<std::uint32_t> used_; ///< of the primitive at hand: its vertices' places in the file's
-    std::uint64_t total_ = 0;
 };
 
 } // namespace
