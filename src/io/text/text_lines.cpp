@@ -13,16 +13,16 @@ namespace {
 constexpr std::string_view kBlanks = " \t\v\f\r\n";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
+} // namespace
+
 std::string quoted(std::string_view token) {
     constexpr std::size_t kLongest = 40;
     std::string text = "'";
     for (const char c : token.substr(0, kLongest)) {
-        text += c >= ' ' && c != '\x7F' ? c : '?';
+        text += c >= ' ' && c <= '~' ? c : '?';
     }
     return text + (token.size() > kLongest ? "...'" : "'");
 }
-
-} // namespace
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
     if (const Result<std::uint64_t> size = readableFile(path); !size.ok()) {

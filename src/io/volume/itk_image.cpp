@@ -76,4 +76,38 @@ void readVoxels(itk::ImageIOBase& io, std::vector<std::byte>& voxels) {
     io.Read(voxels.data() + begin);
 }
 
+Result<VolumeData> toScalars(ItkImage image, const std::filesystem::path& path) {
+    using itk::IOComponentEnum;
+    const auto stored = [&](StoredType type) {
+        return toScalars(StoredImage{image.grid, type, std::nullopt, std::move(image.voxels)}, path);
+    };
+    switch (image.component) {
+    case IOComponentEnum::CHAR:
+        return stored(StoredType::Int8);
+    case IOComponentEnum::UCHAR:
+        return stored(StoredType::UInt8);
+    case IOComponentEnum::SHORT:
+        return stored(StoredType::Int16);
+    case IOComponentEnum::USHORT:
+        return stored(StoredType::UInt16);
+    case IOComponentEnum::INT:
+        return stored(StoredType::Int32);
+    case IOComponentEnum::UINT:
+        return stored(StoredType::UInt32);
+    case IOComponentEnum::LONG:
+    case IOComponentEnum::LONGLONG:
+        return stored(StoredType::Int64);
+    case IOComponentEnum::ULONG:
+    case IOComponentEnum::ULONGLONG:
+        return stored(StoredType::UInt64);
+    case IOComponentEnum::FLOAT:
+        return stored(StoredType::Float32);
+    case IOComponentEnum::DOUBLE:
+        return stored(StoredType::Float64);
+    default:
+        break;
+    }
+    return cannotRead(path, "its voxels are of a type that is not supported; convert it to integers or floats");
+}
+
 } // namespace voxtact::io

@@ -32,7 +32,7 @@ struct ItkImage {
 /// Appends the voxels of the image that `readInformation` was called for.
 void readVoxels(itk::ImageIOBase& io, std::vector<std::byte>& voxels);
 
-/// Takes the voxels to one of ScalarType, exactly where they are integers, and says so in the notes.
+/// The same in the words of the other readers.
 [[nodiscard]] Result<VolumeData> toScalars(ItkImage image, const std::filesystem::path& path);
 
 /// Refuses a DICOM file that ends before its pixels do: GDCM fills them up without a word.

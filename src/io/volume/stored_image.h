@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace voxtact::io {
+
+/// How files store a voxel.
+enum class StoredType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
+
+[[nodiscard]] constexpr std::size_t storedBytes(StoredType type) noexcept {
+    switch (type) {
+    case StoredType::Int8:
+    case StoredType::UInt8:
+        return 1;
+    case StoredType::Int16:
+    case StoredType::UInt16:
+        return 2;
+    case StoredType::Int32:
+    case StoredType::UInt32:
+    case StoredType::Float32:
+        return 4;
+    case StoredType::Int64:
+    case StoredType::UInt64:
+    case StoredType::Float64:
+        break;
+    }
+    return 8;
+}
+
+/// value = slope * stored + intercept
+struct Scaling {
+    double slope = 1;
+    double intercept = 0;
+};
+
+/// An image as its file holds it, in the machine's byte order.
+struct StoredImage {
+    Grid grid;
+    StoredType type = StoredType::UInt8;
+    std::optional<Scaling> scaling; ///< none: the numbers are what is stored
+    std::vector<std::byte> voxels;
+};
+
+/// Takes the voxels to one of ScalarType: exactly where they are integers, in single precision where they are scaled
+/// or double. Says in the notes what was converted.
+[[nodiscard]] Result<VolumeData> toScalars(StoredImage image, const std::filesystem::path& path);
+
+} // namespace voxtact::io
