@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,21 +16,37 @@
 
 /// Files (target voxtact::io). Errors name the file and the reason, and where there is one the line. A folder, pipe,
 /// socket or device in the place of a file is refused before it is opened.
-/// Thread-safety: safe from any thread on different files. ITK's readers share global state, so calls for volumes wait
-/// for each other, and ITK's global warning display is off while one runs.
+/// Thread-safety: safe from any thread on different files. ITK's writers share global state, so calls of writeVolume()
+/// wait for each other, and ITK's global warning display is off while one runs.
 namespace voxtact::io {
 
-/// NIfTI-1 (.nii, .hdr/.img, each also with .gz), NRRD (.nrrd, .nhdr), MetaImage (.mha, .mhd), or a folder with one
-/// DICOM series: one slice a file, or enhanced multi-frame. World is LPS, as ITK gives it; left-handed directions are
+struct VolumeReadOptions {
+    /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it.
+    std::optional<std::uint32_t> frame;
+};
+
+/// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,
+/// .mhd), or a folder with one DICOM series: one slice a file, or enhanced multi-frame. World is LPS, in millimetres; left-handed directions are
 /// kept. Voxels keep their type where it is one of ScalarType; other integers become int16, else uint16, else float
 /// when every voxel survives exactly (refused otherwise), and double becomes float; both are said in `notes`, and so is
-/// a NIfTI or NRRD file that does not say how the patient lies. NIfTI's slope and intercept and DICOM's rescale are
-/// applied, which may make floats. Refuses 2D (NIfTI: one slice too), 4D with more than one image, RGB, complex and
-/// vector images, empty images, NaN and infinite voxels (the first is named), singular directions, truncated and
-/// damaged files (checksums of compressed data are verified), voxels as text or spread over several files, NIfTI-2, and
-/// DICOM folders with several series (named), fewer than 2 slices, missing slices or uneven gaps, and slices sheared by
-/// a tilted gantry.
-[[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path);
+/// what a file does not say and is assumed. NIfTI's slope and intercept and DICOM's rescale are applied, which may make
+/// floats.
+///
+/// NIfTI: the place is that of nibabel's `affine`: the sform, else the qform, else the centre; a qform that differs from
+/// the sform is noted, and an sform with a shear of more than 0.1 degrees is refused. Lengths in metres and micrometres
+/// become millimetres. NRRD and MetaImage: shears are kept, and noted.
+///
+/// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
+/// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files
+/// (checksums of compressed data are verified), voxels as text or spread over several files, and DICOM folders with
+/// several series (named), fewer than 2 slices, missing slices or uneven gaps, and slices sheared by a tilted gantry.
+/// Memory is bounded by what the file holds, whatever its header claims; compressed, deflate packs up to 1032 bytes
+/// into one.
+[[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path,
+                                                        const VolumeReadOptions& options = {});
+/// The same from one file's bytes in memory; the ending of `name` says the format.
+[[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> content,
+                                                        const VolumeReadOptions& options = {});
 
 /// NIfTI (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending. Written to a temporary name, read back and
 /// renamed. NRRD and MetaImage keep the grid to the last bits; NIfTI holds it in single precision. Refuses what

@@ -61,28 +61,75 @@ std::string compressed(std::string_view content, Wrapping wrapping) {
     return out;
 }
 
+namespace {
+
+/// Where the fields are, and how wide.
+struct NiftiLayout {
+    std::size_t bytes, magic, sizes, type, bits, pixdim, offset, slope, units, codes, quaternion, srow;
+};
+constexpr NiftiLayout kFirst{348, 344, 40, 70, 72, 76, 108, 112, 123, 252, 256, 280};
+constexpr NiftiLayout kSecond{540, 4, 16, 12, 14, 104, 168, 176, 500, 344, 352, 400};
+
+class HeaderWriter {
+  public:
+    HeaderWriter(const NiftiFile& file, const NiftiLayout& layout)
+        : file_(file), layout_(layout), header_(layout.bytes, '\0') {}
+
+    template <class Number> void put(std::size_t offset, Number value) {
+        std::string raw;
+        append(raw, value);
+        header_.replace(offset, raw.size(), file_.swapped ? std::string(raw.rbegin(), raw.rend()) : raw);
+    }
+    void size(std::size_t i, std::int64_t value) {
+        file_.second ? put(layout_.sizes + 8 * i, value) : put(layout_.sizes + 2 * i, static_cast<std::int16_t>(value));
+    }
+    void code(std::size_t i, int value) {
+        file_.second ? put(layout_.codes + 4 * i, std::int32_t{value})
+                     : put(layout_.codes + 2 * i, static_cast<std::int16_t>(value));
+    }
+    void real(std::size_t begin, std::size_t i, double value) {
+        file_.second ? put(begin + 8 * i, value) : put(begin + 4 * i, static_cast<float>(value));
+    }
+    std::string header() && { return std::move(header_); }
+    void magic(const std::string& text) { header_.replace(layout_.magic, text.size(), text); }
+
+  private:
+    const NiftiFile& file_;
+    const NiftiLayout& layout_;
+    std::string header_;
+};
+
+} // namespace
+
 std::string NiftiFile::bytes() const {
-    std::string header(352, '\0');
-    const auto put = [&](std::size_t offset, auto value) { std::memcpy(header.data() + offset, &value, sizeof value); };
-    put(0, std::int32_t{348});
-    put(40, static_cast<std::int16_t>(sizes.size()));
-    for (std::size_t i = 0; i < 7; ++i) {
-        put(42 + 2 * i, i < sizes.size() ? sizes[i] : std::int16_t{1});
+    const NiftiLayout& layout = second ? kSecond : kFirst;
+    HeaderWriter writer(*this, layout);
+    writer.put(0, static_cast<std::int32_t>(layout.bytes));
+    writer.magic(std::string(pair ? "ni" : "n+") + (second ? "2" : "1") +
+                 (second ? std::string("\0\r\n\032\n", 5) : ""));
+    for (std::size_t i = 0; i < 8; ++i) {
+        writer.size(i, i == 0 ? static_cast<std::int64_t>(sizes.size()) : i <= sizes.size() ? sizes[i - 1] : 1);
     }
-    put(70, type);
-    put(72, bits);
-    put(76, 1.0F);
+    writer.put(layout.type, type);
+    writer.put(layout.bits, bits);
+    writer.real(layout.pixdim, 0, qfac);
     for (std::size_t i = 0; i < 3; ++i) {
-        put(80 + 4 * i, spacing[i]);
+        writer.real(layout.pixdim, i + 1, spacing[i]);
+        writer.real(layout.quaternion, i, quaternion[i]);
+        writer.real(layout.quaternion, i + 3, qoffset[i]);
     }
-    put(108, 352.0F);
-    put(112, slope);
-    put(254, static_cast<std::int16_t>(hasSform ? 1 : 0));
+    const std::size_t offset = pair ? 0 : layout.bytes + extension.size();
+    second ? writer.put(layout.offset, static_cast<std::int64_t>(offset))
+           : writer.put(layout.offset, static_cast<float>(offset));
+    writer.real(layout.slope, 0, slope);
+    writer.real(layout.slope, 1, intercept);
+    second ? writer.put(layout.units, std::int32_t{units}) : writer.put(layout.units, static_cast<std::int8_t>(units));
+    writer.code(0, qformCode);
+    writer.code(1, sformCode);
     for (std::size_t i = 0; i < 12; ++i) {
-        put(280 + 4 * i, sform[i]);
+        writer.real(layout.srow, i, sform[i]);
     }
-    std::memcpy(header.data() + 344, "n+1", 4);
-    return header + voxels;
+    return std::move(writer).header() + (pair ? "" : extension + voxels);
 }
 
 } // namespace voxtact::test

@@ -47,17 +47,28 @@ template <class Number> void append(std::string& bytes, Number number) {
 enum class Wrapping { Gzip, Zlib };
 [[nodiscard]] std::string compressed(std::string_view content, Wrapping wrapping);
 
-/// A NIfTI-1 file by hand.
+/// A NIfTI file by hand.
 struct NiftiFile {
-    std::vector<std::int16_t> sizes{4, 3, 2};
+    bool second = false;  ///< NIfTI-2
+    bool swapped = false; ///< header in the other byte order; `voxels` are taken as they are
+    bool pair = false;    ///< the magic of a header that has its voxels in another file
+    std::vector<std::int64_t> sizes{4, 3, 2};
     std::int16_t type = 2;
     std::int16_t bits = 8;
-    std::array<float, 3> spacing{1, 1, 1};
-    std::array<float, 12> sform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; ///< rows of world_from_index, RAS
-    bool hasSform = true;
-    float slope = 0;
+    std::array<double, 3> spacing{1, 1, 1};
+    double qfac = 1;
+    int units = 0;
+    std::array<double, 12> sform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; ///< rows of world_from_index, RAS
+    int sformCode = 1;
+    int qformCode = 0;
+    std::array<double, 3> quaternion{}; ///< b, c, d
+    std::array<double, 3> qoffset{};
+    double slope = 0;
+    double intercept = 0;
+    std::string extension = std::string(4, '\0'); ///< what lies between the header and the voxels
     std::string voxels = std::string(24, '\7');
 
+    /// In NIfTI-1 the reals are floats. Without `extension` and voxels for a pair.
     [[nodiscard]] std::string bytes() const;
 };
 

@@ -100,15 +100,15 @@ TEST(VolumeRefusal, Files) {
 
 TEST(VolumeRefusal, Dimensions) {
     const TemporaryFolder folder;
-    const auto read = [&](std::vector<std::int16_t> sizes) {
+    const auto read = [&](std::vector<std::int64_t> sizes) {
         NiftiFile nifti;
         nifti.sizes = std::move(sizes);
         nifti.voxels.resize(1000);
         return io::readVolume(folder.write("v.nii", nifti.bytes()));
     };
     expectRefused(read({4, 4}), "it is 2D; a 3D image is needed");
-    expectRefused(read({4, 4, 1}), "it is 2D; a 3D image is needed");
-    expectRefused(read({4, 4, 4, 2}), "it is 4D and holds 2 images or components");
+    EXPECT_TRUE(isOk(read({4, 4, 1})));
+    expectRefused(read({4, 4, 4, 2}), "it is 4D and holds 2 images");
     expectRefused(read({4, 4, 4, 1, 3}), "it is 5D and holds 3 images or components");
     expectRefused(read({4, 0, 4}), "it has no voxels (its size along axis 1 is 0)");
     expectRefused(read({4, 4, -4}), "it has no voxels (its size along axis 2 is -4)");
@@ -142,7 +142,7 @@ TEST(VolumeRefusal, VoxelsThatAreNoScalars) {
     expectRefused(io::readVolume(folder.write("v.mha", "NDims = 3\nDimSize = 2 2 2\nElementNumberOfChannels = 3\n"
                                                        "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
                                                            std::string(24, 'x'))),
-                  "its voxels are not single numbers (MET_UCHAR, 3 channels)");
+                  "its voxels are not single numbers ('MET_UCHAR', '3' channels)");
     expectRefused(
         io::readVolume(folder.write("v.nrrd", "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color "
                                               "domain domain domain\nencoding: raw\n\n" +
@@ -167,10 +167,6 @@ TEST(VolumeRefusal, Storage) {
     expectRefused(io::readVolume(folder.write("v.mhd", "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\n"
                                                        "ElementDataFile = LIST\na\nb\n")),
                   "spread over several files");
-    std::string second(540, '\0');
-    second[0] = 0x1C;
-    second[1] = 0x02;
-    expectRefused(io::readVolume(folder.write("v.nii", second)), "it is NIfTI-2, which is not supported");
 }
 
 TEST(VolumeRefusal, SingularDirection) {

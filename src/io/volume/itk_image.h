@@ -32,7 +32,4 @@ struct ItkImage {
 /// Appends the voxels of the image that `readInformation` was called for.
 void readVoxels(itk::ImageIOBase& io, std::vector<std::byte>& voxels);
 
-/// Takes the voxels to one of ScalarType, exactly where they are integers, and says so in the notes.
-[[nodiscard]] Result<VolumeData> toScalars(ItkImage image, const std::filesystem::path& path);
-
 } // namespace voxtact::io

@@ -1,10 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/volume_container.h"
 
-#include "io/byte_source.h"
+#include "core/text.h"
 #include "io/errors.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 namespace voxtact::io {
+
+namespace {
+
+/// Bytes: far above what memory holds, and far below overflow.
+constexpr std::uint64_t kMost = std::uint64_t{1} << 50;
+
+Error tooMany(const std::filesystem::path& path) {
+    return cannotRead(path, "its header asks for more voxels than memory can hold");
+}
+
+} // namespace
 
 std::optional<VolumeFormat> volumeFormat(const std::filesystem::path& path) {
     const std::string ending = lowerEnding(path);
@@ -22,38 +38,71 @@ std::optional<VolumeFormat> volumeFormat(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-Result<ContainerFacts> checkContainer(const std::filesystem::path& path) {
-    const Result<std::uint64_t> size = readableFile(path);
-    if (!size.ok()) {
-        return size.error();
+bool VolumeSource::has(const std::filesystem::path& path) const {
+    std::error_code ignored;
+    return content_ ? path == name_ : std::filesystem::exists(path, ignored);
+}
+
+Result<ByteReader> VolumeSource::open(const std::filesystem::path& path) const {
+    if (content_ && path != name_) {
+        return cannotRead(path, "only one file is in memory; read the volume from its folder", ErrorCode::File);
     }
-    if (*size == 0) {
+    Result<ByteReader> reader = content_ ? ByteReader::ofMemory(name_, *content_) : ByteReader::ofFile(path);
+    if (reader.ok() && reader->stored() == 0) {
         return cannotRead(path, "the file is empty");
     }
+    return reader;
+}
+
+Result<ByteReader> VolumeSource::openBeside(const std::filesystem::path& header, std::string_view name) const {
+    constexpr std::size_t kLongest = 1000;
+    const bool isName = name.size() <= kLongest && std::none_of(name.begin(), name.end(), [](char c) {
+                            return static_cast<unsigned char>(c) < 0x20 || c == '\x7F';
+                        });
+    if (!isName) {
+        return cannotRead(header, "its header is damaged: what it names as the file of its voxels is no name");
+    }
+    Result<ByteReader> reader = open(header.parent_path() / name);
+    // The name is the header's: say which header.
+    return reader.ok() ? std::move(reader) : cannotRead(header, reader.error().text, reader.error().code);
+}
+
+namespace {
+
+/// A file whose ending says nothing.
+Error unknownFormat(const VolumeSource& source, const std::filesystem::path& path) {
+    Result<ByteReader> reader = source.open(path);
+    if (!reader.ok()) {
+        return reader.error();
+    }
+    const Result<std::string> head = reader->head(132);
+    if (head.ok() && head->size() == 132 && head->substr(128) == "DICM") {
+        return cannotRead(path, "it is one DICOM file; give the folder that holds the series");
+    }
+    return cannotRead(path, "its ending is none of .nii, .nii.gz, .hdr, .img, .nrrd, .nhdr, .mha and .mhd; convert it");
+}
+
+} // namespace
+
+Result<ContainedImage> readContainer(const VolumeSource& source, const std::filesystem::path& path,
+                                     const VolumeReadOptions& options) {
     const std::optional<VolumeFormat> format = volumeFormat(path);
     if (!format) {
-        const Result<std::string> head = contentHead(path, 132);
-        if (head.ok() && head->size() == 132 && head->substr(128) == "DICM") {
-            return cannotRead(path, "it is one DICOM file; give the folder that holds the series");
-        }
-        return cannotRead(path,
-                          "its ending is none of .nii, .nii.gz, .hdr, .img, .nrrd, .nhdr, .mha and .mhd; convert it");
+        return unknownFormat(source, path);
     }
     switch (*format) {
     case VolumeFormat::Nifti:
-        return checkNifti(path);
+        return readNifti(source, path, options);
     case VolumeFormat::Nrrd:
-        return checkNrrd(path);
+        return readNrrd(source, path);
     case VolumeFormat::Meta:
         break;
     }
-    return checkMeta(path);
+    return readMeta(source, path);
 }
 
 Result<std::uint64_t> imageBytes(const std::filesystem::path& path, std::span<const std::int64_t> sizes,
                                  std::uint64_t bytesPerVoxel) {
-    // Far above what memory holds, and far below overflow.
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 50;
     if (sizes.size() < 3) {
         return cannotRead(path, "it is " + std::to_string(sizes.size()) + "D; a 3D image is needed");
     }
@@ -67,20 +116,101 @@ Result<std::uint64_t> imageBytes(const std::filesystem::path& path, std::span<co
             return cannotRead(path, "it is " + std::to_string(i + 1) + "D and holds " + std::to_string(sizes[i]) +
                                         " images or components; extract one 3D image");
         }
-        if (bytes > kMost / static_cast<std::uint64_t>(sizes[i])) {
-            return cannotRead(path, "its header asks for more voxels than memory can hold");
+        if (bytes > kMost / static_cast<std::uint64_t>(sizes[i]) || !std::in_range<std::uint32_t>(sizes[i])) {
+            return tooMany(path);
         }
         bytes *= static_cast<std::uint64_t>(sizes[i]);
     }
     return bytes;
 }
 
-Result<void> checkLength(const std::filesystem::path& path, std::uint64_t needed, std::uint64_t present) {
-    if (present < needed) {
-        return cannotRead(path, "it is truncated: its voxels take " + std::to_string(needed) + " bytes, " +
-                                    std::to_string(present) + " are there; get the file again");
+Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<std::int64_t> sizes,
+                                 std::uint64_t bytesPerVoxel, std::uint64_t& frames) {
+    frames = 1;
+    if (sizes.size() > 3 && sizes[3] > 1) {
+        frames = static_cast<std::uint64_t>(sizes[3]);
+        sizes[3] = 1;
+    }
+    const Result<std::uint64_t> bytes = imageBytes(path, sizes, bytesPerVoxel);
+    return bytes.ok() && *bytes > kMost / frames ? Result<std::uint64_t>(tooMany(path)) : bytes;
+}
+
+Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped) {
+    const std::size_t width = storedBytes(image.type);
+    Result<std::vector<std::byte>> bytes = reader.take(voxelCount(image.grid) * width);
+    if (!bytes.ok()) {
+        return bytes.error();
+    }
+    image.voxels = std::move(*bytes);
+    for (std::size_t at = 0; swapped && width > 1 && at < image.voxels.size(); at += width) {
+        std::reverse(image.voxels.data() + at, image.voxels.data() + at + width);
     }
     return {};
+}
+
+Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesystem::path& path) {
+    // A picometre and a million kilometres: nothing that a mesh can meet lies beyond.
+    constexpr double kNearest = 1e-9;
+    constexpr double kFarthest = 1e12;
+    constexpr double kRounding = 1e-6; // of a unit vector in floats
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Vec3& direction = affine.directions[axis];
+        const double norm = std::hypot(direction[0], direction[1], direction[2]);
+        const bool isUnit = std::abs(norm - 1) < kRounding; // then both are kept as the file has them
+        const double length = isUnit ? affine.lengths[axis] : affine.lengths[axis] * norm;
+        if (!std::isfinite(length) || !std::isfinite(affine.origin[axis])) {
+            return cannotRead(path, "its header is damaged: its spacing, direction or origin is not finite");
+        }
+        if (!(length >= kNearest && length <= kFarthest)) {
+            return cannotRead(path, "its voxels along axis " + std::to_string(axis) + " are " + number(length) +
+                                        " mm apart, which cannot be; mend its header");
+        }
+        if (std::abs(affine.origin[axis]) > kFarthest) {
+            return cannotRead(path, "its origin is " + number(affine.origin[axis]) +
+                                        " mm away, which cannot be; mend its header");
+        }
+        grid.spacing[axis] = length;
+        grid.origin[axis] = affine.origin[axis] + 0.0; // no -0
+        for (std::size_t row = 0; row < 3; ++row) {
+            grid.direction[3 * axis + row] = (isUnit ? direction[row] : direction[row] / norm) + 0.0;
+        }
+    }
+    const Result<void> checked = checkGrid(grid);
+    return checked.ok() ? checked : cannotRead(path, checked.error().text);
+}
+
+double cornersApart(const Grid& a, const Grid& b) {
+    const Mat4 world_from_a = worldFromTexture(a);
+    const Mat4 world_from_b = worldFromTexture(b);
+    double most = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 texture{corner & 1U ? 1.0 : 0.0, corner & 2U ? 1.0 : 0.0, corner & 4U ? 1.0 : 0.0};
+        const Vec3 p = transformPoint(world_from_a, texture);
+        const Vec3 q = transformPoint(world_from_b, texture);
+        most = std::max(most, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    }
+    return most;
+}
+
+double shearDegrees(const Grid& grid) {
+    double most = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        double cosine = 0;
+        for (std::size_t row = 0; row < 3; ++row) {
+            cosine += grid.direction[3 * a + row] * grid.direction[3 * b + row];
+        }
+        most = std::max(most, std::asin(std::min(1.0, std::abs(cosine))));
+    }
+    return most * 180 / std::numbers::pi;
+}
+
+void noteShear(const Grid& grid, std::vector<std::string>& notes) {
+    constexpr double kRounding = 0.01;
+    if (const double shear = shearDegrees(grid); shear > kRounding) {
+        notes.push_back("the image's axes are not at right angles: it is sheared by " +
+                        number(std::round(shear * 1000) / 1000) + " degrees, and taken so");
+    }
 }
 
 } // namespace voxtact::io

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/result.h"
+#include "io/byte_reader.h"
+#include "io/volume/stored_image.h"
+#include "voxtact/io.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxtact::io {
@@ -17,25 +20,67 @@ enum class VolumeFormat { Nifti, Nrrd, Meta };
 /// By the ending of the name, in any case.
 [[nodiscard]] std::optional<VolumeFormat> volumeFormat(const std::filesystem::path& path);
 
-struct ContainerFacts {
-    VolumeFormat format = VolumeFormat::Nifti;
-    std::filesystem::path header; ///< what ITK is given
+/// Where the files of a volume are: on the disk, or one of them in memory.
+class VolumeSource {
+  public:
+    VolumeSource() = default;
+    VolumeSource(std::filesystem::path name, std::span<const std::byte> content)
+        : name_(std::move(name)), content_(content) {}
+
+    [[nodiscard]] bool has(const std::filesystem::path& path) const;
+    /// Refuses an empty file.
+    [[nodiscard]] Result<ByteReader> open(const std::filesystem::path& path) const;
+    /// The file that a header names as its voxels'.
+    [[nodiscard]] Result<ByteReader> openBeside(const std::filesystem::path& header, std::string_view name) const;
+
+  private:
+    std::filesystem::path name_;
+    std::optional<std::span<const std::byte>> content_; ///< none: the disk
+};
+
+/// The voxels as the file holds them, its grid, and what the user should know.
+struct ContainedImage {
+    StoredImage image;
     std::vector<std::string> notes;
 };
 
-/// Reads the header without ITK and refuses what ITK would read in silence or crash on: files that end before their
-/// last voxel (ITK fills the rest with zeros or leaves it undefined), damaged compressed data, more than one image,
-/// and sizes that are not positive.
-[[nodiscard]] Result<ContainerFacts> checkContainer(const std::filesystem::path& path);
-
-[[nodiscard]] Result<ContainerFacts> checkNifti(const std::filesystem::path& path);
-[[nodiscard]] Result<ContainerFacts> checkNrrd(const std::filesystem::path& path);
-[[nodiscard]] Result<ContainerFacts> checkMeta(const std::filesystem::path& path);
+/// NIfTI, NRRD or MetaImage, by the ending.
+[[nodiscard]] Result<ContainedImage> readContainer(const VolumeSource& source, const std::filesystem::path& path,
+                                                   const VolumeReadOptions& options);
+[[nodiscard]] Result<ContainedImage> readNifti(const VolumeSource& source, const std::filesystem::path& path,
+                                               const VolumeReadOptions& options);
+[[nodiscard]] Result<ContainedImage> readNrrd(const VolumeSource& source, const std::filesystem::path& path);
+[[nodiscard]] Result<ContainedImage> readMeta(const VolumeSource& source, const std::filesystem::path& path);
 
 /// Bytes of an image with these sizes; refuses 2D, more than one image, and no voxel.
 [[nodiscard]] Result<std::uint64_t> imageBytes(const std::filesystem::path& path, std::span<const std::int64_t> sizes,
                                                std::uint64_t bytesPerVoxel);
-/// Refuses a file in which fewer than `needed` bytes are left for the voxels.
-[[nodiscard]] Result<void> checkLength(const std::filesystem::path& path, std::uint64_t needed, std::uint64_t present);
+/// The same where one of several images along the fourth axis is wanted: bytes of one of them. `frames` becomes how
+/// many there are.
+[[nodiscard]] Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<std::int64_t> sizes,
+                                               std::uint64_t bytesPerVoxel, std::uint64_t& frames);
+
+/// The image's voxels: the next bytes of `reader`, turned to the machine's byte order.
+[[nodiscard]] Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped);
+
+/// Where voxel (0,0,0) is, and the step from a voxel to the next along each axis: a length times a direction, which
+/// need not be a unit vector. mm, LPS.
+struct AffineSteps {
+    std::array<Vec3, 3> directions{};
+    Vec3 lengths{1, 1, 1};
+    Vec3 origin{};
+};
+/// Refuses steps that are not finite, that are none, that are beyond all reason (a damaged header), and that lie in
+/// one plane. `grid.size` stays as it is.
+[[nodiscard]] Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesystem::path& path);
+
+/// How far the axes are from standing at right angles to each other, in degrees.
+[[nodiscard]] double shearDegrees(const Grid& grid);
+
+/// Says so where the axes are not at right angles and the format means it.
+void noteShear(const Grid& grid, std::vector<std::string>& notes);
+
+/// The largest distance in millimetres between the places of the same corner of the image.
+[[nodiscard]] double cornersApart(const Grid& a, const Grid& b);
 
 } // namespace voxtact::io

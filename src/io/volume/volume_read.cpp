@@ -2,94 +2,67 @@
 #include "core/guard.h"
 #include "io/errors.h"
 #include "io/volume/dicom_folder.h"
-#include "io/volume/itk_image.h"
-#include "io/volume/itk_session.h"
+#include "io/volume/volume_container.h"
 #include "voxtact/io.h"
 
 namespace voxtact::io {
 
 namespace {
 
-Result<ItkImage> readFile(const std::filesystem::path& path, std::vector<std::string>& notes) {
-    const Result<ContainerFacts> container = checkContainer(path);
-    if (!container.ok()) {
-        return container.error();
-    }
-    notes = container->notes;
-    const ItkSession session;
-    const ImageIo io = makeImageIo(container->format);
-    Result<ItkImage> image = readInformation(*io, container->header);
-    if (image.ok()) {
-        readVoxels(*io, image->voxels);
-    }
-    return image;
+namespace fs = std::filesystem;
+
+Result<VolumeData> readFolder(const fs::path& path, std::vector<std::string>& notes) {
+    Result<StoredImage> image = readDicomFolder(path, notes);
+    return image.ok() ? toScalars(std::move(*image), path) : Result<VolumeData>(image.error());
 }
 
-Result<ItkImage> fromStored(Result<StoredImage> stored) {
-    if (!stored.ok()) {
-        return stored.error();
+Result<VolumeData> readOne(const VolumeSource& source, const fs::path& path, const VolumeReadOptions& options,
+                           std::vector<std::string>& notes) {
+    Result<ContainedImage> contained = readContainer(source, path, options);
+    if (!contained.ok()) {
+        return contained.error();
     }
-    ItkImage image;
-    image.grid = stored->grid;
-    image.voxels = std::move(stored->voxels);
-    switch (stored->type) {
-    case StoredType::UInt8:
-        image.component = itk::IOComponentEnum::UCHAR;
-        break;
-    case StoredType::Int16:
-        image.component = itk::IOComponentEnum::SHORT;
-        break;
-    case StoredType::UInt16:
-        image.component = itk::IOComponentEnum::USHORT;
-        break;
-    case StoredType::Int32:
-        image.component = itk::IOComponentEnum::INT;
-        break;
-    case StoredType::UInt32:
-        image.component = itk::IOComponentEnum::UINT;
-        break;
-    default:
-        image.component = itk::IOComponentEnum::FLOAT;
-        break;
-    }
-    return image;
+    notes = std::move(contained->notes);
+    return toScalars(std::move(contained->image), path);
 }
 
-Result<ItkImage> readAny(const std::filesystem::path& path, std::vector<std::string>& notes) {
-    std::error_code ignored;
-    try {
-        if (std::filesystem::is_directory(path, ignored)) {
-            return fromStored(readDicomFolder(path, notes));
-        }
-        return readFile(path, notes);
-    } catch (const itk::ExceptionObject& problem) {
-        return cannotRead(path, itkReason(problem));
-    }
-}
-
-std::string nameOf(const std::filesystem::path& path) {
+std::string nameOf(const fs::path& path) {
     return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
+}
+
+/// What every reader's volume goes through at last.
+Result<VolumeData> checked(Result<VolumeData> volume, const fs::path& path, std::vector<std::string> notes) {
+    if (!volume.ok()) {
+        return volume;
+    }
+    if (const Result<ValueRange> range = checkVolume(volume->view()); !range.ok()) {
+        return cannotRead(path, range.error().text);
+    }
+    volume->name = nameOf(path);
+    notes.insert(notes.end(), volume->notes.begin(), volume->notes.end());
+    volume->notes = std::move(notes);
+    return volume;
 }
 
 } // namespace
 
-Result<VolumeData> readVolume(const std::filesystem::path& path) {
+Result<VolumeData> readVolume(const fs::path& path, const VolumeReadOptions& options) {
     return guard([&]() -> Result<VolumeData> {
+        std::error_code ignored;
         std::vector<std::string> notes;
-        Result<ItkImage> image = readAny(path, notes);
-        if (!image.ok()) {
-            return image.error();
-        }
-        Result<VolumeData> volume = toScalars(std::move(*image), path);
-        if (!volume.ok()) {
-            return volume;
-        }
-        if (const Result<ValueRange> range = checkVolume(volume->view()); !range.ok()) {
-            return cannotRead(path, range.error().text);
-        }
-        volume->name = nameOf(path);
-        volume->notes.insert(volume->notes.begin(), notes.begin(), notes.end());
-        return volume;
+        Result<VolumeData> volume =
+            fs::is_directory(path, ignored) ? readFolder(path, notes) : readOne(VolumeSource(), path, options, notes);
+        return checked(std::move(volume), path, std::move(notes));
+    });
+}
+
+Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> content,
+                              const VolumeReadOptions& options) {
+    return guard([&]() -> Result<VolumeData> {
+        const fs::path path(name);
+        std::vector<std::string> notes;
+        Result<VolumeData> volume = readOne(VolumeSource(path, content), path, options, notes);
+        return checked(std::move(volume), path, std::move(notes));
     });
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/errors.h"
-#include "io/volume/itk_image.h"
+#include "io/volume/stored_image.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
@@ -49,7 +50,7 @@ template <class To> void become(VolumeData& volume, ScalarType type, std::vector
 }
 
 template <std::integral Integer>
-Result<VolumeData> narrowed(VolumeData volume, const ItkImage& image, const std::filesystem::path& path,
+Result<VolumeData> narrowed(VolumeData volume, const StoredImage& image, const std::filesystem::path& path,
                             const char* from) {
     const Integer* begin = as<Integer>(image.voxels);
     const Integer* end = begin + image.voxels.size() / sizeof(Integer);
@@ -73,61 +74,101 @@ Result<VolumeData> narrowed(VolumeData volume, const ItkImage& image, const std:
     return volume;
 }
 
-Result<VolumeData> rounded(VolumeData volume, const ItkImage& image, const std::filesystem::path& path) {
-    const auto* begin = as<double>(image.voxels);
-    const auto* end = begin + image.voxels.size() / sizeof(double);
-    const auto* large = std::find_if(begin, end, [](double value) {
-        return std::isfinite(value) && std::abs(value) > static_cast<double>(std::numeric_limits<float>::max());
-    });
-    if (large != end) {
-        return cannotRead(path,
-                          placeOf(image.grid, static_cast<std::size_t>(large - begin)) + " is too large for a float");
+/// slope * stored + intercept in double, rounded once. A voxel that is not finite stays so, for the check that names
+/// it; one that a float cannot hold is refused.
+template <class Stored>
+Result<VolumeData> inFloats(VolumeData volume, const StoredImage& image, const std::filesystem::path& path) {
+    const Scaling scaling = image.scaling.value_or(Scaling{});
+    const Stored* stored = as<Stored>(image.voxels);
+    const std::size_t count = image.voxels.size() / sizeof(Stored);
+    std::vector<std::byte> voxels(count * sizeof(float));
+    auto* to = reinterpret_cast<float*>(voxels.data());
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto value = static_cast<double>(stored[i]);
+        const double scaled = image.scaling ? value * scaling.slope + scaling.intercept : value;
+        to[i] = static_cast<float>(scaled);
+        if (std::isinf(to[i]) && std::isfinite(value)) {
+            return cannotRead(path, placeOf(image.grid, i) + " is too large for a float");
+        }
     }
-    become<float>(volume, ScalarType::Float32, converted<float, double>(image.voxels), "double");
-    volume.notes.back() += ", rounded";
+    if constexpr (std::is_same_v<Stored, double>) {
+        become<float>(volume, ScalarType::Float32, std::move(voxels), "double");
+        volume.notes.back() += ", rounded";
+    } else {
+        volume.type = ScalarType::Float32;
+        volume.voxels = std::move(voxels);
+    }
     return volume;
+}
+
+/// Calls `act` with a value of the type that the voxels are stored in.
+template <class Act> auto withStored(StoredType type, Act&& act) {
+    switch (type) {
+    case StoredType::Int8:
+        return act(std::int8_t{});
+    case StoredType::UInt8:
+        return act(std::uint8_t{});
+    case StoredType::Int16:
+        return act(std::int16_t{});
+    case StoredType::UInt16:
+        return act(std::uint16_t{});
+    case StoredType::Int32:
+        return act(std::int32_t{});
+    case StoredType::UInt32:
+        return act(std::uint32_t{});
+    case StoredType::Int64:
+        return act(std::int64_t{});
+    case StoredType::UInt64:
+        return act(std::uint64_t{});
+    case StoredType::Float32:
+        return act(float{});
+    case StoredType::Float64:
+        break;
+    }
+    return act(double{});
+}
+
+const char* nameOf(StoredType type) {
+    constexpr std::array<const char*, 10> kNames{"int8",   "uint8", "int16",  "uint16", "int32",
+                                                 "uint32", "int64", "uint64", "float",  "double"};
+    return kNames[static_cast<std::size_t>(type)];
+}
+
+/// The ScalarType that holds the stored type as it is.
+std::optional<ScalarType> kept(StoredType type) {
+    switch (type) {
+    case StoredType::UInt8:
+        return ScalarType::UInt8;
+    case StoredType::Int16:
+        return ScalarType::Int16;
+    case StoredType::UInt16:
+        return ScalarType::UInt16;
+    case StoredType::Float32:
+        return ScalarType::Float32;
+    default:
+        return std::nullopt;
+    }
 }
 
 } // namespace
 
-Result<VolumeData> toScalars(ItkImage image, const std::filesystem::path& path) {
-    using itk::IOComponentEnum;
+Result<VolumeData> toScalars(StoredImage image, const std::filesystem::path& path) {
     VolumeData volume;
     volume.grid = image.grid;
-    const auto keep = [&](ScalarType type) {
-        volume.type = type;
+    const std::optional<ScalarType> same = kept(image.type);
+    if (same && !image.scaling) {
+        volume.type = *same;
         volume.voxels = std::move(image.voxels);
-        return std::move(volume);
-    };
-    switch (image.component) {
-    case IOComponentEnum::UCHAR:
-        return keep(ScalarType::UInt8);
-    case IOComponentEnum::SHORT:
-        return keep(ScalarType::Int16);
-    case IOComponentEnum::USHORT:
-        return keep(ScalarType::UInt16);
-    case IOComponentEnum::FLOAT:
-        return keep(ScalarType::Float32);
-    case IOComponentEnum::CHAR:
-        return narrowed<std::int8_t>(std::move(volume), image, path, "int8");
-    case IOComponentEnum::INT:
-        return narrowed<std::int32_t>(std::move(volume), image, path, "int32");
-    case IOComponentEnum::UINT:
-        return narrowed<std::uint32_t>(std::move(volume), image, path, "uint32");
-    case IOComponentEnum::LONG:
-        return narrowed<long>(std::move(volume), image, path, "int64");
-    case IOComponentEnum::ULONG:
-        return narrowed<unsigned long>(std::move(volume), image, path, "uint64");
-    case IOComponentEnum::LONGLONG:
-        return narrowed<long long>(std::move(volume), image, path, "int64");
-    case IOComponentEnum::ULONGLONG:
-        return narrowed<unsigned long long>(std::move(volume), image, path, "uint64");
-    case IOComponentEnum::DOUBLE:
-        return rounded(std::move(volume), image, path);
-    default:
-        break;
+        return volume;
     }
-    return cannotRead(path, "its voxels are of a type that is not supported; convert it to integers or floats");
+    return withStored(image.type, [&]<class Stored>(Stored) -> Result<VolumeData> {
+        if constexpr (std::is_integral_v<Stored>) {
+            if (!image.scaling) {
+                return narrowed<Stored>(std::move(volume), image, path, nameOf(image.type));
+            }
+        }
+        return inFloats<Stored>(std::move(volume), image, path);
+    });
 }
 
 } // namespace voxtact::io

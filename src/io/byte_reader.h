@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxtact::io {
+
+/// The bytes of a file or of memory, in order, each read once; what is compressed is decompressed on the way.
+class ByteReader {
+  public:
+    [[nodiscard]] static Result<ByteReader> ofFile(const std::filesystem::path& path);
+    /// `bytes` must outlive the reader; `name` stands in messages.
+    [[nodiscard]] static ByteReader ofMemory(std::filesystem::path name, std::span<const std::byte> bytes);
+
+    ByteReader(ByteReader&&) noexcept;
+    ByteReader& operator=(ByteReader&&) noexcept;
+    ~ByteReader();
+
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+    enum class Packing {
+        GzipOrPlain, ///< gzip where it begins as gzip does
+        Gzip,
+        ZlibOrGzip
+    };
+    /// What follows is packed so. Once for a reader.
+    [[nodiscard]] Result<void> unpack(Packing packing);
+
+    /// What is left of the file, packed or not.
+    [[nodiscard]] std::uint64_t stored() const noexcept;
+    /// Fewer than `length` only where the bytes end. Refuses packed bytes that are cut off or damaged.
+    [[nodiscard]] Result<std::size_t> read(std::byte* to, std::size_t length);
+    [[nodiscard]] Result<std::string> head(std::size_t length);
+    /// How many were skipped: fewer only where the bytes end.
+    [[nodiscard]] Result<std::uint64_t> skip(std::uint64_t length);
+    /// A line without its line feed, up to `longest` bytes of it; none at the end. Only where nothing is packed.
+    [[nodiscard]] std::optional<std::string> line(std::size_t longest);
+    /// Whether the last line that was read ended in a line feed.
+    [[nodiscard]] bool lineEnded() const noexcept { return lineEnded_; }
+    /// `needed` bytes, for the voxels: refused where fewer follow. Memory grows as they arrive, so that a header that
+    /// lies costs no more than the file holds: twice its bytes, unpacked (deflate packs at most 1032 bytes into one).
+    [[nodiscard]] Result<std::vector<std::byte>> take(std::uint64_t needed);
+    /// To the end of packed bytes, where their checksum is.
+    [[nodiscard]] Result<void> finish();
+
+  private:
+    struct Stored;
+    struct Inflater;
+
+    ByteReader(std::filesystem::path path, std::unique_ptr<Stored> stored);
+    [[nodiscard]] Result<std::size_t> inflate(std::byte* to, std::size_t length);
+
+    std::filesystem::path path_;
+    std::unique_ptr<Stored> stored_;
+    std::unique_ptr<Inflater> inflater_; ///< none while bytes are plain
+    bool lineEnded_ = false;
+};
+
+} // namespace voxtact::io

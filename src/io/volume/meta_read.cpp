@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "core/text.h"
+#include "io/errors.h"
+#include "io/text/text_lines.h"
+#include "io/volume/volume_container.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+namespace voxtact::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MetaHeader {
+    std::map<std::string, std::string, std::less<>> fields;
+
+    [[nodiscard]] bool has(std::string_view key) const { return fields.find(key) != fields.end(); }
+    [[nodiscard]] std::string_view get(std::string_view key) const {
+        const auto found = fields.find(key);
+        return found == fields.end() ? std::string_view() : std::string_view(found->second);
+    }
+    [[nodiscard]] bool isTrue(std::string_view key) const {
+        return get(key).starts_with('T') || get(key).starts_with('t') || get(key) == "1";
+    }
+};
+
+/// `Key = value` lines; ElementDataFile is the last one, and a LOCAL file's voxels are next.
+Result<MetaHeader> readHeader(ByteReader& reader) {
+    MetaHeader header;
+    constexpr std::size_t kLongest = 1 << 20;
+    std::size_t length = 0;
+    while (length < kLongest) {
+        const std::optional<std::string> line = reader.line(kLongest - length);
+        if (!line) {
+            break;
+        }
+        length += line->size() + 1;
+        const std::size_t equals = line->find('=');
+        if (equals == std::string::npos) {
+            if (trimmed(*line).empty()) {
+                continue;
+            }
+            break;
+        }
+        const std::string key(trimmed(std::string_view(*line).substr(0, equals)));
+        header.fields[key] = trimmed(std::string_view(*line).substr(equals + 1));
+        if (key == "ElementDataFile") {
+            break;
+        }
+    }
+    for (const char* needed : {"NDims", "DimSize", "ElementType", "ElementDataFile"}) {
+        if (header.get(needed).empty()) {
+            return cannotRead(reader.path(),
+                              std::string("it is not a MetaImage file, or it is truncated: its header has no '") +
+                                  needed + "'");
+        }
+    }
+    return header;
+}
+
+std::optional<std::int64_t> integer(std::string_view token) {
+    std::int64_t value = 0;
+    const auto end = std::from_chars(token.data(), token.data() + token.size(), value);
+    return end.ec == std::errc{} && end.ptr == token.data() + token.size() ? std::optional(value) : std::nullopt;
+}
+
+Result<std::vector<std::int64_t>> sizesOf(const fs::path& path, const MetaHeader& header) {
+    std::vector<std::string_view> tokens;
+    splitTokens(header.get("DimSize"), tokens);
+    std::vector<std::int64_t> sizes;
+    for (const std::string_view token : tokens) {
+        sizes.push_back(integer(token).value_or(0));
+    }
+    if (integer(header.get("NDims")) != static_cast<std::int64_t>(sizes.size())) {
+        return cannotRead(path, "its MetaImage header is damaged: 'DimSize' does not have 'NDims' numbers");
+    }
+    return sizes;
+}
+
+Result<StoredType> storedType(const fs::path& path, const MetaHeader& header) {
+    struct Known {
+        std::string_view name;
+        StoredType type;
+    };
+    // MetaIO's longs have four bytes on every machine.
+    constexpr std::array<Known, 12> kScalars{{{"MET_CHAR", StoredType::Int8},
+                                              {"MET_UCHAR", StoredType::UInt8},
+                                              {"MET_SHORT", StoredType::Int16},
+                                              {"MET_USHORT", StoredType::UInt16},
+                                              {"MET_INT", StoredType::Int32},
+                                              {"MET_UINT", StoredType::UInt32},
+                                              {"MET_LONG", StoredType::Int32},
+                                              {"MET_ULONG", StoredType::UInt32},
+                                              {"MET_LONG_LONG", StoredType::Int64},
+                                              {"MET_ULONG_LONG", StoredType::UInt64},
+                                              {"MET_FLOAT", StoredType::Float32},
+                                              {"MET_DOUBLE", StoredType::Float64}}};
+    const std::string_view type = header.get("ElementType");
+    const auto known = std::find_if(kScalars.begin(), kScalars.end(), [&](const Known& k) { return k.name == type; });
+    const std::string_view channels = header.get("ElementNumberOfChannels");
+    if (known == kScalars.end() || (!channels.empty() && channels != "1")) {
+        return cannotRead(path, "its voxels are not single numbers (" + inQuotes(type) +
+                                    (channels.empty() ? "" : ", " + inQuotes(channels) + " channels") +
+                                    "); convert it to integers or floats");
+    }
+    return known->type;
+}
+
+/// The numbers of the first field that is there; a field under two names must say the same.
+Result<std::vector<double>> numbersOf(const fs::path& path, const MetaHeader& header,
+                                      std::initializer_list<std::string_view> names, std::size_t count) {
+    std::vector<double> numbers;
+    for (const std::string_view name : names) {
+        if (!header.has(name)) {
+            continue;
+        }
+        std::vector<std::string_view> tokens;
+        splitTokens(header.get(name), tokens);
+        std::vector<double> here(tokens.size());
+        for (std::size_t i = 0; i < tokens.size(); ++i) {
+            if (tokens.size() != count || parseNumber(tokens[i], here[i])) {
+                here.clear();
+                break;
+            }
+        }
+        if (here.size() != count) {
+            return cannotRead(path, "its MetaImage header is damaged: '" + std::string(name) + "' needs " +
+                                        std::to_string(count) + " numbers");
+        }
+        if (!numbers.empty() && numbers != here) {
+            return cannotRead(path, "its MetaImage header is damaged: '" + std::string(name) +
+                                        "' is not what it says before under another name");
+        }
+        numbers = std::move(here);
+    }
+    return numbers;
+}
+
+Result<Grid> gridOf(const fs::path& path, const MetaHeader& header, const std::vector<std::int64_t>& sizes) {
+    const std::size_t dimensions = sizes.size();
+    const Result<std::vector<double>> matrix =
+        numbersOf(path, header, {"TransformMatrix", "Rotation", "Orientation"}, dimensions * dimensions);
+    const Result<std::vector<double>> origin = numbersOf(path, header, {"Offset", "Position", "Origin"}, dimensions);
+    const Result<std::vector<double>> spacing = numbersOf(path, header, {"ElementSpacing"}, dimensions);
+    const Result<std::vector<double>> size = numbersOf(path, header, {"ElementSize"}, dimensions);
+    const Result<std::vector<double>> centre = numbersOf(path, header, {"CenterOfRotation"}, dimensions);
+    for (const Result<std::vector<double>>* numbers : {&matrix, &origin, &spacing, &size, &centre}) {
+        if (!numbers->ok()) {
+            return numbers->error();
+        }
+    }
+    const std::vector<double>& lengths = spacing->empty() ? *size : *spacing;
+    Grid grid;
+    AffineSteps affine;
+    affine.directions = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        grid.size[axis] = static_cast<std::uint32_t>(sizes[axis]);
+        affine.lengths[axis] = lengths.empty() ? 1 : lengths[axis];
+        affine.origin[axis] = origin->empty() ? 0 : (*origin)[axis];
+        for (std::size_t row = 0; row < 3 && !matrix->empty(); ++row) {
+            affine.directions[axis][row] = (*matrix)[axis * dimensions + row]; // a row of the file is an axis
+        }
+    }
+    if (Result<void> set = setSteps(grid, affine, path); !set.ok()) {
+        return set.error();
+    }
+    return grid;
+}
+
+Result<bool> isSwapped(const fs::path& path, const MetaHeader& header) {
+    constexpr std::string_view kBinary = "BinaryDataByteOrderMSB";
+    constexpr std::string_view kElement = "ElementByteOrderMSB";
+    if (header.has(kBinary) && header.has(kElement) && header.isTrue(kBinary) != header.isTrue(kElement)) {
+        return cannotRead(path, "its MetaImage header is damaged: it says two byte orders");
+    }
+    return (header.isTrue(kBinary) || header.isTrue(kElement)) == (std::endian::native == std::endian::little);
+}
+
+/// A reader that stands at the first voxel: `local` where the header's file holds them.
+Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader local, const MetaHeader& header,
+                              std::uint64_t needed) {
+    const fs::path path = local.path();
+    const std::string_view name = header.get("ElementDataFile");
+    const bool isLocal = name == "LOCAL" || name == "Local" || name == "local";
+    if (name.starts_with("LIST") || name.find('%') != std::string_view::npos) {
+        return cannotRead(path, "its voxels are spread over several files; convert it to one .mha file");
+    }
+    const std::optional<std::int64_t> skip =
+        header.get("HeaderSize").empty() ? std::optional<std::int64_t>(0) : integer(header.get("HeaderSize"));
+    if (!skip || *skip < -1) {
+        return cannotRead(path, "its 'HeaderSize' is not a number");
+    }
+    if (isLocal && *skip > 0) {
+        return cannotRead(path, "its voxels follow its header, and 'HeaderSize' puts them elsewhere; mend its header");
+    }
+    Result<ByteReader> reader = isLocal ? std::move(local) : source.openBeside(path, name);
+    if (!reader.ok()) {
+        return reader.error();
+    }
+    if (header.isTrue("CompressedData")) {
+        if (*skip != 0) {
+            return cannotRead(path, "compressed data behind a 'HeaderSize' is not supported; write it anew");
+        }
+        const Result<void> unpacked = reader->unpack(ByteReader::Packing::ZlibOrGzip);
+        return unpacked.ok() ? std::move(reader) : Result<ByteReader>(unpacked.error());
+    }
+    // -1: the voxels are the end of the file.
+    const std::uint64_t before =
+        *skip < 0 ? reader->stored() - std::min(needed, reader->stored()) : static_cast<std::uint64_t>(*skip);
+    const Result<std::uint64_t> skipped = reader->skip(before);
+    return skipped.ok() ? std::move(reader) : Result<ByteReader>(skipped.error());
+}
+
+std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid) {
+    std::vector<std::string> notes;
+    noteShear(grid, notes);
+    for (const auto& [key, usual] :
+         {std::pair{"ElementToIntensityFunctionSlope", "1"}, std::pair{"ElementToIntensityFunctionOffset", "0"}}) {
+        double value = 0;
+        if (header.has(key) && (parseNumber(header.get(key), value) || number(value) != usual)) {
+            notes.push_back("the file's " + std::string(key) + " is " + inQuotes(header.get(key)) +
+                            "; its voxels are taken as they are stored, as ITK does");
+        }
+    }
+    return notes;
+}
+
+} // namespace
+
+Result<ContainedImage> readMeta(const VolumeSource& source, const fs::path& path) {
+    Result<ByteReader> reader = source.open(path);
+    if (!reader.ok()) {
+        return reader.error();
+    }
+    const Result<MetaHeader> header = readHeader(*reader);
+    if (!header.ok()) {
+        return header.error();
+    }
+    const Result<std::vector<std::int64_t>> sizes = sizesOf(path, *header);
+    if (!sizes.ok()) {
+        return sizes.error();
+    }
+    const Result<StoredType> type = storedType(path, *header);
+    if (!type.ok()) {
+        return type.error();
+    }
+    const Result<std::uint64_t> needed = imageBytes(path, *sizes, storedBytes(*type));
+    if (!needed.ok()) {
+        return needed.error();
+    }
+    if (!header->get("BinaryData").empty() && !header->isTrue("BinaryData")) {
+        return cannotRead(path, "its voxels are text, where a missing end goes unseen; write it as binary data");
+    }
+    const Result<Grid> grid = gridOf(path, *header, *sizes);
+    if (!grid.ok()) {
+        return grid.error();
+    }
+    const Result<bool> swapped = isSwapped(path, *header);
+    if (!swapped.ok()) {
+        return swapped.error();
+    }
+    Result<ByteReader> voxels = openVoxels(source, std::move(*reader), *header, *needed);
+    if (!voxels.ok()) {
+        return voxels.error();
+    }
+    ContainedImage contained{{*grid, *type, std::nullopt, {}}, notesOf(*header, *grid)};
+    if (Result<void> taken = takeVoxels(*voxels, contained.image, *swapped); !taken.ok()) {
+        return taken.error();
+    }
+    if (Result<void> whole = voxels->finish(); !whole.ok()) {
+        return whole.error();
+    }
+    return contained;
+}
+
+} // namespace voxtact::io

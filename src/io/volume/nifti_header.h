@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/volume/volume_container.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace voxtact::io {
+
+/// The fields of a NIfTI-1, NIfTI-2 or Analyze 7.5 header that say what the voxels are and where.
+struct NiftiHeader {
+    enum class Kind { Analyze, Nifti1, Nifti2 };
+
+    Kind kind = Kind::Nifti1;
+    bool swapped = false;            ///< not in the machine's byte order
+    std::vector<std::int64_t> sizes; ///< as many as there are dimensions
+    std::int16_t type = 0;           ///< NIfTI's number
+    std::uint64_t voxelOffset = 0;   ///< in the file that holds the voxels
+    std::array<double, 4> pixdim{};  ///< the first is qfac
+    double slope = 0;                ///< scl_slope, or what SPM keeps there
+    double intercept = 0;            ///< scl_inter
+    std::int32_t units = 0;          ///< xyzt_units
+    std::int32_t qformCode = 0;
+    std::int32_t sformCode = 0;
+    std::array<double, 3> quaternion{}; ///< b, c, d
+    std::array<double, 3> qoffset{};
+    std::array<std::array<double, 4>, 3> srow{}; ///< rows of world_from_index, RAS
+    std::array<double, 3> analyzeOrigin{};       ///< SPM's voxel, counted from 1, in Analyze files
+};
+
+constexpr std::size_t kNifti1Bytes = 348;
+constexpr std::size_t kNifti2Bytes = 540;
+
+/// Whether the header that begins so takes kNifti2Bytes.
+[[nodiscard]] bool isNifti2(std::string_view head);
+
+/// `head`: the first bytes of the file, kNifti1Bytes or kNifti2Bytes of them where it has so many. `single`: header and
+/// voxels are one file.
+[[nodiscard]] Result<NiftiHeader> parseNiftiHeader(const std::filesystem::path& path, std::string_view head,
+                                                   bool single);
+
+/// The place of the voxels, as nibabel's `affine` says it, in mm and LPS: the sform where its code is set, else the
+/// qform, else what nibabel takes when neither is. What is assumed, and an sform and a qform that differ, are noted.
+[[nodiscard]] Result<Grid> niftiGrid(const std::filesystem::path& path, const NiftiHeader& header,
+                                     std::vector<std::string>& notes);
+
+} // namespace voxtact::io

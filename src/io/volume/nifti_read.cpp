@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "core/text.h"
+#include "io/errors.h"
+#include "io/volume/nifti_header.h"
+
+#include <array>
+#include <cmath>
+
+namespace voxtact::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NiftiFiles {
+    fs::path header;
+    fs::path image;
+};
+
+/// A pair is named by either of its files; both may be compressed.
+NiftiFiles filesOf(const VolumeSource& source, const fs::path& path) {
+    const std::string ending = lowerEnding(path);
+    if (ending == ".nii" || ending == ".nii.gz") {
+        return {path, path};
+    }
+    const std::string name = path.string();
+    const std::string stem = name.substr(0, name.size() - ending.size());
+    const auto present = [&](const char* plain, const char* upper) {
+        for (const std::string& candidate : {stem + plain, stem + plain + ".gz", stem + upper, stem + upper + ".GZ"}) {
+            if (source.has(candidate)) {
+                return fs::path(candidate);
+            }
+        }
+        return fs::path(stem + plain);
+    };
+    return {present(".hdr", ".HDR"), present(".img", ".IMG")};
+}
+
+/// The type, or the reason why such voxels are no scalars.
+Result<StoredType> storedType(const fs::path& path, std::int16_t type) {
+    struct Known {
+        std::int16_t type;
+        StoredType stored;
+    };
+    constexpr std::array<Known, 10> kScalars{{{2, StoredType::UInt8},
+                                              {4, StoredType::Int16},
+                                              {8, StoredType::Int32},
+                                              {16, StoredType::Float32},
+                                              {64, StoredType::Float64},
+                                              {256, StoredType::Int8},
+                                              {512, StoredType::UInt16},
+                                              {768, StoredType::UInt32},
+                                              {1024, StoredType::Int64},
+                                              {1280, StoredType::UInt64}}};
+    for (const Known& known : kScalars) {
+        if (known.type == type) {
+            return known.stored;
+        }
+    }
+    const char* const what = type == 128 || type == 2304                  ? "colours (RGB)"
+                             : type == 32 || type == 1792 || type == 2048 ? "complex numbers"
+                             : type == 1                                  ? "single bits"
+                                                                          : "of a type that is not supported";
+    return cannotRead(path, std::string("its voxels are ") + what + " (NIfTI data type " + std::to_string(type) +
+                                "); convert it to integers or floats");
+}
+
+/// NIfTI: a slope of 0 is none. One that is no number is none for nibabel as well, which is said; with an intercept
+/// nobody knows what is meant. SPM's Analyze files have a slope in the same place, and take what is no number for none.
+Result<std::optional<Scaling>> scalingOf(const fs::path& path, const NiftiHeader& header,
+                                         std::vector<std::string>& notes) {
+    const bool isAnalyze = header.kind == NiftiHeader::Kind::Analyze;
+    const double slope = header.slope;
+    const double intercept = isAnalyze && !std::isfinite(header.intercept) ? 0 : header.intercept;
+    const std::optional<Scaling> none;
+    if (slope == 0 || (isAnalyze && !std::isfinite(slope))) {
+        return none;
+    }
+    if (std::isnan(slope) && (intercept == 0 || std::isnan(intercept))) {
+        notes.emplace_back("the file's scl_slope is NaN; its voxels are taken as they are stored, as nibabel does");
+        return none;
+    }
+    if (!std::isfinite(slope) || !std::isfinite(intercept)) {
+        return cannotRead(path, "its voxels have no scale: scl_slope is " + number(slope) + ", scl_inter is " +
+                                    number(intercept) + "; mend its header");
+    }
+    if (slope == 1 && intercept == 0) {
+        return none;
+    }
+    if (isAnalyze) {
+        notes.push_back("the file is scaled as SPM does it: " + number(slope) + " * voxel + " + number(intercept));
+    }
+    return std::optional(Scaling{slope, intercept});
+}
+
+/// Which of several images along the fourth axis.
+Result<std::uint64_t> frameOf(const fs::path& path, std::uint64_t frames, const VolumeReadOptions& options) {
+    if (!options.frame && frames > 1) {
+        return cannotRead(path, "it is 4D and holds " + std::to_string(frames) +
+                                    " images; name the one that is meant (frame 0 to " + std::to_string(frames - 1) +
+                                    ") or extract it");
+    }
+    const std::uint64_t frame = options.frame.value_or(0);
+    if (frame >= frames) {
+        return cannotRead(path, "it has no frame " + std::to_string(frame) + ": it holds " + std::to_string(frames) +
+                                    (frames == 1 ? " image" : " images") + ", counted from 0");
+    }
+    return frame;
+}
+
+struct NiftiContent {
+    NiftiHeader header;
+    StoredImage image; ///< without voxels
+    std::uint64_t voxelsAt = 0;
+    std::vector<std::string> notes;
+};
+
+Result<NiftiContent> contentOf(const fs::path& path, NiftiHeader header, const VolumeReadOptions& options) {
+    NiftiContent content;
+    const Result<StoredType> type = storedType(path, header.type);
+    if (!type.ok()) {
+        return type.error();
+    }
+    std::uint64_t frames = 0;
+    const Result<std::uint64_t> bytes = frameBytes(path, header.sizes, storedBytes(*type), frames);
+    if (!bytes.ok()) {
+        return bytes.error();
+    }
+    const Result<std::uint64_t> frame = frameOf(path, frames, options);
+    if (!frame.ok()) {
+        return frame.error();
+    }
+    const Result<Grid> grid = niftiGrid(path, header, content.notes);
+    if (!grid.ok()) {
+        return grid.error();
+    }
+    const Result<std::optional<Scaling>> scaling = scalingOf(path, header, content.notes);
+    if (!scaling.ok()) {
+        return scaling.error();
+    }
+    content.image = {*grid, *type, *scaling, {}};
+    content.voxelsAt = header.voxelOffset + *frame * *bytes;
+    content.header = std::move(header);
+    return content;
+}
+
+struct OpenNifti {
+    NiftiContent content;
+    ByteReader reader;           ///< stands behind the header's bytes
+    std::uint64_t readBytes = 0; ///< how many those are
+};
+
+Result<OpenNifti> openHeader(const VolumeSource& source, const NiftiFiles& files, const VolumeReadOptions& options) {
+    Result<ByteReader> reader = source.open(files.header);
+    if (!reader.ok()) {
+        return reader.error();
+    }
+    if (Result<void> unpacked = reader->unpack(ByteReader::Packing::GzipOrPlain); !unpacked.ok()) {
+        return unpacked.error();
+    }
+    Result<std::string> head = reader->head(kNifti1Bytes);
+    if (head.ok() && isNifti2(*head)) {
+        const Result<std::string> rest = reader->head(kNifti2Bytes - kNifti1Bytes);
+        head = rest.ok() ? Result<std::string>(*head + *rest) : rest;
+    }
+    if (!head.ok()) {
+        return head.error();
+    }
+    Result<NiftiHeader> header = parseNiftiHeader(files.header, *head, files.header == files.image);
+    if (!header.ok()) {
+        return header.error();
+    }
+    Result<NiftiContent> content = contentOf(files.header, std::move(*header), options);
+    if (!content.ok()) {
+        return content.error();
+    }
+    return OpenNifti{std::move(*content), std::move(*reader), head->size()};
+}
+
+/// The voxels of a pair are in a file of their own.
+Result<ByteReader> openImage(const VolumeSource& source, const fs::path& path) {
+    Result<ByteReader> reader = source.open(path);
+    // Voxels may begin as gzip does; only the ending tells.
+    if (reader.ok() && lowerEnding(path).ends_with(".gz")) {
+        if (Result<void> unpacked = reader->unpack(ByteReader::Packing::GzipOrPlain); !unpacked.ok()) {
+            return unpacked.error();
+        }
+    }
+    return reader;
+}
+
+} // namespace
+
+Result<ContainedImage> readNifti(const VolumeSource& source, const fs::path& path, const VolumeReadOptions& options) {
+    const NiftiFiles files = filesOf(source, path);
+    Result<OpenNifti> opened = openHeader(source, files, options);
+    if (!opened.ok()) {
+        return opened.error();
+    }
+    NiftiContent& content = opened->content;
+    const bool pair = files.header != files.image;
+    Result<ByteReader> opener = pair ? openImage(source, files.image) : std::move(opened->reader);
+    if (!opener.ok()) {
+        return opener.error();
+    }
+    ByteReader& reader = *opener;
+    if (const auto skipped = reader.skip(content.voxelsAt - (pair ? 0 : opened->readBytes)); !skipped.ok()) {
+        return skipped.error();
+    }
+    if (Result<void> taken = takeVoxels(reader, content.image, content.header.swapped); !taken.ok()) {
+        return taken.error();
+    }
+    if (Result<void> whole = reader.finish(); !whole.ok()) {
+        return whole.error();
+    }
+    return ContainedImage{std::move(content.image), std::move(content.notes)};
+}
+
+} // namespace voxtact::io
