@@ -17,9 +17,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Columns of text are as wide as what is in them: so long, and so many rows, are waited for before they are settled.
+/// Columns of text are as wide as what is in them: a screen of rows is waited for before they are settled, and more
+/// where they come fast, but not long.
 constexpr auto kTextWait = std::chrono::milliseconds(300);
-constexpr std::size_t kTextRows = 4096;
+constexpr auto kLongTextWait = std::chrono::seconds(3);
+constexpr std::size_t kFewTextRows = 32;
+constexpr std::size_t kManyTextRows = 4096;
 
 double rounded(double value, double parts) {
     return std::round(value * parts) / parts;
@@ -131,7 +134,8 @@ Result<void> DetectOutput::add(std::span<const Row> rows) {
         state.firstWaiting = now;
     }
     state.waiting.insert(state.waiting.end(), rows.begin(), rows.end());
-    const bool wait = now - *state.firstWaiting < kTextWait && state.waiting.size() < kTextRows;
+    const bool wait = now - *state.firstWaiting < (state.waiting.size() < kFewTextRows ? kLongTextWait : kTextWait) &&
+                      state.waiting.size() < kManyTextRows;
     return wait ? Result<void>() : state.writeHeld();
 }
 
