@@ -2,6 +2,7 @@
 #include "device/vulkan_device.h"
 
 #include "device/created.h"
+#include "device/enumerate.h"
 #include "device/vulkan_instance.h"
 
 #include <algorithm>
@@ -60,14 +61,17 @@ std::optional<VkQueueFamilyProperties> findGraphicsFamily(const InstanceFunction
 }
 
 /// Those of voxtact's optional extensions that the device has.
-std::vector<const char*> findExtensions(const InstanceFunctions& functions, VkPhysicalDevice physical) {
-    std::uint32_t count = 0;
-    functions.enumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> there(count);
-    functions.enumerateDeviceExtensionProperties(physical, nullptr, &count, there.data());
+Result<std::vector<const char*>> findExtensions(const InstanceFunctions& functions, VkPhysicalDevice physical) {
+    const auto there =
+        enumerate<VkExtensionProperties>("listing the device's extensions failed", [&](auto... arguments) {
+            return functions.enumerateDeviceExtensionProperties(physical, nullptr, arguments...);
+        });
+    if (!there.ok()) {
+        return there.error();
+    }
     std::vector<const char*> out;
     for (const char* wanted : optionalDeviceExtensions()) {
-        if (std::ranges::any_of(there, [wanted](const VkExtensionProperties& extension) {
+        if (std::ranges::any_of(*there, [wanted](const VkExtensionProperties& extension) {
                 return std::strcmp(extension.extensionName, wanted) == 0;
             })) {
             out.push_back(wanted);
@@ -238,7 +242,11 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     request.vulkan13.dynamicRendering &= supported.vulkan13.dynamicRendering;
     request.vulkan13.synchronization2 &= supported.vulkan13.synchronization2;
 
-    state->extensions = findExtensions(functions, physical.handle);
+    Result<std::vector<const char*>> extensions = findExtensions(functions, physical.handle);
+    if (!extensions.ok()) {
+        return extensions.error();
+    }
+    state->extensions = std::move(*extensions);
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_instance.h"
 
+#include "device/enumerate.h"
+
 #include "device/created.h"
 
 #include <algorithm>
@@ -31,30 +33,28 @@ Result<void> loadLoader() {
     return {};
 }
 
-bool hasLayer(const char* name) {
-    std::uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
-    for (const VkLayerProperties& layer : layers) {
-        if (std::strcmp(layer.layerName, name) == 0) {
-            return true;
-        }
+Result<bool> hasLayer(const char* name) {
+    const auto layers = enumerate<VkLayerProperties>("listing the Vulkan layers failed", [](auto... arguments) {
+        return vkEnumerateInstanceLayerProperties(arguments...);
+    });
+    if (!layers.ok()) {
+        return layers.error();
     }
-    return false;
+    return std::ranges::any_of(
+        *layers, [name](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
 }
 
-bool hasExtension(const char* layer, const char* name) {
-    std::uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
-    for (const VkExtensionProperties& extension : extensions) {
-        if (std::strcmp(extension.extensionName, name) == 0) {
-            return true;
-        }
+Result<bool> hasExtension(const char* name) {
+    const auto extensions =
+        enumerate<VkExtensionProperties>("listing the Vulkan extensions failed", [](auto... arguments) {
+            return vkEnumerateInstanceExtensionProperties(nullptr, arguments...);
+        });
+    if (!extensions.ok()) {
+        return extensions.error();
     }
-    return false;
+    return std::ranges::any_of(*extensions, [name](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
 }
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
@@ -107,14 +107,22 @@ Result<void> createInstance(const InstanceOptions& options, VulkanInstance::Stat
     application.pApplicationName = "voxtact";
     application.apiVersion = VK_API_VERSION_1_3;
 
-    if (hasExtension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
+    const Result<bool> debugUtils = hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (!debugUtils.ok()) {
+        return debugUtils.error();
+    }
+    if (*debugUtils) {
         state.extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
     if (options.validate) {
-        if (!hasLayer(kValidationLayer)) {
+        const Result<bool> layer = hasLayer(kValidationLayer);
+        if (!layer.ok()) {
+            return layer.error();
+        }
+        if (!*layer) {
             return Error{ErrorCode::Unsupported, 0,
                          std::string("the layer ") + kValidationLayer +
                              " is not installed; it is in Debian's package vulkan-validationlayers"};
@@ -222,21 +230,18 @@ Result<VulkanInstance> VulkanInstance::create(const InstanceOptions& options) {
 }
 
 Result<std::vector<PhysicalDevice>> VulkanInstance::devices() const {
-    std::uint32_t count = 0;
-    VkResult result = state_->functions.enumeratePhysicalDevices(state_->instance, &count, nullptr);
-    std::vector<VkPhysicalDevice> handles(count);
-    if (result == VK_SUCCESS) {
-        result = state_->functions.enumeratePhysicalDevices(state_->instance, &count, handles.data());
+    const auto handles = enumerate<VkPhysicalDevice>("listing the Vulkan devices failed", [this](auto... arguments) {
+        return state_->functions.enumeratePhysicalDevices(state_->instance, arguments...);
+    });
+    if (!handles.ok() && handles.error().vkResult != VK_ERROR_INITIALIZATION_FAILED) {
+        return handles.error();
     }
-    if (result == VK_ERROR_INITIALIZATION_FAILED || (result == VK_SUCCESS && count == 0)) {
-        return Error{ErrorCode::Unsupported, result, kNoDevice};
-    }
-    if (result != VK_SUCCESS && result != VK_INCOMPLETE) {
-        return vulkanError(result, "listing the Vulkan devices failed");
+    if (!handles.ok() || handles->empty()) {
+        return Error{ErrorCode::Unsupported, handles.ok() ? 0 : handles.error().vkResult, kNoDevice};
     }
     std::vector<PhysicalDevice> devices;
-    for (std::uint32_t index = 0; index < count; ++index) {
-        devices.push_back(describe(state_->functions, handles[index], index));
+    for (std::uint32_t index = 0; index < handles->size(); ++index) {
+        devices.push_back(describe(state_->functions, (*handles)[index], index));
     }
     return devices;
 }

@@ -13,6 +13,9 @@ Result<RenderBricks> RenderBricks::create(const Renderer& renderer, const Volume
     return guard([&]() -> Result<RenderBricks> {
         const VolumeImpl& source = volume.impl();
         ContextImpl& context = renderer.impl().context;
+        if (Result<void> alive = context.alive(); !alive.ok()) {
+            return alive.error();
+        }
         if (&source.context != &context) {
             return Error{ErrorCode::InvalidArgument, 0, "volume and renderer belong to different Contexts"};
         }
