@@ -26,6 +26,7 @@ FaultTable* current = nullptr;
 
 constexpr int kGarbage = 0xEB;
 
+// NOLINTNEXTLINE(bugprone-sizeof-expression): handles are pointers.
 template <class Out> void spoil(Out* out, std::size_t bytes = sizeof(Out)) {
     std::memset(static_cast<void*>(out), kGarbage, bytes);
 }
