@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // voxtact info: what it says of volumes and meshes whose content is known. No device is needed.
-#include "../../src/app/info/mesh_info.h"
-#include "../../src/app/info/volume_info.h"
+#include "app/info/mesh_info.h"
 #include "cli_fixture.h"
-
 #include "voxtact/builtin.h"
 
 #include <cmath>
@@ -31,6 +29,10 @@ class InfoTest : public CliTest {
         const std::int16_t code = 1;
         text.replace(254, 2, reinterpret_cast<const char*>(&code), 2);
         text.replace(280, sizeof rows, reinterpret_cast<const char*>(rows.data()), sizeof rows);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float spacing = std::hypot(rows[axis], rows[4 + axis], rows[8 + axis]);
+            text.replace(80 + 4 * axis, sizeof spacing, reinterpret_cast<const char*>(&spacing), sizeof spacing);
+        }
         for (std::size_t i = 0; i < 16; ++i) {
             text[352 + i] = static_cast<char>(i);
         }
