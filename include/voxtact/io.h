@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,6 +59,27 @@ struct MeshReadOptions {
 /// and renamed. Refuses what checkMesh() refuses.
 VOXTACT_API Result<void> writeMesh(const std::filesystem::path& path, const MeshView& mesh);
 
+/// Poses as readPoses() reads them, some at a time: in constant memory.
+/// Thread-safety: none; one thread at a time.
+class PoseReader {
+  public:
+    [[nodiscard]] VOXTACT_API static Result<PoseReader> open(const std::filesystem::path& path);
+    /// `name` is what errors call the stream, which must outlive the reader.
+    [[nodiscard]] VOXTACT_API static Result<PoseReader> over(std::istream& stream, const std::string& name);
+    VOXTACT_API PoseReader(PoseReader&&) noexcept;
+    VOXTACT_API PoseReader& operator=(PoseReader&&) noexcept;
+    VOXTACT_API ~PoseReader();
+
+    /// Appends the next poses, at most so many. False: there are no more. Errors as of readPoses().
+    [[nodiscard]] VOXTACT_API Result<bool> read(std::size_t most, std::vector<Mat4>& world_from_object);
+
+    struct State;
+
+  private:
+    explicit PoseReader(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
 /// One matrix a line: 16 numbers, row by row; `#` comments and empty lines. Numbers have a decimal point in every
 /// locale. Errors name the line ("poses.txt line 7: 15 numbers, a pose has 16 (row by row)"). Refuses what
 /// checkAffine() refuses, and a file without a matrix.
@@ -95,13 +117,37 @@ struct LabelName {
 VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
                                   std::span<const std::uint8_t> rgba);
 
-/// Calls `write` with a stream (classic locale) on a temporary file beside `path`, and renames it to `path` when
-/// everything went well; otherwise the temporary file is removed and `path` is as it was. A link is followed, an
-/// existing file's permissions are kept, and a device or pipe is written to directly.
+/// A file that is there when it is complete: what is written to its stream (classic locale) goes to a temporary file
+/// beside `path`, which commit() puts in its place. Without commit() the temporary file is removed, and `path` is as it
+/// was. A link is followed, an existing file's permissions are kept, and a device or pipe is written to directly.
+/// Thread-safety: none; one thread at a time.
+class OutputFile {
+  public:
+    /// Refuses folders, folders that do not exist, and what cannot be opened.
+    [[nodiscard]] VOXTACT_API static Result<OutputFile> create(const std::filesystem::path& path);
+    VOXTACT_API OutputFile(OutputFile&&) noexcept;
+    VOXTACT_API OutputFile& operator=(OutputFile&&) noexcept;
+    VOXTACT_API ~OutputFile();
+
+    [[nodiscard]] VOXTACT_API std::ostream& stream() noexcept;
+    /// Writes the rest, and says whether all went well, with the system's reason where it did not: a full disk.
+    /// Nothing is written afterwards.
+    [[nodiscard]] VOXTACT_API Result<void> close();
+    /// close(), if that was not done, and the rename.
+    [[nodiscard]] VOXTACT_API Result<void> commit();
+
+    struct State;
+
+  private:
+    explicit OutputFile(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
+/// Calls `write` with the stream of an OutputFile, and commits that when everything went well.
 VOXTACT_API Result<void> writeFile(const std::filesystem::path& path,
                                    const std::function<Result<void>(std::ostream&)>& write);
-/// The same for libraries that open files themselves: `write` gets the temporary path, which has `path`'s ending.
-/// Refuses devices and pipes.
+/// The same for libraries that open files themselves: `write` gets the temporary path, which has `path`'s ending, and
+/// must itself find out whether all was written. Refuses devices and pipes.
 VOXTACT_API Result<void> writeFileAt(const std::filesystem::path& path,
                                      const std::function<Result<void>(const std::filesystem::path& temporary)>& write);
 

@@ -16,16 +16,16 @@ struct Piece {
     std::uint32_t firstPose = 0;
 };
 
-/// Cuts a batch (of the device's items or of the host's) into parts of at most so many pairs.
+/// Cuts a batch (of the device's items or of the host's) into parts.
 template <class Item> class BatchCutter {
   public:
-    BatchCutter(std::span<const Item> items, std::uint32_t pairs) : items_(items), pairs_(pairs) {}
+    explicit BatchCutter(std::span<const Item> items) : items_(items) {}
 
-    /// The next part's items and where they come from; false when all are out.
-    bool next(std::vector<Item>& part, std::vector<Piece>& pieces) {
+    /// The items of the next `pairs`, and where they come from; false when all are out.
+    bool next(std::uint32_t pairs, std::vector<Item>& part, std::vector<Piece>& pieces) {
         part.clear();
         pieces.clear();
-        std::size_t left = pairs_;
+        std::size_t left = pairs;
         while (left > 0 && item_ < items_.size()) {
             const std::span<const Mat4> poses = items_[item_].world_from_object.subspan(pose_);
             const std::size_t taken = std::min(left, poses.size());
@@ -46,7 +46,6 @@ template <class Item> class BatchCutter {
 
   private:
     std::span<const Item> items_;
-    std::size_t pairs_;
     std::size_t item_ = 0;
     std::size_t pose_ = 0;
 };

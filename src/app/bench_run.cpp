@@ -2,6 +2,7 @@
 #include "app/bench_run.h"
 
 #include "app/inputs.h"
+#include "app/output_paths.h"
 #include "app/progress.h"
 #include "app/random_poses.h"
 
@@ -342,7 +343,10 @@ Outcome runBenchEngines(const BenchOptions& options) {
     if (options.volumes.size() > 1) {
         return badArgument("one --volume is enough, not several");
     }
-    if (const Result<void> writable = checkOutput(options.output.path); !writable.ok()) {
+    if (const Result<void> writable =
+            checkOutputs({{"--output", options.output.path}},
+                         inputPaths(options.volumes, options.meshes, options.transferFunction, {}));
+        !writable.ok()) {
         return writable.error();
     }
     BenchResult result;

@@ -3,6 +3,7 @@
 #include "app/compare_localize.h"
 #include "app/compare_output.h"
 #include "app/compare_timing.h"
+#include "app/output_paths.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/standard_streams.h"
@@ -195,7 +196,10 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     if (!options.report.empty() && !options.sweepsGiven) {
         options.sweeps.assign(kSweeps.begin(), kSweeps.end());
     }
-    if (const Result<void> writable = checkReportPaths(options.output.path, options.report); !writable.ok()) {
+    if (const Result<void> writable =
+            checkReportPaths(options.output.path, options.report,
+                             inputPaths(options.volumes, options.meshes, options.transferFunction, options.view));
+        !writable.ok()) {
         return writable.error();
     }
     const Result<CompareData> data = readCompareData(options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare_localize.h"
 
+#include "app/output_paths.h"
 #include "app/progress.h"
 
 #include <CLI/CLI.hpp>
@@ -37,7 +38,10 @@ Outcome outcomeOf(const LocalizeResult& result, const CLI::App& parser) {
 
 Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
     const CompareOptions options = withDefaults(given, parser);
-    if (const Result<void> writable = checkOutput(options.output.path); !writable.ok()) {
+    if (const Result<void> writable =
+            checkOutputs({{"--output", options.output.path}},
+                         inputPaths(options.volumes, options.meshes, options.transferFunction, options.view));
+        !writable.ok()) {
         return writable.error();
     }
     const Result<CompareData> data = readCompareData(options);

@@ -60,11 +60,12 @@ Result<MethodRunner::Pass> DeviceRunner::run(const Work& work, std::uint32_t bat
     double gpu = 0;
     bool timed = true;
     const auto begun = Clock::now();
-    const Result<void> done = (*pipe)->run({{&item, 1}, work.view, threshold_}, [&](const TimedAnswer& answer) {
-        pass.counts.push_back(answer.answer.count);
-        gpu += answer.gpuMilliseconds.value_or(0);
-        timed = timed && answer.gpuMilliseconds.has_value();
-    });
+    const Result<void> done =
+        (*pipe)->run({{&item, 1}, work.view, threshold_}, {.pair = [&](const TimedAnswer& answer) {
+                         pass.counts.push_back(answer.answer.count);
+                         gpu += answer.gpuMilliseconds.value_or(0);
+                         timed = timed && answer.gpuMilliseconds.has_value();
+                     }});
     pass.wallMilliseconds = millisecondsSince(begun);
     if (!done.ok()) {
         return done.error();

@@ -54,18 +54,18 @@ void append(std::string& bytes, const Vec3& vector) {
     }
 }
 
-std::string headerOf(const DetectOptions& options, const DetectRun& run) {
+std::string headerOf(const DetectOptions& options, std::size_t contacts) {
     std::string text = "ply\nformat binary_little_endian 1.0\n"
                        "comment contacts by voxtact; world, mm, LPS (+x left, +y posterior, +z superior)\n"
                        "comment colour: depth from 0 (dark violet) to " +
                        number(options.extra.outputs().maxDepth) + " mm and more (yellow), viridis\n";
-    for (std::size_t i = 0; i < options.meshes.sources.size(); ++i) {
-        text += "comment mesh " + std::to_string(i) + " " + oneLine(options.meshes.sources[i]) + "\n";
+    for (std::size_t i = 0; i < options.jobs.meshes.size(); ++i) {
+        text += "comment mesh " + std::to_string(i) + " " + oneLine(options.jobs.meshes[i]) + "\n";
     }
-    for (std::size_t i = 0; i < options.volumes.size(); ++i) {
-        text += "comment volume " + std::to_string(i) + " " + oneLine(options.volumes[i]) + "\n";
+    for (std::size_t i = 0; i < options.jobs.volumes.size(); ++i) {
+        text += "comment volume " + std::to_string(i) + " " + oneLine(options.jobs.volumes[i]) + "\n";
     }
-    text += "element vertex " + std::to_string(run.contacts.size()) + "\n";
+    text += "element vertex " + std::to_string(contacts) + "\n";
     for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) {
         text += std::string("property float ") + name + "\n";
     }
@@ -84,11 +84,13 @@ std::string headerOf(const DetectOptions& options, const DetectRun& run) {
 
 } // namespace
 
-void writeContactsPly(std::ostream& out, const DetectOptions& options, const DetectRun& run) {
-    out << headerOf(options, run);
+void writeContactsPly(std::ostream& out, const DetectOptions& options, const DetectInputs& /*inputs*/,
+                      const ContactList& list) {
+    out << headerOf(options, list.contacts.size());
     std::string bytes;
-    for (const Contact& contact : run.contacts) {
-        const Row& row = run.rows[contact.pair];
+    for (const KeptContact& kept : list.contacts) {
+        const Contact& contact = kept.contact;
+        const Job& job = options.jobs.jobs[kept.job];
         bytes.clear();
         append(bytes, contact.position);
         append(bytes, contact.normal);
@@ -99,7 +101,8 @@ void writeContactsPly(std::ostream& out, const DetectOptions& options, const Det
         append(bytes, static_cast<float>(contact.value));
         append(bytes, static_cast<float>(contact.opacity));
         append(bytes, contact.label);
-        for (const std::uint32_t number : {row.timed.pose, contact.triangle, row.timed.item, row.volume}) {
+        for (const std::uint32_t number :
+             {static_cast<std::uint32_t>(kept.pose), contact.triangle, job.mesh, job.volume}) {
             append(bytes, number);
         }
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

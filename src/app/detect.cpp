@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/auto_method.h"
 #include "app/commands.h"
-#include "app/detect_run.h"
+#include "app/inputs.h"
+#include "app/interrupt.h"
+#include "app/output_paths.h"
+#include "app/pair_engine.h"
 #include "app/standard_streams.h"
 
 #include <CLI/CLI.hpp>
@@ -21,19 +24,28 @@ constexpr const char* kFooter =
   contacts,depth (--contacts)  how many contacts there are, and the deepest in mm
   labels (--labels)            survivors by label, most first: Frontal_Sup_L:12;Precentral_L:3
   min_x,...,max_z (--bounds)   world box of the survivors in mm
+  job (--jobs)                 number of the job, from 0
   gpu_ms,wall_ms (--timing)    device time, and time from the start of recording to the results in host memory, of
                                the row's submission divided by its pairs. Submissions overlap: the last line
                                '# pairs= wall_ms= pairs_per_s=' has the time of all. Reading files, uploads and making
                                pipelines are not included; there is no warm-up. With --batch 1 each pair is submitted
                                and waited for alone. With --count cpu gpu_ms is 0.
-Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY.
+Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY, in
+VTP (VTK, ParaView) and in .mrk.json (3D Slicer); the last two have the boxes of --bounds, too.
+
+Rows come as they are known. Ctrl-C leaves whole rows on standard output, and files as they were; exit status 130.
 
 Examples:
   voxtact detect --volume builtin:head:128 --mesh builtin:scalpel
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --opacity "40:0,80:1" --format json
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --count atomic --timing --batch 1
   voxtact detect --volume builtin:head:128 --mesh builtin:scalpel --count cpu
-  voxtact detect --volume head.nii.gz --mesh tool.stl --labels atlas.nii.gz --contacts contacts.ply)";
+  voxtact detect --volume head.nii.gz --mesh tool.stl --labels atlas.nii.gz --contacts contacts.ply
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses - --count cpu --answer yes-no --threads 2 < poses.txt
+  voxtact detect --jobs jobs.csv --output rows.csv)";
+
+/// More only wait for each other.
+constexpr std::uint32_t kMostThreads = 1024;
 
 AutoLimits autoLimits(const DetectOptions& options) {
     // Who names a device, or wants Vulkan validated, wants it used.
@@ -51,15 +63,27 @@ Result<AutoChoice> choose(const DetectOptions& options, const Session& session, 
     return autoMethod(session, limits, !options.device.validate);
 }
 
+/// No output may be an input, or another output.
+Result<void> checkDetectPaths(const DetectOptions& options) {
+    const ExtraOptions& extra = options.extra;
+    std::vector<NamedPath> inputs = inputPaths(options.volumes, options.meshes, options.transferFunction, options.view);
+    if (!extra.labels.empty()) {
+        inputs.push_back({"--labels", extra.labels});
+        inputs.push_back({"--label-names", labelNamesPath(extra.labelNames, extra.labels)});
+    }
+    return checkOutputs(
+        {{"--output", options.output.path}, {"--triangles", extra.triangles}, {"--contacts", extra.contacts}}, inputs);
+}
+
 /// By the device that the options name; by the host where they, or the want of a device, say so.
-Result<void> detect(const DetectOptions& options, const DetectInputs& inputs, DetectRun& run,
-                    std::shared_ptr<const ValidationMessages>& messages) {
+Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs, std::vector<std::string>& notes,
+                        std::shared_ptr<const ValidationMessages>& messages, const UseEngine& answer) {
     if (options.method.count == CountingMethod::Cpu) {
         if (!options.device.wanted.empty()) {
-            run.notes.push_back("--device " + options.device.wanted +
-                                " is not used: the counting method cpu runs on the host");
+            notes.push_back("--device " + options.device.wanted +
+                            " is not used: the counting method cpu runs on the host");
         }
-        return detectOnHost(options, inputs, run);
+        return withHostEngine(options, inputs, answer);
     }
     const AutoLimits limits = autoLimits(options);
     {
@@ -71,45 +95,54 @@ Result<void> detect(const DetectOptions& options, const DetectInputs& inputs, De
                 return choice.error();
             }
             if (!choice->note.empty()) {
-                run.notes.push_back(choice->note);
+                notes.push_back(choice->note);
             }
             if (choice->method != CountingMethod::Cpu) {
-                return detectOnDevice(options, inputs, *session, choice->method, run);
+                return withDeviceEngine(options, inputs, *session, choice->method, answer);
             }
         } else if (options.method.count || !limits.host) {
             return session.error();
         } else {
-            run.notes.push_back(noDeviceNote(session.error()));
+            notes.push_back(noDeviceNote(session.error()));
         }
     }
-    return detectOnHost(options, inputs, run);
+    return withHostEngine(options, inputs, answer);
 }
 
-/// A list that was cut is still a good run, with fewer contacts than there are.
-void noteContacts(const DetectOptions& options, DetectRun& run) {
-    if (run.contactsFound > run.contacts.size()) {
-        run.notes.push_back(options.extra.contacts.string() + ": " + std::to_string(run.contacts.size()) + " of " +
-                            std::to_string(run.contactsFound) + " contacts were kept (--most-contacts " +
-                            std::to_string(options.extra.contactRoom()) + ")");
+Outcome interruptedOutcome(const DetectOptions& options, DetectOutput& output) {
+    if (const Result<void> ended = output.breakOff(); !ended.ok()) {
+        return ended.error();
     }
+    const bool toFile = !options.output.path.empty();
+    return interruptOutcome(toFile ? "'" + options.output.path.string() + "' is not written"
+                                   : std::to_string(output.rows()) + " pairs are written");
 }
 
 Outcome runDetect(DetectOptions options) {
     if (const Result<void> usable = resolveOptions(options); !usable.ok()) {
         return usable.error();
     }
-    for (const std::filesystem::path& path : {options.output.path, options.extra.triangles, options.extra.contacts}) {
-        if (const Result<void> writable = checkOutput(path); !writable.ok()) {
-            return writable.error();
-        }
+    if (const Result<void> writable = checkDetectPaths(options); !writable.ok()) {
+        return writable.error();
     }
-    const Result<DetectInputs> inputs = readDetectInputs(options);
+    const InterruptGuard guard;
+    Result<DetectInputs> inputs = readDetectInputs(options);
     if (!inputs.ok()) {
-        return inputs.error();
+        return interrupted() ? interruptOutcome("nothing is written") : Outcome(inputs.error());
     }
-    DetectRun run;
+    Result<DetectOutput> output = DetectOutput::create(options, *inputs);
+    if (!output.ok()) {
+        return output.error();
+    }
+    std::vector<std::string> notes; // to be said once all has gone well: an error is one line
     std::shared_ptr<const ValidationMessages> messages;
-    if (const Result<void> done = detect(options, *inputs, run, messages); !done.ok()) {
+    double milliseconds = 0;
+    const Result<void> done = withEngine(options, *inputs, notes, messages, [&](PairEngine& engine) -> Result<void> {
+        const Result<double> took = answerPairs(options, *inputs, engine, *output, notes);
+        milliseconds = took.ok() ? *took : 0;
+        return took.ok() ? Result<void>() : took.error();
+    });
+    if (!done.ok()) {
         return done.error();
     }
     if (messages) {
@@ -117,11 +150,16 @@ Outcome runDetect(DetectOptions options) {
             return invalid;
         }
     }
-    if (const Result<void> written = writeDetectOutputs(options, *inputs, run); !written.ok()) {
+    if (interrupted()) {
+        return interruptedOutcome(options, *output);
+    }
+    if (const Result<void> written = output->finish(milliseconds); !written.ok()) {
         return written.error();
     }
-    noteContacts(options, run);
-    for (const std::string& note : run.notes) {
+    if (const std::string cut = output->noteOfContacts(); !cut.empty()) {
+        notes.push_back(cut);
+    }
+    for (const std::string& note : notes) {
         printNote(note);
     }
     return {};
@@ -129,8 +167,9 @@ Outcome runDetect(DetectOptions options) {
 
 void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
     addPath(parser, "--triangles", options.triangles, "a CSV file for the touched triangles: pose,triangle,count");
-    addPath(parser, "--contacts", options.contacts,
-            "a .csv or .ply file for the places where survivors are, with normal and depth; see below");
+    addPath(
+        parser, "--contacts", options.contacts,
+        "a .csv, .ply, .vtp or .mrk.json file for the places where survivors are, with normal and depth; see below");
     addNumber(
         parser, "--max-depth", [&options](double depth) { options.maxDepth = depth; },
         "mm, how far a contact's depth is followed", [](double depth) { return depth > 0; }, "above 0", "10");
@@ -150,12 +189,23 @@ Command addDetect(CLI::App& program) {
     CLI::App* parser = program.add_subcommand("detect", "which pairs of mesh and volume touch, and how much");
     parser->footer(kFooter);
     addVolumeOption(*parser, options->volumes);
-    addMeshOptions(*parser, options->meshes);
+    parser->get_option("--volume")->required(false);
+    addMeshOptions(*parser, options->meshes, false);
+    addPath(*parser, "--jobs", options->jobsPath,
+            "a CSV file of mesh,volume,poses, a job a line, instead of --mesh, --volume and --poses");
     addTransferFunctionOptions(*parser, options->transferFunction);
     addViewOptions(*parser, options->view);
     addMethodOptions(*parser, options->method);
     addExtraOptions(*parser, options->extra);
-    addWholeNumber(*parser, "--batch", options->batch, 1, "pairs a submission");
+    addName(*parser, "--answer", options->answer, {"count", "yes-no"},
+            "count, or yes-no: stops at the first contact, which is much faster; count is then 0 or 1, and exact 0; "
+            "default: count");
+    addWholeNumber(
+        *parser, "--batch", [options](std::uint32_t pairs) { options->batch = pairs; }, {.least = 1},
+        "pairs a submission, at most; few at first unless this is given, so that rows come soon", kDefaultBatch);
+    addWholeNumber(
+        *parser, "--threads", [options](std::uint32_t threads) { options->threads = threads; },
+        {.least = 0, .most = kMostThreads}, "of the counting method cpu; 0: one for each processor", 0);
     parser->add_flag("--timing", options->timing, "adds gpu_ms and wall_ms to each row, and a last line; see below");
     addDeviceOptions(*parser, options->device);
     addOutputOptions(*parser, options->output);

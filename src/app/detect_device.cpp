@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/detect_run.h"
 #include "app/inputs.h"
-#include "app/pair_rows.h"
-#include "app/progress.h"
+#include "app/pair_engine.h"
 #include "voxtact/contact_result.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 namespace voxtact::app {
@@ -20,6 +17,9 @@ constexpr std::uint32_t kSubmissionsInFlight = 3;
 /// On the device and on the host.
 constexpr std::uint64_t kBytesOfContact = 2 * sizeof(ContactResult);
 
+/// Of volumes that are kept for a later job: less than any device has.
+constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{512} << 20U;
+
 /// A size that the user chose and the device has not is an unusable argument.
 Error blameTable(Error error) {
     if (error.code == ErrorCode::LimitExceeded) {
@@ -28,62 +28,105 @@ Error blameTable(Error error) {
     return error;
 }
 
-/// What stays the same while the volumes come and go.
-struct DetectTools {
-    const DetectOptions& options;
-    const DetectInputs& inputs;
-    const Session& session;
-    const std::vector<Mesh>& meshes;
-    const LabelMap* labels; ///< may be null
-    const DetectorDesc& desc;
-    PairPipeline& pipeline;
-    Progress& progress;
+/// The room for contacts is what the user chose.
+Error blameContacts(Error error, const DetectOptions& options) {
+    if (error.code == ErrorCode::LimitExceeded && options.extra.mostContacts) {
+        return badArgument("--most-contacts: " + error.text);
+    }
+    return error;
+}
+
+struct DeviceVolume {
+    Volume volume;
+    TransferFunction transferFunction;
+    View view;
+    Grid grid;
+    std::uint64_t bytes = 0;
 };
 
-/// All meshes and poses against one volume.
-Result<void> detectVolume(const DetectTools& tools, std::uint32_t index, DetectRun& run) {
-    const DetectOptions& options = tools.options;
-    const std::string& source = options.volumes[index];
+/// What is uploaded once.
+struct DeviceScene {
+    std::vector<Mesh> meshes;
+    std::optional<LabelMap> labels;
+};
+
+class DeviceEngine : public PairEngine {
+  public:
+    DeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
+                 const DetectorDesc& desc, const DeviceScene& scene, PairPipeline& pipeline, std::uint32_t pairs)
+        : options_(options), inputs_(inputs), session_(session), desc_(desc), scene_(scene), pipeline_(pipeline),
+          shelf_(options.jobs, kMostVolumeBytes), pace_(pairs, options.batch.has_value() || options.timing) {}
+
+    [[nodiscard]] std::string device() const override { return session_.device.physical().name; }
+    [[nodiscard]] std::string driver() const override { return session_.device.physical().driver; }
+    [[nodiscard]] PairAnswer untouched() const override {
+        PairAnswer answer;
+        answer.exactness = options_.yesNo() ? Exactness::LowerBound : exactness(desc_.method);
+        answer.method = desc_.method;
+        answer.projection = desc_.projection;
+        return answer;
+    }
+    [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
+    [[nodiscard]] Result<void> answer(const Window& window, WindowRows& rows,
+                                      const std::function<bool()>& stop) override;
+
+  private:
+    [[nodiscard]] Result<DeviceVolume> make(std::uint32_t volume) const;
+
+    const DetectOptions& options_;
+    const DetectInputs& inputs_;
+    const Session& session_;
+    const DetectorDesc& desc_;
+    const DeviceScene& scene_;
+    PairPipeline& pipeline_;
+    VolumeShelf<DeviceVolume> shelf_;
+    DeviceVolume* volume_ = nullptr;
+    BatchPace pace_;
+};
+
+Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
+    const std::string& source = options_.jobs.volumes[number];
     const Result<VolumeData> data = loadVolume(source);
     if (!data.ok()) {
         return data.error();
     }
-    const QueueAccess queue = tools.session.device.queueAccess();
-    const Result<Volume> volume =
-        Volume::upload(tools.session.context, queue, data->view(),
-                       {.name = source.c_str(), .bricks = tools.desc.projection == Projection::Conservative});
+    const QueueAccess queue = session_.device.queueAccess();
+    Result<Volume> volume =
+        Volume::upload(session_.context, queue, data->view(),
+                       {.name = source.c_str(), .bricks = desc_.projection == Projection::Conservative});
     if (!volume.ok()) {
         return volume.error();
     }
     const VolumeSettings settings =
-        settingsFor(options, tools.inputs, index, *data, volume->valueRange().value_or(ValueRange{}));
-    const Result<TransferFunction> transferFunction = TransferFunction::upload(
-        tools.session.context, queue, {settings.points, settings.domain, options.transferFunction.tableSize});
-    if (!transferFunction.ok()) {
-        return blameTable(transferFunction.error());
+        settingsFor(options_, inputs_, number, *data, volume->valueRange().value_or(ValueRange{}));
+    Result<TransferFunction> function = TransferFunction::upload(
+        session_.context, queue, {settings.points, settings.domain, options_.transferFunction.tableSize});
+    if (!function.ok()) {
+        return blameTable(function.error());
     }
-    const std::vector<SelectedPoses> selected = selectPoses(options, tools.inputs, data->grid);
+    return DeviceVolume{std::move(*volume), std::move(*function), settings.view, data->grid, data->voxels.size()};
+}
+
+Result<Grid> DeviceEngine::use(std::uint32_t job) {
+    const Result<DeviceVolume*> volume = shelf_.get(job, [&] { return make(options_.jobs.jobs[job].volume); });
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    volume_ = *volume;
+    return volume_->grid;
+}
+
+Result<void> DeviceEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
     std::vector<BatchItem> items;
-    for (std::size_t mesh = 0; mesh < selected.size(); ++mesh) {
-        items.push_back(
-            {&tools.meshes[mesh], &*volume, &*transferFunction, selected[mesh].world_from_object, tools.labels});
+    for (const WindowItem& item : window.items) {
+        items.push_back({&scene_.meshes[options_.jobs.jobs[item.job].mesh], &volume_->volume,
+                         &volume_->transferFunction, item.selected, scene_.labels ? &*scene_.labels : nullptr});
     }
-    std::uint64_t progress = run.rows.size();
-    PairAnswer untouched;
-    untouched.exactness = exactness(tools.desc.method);
-    untouched.method = tools.desc.method;
-    untouched.projection = tools.desc.projection;
-    PairRows rows(options, tools.inputs, selected, index, untouched, run);
-    const auto begun = std::chrono::steady_clock::now();
-    Result<void> done = tools.pipeline.run(
-        {items, settings.view, options.transferFunction.threshold},
-        [&](const TimedAnswer& timed) {
-            rows.add(timed);
-            tools.progress.update(++progress);
-        },
-        [&](const BatchAnswer& answer) { rows.addOutputs(answer); });
-    run.wallMilliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
-    return done;
+    return pipeline_.run({items, volume_->view, options_.transferFunction.threshold},
+                         {.pair = [&](const TimedAnswer& timed) { rows.add(timed); },
+                          .submission = [&](const BatchAnswer& answer) { rows.endBatch(answer); },
+                          .stop = stop,
+                          .pace = &pace_});
 }
 
 DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
@@ -95,18 +138,20 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.outputs = options.extra.outputs();
     desc.samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel);
     desc.resolution = options.method.resolution.value_or(kDefaultResolution);
+    desc.stopAtFirst = options.yesNo() && desc.projection == Projection::Conservative;
     return desc;
 }
 
 /// Submissions so large, and so many of them, that the answers beside the counts keep within what they may take.
-PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& inputs, std::uint64_t pairsOfVolume) {
+PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& inputs) {
     const Outputs outputs = options.extra.outputs();
     const std::uint64_t contactBytes = outputs.contacts ? options.extra.contactRoom() * kBytesOfContact : 0;
-    const bool oneAtATime = options.batch == 1 || contactBytes * kSubmissionsInFlight > kMostOutputBytes;
+    const bool oneAtATime = options.mostPairs() == 1 || contactBytes * kSubmissionsInFlight > kMostOutputBytes;
     PipelineDesc desc;
     desc.frames = oneAtATime ? 1 : kSubmissionsInFlight;
-    desc.pairsPerSubmission =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(pairsPerBatch(options, inputs, desc.frames), pairsOfVolume));
+    desc.pairsPerSubmission = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        pairsPerBatch(options, inputs, desc.frames),
+        std::clamp<std::uint64_t>(inputs.pairs(options.jobs).value_or(kDefaultBatch), 1, kWindowPairs)));
     desc.timestamps = options.timing;
     if (outputs.any()) {
         desc.room = OutputRoom{
@@ -117,65 +162,54 @@ PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& in
     return desc;
 }
 
-/// The room for contacts is what the user chose.
-Error blameContacts(Error error, const DetectOptions& options) {
-    if (error.code == ErrorCode::LimitExceeded && options.extra.mostContacts) {
-        return badArgument("--most-contacts: " + error.text);
+Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs& inputs, const Session& session) {
+    DeviceScene scene;
+    const QueueAccess queue = session.device.queueAccess();
+    for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
+        Result<Mesh> mesh = Mesh::upload(session.context, queue, inputs.meshes[i].view(),
+                                         {.name = options.jobs.meshes[i].c_str(), .clusters = true});
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        scene.meshes.push_back(std::move(*mesh));
     }
-    return error;
+    if (inputs.labels) {
+        Result<LabelMap> labels =
+            LabelMap::upload(session.context, queue, *inputs.labels, options.extra.labels.string().c_str());
+        if (!labels.ok()) {
+            return labels.error();
+        }
+        scene.labels = std::move(*labels);
+    }
+    return scene;
 }
 
 } // namespace
 
-Result<void> detectOnDevice(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
-                            CountingMethod method, DetectRun& run) {
-    const PhysicalDevice& physical = session.device.physical();
-    if (Result<void> fits =
-            usesView(*options.method.projection)
-                ? checkViewport(options.view.size, session.context.maxViewport(), "'" + physical.name + "'")
-                : Result<void>();
-        !fits.ok()) {
-        return fits;
+Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
+                              CountingMethod method, const UseEngine& answer) {
+    if (usesView(*options.method.projection)) {
+        if (Result<void> viewport = checkViewport(options.view.size, session.context.maxViewport(),
+                                                  "'" + session.device.physical().name + "'");
+            !viewport.ok()) {
+            return viewport;
+        }
     }
-    run.device = physical.name;
-    run.driver = physical.driver;
     const Result<Detector> detector = Detector::create(session.context, descOf(options, method));
     if (!detector.ok()) {
         return detector.error();
     }
-    std::vector<Mesh> meshes;
-    for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
-        Result<Mesh> mesh = Mesh::upload(session.context, session.device.queueAccess(), inputs.meshes[i].view(),
-                                         {.name = options.meshes.sources[i].c_str(), .clusters = true});
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
-        meshes.push_back(std::move(*mesh));
+    const Result<DeviceScene> scene = uploadScene(options, inputs, session);
+    if (!scene.ok()) {
+        return scene.error();
     }
-    std::optional<LabelMap> labels;
-    if (inputs.labels) {
-        Result<LabelMap> uploaded = LabelMap::upload(session.context, session.device.queueAccess(), *inputs.labels,
-                                                     options.extra.labels.string().c_str());
-        if (!uploaded.ok()) {
-            return uploaded.error();
-        }
-        labels = std::move(*uploaded);
-    }
-    const std::uint64_t pairsOfVolume = static_cast<std::uint64_t>(meshes.size()) * inputs.poses.size();
-    Result<PairPipeline> pipeline = PairPipeline::create(session.device, session.context, *detector,
-                                                         pipelineDescOf(options, inputs, pairsOfVolume));
+    const PipelineDesc desc = pipelineDescOf(options, inputs);
+    Result<PairPipeline> pipeline = PairPipeline::create(session.device, session.context, *detector, desc);
     if (!pipeline.ok()) {
         return blameContacts(pipeline.error(), options);
     }
-    Progress progress(options.progress, "voxtact detect: pairs", pairsOfVolume * options.volumes.size());
-    const DetectTools tools{options,          inputs,    session, meshes, labels ? &*labels : nullptr,
-                            detector->desc(), *pipeline, progress};
-    for (std::uint32_t index = 0; index < options.volumes.size(); ++index) {
-        if (Result<void> done = detectVolume(tools, index, run); !done.ok()) {
-            return done;
-        }
-    }
-    return {};
+    DeviceEngine engine(options, inputs, session, detector->desc(), *scene, *pipeline, desc.pairsPerSubmission);
+    return answer(engine);
 }
 
 } // namespace voxtact::app

@@ -3,6 +3,8 @@
 
 #include "core/text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <ostream>
 
@@ -21,40 +23,77 @@ std::string rounded(const Vec3& vector) {
     return rounded(vector[0]) + ',' + rounded(vector[1]) + ',' + rounded(vector[2]);
 }
 
-bool hasSeveral(const DetectOptions& options) {
-    return options.meshes.sources.size() > 1 || options.volumes.size() > 1;
+/// ",mesh,volume" of a row, where that is needed; with --jobs also the job's number.
+std::string sourcesOf(const DetectOptions& options, std::uint32_t job) {
+    const PairJobs& jobs = options.jobs;
+    const Job& which = jobs.jobs[job];
+    return (options.hasSeveralJobs()
+                ? "," + csvField(jobs.meshes[which.mesh]) + "," + csvField(jobs.volumes[which.volume])
+                : "") +
+           (jobs.fromFile ? "," + std::to_string(job) : "");
 }
 
-/// ",mesh,volume" of a row.
-std::string sourcesOf(const DetectOptions& options, const Row& row) {
-    return "," + csvField(options.meshes.sources[row.timed.item]) + "," + csvField(options.volumes[row.volume]);
+std::string sourceColumns(const DetectOptions& options) {
+    return std::string(options.hasSeveralJobs() ? ",mesh,volume" : "") + (options.jobs.fromFile ? ",job\n" : "\n");
+}
+
+struct ContactFormat {
+    const char* ending;
+    void (*write)(std::ostream&, const DetectOptions&, const DetectInputs&, const ContactList&);
+};
+
+constexpr std::array<ContactFormat, 4> kContactFormats{{{".csv", writeContactsCsv},
+                                                        {".ply", writeContactsPly},
+                                                        {".vtp", writeContactsVtp},
+                                                        {".mrk.json", writeContactsMarkups}}};
+
+const ContactFormat* formatOf(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    const auto* const found =
+        std::find_if(kContactFormats.begin(), kContactFormats.end(), [&](const ContactFormat& format) {
+            return name.ends_with(format.ending) && name != format.ending;
+        });
+    return found == kContactFormats.end() ? nullptr : found;
 }
 
 } // namespace
 
-void writeTriangles(std::ostream& out, const DetectOptions& options, const DetectRun& run) {
-    const bool several = hasSeveral(options);
-    out << "pose,triangle,count" << (several ? ",mesh,volume\n" : "\n");
-    for (const TouchedTriangle& touched : run.triangles) {
-        const Row& row = run.rows[touched.pair];
-        out << row.timed.pose << ',' << touched.triangle << ',' << touched.count
-            << (several ? sourcesOf(options, row) : "") << '\n';
+void writeTriangleHeader(std::ostream& out, const DetectOptions& options) {
+    out << "pose,triangle,count" << sourceColumns(options);
+}
+
+void writeTriangle(std::ostream& out, const DetectOptions& options, const Row& row, const TouchedTriangle& touched) {
+    out << row.pose << ',' << touched.triangle << ',' << touched.count << sourcesOf(options, row.job) << '\n';
+}
+
+std::string contactEndings() {
+    std::string all;
+    for (std::size_t i = 0; i < kContactFormats.size(); ++i) {
+        all += (i == 0 ? "" : i + 1 < kContactFormats.size() ? ", " : " or ") + std::string(kContactFormats[i].ending);
     }
+    return all;
+}
+
+bool isContactEnding(const std::filesystem::path& path) {
+    return formatOf(path) != nullptr;
+}
+
+void writeContacts(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                   const ContactList& list) {
+    formatOf(options.extra.contacts)->write(out, options, inputs, list);
 }
 
 void writeContactsCsv(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
-                      const DetectRun& run) {
-    const bool several = hasSeveral(options);
+                      const ContactList& list) {
     const bool named = !inputs.labelNames.empty();
     out << "pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label" << (named ? ",label_name" : "")
-        << (several ? ",mesh,volume\n" : "\n");
-    for (const Contact& contact : run.contacts) {
-        const Row& row = run.rows[contact.pair];
-        out << row.timed.pose << ',' << contact.triangle << ',' << rounded(contact.position) << ','
+        << sourceColumns(options);
+    for (const KeptContact& kept : list.contacts) {
+        const Contact& contact = kept.contact;
+        out << kept.pose << ',' << contact.triangle << ',' << rounded(contact.position) << ','
             << rounded(contact.normal) << ',' << rounded(contact.depth) << ',' << number(contact.value) << ','
             << rounded(contact.opacity) << ',' << contact.label
-            << (named ? ',' + csvField(labelName(inputs, contact.label)) : "")
-            << (several ? sourcesOf(options, row) : "") << '\n';
+            << (named ? ',' + csvField(labelName(inputs, contact.label)) : "") << sourcesOf(options, kept.job) << '\n';
     }
 }
 

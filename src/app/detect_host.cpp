@@ -1,38 +1,104 @@
 // SPDX-License-Identifier: MIT
 #include "app/batch_cutter.h"
-#include "app/detect_run.h"
 #include "app/inputs.h"
-#include "app/pair_rows.h"
-#include "app/progress.h"
+#include "app/pair_engine.h"
 #include "voxtact/cpu.h"
-
-#include <chrono>
 
 namespace voxtact::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// The table is in memory, which has no limit that could be named; beyond this one it is a slip.
 constexpr std::uint32_t kMostTableEntries = 1U << 24U;
 
-/// What stays the same while the volumes come and go.
-struct HostTools {
-    const DetectOptions& options;
-    const DetectInputs& inputs;
-    const std::vector<cpu::Mesh>& meshes;
-    cpu::Detector& detector;
-    Progress& progress;
+/// Of volumes that are kept for a later job.
+constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{2} << 30U;
+
+struct HostVolume {
+    cpu::Volume volume;
+    cpu::TransferFunction transferFunction;
+    View view;
+    std::uint64_t bytes = 0;
 };
 
-/// `progress` is what the volumes before this one have done.
-Result<void> runBatch(const HostTools& tools, const cpu::Batch& batch, PairRows& rows, std::uint64_t progress) {
-    BatchCutter<cpu::BatchItem> cutter(batch.items, pairsPerBatch(tools.options, tools.inputs, 1));
+class HostEngine : public PairEngine {
+  public:
+    HostEngine(const DetectOptions& options, const DetectInputs& inputs, cpu::Detector detector,
+               std::vector<cpu::Mesh> meshes)
+        : options_(options), inputs_(inputs), detector_(std::move(detector)), meshes_(std::move(meshes)),
+          shelf_(options.jobs, kMostVolumeBytes),
+          pace_(pairsPerBatch(options, inputs, 1), options.batch.has_value() || options.timing) {}
+
+    [[nodiscard]] std::string device() const override { return "host"; }
+    [[nodiscard]] std::string driver() const override {
+        return "cpu, " + std::to_string(detector_.threads()) + (detector_.threads() == 1 ? " thread" : " threads");
+    }
+    [[nodiscard]] PairAnswer untouched() const override {
+        PairAnswer answer;
+        answer.exactness = options_.yesNo() ? Exactness::LowerBound : Exactness::Exact;
+        answer.method = CountingMethod::Cpu;
+        answer.projection = *options_.method.projection;
+        return answer;
+    }
+    [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
+    [[nodiscard]] Result<void> answer(const Window& window, WindowRows& rows,
+                                      const std::function<bool()>& stop) override;
+
+  private:
+    [[nodiscard]] Result<HostVolume> make(std::uint32_t volume) const;
+
+    const DetectOptions& options_;
+    const DetectInputs& inputs_;
+    cpu::Detector detector_;
+    std::vector<cpu::Mesh> meshes_;
+    VolumeShelf<HostVolume> shelf_;
+    HostVolume* volume_ = nullptr;
+    BatchPace pace_;
+};
+
+Result<HostVolume> HostEngine::make(std::uint32_t number) const {
+    const Result<VolumeData> data = loadVolume(options_.jobs.volumes[number]);
+    if (!data.ok()) {
+        return data.error();
+    }
+    const Result<ValueRange> values = checkVolume(data->view());
+    if (!values.ok()) {
+        return values.error();
+    }
+    Result<cpu::Volume> volume = cpu::Volume::create(data->view());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const VolumeSettings settings = settingsFor(options_, inputs_, number, *data, *values);
+    Result<cpu::TransferFunction> function =
+        cpu::TransferFunction::create({settings.points, settings.domain, options_.transferFunction.tableSize});
+    if (!function.ok()) {
+        return function.error();
+    }
+    return HostVolume{std::move(*volume), std::move(*function), settings.view, data->voxels.size()};
+}
+
+Result<Grid> HostEngine::use(std::uint32_t job) {
+    const Result<HostVolume*> volume = shelf_.get(job, [&] { return make(options_.jobs.jobs[job].volume); });
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    volume_ = *volume;
+    return volume_->volume.grid();
+}
+
+Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
+    std::vector<cpu::BatchItem> all;
+    for (const WindowItem& item : window.items) {
+        all.push_back({&meshes_[options_.jobs.jobs[item.job].mesh], &volume_->volume, &volume_->transferFunction,
+                       item.selected, inputs_.labels ? &*inputs_.labels : nullptr});
+    }
+    BatchCutter<cpu::BatchItem> cutter(all);
     std::vector<cpu::BatchItem> items;
     std::vector<Piece> pieces;
-    while (cutter.next(items, pieces)) {
-        const Result<BatchAnswer> answer = tools.detector.detect({items, batch.view, batch.threshold});
+    while (!stop() && cutter.next(pace_.size(), items, pieces)) {
+        const Result<BatchAnswer> answer =
+            detector_.detect({items, volume_->view, options_.transferFunction.threshold});
         if (!answer.ok()) {
             return answer.error();
         }
@@ -45,49 +111,10 @@ Result<void> runBatch(const HostTools& tools, const cpu::Batch& batch, PairRows&
             timed.pose = pieces[pair.item].firstPose + pair.pose;
             rows.add(timed);
         }
-        rows.addOutputs(*answer);
-        progress += answer->pairs.size();
-        tools.progress.update(progress);
+        rows.endBatch(*answer);
+        pace_.took(static_cast<std::uint32_t>(answer->pairs.size()), answer->wallMilliseconds);
     }
     return {};
-}
-
-/// All meshes and poses against one volume.
-Result<void> detectVolume(const HostTools& tools, std::uint32_t index, DetectRun& run) {
-    const DetectOptions& options = tools.options;
-    const Result<VolumeData> data = loadVolume(options.volumes[index]);
-    if (!data.ok()) {
-        return data.error();
-    }
-    const Result<ValueRange> values = checkVolume(data->view());
-    if (!values.ok()) {
-        return values.error();
-    }
-    const Result<cpu::Volume> volume = cpu::Volume::create(data->view());
-    if (!volume.ok()) {
-        return volume.error();
-    }
-    const VolumeSettings settings = settingsFor(options, tools.inputs, index, *data, *values);
-    const Result<cpu::TransferFunction> transferFunction =
-        cpu::TransferFunction::create({settings.points, settings.domain, options.transferFunction.tableSize});
-    if (!transferFunction.ok()) {
-        return transferFunction.error();
-    }
-    const LabelData* labels = tools.inputs.labels ? &*tools.inputs.labels : nullptr;
-    const std::vector<SelectedPoses> selected = selectPoses(options, tools.inputs, data->grid);
-    std::vector<cpu::BatchItem> items;
-    for (std::size_t mesh = 0; mesh < selected.size(); ++mesh) {
-        items.push_back({&tools.meshes[mesh], &*volume, &*transferFunction, selected[mesh].world_from_object, labels});
-    }
-    const std::size_t before = run.rows.size();
-    PairAnswer untouched;
-    untouched.method = CountingMethod::Cpu;
-    untouched.projection = *options.method.projection;
-    PairRows rows(options, tools.inputs, selected, index, untouched, run);
-    const auto begun = Clock::now();
-    Result<void> done = runBatch(tools, {items, settings.view, options.transferFunction.threshold}, rows, before);
-    run.wallMilliseconds += std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
-    return done;
 }
 
 Result<void> checkLimits(const DetectOptions& options) {
@@ -102,13 +129,15 @@ Result<void> checkLimits(const DetectOptions& options) {
 
 } // namespace
 
-Result<void> detectOnHost(const DetectOptions& options, const DetectInputs& inputs, DetectRun& run) {
+Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& inputs, const UseEngine& answer) {
     if (Result<void> possible = checkLimits(options); !possible.ok()) {
         return possible;
     }
     const MethodOptions& method = options.method;
     Result<cpu::Detector> detector =
-        cpu::Detector::create({.boundary = method.boundary,
+        cpu::Detector::create({.threads = options.threads,
+                               .boundary = method.boundary,
+                               .stopAtFirst = options.yesNo(),
                                .projection = *method.projection,
                                .outputs = options.extra.outputs(),
                                .samplesPerVoxel = method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel),
@@ -117,8 +146,6 @@ Result<void> detectOnHost(const DetectOptions& options, const DetectInputs& inpu
     if (!detector.ok()) {
         return detector.error();
     }
-    run.device = "host";
-    run.driver = "cpu, " + std::to_string(detector->threads()) + (detector->threads() == 1 ? " thread" : " threads");
     std::vector<cpu::Mesh> meshes;
     for (const MeshData& data : inputs.meshes) {
         Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
@@ -127,15 +154,8 @@ Result<void> detectOnHost(const DetectOptions& options, const DetectInputs& inpu
         }
         meshes.push_back(std::move(*mesh));
     }
-    Progress progress(options.progress, "voxtact detect: pairs",
-                      static_cast<std::uint64_t>(meshes.size()) * inputs.poses.size() * options.volumes.size());
-    const HostTools tools{options, inputs, meshes, *detector, progress};
-    for (std::uint32_t index = 0; index < options.volumes.size(); ++index) {
-        if (Result<void> done = detectVolume(tools, index, run); !done.ok()) {
-            return done;
-        }
-    }
-    return {};
+    HostEngine engine(options, inputs, std::move(*detector), std::move(meshes));
+    return answer(engine);
 }
 
 } // namespace voxtact::app

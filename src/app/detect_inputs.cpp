@@ -36,8 +36,20 @@ Result<void> readLabels(const ExtraOptions& options, DetectInputs& inputs) {
 
 } // namespace
 
+std::optional<std::uint64_t> DetectInputs::pairs(const PairJobs& jobs) const {
+    std::uint64_t sum = 0;
+    for (const Job& job : jobs.jobs) {
+        const std::optional<std::uint64_t> count = poses[job.poses].count();
+        if (!count) {
+            return std::nullopt;
+        }
+        sum += *count;
+    }
+    return sum;
+}
+
 Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
-    for (const std::string& source : options.volumes) {
+    for (const std::string& source : options.jobs.volumes) {
         // Volumes are read one at a time, so the last may be late: look now whether it is there at all.
         std::error_code ignored;
         if (!source.starts_with("builtin:") && !std::filesystem::exists(source, ignored)) {
@@ -50,11 +62,13 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
         return points.error();
     }
     inputs.points = std::move(*points);
-    Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);
-    if (!poses.ok()) {
-        return poses.error();
+    for (std::uint32_t i = 0; i < options.jobs.poses.size(); ++i) {
+        Result<PoseSource> poses = PoseSource::open(options.jobs.poses[i], options.jobs.uses(i) > 1);
+        if (!poses.ok()) {
+            return poses.error();
+        }
+        inputs.poses.push_back(std::move(*poses));
     }
-    inputs.poses = std::move(*poses);
     if (!options.view.camera.empty()) {
         const Result<Mat4> camera = io::readCamera(options.view.camera);
         if (!camera.ok()) {
@@ -62,7 +76,7 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
         }
         inputs.clip_from_world = *camera;
     }
-    for (const std::string& source : options.meshes.sources) {
+    for (const std::string& source : options.jobs.meshes) {
         Result<MeshData> mesh = loadMesh(source, options.meshes);
         if (!mesh.ok()) {
             return mesh.error();
@@ -84,7 +98,7 @@ VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inp
                            const VolumeData& data, const ValueRange& values) {
     const auto [width, height] = options.view.size;
     const ValueRange domain = tableDomain(options.transferFunction, data.type, values);
-    noteValuesOutside(domain, values, options.volumes[volume]);
+    noteValuesOutside(domain, values, options.jobs.volumes[volume]);
     return {.domain = domain,
             .points = inputs.points.empty() ? defaultRamp(domain) : inputs.points,
             .view = {inputs.clip_from_world ? *inputs.clip_from_world : framingCamera(data.grid, width, height), width,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "app/detect_files.h"
 #include "app/detect_run.h"
 
 #include <algorithm>
@@ -10,6 +11,32 @@ namespace {
 /// On the device, on the host, and unpacked.
 constexpr std::uint64_t kBytesOfTriangle = sizeof(std::uint32_t) * 2 + sizeof(TouchedTriangle);
 constexpr std::uint64_t kBytesOfLabel = sizeof(std::uint32_t) * 2 + sizeof(LabelCount);
+
+/// What is put to what: a file says, or the other options do.
+Result<void> resolveJobs(DetectOptions& options) {
+    const bool byFile = !options.jobsPath.empty();
+    for (const auto& [option, given] :
+         {std::pair("--volume", !options.volumes.empty()), std::pair("--mesh", !options.meshes.sources.empty())}) {
+        if (given == byFile) {
+            return badArgument(option +
+                               std::string(byFile ? ": --jobs names meshes, volumes and poses; leave out one of the two"
+                                                  : " is required, or --jobs; see voxtact detect --help"));
+        }
+    }
+    if (!byFile) {
+        options.jobs = allPairs(options.meshes.sources, options.volumes, options.view.poses);
+        return {};
+    }
+    if (!options.view.poses.empty()) {
+        return badArgument("--poses: --jobs names meshes, volumes and poses; leave out one of the two");
+    }
+    Result<PairJobs> jobs = readJobs(options.jobsPath);
+    if (!jobs.ok()) {
+        return jobs.error();
+    }
+    options.jobs = std::move(*jobs);
+    return {};
+}
 
 Result<void> checkHost(const DetectOptions& options) {
     if (options.method.count != CountingMethod::Cpu) {
@@ -80,12 +107,19 @@ Result<void> checkExtra(const DetectOptions& options) {
             return used;
         }
     }
-    if (!extra.contacts.empty() && extra.contacts.extension() != ".csv" && extra.contacts.extension() != ".ply") {
-        return badArgument("--contacts: the ending of '" + extra.contacts.string() +
-                           "' says no format; it must be .csv or .ply");
+    if (!extra.contacts.empty() && !isContactEnding(extra.contacts)) {
+        return badArgument("--contacts: the ending of '" + extra.contacts.string() + "' says no format; it must be " +
+                           contactEndings());
     }
-    return checkDistinct(
-        {{"--output", options.output.path}, {"--triangles", extra.triangles}, {"--contacts", extra.contacts}});
+    if (options.yesNo() && extra.outputs().any()) {
+        const char* option = !extra.contacts.empty()    ? "--contacts"
+                             : !extra.triangles.empty() ? "--triangles"
+                             : extra.bounds             ? "--bounds"
+                                                        : "--labels";
+        return badArgument(std::string("--answer yes-no stops at the first contact, and ") + option +
+                           " is about all of them; leave out one of the two");
+    }
+    return {};
 }
 
 } // namespace
@@ -105,6 +139,12 @@ bool canBeConservative(const MethodOptions& method) {
 }
 
 Result<void> resolveOptions(DetectOptions& options) {
+    if (options.output.path == "-") {
+        options.output.path.clear();
+    }
+    if (Result<void> jobs = resolveJobs(options); !jobs.ok()) {
+        return jobs;
+    }
     if (Result<void> host = checkHost(options); !host.ok()) {
         return host;
     }
@@ -137,8 +177,8 @@ std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& in
         bytes += inputs.labels->values.size() * kBytesOfLabel;
     }
     const std::uint64_t fit = std::max<std::uint64_t>(kMostOutputBytes / copies / bytes, 1);
-    return options.extra.outputs().any() ? static_cast<std::uint32_t>(std::min<std::uint64_t>(options.batch, fit))
-                                         : options.batch;
+    return options.extra.outputs().any() ? static_cast<std::uint32_t>(std::min<std::uint64_t>(options.mostPairs(), fit))
+                                         : options.mostPairs();
 }
 
 } // namespace voxtact::app

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/detect_jobs.h"
 #include "app/output.h"
 #include "app/pair_pipeline.h"
+#include "app/pose_source.h"
 #include "app/session.h"
 #include "app/shared_options.h"
 #include "voxtact/labels.h"
@@ -12,7 +14,7 @@
 #include <string>
 #include <vector>
 
-/// What the parts of `voxtact detect` share: its options, what is read for it, and the two engines that answer.
+/// What the parts of `voxtact detect` share: its options, what is read for it, and a row of what comes out.
 namespace voxtact::app {
 
 constexpr std::uint32_t kDefaultBatch = 1024;
@@ -33,17 +35,26 @@ struct ExtraOptions {
 };
 
 struct DetectOptions {
-    std::vector<std::string> volumes;
+    std::vector<std::string> volumes; ///< as given; the jobs have each once
     MeshOptions meshes;
+    std::filesystem::path jobsPath;
+    PairJobs jobs; ///< set by resolveOptions()
     TransferFunctionOptions transferFunction;
     ViewOptions view;
     MethodOptions method;
     DeviceChoice device;
     OutputOptions output;
     ExtraOptions extra;
-    bool progress = false;
+    std::string answer = "count";
+    bool progress = true;
     bool timing = false;
-    std::uint32_t batch = kDefaultBatch;
+    std::optional<std::uint32_t> batch;
+    std::uint32_t threads = 0; ///< 0: one for each processor
+
+    [[nodiscard]] bool yesNo() const { return answer == "yes-no"; }
+    [[nodiscard]] std::uint32_t mostPairs() const { return batch.value_or(kDefaultBatch); }
+    /// Whether the numbers of pose and triangle alone do not say which mesh and volume are meant.
+    [[nodiscard]] bool hasSeveralJobs() const { return jobs.jobs.size() > 1; }
 };
 
 /// What is read before there is a device.
@@ -51,14 +62,19 @@ struct DetectInputs {
     std::vector<MeshData> meshes;
     std::vector<Box> bounds; ///< of the meshes, object space
     std::vector<ControlPoint> points;
-    std::vector<Mat4> poses;
+    std::vector<PoseSource> poses;
     std::optional<Mat4> clip_from_world;
     std::optional<LabelData> labels;
     std::map<std::int32_t, std::string> labelNames;
+
+    /// Of all jobs; nothing where standard input has not told yet.
+    [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;
 };
 
+/// The answer for one pair.
 struct Row {
-    std::uint32_t volume = 0;
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0; ///< number in its file
     TimedAnswer timed;
     std::uint64_t triangles = 0; ///< touched ones
     std::uint64_t contacts = 0;  ///< found, kept or not
@@ -67,18 +83,22 @@ struct Row {
     std::vector<LabelCount> labels;
 };
 
-struct DetectRun {
-    std::vector<Row> rows;
-    std::vector<TouchedTriangle> triangles; ///< `pair` is the number of the row
-    std::vector<Contact> contacts;          ///< the same; at most ExtraOptions::contactRoom()
-    std::uint64_t contactsFound = 0;
-    double wallMilliseconds = 0;
-    std::string device;
-    std::string driver;
-    std::vector<std::string> notes; ///< to be said once all has gone well: an error is one line
+/// A contact, and whose it is.
+struct KeptContact {
+    Contact contact;
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0;
 };
 
-/// Decides what the options leave open: afterwards there is a projection. Refuses options that do not go together.
+/// A pair's world box, where a file of contacts is to have it.
+struct KeptBounds {
+    Box box;
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0;
+};
+
+/// Decides what the options leave open: afterwards there are a projection and jobs. Refuses options that do not go
+/// together.
 [[nodiscard]] Result<void> resolveOptions(DetectOptions& options);
 
 /// Whether a method and filter can answer in the projection conservative.
@@ -98,12 +118,6 @@ struct VolumeSettings {
 [[nodiscard]] VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,
                                          const VolumeData& data, const ValueRange& values);
 
-/// All pairs by a method of the session's device.
-[[nodiscard]] Result<void> detectOnDevice(const DetectOptions& options, const DetectInputs& inputs,
-                                          const Session& session, CountingMethod method, DetectRun& run);
-/// All pairs by the host engine. No Vulkan.
-[[nodiscard]] Result<void> detectOnHost(const DetectOptions& options, const DetectInputs& inputs, DetectRun& run);
-
 /// Refuses a viewport beyond `most`, which is what `who` can do.
 [[nodiscard]] Result<void> checkViewport(const VkExtent2D& size, const VkExtent2D& most, const std::string& who);
 
@@ -116,13 +130,6 @@ constexpr std::uint64_t kMostOutputBytes = std::uint64_t{256} << 20U;
 /// too much memory. `copies` of them are in flight.
 [[nodiscard]] std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& inputs,
                                           std::uint32_t copies);
-
-/// Writes the table of the rows and the files of triangles and contacts: all of them, or none.
-[[nodiscard]] Result<void> writeDetectOutputs(const DetectOptions& options, const DetectInputs& inputs,
-                                              const DetectRun& run);
-
-/// The table of the rows. It refers to the arguments.
-[[nodiscard]] Table makeDetectTable(const DetectOptions& options, const DetectInputs& inputs, const DetectRun& run);
 
 /// The name of a label; its number where it has none.
 [[nodiscard]] std::string labelName(const DetectInputs& inputs, std::int32_t label);

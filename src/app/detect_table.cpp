@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "app/detect_files.h"
+#include "app/detect_table.h"
+
 #include "app/version.h"
 
 #include <algorithm>
@@ -34,28 +35,26 @@ Cell verdictOf(const PairAnswer& answer) {
     return answer.hit ? NumberWord{1, "yes"} : answer.possible ? NumberWord{2, "possible"} : NumberWord{0, "no"};
 }
 
-struct Column {
-    std::string name;
-    std::function<Cell(const Row&)> cell;
-};
+} // namespace
 
-void addBounds(std::vector<Column>& columns) {
+void DetectColumns::addBounds() {
     for (const bool upper : {false, true}) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            columns.push_back({std::string(upper ? "max_" : "min_") + "xyz"[axis], [upper, axis](const Row& row) {
-                                   return row.bounds
-                                              ? Cell(rounded((upper ? row.bounds->hi : row.bounds->lo)[axis], 1e6))
-                                              : Cell();
-                               }});
+            columns_.push_back({std::string(upper ? "max_" : "min_") + "xyz"[axis], [upper, axis](const Row& row) {
+                                    return row.bounds
+                                               ? Cell(rounded((upper ? row.bounds->hi : row.bounds->lo)[axis], 1e6))
+                                               : Cell();
+                                }});
         }
     }
 }
 
-std::vector<Column> columnsOf(const DetectOptions& options, const DetectInputs& inputs) {
-    std::vector<Column> columns{
-        {"pose", [](const Row& row) { return std::uint64_t{row.timed.pose}; }},
-        {"mesh", [&](const Row& row) { return options.meshes.sources[row.timed.item]; }},
-        {"volume", [&](const Row& row) { return options.volumes[row.volume]; }},
+DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& inputs) {
+    const PairJobs& jobs = options.jobs;
+    columns_ = {
+        {"pose", [](const Row& row) { return row.pose; }},
+        {"mesh", [&](const Row& row) { return jobs.meshes[jobs.jobs[row.job].mesh]; }},
+        {"volume", [&](const Row& row) { return jobs.volumes[jobs.jobs[row.job].volume]; }},
         {"hit", [](const Row& row) { return verdictOf(row.timed.answer); }},
         {"count", [](const Row& row) { return row.timed.answer.count; }},
         {"exact",
@@ -64,80 +63,49 @@ std::vector<Column> columnsOf(const DetectOptions& options, const DetectInputs& 
         {"projection", [](const Row& row) { return std::string(toString(row.timed.answer.projection)); }}};
     const Outputs outputs = options.extra.outputs();
     if (outputs.triangles) {
-        columns.push_back({"triangles", [](const Row& row) { return row.triangles; }});
+        columns_.push_back({"triangles", [](const Row& row) { return row.triangles; }});
     }
     if (outputs.contacts) {
-        columns.push_back({"contacts", [](const Row& row) { return row.contacts; }});
-        columns.push_back(
+        columns_.push_back({"contacts", [](const Row& row) { return row.contacts; }});
+        columns_.push_back(
             {"depth", [](const Row& row) { return row.contacts > 0 ? Cell(rounded(row.depth, 1e6)) : Cell(); }});
     }
     if (outputs.labels) {
-        columns.push_back({"labels", [&](const Row& row) { return labelsOf(inputs, row); }});
+        columns_.push_back({"labels", [&](const Row& row) { return labelsOf(inputs, row); }});
     }
     if (outputs.bounds) {
-        addBounds(columns);
+        addBounds();
     }
     if (options.timing) {
-        columns.push_back({"gpu_ms", [](const Row& row) {
-                               const std::optional<double>& gpu = row.timed.gpuMilliseconds;
-                               return gpu ? Cell(rounded(*gpu, 1e6)) : Cell();
-                           }});
-        columns.push_back({"wall_ms", [](const Row& row) { return rounded(row.timed.wallMilliseconds, 1e6); }});
+        columns_.push_back({"gpu_ms", [](const Row& row) {
+                                const std::optional<double>& gpu = row.timed.gpuMilliseconds;
+                                return gpu ? Cell(rounded(*gpu, 1e6)) : Cell();
+                            }});
+        columns_.push_back({"wall_ms", [](const Row& row) { return rounded(row.timed.wallMilliseconds, 1e6); }});
     }
-    return columns;
+    if (jobs.fromFile) {
+        columns_.push_back({"job", [](const Row& row) { return std::uint64_t{row.job}; }});
+    }
+    for (const Column& column : columns_) {
+        names_.push_back(column.name);
+    }
 }
 
-} // namespace
+Table DetectColumns::table(std::span<const Row> rows) const {
+    Table table;
+    table.columns = names_;
+    table.rows = rows.size();
+    table.cell = [this, rows](std::size_t row, std::size_t column) { return columns_[column].cell(rows[row]); };
+    return table;
+}
+
+NamedCells detectFacts(const std::string& device, const std::string& driver) {
+    return {{"voxtact", programVersion()}, {"device", device}, {"driver", driver}};
+}
 
 std::string labelName(const DetectInputs& inputs, std::int32_t label) {
     const auto found = inputs.labelNames.find(label);
     return found == inputs.labelNames.end() ? std::to_string(label) : found->second;
-}
-
-Table makeDetectTable(const DetectOptions& options, const DetectInputs& inputs, const DetectRun& run) {
-    std::vector<Column> columns = columnsOf(options, inputs);
-    Table table;
-    for (const Column& column : columns) {
-        table.columns.push_back(column.name);
-    }
-    table.rows = run.rows.size();
-    table.cell = [columns = std::move(columns), &run](std::size_t row, std::size_t column) {
-        return columns[column].cell(run.rows[row]);
-    };
-    table.facts = {{"voxtact", programVersion()}, {"device", run.device}, {"driver", run.driver}};
-    if (options.timing) {
-        const double seconds = run.wallMilliseconds / 1000;
-        const double rate = seconds > 0 ? static_cast<double>(run.rows.size()) / seconds : 0;
-        table.timing = {{"pairs", std::uint64_t{run.rows.size()}},
-                        {"wall_ms", rounded(run.wallMilliseconds, 1e6)},
-                        {"pairs_per_s", rounded(rate, 10)}};
-    }
-    return table;
-}
-
-Result<void> writeDetectOutputs(const DetectOptions& options, const DetectInputs& inputs, const DetectRun& run) {
-    std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
-                                          writeTable(out, options.output.format(),
-                                                     makeDetectTable(options, inputs, run));
-                                          return {};
-                                      }}};
-    if (!options.extra.triangles.empty()) {
-        deliveries.push_back({options.extra.triangles, [&](std::ostream& out) -> Result<void> {
-                                  writeTriangles(out, options, run);
-                                  return {};
-                              }});
-    }
-    if (!options.extra.contacts.empty()) {
-        deliveries.push_back({options.extra.contacts, [&](std::ostream& out) -> Result<void> {
-                                  if (options.extra.contacts.extension() == ".ply") {
-                                      writeContactsPly(out, options, run);
-                                  } else {
-                                      writeContactsCsv(out, options, inputs, run);
-                                  }
-                                  return {};
-                              }});
-    }
-    return deliverAll(std::move(deliveries));
 }
 
 } // namespace voxtact::app

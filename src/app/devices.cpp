@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/auto_method.h"
 #include "app/commands.h"
+#include "app/output_paths.h"
 #include "app/session.h"
 #include "app/version.h"
 #include "voxtact/detector.h"
@@ -138,7 +139,7 @@ Cell cellOf(const DeviceRow& row, std::size_t column) {
 }
 
 Outcome runDevices(const DevicesOptions& options) {
-    if (const Result<void> writable = checkOutput(options.output.path); !writable.ok()) {
+    if (const Result<void> writable = checkOutputs({{"--output", options.output.path}}, {}); !writable.ok()) {
         return writable.error();
     }
     std::vector<DeviceRow> rows;

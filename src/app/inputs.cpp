@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
+#include <limits>
 #include <string_view>
 
 namespace voxtact::app {
@@ -107,17 +109,22 @@ Result<LabelData> loadLabels(const std::filesystem::path& path) {
     return labels;
 }
 
+std::filesystem::path labelNamesPath(const std::filesystem::path& names, const std::filesystem::path& labels) {
+    if (!names.empty()) {
+        return names;
+    }
+    std::filesystem::path path = labels;
+    path.replace_extension(path.extension() == ".gz" ? "" : path.extension());
+    path += ".txt";
+    return path;
+}
+
 Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
                                                            const std::filesystem::path& labels) {
-    std::filesystem::path path = names;
-    if (path.empty()) {
-        path = labels;
-        path.replace_extension(path.extension() == ".gz" ? "" : path.extension());
-        path += ".txt";
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(path, ignored)) {
-            return std::map<std::int32_t, std::string>{};
-        }
+    const std::filesystem::path path = labelNamesPath(names, labels);
+    std::error_code ignored;
+    if (names.empty() && !std::filesystem::is_regular_file(path, ignored)) {
+        return std::map<std::int32_t, std::string>{};
     }
     Result<std::vector<io::LabelName>> read = io::readLabelNames(path);
     if (!read.ok() && names.empty()) {
@@ -134,11 +141,21 @@ Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem
     return byLabel;
 }
 
+Result<std::vector<Mat4>> readStandardPoses() {
+    std::vector<Mat4> poses;
+    std::ios::sync_with_stdio(false);
+    Result<io::PoseReader> reader = io::PoseReader::over(std::cin, "standard input");
+    const Result<bool> read =
+        reader.ok() ? reader->read(std::numeric_limits<std::size_t>::max(), poses) : Result<bool>(reader.error());
+    return read.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : read.error();
+}
+
 Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path) {
     if (path.empty()) {
         return std::vector<Mat4>{identity()};
     }
-    Result<std::vector<Mat4>> poses = io::readPoses(path);
+    // Read as often as it has to be: it is all kept.
+    Result<std::vector<Mat4>> poses = path == "-" ? readStandardPoses() : io::readPoses(path);
     if (!poses.ok()) {
         return fileFault(poses.error());
     }

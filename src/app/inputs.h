@@ -25,12 +25,17 @@ namespace voxtact::app {
 
 /// A label map. No `builtin:`.
 [[nodiscard]] Result<LabelData> loadLabels(const std::filesystem::path& path);
-/// The names of its labels: from `names`; where that is empty, from the file beside it that is called like it without
-/// .gz, and with .txt, if there is one that can be read.
+/// Where the names of its labels are: `names`; where that is empty, the file beside it that is called like it without
+/// .gz, and with .txt.
+[[nodiscard]] std::filesystem::path labelNamesPath(const std::filesystem::path& names,
+                                                   const std::filesystem::path& labels);
+/// The names of its labels from there; none where `names` is empty and that file is not there or cannot be read.
 [[nodiscard]] Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
                                                                          const std::filesystem::path& labels);
 
-/// The identity when there is no path.
+/// All that standard input holds.
+[[nodiscard]] Result<std::vector<Mat4>> readStandardPoses();
+/// The identity when there is no path; "-" is standard input.
 [[nodiscard]] Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path);
 
 } // namespace voxtact::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
 #include "app/standard_streams.h"
+#include "app/text_for_messages.h"
 #include "app/version.h"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,25 @@ std::string commandName(const CLI::App* app) {
     return name;
 }
 
+std::vector<std::string> commandsOf(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+    }
+    return names;
+}
+
+/// "--option", as far as they have names of that kind.
+std::vector<std::string> optionsOf(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    return names;
+}
+
 std::string parseErrorText(const CLI::App& program, const CLI::ParseError& error) {
     const CLI::App* app = deepest(program);
     const std::string name = commandName(app);
@@ -36,8 +56,10 @@ std::string parseErrorText(const CLI::App& program, const CLI::ParseError& error
     const bool maybeUnknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                               dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (const auto unknown = program.remaining(true); maybeUnknown && !unknown.empty()) {
-        const bool command = !app->get_subcommands({}).empty() && unknown.front().front() != '-';
-        return (command ? "unknown command '" : "unknown argument '") + unknown.front() + "'" + help;
+        const bool command = !app->get_subcommands({}).empty() && !unknown.front().starts_with('-');
+        const std::string meant = nearestName(unknown.front(), command ? commandsOf(*app) : optionsOf(*app));
+        return (command ? "unknown command " : "unknown argument ") + forMessage(unknown.front()) +
+               (meant.empty() ? "" : ", did you mean " + meant + "?") + help;
     }
     if (!app->get_subcommands({}).empty()) {
         return "a command is needed" + help;
@@ -62,8 +84,8 @@ int run(int argc, char** argv) {
     program.set_version_flag("--version", versionText());
     program.footer("Example:\n  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel\n\n"
                    "Exit status: 0 done, 1 failed at run time, 2 unusable arguments, 3 a verification failed.");
-    std::vector<Command> commands{addDetect(program), addCompare(program), addBench(program), addDevices(program),
-                                  addRender(program)};
+    std::vector<Command> commands{addDetect(program),  addCompare(program), addBench(program),
+                                  addDevices(program), addInfo(program),    addRender(program)};
     for (Command& command : addMake(program)) {
         commands.push_back(std::move(command));
     }

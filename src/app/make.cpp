@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
 #include "app/inputs.h"
+#include "app/output_paths.h"
 #include "app/random_poses.h"
 #include "app/standard_streams.h"
 #include "core/text.h"
@@ -61,7 +62,7 @@ Outcome makeMesh(const MakeFileOptions& options) {
     if (const Result<void> usable = requireBuiltin(options.source); !usable.ok()) {
         return usable.error();
     }
-    if (const Result<void> writable = checkOutput(options.path); !writable.ok()) {
+    if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
         return writable.error();
     }
     const Result<MeshData> mesh = loadMesh(options.source, {});
@@ -72,7 +73,7 @@ Outcome makeVolume(const MakeFileOptions& options) {
     if (const Result<void> usable = requireBuiltin(options.source); !usable.ok()) {
         return usable.error();
     }
-    if (const Result<void> writable = checkOutput(options.path); !writable.ok()) {
+    if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
         return writable.error();
     }
     const Result<VolumeData> volume = loadVolume(options.source);
@@ -90,7 +91,9 @@ Outcome makePoses(const MakePosesOptions& options) {
     if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
         return badArgument("one --volume and one --mesh are needed, not several");
     }
-    if (const Result<void> writable = checkOutput(options.path); !writable.ok()) {
+    if (const Result<void> writable =
+            checkOutputs({{"--output", options.path}}, inputPaths(options.volumes, options.meshes));
+        !writable.ok()) {
         return writable.error();
     }
     const Result<VolumeData> volume = loadVolume(options.volumes.front());
@@ -131,7 +134,7 @@ Command addMakePoses(CLI::App& make) {
     addMeshOptions(*parser, options->meshes);
     addWholeNumber(*parser, "--count", options->count, 1, "how many poses");
     addSeed(*parser, options->seed);
-    addPath(*parser, "--output", options->path, "default: standard output");
+    addPath(*parser, "--output", options->path, "a file, or - for standard output, the default");
     return {parser, [options] { return makePoses(*options); }};
 }
 

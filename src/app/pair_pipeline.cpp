@@ -35,8 +35,8 @@ struct PairPipeline::State {
 
     Result<void> makeFlight(Flight& flight) const;
     Result<void> launch(Flight& flight, const Batch& part);
-    Result<void> land(Flight& flight, const Sink& sink, const OutputSink& outputs);
-    Result<void> run(const Batch& batch, const Sink& sink, const OutputSink& outputs);
+    Result<void> land(Flight& flight, const Events& events);
+    Result<void> run(const Batch& batch, const Events& events);
     void drain() noexcept;
 
     const VulkanDevice& device;
@@ -125,7 +125,7 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
     return {};
 }
 
-Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink, const OutputSink& outputs) {
+Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
     const VolkDeviceTable& vk = device.table();
     VkResult result =
         vk.vkWaitForFences(device.handle(), 1, &flight.fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
@@ -155,20 +155,25 @@ Result<void> PairPipeline::State::land(Flight& flight, const Sink& sink, const O
         timed.answer = unpack(pair);
         timed.item = flight.pieces[timed.answer.item].item;
         timed.pose = flight.pieces[timed.answer.item].firstPose + timed.answer.pose;
-        sink(timed);
+        events.pair(timed);
     }
-    if (desc.room) {
-        BatchAnswer answer;
-        if (Result<void> unpacked = results.readOutputs(flight.frame, answer); !unpacked.ok()) {
-            return unpacked;
-        }
-        outputs(answer);
+    BatchAnswer answer;
+    if (Result<void> unpacked = desc.room ? results.readOutputs(flight.frame, answer) : Result<void>();
+        !unpacked.ok()) {
+        return unpacked;
+    }
+    if (events.submission) {
+        events.submission(answer);
+    }
+    if (events.pace != nullptr) {
+        // What is in flight beside it had its share of the device.
+        events.pace->took(static_cast<std::uint32_t>(read->size()), wall.count() / static_cast<double>(flights.size()));
     }
     return {};
 }
 
-Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink, const OutputSink& outputs) {
-    BatchCutter<BatchItem> cutter(batch.items, desc.pairsPerSubmission);
+Result<void> PairPipeline::State::run(const Batch& batch, const Events& events) {
+    BatchCutter<BatchItem> cutter(batch.items);
     std::vector<BatchItem> items;
     std::vector<Piece> pieces;
     std::size_t next = 0; // the oldest flight, and the one to take next: they go round
@@ -176,11 +181,12 @@ Result<void> PairPipeline::State::run(const Batch& batch, const Sink& sink, cons
     for (std::size_t landed = 0; more || landed < flights.size(); next = (next + 1) % flights.size()) {
         Flight& flight = flights[next];
         if (flight.pending) {
-            if (Result<void> done = land(flight, sink, outputs); !done.ok()) {
+            if (Result<void> done = land(flight, events); !done.ok()) {
                 return done;
             }
         }
-        more = more && cutter.next(items, pieces);
+        more = more && !(events.stop && events.stop()) &&
+               cutter.next(events.pace != nullptr ? events.pace->size() : desc.pairsPerSubmission, items, pieces);
         if (!more) {
             ++landed;
             continue;
@@ -228,8 +234,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
     return PairPipeline(std::move(state));
 }
 
-Result<void> PairPipeline::run(const Batch& batch, const Sink& sink, const OutputSink& outputs) {
-    Result<void> done = state_->run(batch, sink, outputs);
+Result<void> PairPipeline::run(const Batch& batch, const Events& events) {
+    Result<void> done = state_->run(batch, events);
     if (!done.ok()) {
         state_->drain();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/batch_pace.h"
 #include "device/vulkan_device.h"
 #include "voxtact/detector.h"
 
@@ -32,9 +33,17 @@ struct PipelineDesc {
 /// Thread-safety: none; one thread at a time.
 class PairPipeline {
   public:
-    using Sink = std::function<void(const TimedAnswer&)>;
-    /// The answers beside the counts of a submission, after all its pairs; `pair` counts from the first of these.
-    using OutputSink = std::function<void(const BatchAnswer&)>;
+    /// What happens meanwhile. Only the first may not be empty.
+    struct Events {
+        std::function<void(const TimedAnswer&)> pair;
+        /// After all pairs of a submission: the answers beside their counts, where there is room for them; `pair`
+        /// counts from the first of these.
+        std::function<void(const BatchAnswer&)> submission{};
+        /// Asked before each submission: true, and no more are made.
+        std::function<bool()> stop{};
+        /// How many pairs a submission has, at most PipelineDesc::pairsPerSubmission. Null: as many as that.
+        BatchPace* pace = nullptr;
+    };
 
     /// The device, the context and the detector must outlive it.
     [[nodiscard]] static Result<PairPipeline> create(const VulkanDevice& device, const Context& context,
@@ -44,8 +53,7 @@ class PairPipeline {
     ~PairPipeline();
 
     /// All pairs of the batch, which may be larger than a submission. Waits for all; answers come in order.
-    /// `outputs` is called where there is room for them, and may then not be empty.
-    [[nodiscard]] Result<void> run(const Batch& batch, const Sink& sink, const OutputSink& outputs = {});
+    [[nodiscard]] Result<void> run(const Batch& batch, const Events& events);
 
     struct State;
 

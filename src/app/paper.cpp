@@ -76,7 +76,10 @@ Result<void> writeOutputs(const BenchOptions& options, const PaperResult& result
 } // namespace
 
 Outcome runPaper(const BenchOptions& options) {
-    if (const Result<void> usable = checkReportPaths(options.output.path, options.report); !usable.ok()) {
+    if (const Result<void> usable =
+            checkReportPaths(options.output.path, options.report,
+                             {{"--data", options.data / "volumes"}, {"--data", options.data / "meshes"}});
+        !usable.ok()) {
         return usable.error();
     }
     PaperResult result;

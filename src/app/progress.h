@@ -7,11 +7,12 @@
 
 namespace voxtact::app {
 
-/// A bar on standard error for work that takes longer than half a second. It is wiped when it goes.
+/// How far long work is, and about how long the rest will take, on standard error: on a terminal a bar, from half a
+/// second on, that is wiped when it goes; elsewhere a line a minute.
 class Progress {
   public:
-    /// `shown` false: does nothing.
-    Progress(bool shown, std::string title, std::uint64_t total);
+    /// `wanted` false: does nothing. `total` 0: not known.
+    Progress(bool wanted, std::string title, std::uint64_t total);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress();
@@ -19,11 +20,24 @@ class Progress {
     void update(std::uint64_t done);
 
   private:
-    bool shown_;
+    using Clock = std::chrono::steady_clock;
+
+    void drawBar(std::uint64_t done, const std::string& rest);
+
+    bool wanted_;
+    bool terminal_;
     std::string title_;
     std::uint64_t total_;
     std::size_t lineLength_ = 0;
-    std::chrono::steady_clock::time_point next_;
+    Clock::time_point begun_;
+    Clock::time_point next_;
 };
+
+/// "45 s", "3 min", "1 h 20 min": as exact as an estimate is.
+[[nodiscard]] std::string roughly(double seconds);
+/// "1,234,567"
+[[nodiscard]] std::string withCommas(std::uint64_t number);
+/// ", about 3 min left"; empty where nothing can be said yet.
+[[nodiscard]] std::string timeLeft(std::uint64_t done, std::uint64_t total, double secondsSoFar);
 
 } // namespace voxtact::app

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/detect_run.h"
 #include "app/inputs.h"
+#include "app/output_paths.h"
 #include "app/render_colours.h"
 #include "app/render_show.h"
 #include "app/render_view.h"
@@ -82,7 +83,8 @@ Result<void> checkOptions(const RenderOptions& options) {
     if (options.meshes.sources.empty() && (!options.view.poses.empty() || options.pose > 0)) {
         return badArgument("--poses and --pose are for a mesh; --mesh is missing");
     }
-    return checkOutput(options.output);
+    return checkOutputs({{"--output", options.output}},
+                        inputPaths(options.volumes, options.meshes, options.transferFunction, options.view));
 }
 
 Result<void> readMeshAtPose(const RenderOptions& options, RenderInputs& inputs) {

@@ -92,20 +92,12 @@ Result<void> reportPossible() {
 
 } // namespace
 
-Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report) {
-    if (Result<void> writable = checkOutput(output); !writable.ok()) {
-        return writable;
-    }
-    if (report.empty()) {
-        return {};
-    }
-    if (Result<void> possible = reportPossible(); !possible.ok()) {
+Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
+                              const std::vector<NamedPath>& inputs) {
+    if (Result<void> possible = report.empty() ? Result<void>() : reportPossible(); !possible.ok()) {
         return possible;
     }
-    if (Result<void> writable = checkOutput(report); !writable.ok()) {
-        return writable;
-    }
-    return checkDistinct({{"--output", output}, {"--report", report}});
+    return checkOutputs({{"--output", output}, {"--report", report}}, inputs);
 }
 
 Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,

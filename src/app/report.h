@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/result.h"
+#include "app/output_paths.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,9 +12,10 @@
 
 namespace voxtact::app {
 
-/// Refuses paths, each of them may be empty, that cannot be written or are one file. Unsupported where there is to be a
-/// report, and the program was built without the library that draws the charts.
-[[nodiscard]] Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report);
+/// checkOutputs() of both, each of them may be empty. Unsupported where there is to be a report, and the program was
+/// built without the library that draws the charts.
+[[nodiscard]] Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
+                                            const std::vector<NamedPath>& inputs);
 
 enum class ReportKind {
     Compare, ///< of compareJson()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/shared_options.h"
 
-#include "app/standard_streams.h"
+#include "app/text_for_messages.h"
 #include "core/domain.h"
 
 #include <CLI/CLI.hpp>
@@ -26,7 +26,7 @@ template <class Number> std::optional<Number> parseNumber(std::string_view text)
 }
 
 std::string quote(std::string_view text) {
-    return "'" + std::string(text) + "'";
+    return forMessage(text);
 }
 
 [[noreturn]] void refuse(const char* option, const std::string& why) {
@@ -242,7 +242,7 @@ void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& sto
 
 void addViewOptions(CLI::App& parser, ViewOptions& options) {
     addPath(parser, "--poses", options.poses,
-            "a world_from_object matrix a line: 16 numbers, row by row; default: the identity");
+            "a world_from_object matrix a line: 16 numbers, row by row; -: from standard input; default: the identity");
     addPath(parser, "--camera", options.camera,
             "a clip_from_world matrix: 16 numbers, row by row; default: along world -z, framing the volume");
     addSize(
@@ -320,7 +320,7 @@ void addDeviceOptions(CLI::App& parser, DeviceChoice& options) {
 }
 
 void addOutputOptions(CLI::App& parser, OutputOptions& options) {
-    addPath(parser, "--output", options.path, "default: standard output");
+    addPath(parser, "--output", options.path, "a file, or - for standard output, the default");
     addParsed(
         parser, "--format",
         [&options](const std::string& name) {
@@ -331,14 +331,14 @@ void addOutputOptions(CLI::App& parser, OutputOptions& options) {
 }
 
 void addProgressOption(CLI::App& parser, bool& shown) {
-    shown = errorIsTerminal();
+    shown = true;
     addParsed(
         parser, "--progress",
         [&shown](const std::string& name) {
             requireName("--progress", name, {"auto", "never"});
-            shown = name == "auto" && errorIsTerminal();
+            shown = name == "auto";
         },
-        "auto (a bar on a terminal's standard error) or never", "WHEN", "auto");
+        "auto (standard error: a bar on a terminal, else a line a minute) or never", "WHEN", "auto");
 }
 
 } // namespace voxtact::app

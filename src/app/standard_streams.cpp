@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/standard_streams.h"
 
+#include "app/text_for_messages.h"
+
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
@@ -28,13 +30,14 @@ int writeAll(int file, std::string_view text) noexcept {
 
 void printLine(std::string_view text) {
     // Nothing is left to tell when standard error itself fails.
-    static_cast<void>(writeAll(STDERR_FILENO, oneLine(text) + "\n"));
+    static_cast<void>(writeAll(STDERR_FILENO, messageLine(oneLine(text)) + "\n"));
 }
 
 } // namespace
 
 void claimStandardStreams() noexcept {
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(file, F_GETFD) == -1 && errno == EBADF) {
             // Standard output is opened for reading: writing to it still fails, as it should.

@@ -9,7 +9,7 @@
 namespace voxtact::app {
 
 /// Call it first in main(). Standard streams that the caller closed are put on /dev/null, so that no file of ours
-/// takes their number, and a closed pipe becomes a failed write instead of a signal.
+/// takes their number, and a closed pipe or a limit on files' sizes becomes a failed write instead of a signal.
 void claimStandardStreams() noexcept;
 
 [[nodiscard]] bool outputIsTerminal() noexcept;

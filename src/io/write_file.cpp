@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "io/errors.h"
+#include "io/file_buffer.h"
 #include "voxtact/io.h"
 
 #include <atomic>
-#include <cerrno>
-#include <fstream>
 #include <locale>
+#include <optional>
+#include <ostream>
+#include <random>
 #include <system_error>
 
 #include <unistd.h>
@@ -16,10 +18,6 @@ namespace voxtact::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string systemReason(const char* otherwise) {
-    return errno != 0 ? std::generic_category().message(errno) : otherwise;
-}
 
 /// A name in the folder of `target` that nobody else uses, with the same ending; removed unless it was renamed.
 class TemporaryFile {
@@ -49,11 +47,13 @@ class TemporaryFile {
 
   private:
     static std::string nameFor(const fs::path& target) {
+        // Other machines and containers that share the folder count their processes, too.
+        static const unsigned own = std::random_device()();
         static std::atomic<unsigned> next{0};
         // The ending must survive, and the whole must fit where the target's name fits.
         constexpr std::size_t kKept = 60;
         const std::string name = target.filename().string();
-        return ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(next++) + "-" +
+        return ".tmp" + std::to_string(::getpid()) + "-" + std::to_string(own) + "-" + std::to_string(next++) + "-" +
                name.substr(name.size() > kKept ? name.size() - kKept : 0);
     }
 
@@ -88,26 +88,75 @@ bool isSpecial(const fs::path& path) {
     return fs::exists(status) && !fs::is_regular_file(status);
 }
 
-Result<void> writeStream(const fs::path& place, const fs::path& path,
-                         const std::function<Result<void>(std::ostream&)>& write) {
-    errno = 0;
-    std::ofstream stream(place, std::ios::binary);
-    stream.imbue(std::locale::classic());
-    if (!stream) {
-        return cannotWrite(path, systemReason("it cannot be opened"));
-    }
-    if (Result<void> written = write(stream); !written.ok()) {
-        return written;
-    }
-    errno = 0;
-    stream.close();
-    if (!stream) {
-        return cannotWrite(path, systemReason("writing stopped before the end"));
-    }
-    return {};
+} // namespace
+
+struct OutputFile::State {
+    fs::path path; ///< as the caller named it
+    std::optional<fs::path> target;
+    std::optional<TemporaryFile> temporary; ///< nothing: a device or a pipe
+    FileBuffer buffer{};
+    std::ostream stream{&buffer};
+    bool closed = false;
+};
+
+OutputFile::OutputFile(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+OutputFile::OutputFile(OutputFile&&) noexcept = default;
+OutputFile& OutputFile::operator=(OutputFile&&) noexcept = default;
+OutputFile::~OutputFile() = default;
+
+Result<OutputFile> OutputFile::create(const fs::path& path) {
+    return guard([&]() -> Result<OutputFile> {
+        auto state = std::make_unique<State>();
+        state->path = path;
+        state->stream.imbue(std::locale::classic());
+        bool opened = false;
+        if (isSpecial(path) && !fs::is_directory(path)) {
+            opened = state->buffer.openSpecial(path);
+        } else {
+            const Result<fs::path> target = targetOf(path);
+            if (!target.ok()) {
+                return target.error();
+            }
+            state->target = *target;
+            state->temporary.emplace(*target);
+            opened = state->buffer.create(state->temporary->path());
+        }
+        if (!opened) {
+            return cannotWrite(path, std::generic_category().message(state->buffer.reason()));
+        }
+        return OutputFile(std::move(state));
+    });
 }
 
-} // namespace
+std::ostream& OutputFile::stream() noexcept {
+    return state_->stream;
+}
+
+Result<void> OutputFile::close() {
+    return guard([&]() -> Result<void> {
+        State& state = *state_;
+        state.closed = true;
+        const bool written = state.buffer.close();
+        if (!written) {
+            return cannotWrite(state.path, std::generic_category().message(state.buffer.reason()));
+        }
+        if (!state.stream) {
+            return cannotWrite(state.path, "writing stopped before the end");
+        }
+        return {};
+    });
+}
+
+Result<void> OutputFile::commit() {
+    return guard([&]() -> Result<void> {
+        if (!state_->closed) {
+            if (Result<void> closed = close(); !closed.ok()) {
+                return closed;
+            }
+        }
+        return state_->temporary ? state_->temporary->renameTo(*state_->target) : Result<void>();
+    });
+}
 
 Result<void> writeFileAt(const fs::path& path, const std::function<Result<void>(const fs::path& temporary)>& write) {
     return guard([&]() -> Result<void> {
@@ -128,10 +177,16 @@ Result<void> writeFileAt(const fs::path& path, const std::function<Result<void>(
 
 Result<void> writeFile(const fs::path& path, const std::function<Result<void>(std::ostream&)>& write) {
     return guard([&]() -> Result<void> {
-        if (isSpecial(path) && !fs::is_directory(path)) {
-            return writeStream(path, path, write);
+        Result<OutputFile> file = OutputFile::create(path);
+        if (!file.ok()) {
+            return file.error();
         }
-        return writeFileAt(path, [&](const fs::path& temporary) { return writeStream(temporary, path, write); });
+        if (Result<void> written = write(file->stream()); !written.ok()) {
+            // What the disk says is the reason for what a writer makes of a stream that failed.
+            const Result<void> closed = file->stream() ? Result<void>() : file->close();
+            return closed.ok() ? written : closed;
+        }
+        return file->commit();
     });
 }
 

@@ -29,8 +29,8 @@ TEST_F(ArgumentsTest, Version) {
 }
 
 TEST_F(ArgumentsTest, HelpOfEverythingHasAnExample) {
-    const std::vector<Arguments> commands{
-        {}, {"detect"}, {"devices"}, {"make"}, {"make", "mesh"}, {"make", "volume"}, {"make", "poses"}};
+    const std::vector<Arguments> commands{{},       {"detect"},       {"devices"},        {"info"},
+                                          {"make"}, {"make", "mesh"}, {"make", "volume"}, {"make", "poses"}};
     for (Arguments command : commands) {
         command.push_back("--help");
         EXPECT_THAT(output(command), HasSubstr("Example")) << testing::PrintToString(command);
@@ -100,7 +100,8 @@ TEST_F(ArgumentsTest, ProjectionsAndWhatGoesWithThem) {
 }
 
 TEST_F(ArgumentsTest, OutputsBesideTheCounts) {
-    EXPECT_THAT(badDetect({"--contacts", path("c.txt")}), AllOf(HasSubstr("--contacts: "), HasSubstr(".csv or .ply")));
+    EXPECT_THAT(badDetect({"--contacts", path("c.txt")}),
+                AllOf(HasSubstr("--contacts: "), HasSubstr(".csv, .ply, .vtp or .mrk.json")));
     EXPECT_THAT(badDetect({"--contacts", path("c")}), HasSubstr("--contacts: "));
     EXPECT_THAT(badDetect({"--max-depth", "3"}), AllOf(HasSubstr("--max-depth: "), HasSubstr("--contacts")));
     EXPECT_THAT(badDetect({"--most-contacts", "3"}), AllOf(HasSubstr("--most-contacts: "), HasSubstr("--contacts")));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io_test_support.h"
 
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 
@@ -79,6 +80,45 @@ TEST(WriteFile, DevicesAreWrittenToAndNotReplaced) {
     expectRefused(io::writeFileAt("/dev/full", [](const fs::path&) { return Result<void>(); }),
                   "it is not an ordinary file");
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(OutputFile, IsThereOnceItIsCommitted) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.csv", "old");
+    {
+        Result<io::OutputFile> file = io::OutputFile::create(path);
+        ASSERT_TRUE(isOk(file));
+        file->stream() << "given up" << std::flush;
+        EXPECT_EQ(contentOf(path), "old");
+    }
+    EXPECT_EQ(contentOf(path), "old");
+    EXPECT_EQ(folder.entries(), 1U);
+    Result<io::OutputFile> file = io::OutputFile::create(path);
+    ASSERT_TRUE(isOk(file));
+    file->stream() << "new " << 0.5;
+    ASSERT_TRUE(isOk(file->close()));
+    EXPECT_EQ(contentOf(path), "old");
+    ASSERT_TRUE(isOk(file->commit()));
+    EXPECT_EQ(contentOf(path), "new 0.5");
+    EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(OutputFile, SaysTheFirstReason) {
+    if (!fs::is_character_file("/dev/full")) {
+        GTEST_SKIP() << "no /dev/full";
+    }
+    Result<io::OutputFile> file = io::OutputFile::create("/dev/full");
+    ASSERT_TRUE(isOk(file));
+    file->stream() << std::string(1U << 20U, 'x');
+    errno = EINVAL; // what comes later is not the reason
+    expectRefused(file->commit(), "cannot write '/dev/full': No space left on device");
+    // A writer that notices the stream's failure, and does not know why.
+    expectRefused(io::writeFile("/dev/full",
+                                [](std::ostream& stream) -> Result<void> {
+                                    stream << std::string(1U << 20U, 'x');
+                                    return stream ? Result<void>() : Error{ErrorCode::File, 0, "it stopped"};
+                                }),
+                  "No space left on device");
 }
 
 TEST(WriteFileAt, TemporaryHasTheEnding) {

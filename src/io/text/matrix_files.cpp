@@ -5,6 +5,9 @@
 #include "io/text/text_lines.h"
 #include "voxtact/io.h"
 
+#include <limits>
+#include <memory>
+#include <optional>
 #include <ostream>
 
 namespace voxtact::io {
@@ -56,29 +59,81 @@ void writeRows(std::ostream& stream, const Mat4& matrix) {
 
 } // namespace
 
-Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
-    return guard([&]() -> Result<std::vector<Mat4>> {
+struct PoseReader::State {
+    std::filesystem::path name;
+    LineReader lines;
+    std::vector<std::string_view> tokens{};
+    bool any = false;
+
+    /// The next pose; nothing at the end.
+    Result<std::optional<Mat4>> next();
+};
+
+Result<std::optional<Mat4>> PoseReader::State::next() {
+    while (const auto line = lines.next()) {
+        splitTokens(*line, tokens);
+        if (tokens.empty()) {
+            continue;
+        }
+        const Result<Mat4> pose = parsePose(tokens, name, lines.lineNumber());
+        if (!pose.ok()) {
+            return pose.error();
+        }
+        any = true;
+        return std::optional(*pose);
+    }
+    if (!any) {
+        return cannotRead(name, "it holds no pose; a pose is a line of 16 numbers, row by row");
+    }
+    return std::optional<Mat4>();
+}
+
+PoseReader::PoseReader(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+PoseReader::PoseReader(PoseReader&&) noexcept = default;
+PoseReader& PoseReader::operator=(PoseReader&&) noexcept = default;
+PoseReader::~PoseReader() = default;
+
+Result<PoseReader> PoseReader::open(const std::filesystem::path& path) {
+    return guard([&]() -> Result<PoseReader> {
         Result<LineReader> lines = LineReader::open(path);
         if (!lines.ok()) {
             return lines.error();
         }
-        std::vector<Mat4> poses;
-        std::vector<std::string_view> tokens;
-        while (const auto line = lines->next()) {
-            splitTokens(*line, tokens);
-            if (tokens.empty()) {
-                continue;
-            }
-            const Result<Mat4> pose = parsePose(tokens, path, lines->lineNumber());
+        return PoseReader(std::make_unique<State>(State{path, std::move(*lines)}));
+    });
+}
+
+Result<PoseReader> PoseReader::over(std::istream& stream, const std::string& name) {
+    return guard([&]() -> Result<PoseReader> {
+        return PoseReader(std::make_unique<State>(State{name, LineReader::over(stream)}));
+    });
+}
+
+Result<bool> PoseReader::read(std::size_t most, std::vector<Mat4>& world_from_object) {
+    return guard([&]() -> Result<bool> {
+        for (std::size_t i = 0; i < most; ++i) {
+            const Result<std::optional<Mat4>> pose = state_->next();
             if (!pose.ok()) {
                 return pose.error();
             }
-            poses.push_back(*pose);
+            if (!pose->has_value()) {
+                return false;
+            }
+            world_from_object.push_back(**pose);
         }
-        if (poses.empty()) {
-            return cannotRead(path, "it holds no pose; a pose is a line of 16 numbers, row by row");
+        return true;
+    });
+}
+
+Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
+    return guard([&]() -> Result<std::vector<Mat4>> {
+        Result<PoseReader> reader = PoseReader::open(path);
+        if (!reader.ok()) {
+            return reader.error();
         }
-        return poses;
+        std::vector<Mat4> poses;
+        const Result<bool> more = reader->read(std::numeric_limits<std::size_t>::max(), poses);
+        return more.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : more.error();
     });
 }
 

@@ -29,12 +29,19 @@ Result<LineReader> LineReader::open(const std::filesystem::path& path) {
         return size.error();
     }
     LineReader reader;
-    reader.file_.open(path, std::ios::binary);
+    reader.file_ = std::make_unique<std::ifstream>(path, std::ios::binary);
+    reader.stream_ = reader.file_.get();
+    return reader;
+}
+
+LineReader LineReader::over(std::istream& stream) {
+    LineReader reader;
+    reader.stream_ = &stream;
     return reader;
 }
 
 std::optional<std::string_view> LineReader::next() {
-    if (!std::getline(file_, line_)) {
+    if (!std::getline(*stream_, line_)) {
         return std::nullopt;
     }
     ++number_;

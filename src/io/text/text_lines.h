@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,10 +14,12 @@
 
 namespace voxtact::io {
 
-/// A text file line by line, in constant memory for lines of ordinary length.
+/// A text file or stream line by line, in constant memory for lines of ordinary length.
 class LineReader {
   public:
     [[nodiscard]] static Result<LineReader> open(const std::filesystem::path& path);
+    /// The stream must outlive the reader.
+    [[nodiscard]] static LineReader over(std::istream& stream);
 
     /// The next line without its comment (`#`), line end and a leading byte order mark; none at the end of the file.
     /// Valid until the next call.
@@ -24,7 +27,8 @@ class LineReader {
     [[nodiscard]] std::uint64_t lineNumber() const noexcept { return number_; }
 
   private:
-    std::ifstream file_;
+    std::unique_ptr<std::istream> file_;
+    std::istream* stream_ = nullptr;
     std::string line_;
     std::uint64_t number_ = 0;
 };

@@ -6,7 +6,10 @@
 #include "voxtact/io.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <fstream>
+#include <system_error>
 
 namespace voxtact::io {
 
@@ -62,8 +65,38 @@ double displacement(const Grid& a, const Grid& b) {
     return most;
 }
 
+/// Why the file system takes no more; empty where it does.
+std::string whyNotMore(const fs::path& file) {
+    // More than a disk keeps back for rounding.
+    const std::vector<char> some(std::size_t{1} << 20U);
+    errno = 0;
+    std::ofstream stream(file, std::ios::binary | std::ios::app);
+    stream.write(some.data(), static_cast<std::streamsize>(some.size()));
+    stream.close();
+    return !stream && errno != 0 ? std::generic_category().message(errno) : "";
+}
+
+/// ITK does not say when a write fails: on a full disk there would be half a file.
+Result<void> checkVoxels(const fs::path& temporary, const fs::path& path, VolumeFormat format,
+                         const VolumeView& volume) {
+    std::vector<std::byte> voxels;
+    try {
+        const ImageIo io = makeImageIo(format);
+        if (readInformation(*io, temporary).ok()) {
+            readVoxels(*io, voxels);
+        }
+    } catch (const itk::ExceptionObject&) {
+        voxels.clear();
+    }
+    if (std::ranges::equal(voxels, volume.voxels)) {
+        return {};
+    }
+    const std::string full = whyNotMore(temporary);
+    return cannotWrite(path, full.empty() ? "what was written is not in the file" : full);
+}
+
 /// NIfTI holds single precision, and only directions at right angles; ITK squares others without a word.
-Result<void> checkWritten(const fs::path& temporary, const fs::path& path, VolumeFormat format, const Grid& grid) {
+Result<void> checkPlace(const fs::path& temporary, const fs::path& path, VolumeFormat format, const Grid& grid) {
     const ImageIo io = makeImageIo(format);
     const Result<ItkImage> written = readInformation(*io, temporary);
     constexpr double kShare = 0.01;
@@ -92,9 +125,11 @@ Result<void> writeVolume(const fs::path& path, const VolumeView& volume) {
             const ItkSession session;
             try {
                 writeImage(*makeImageIo(format), temporary, volume);
-                return checkWritten(temporary, path, format, volume.grid);
+                Result<void> written = checkVoxels(temporary, path, format, volume);
+                return written.ok() ? checkPlace(temporary, path, format, volume.grid) : written;
             } catch (const itk::ExceptionObject& problem) {
-                return cannotWrite(path, itkReason(problem));
+                const std::string full = whyNotMore(temporary);
+                return cannotWrite(path, full.empty() ? itkReason(problem) : full);
             }
         });
     });

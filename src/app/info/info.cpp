@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands.h"
+#include "app/info/info_table.h"
+#include "app/inputs.h"
+#include "app/output_paths.h"
+#include "app/size_note.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(Volumes: size, spacing, the patient's sides towards which the index axes run (R or L, A or P, S or I), the world box
+(mm, LPS), values with a histogram, and the share of the voxels whose opacity reaches the threshold. Meshes: triangles,
+vertices, parts, the box, whether the surface is closed, and whether it looks as if it were in metres.
+
+What a path holds is told by its ending; folders are DICOM series.
+
+Examples:
+  voxtact info head.nii.gz tool.stl
+  voxtact info ct/ --opacity "300:0,400:1" --threshold 0.5
+  voxtact info builtin:head:128 builtin:scalpel --format json)";
+
+struct InfoOptions {
+    std::vector<std::string> paths;
+    MeshOptions meshes;
+    TransferFunctionOptions transferFunction;
+    OutputOptions output;
+};
+
+bool isMesh(const std::string& source) {
+    std::string lowered = source;
+    std::transform(lowered.begin(), lowered.end(), lowered.begin(),
+                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    for (const char* builtin : {"builtin:scalpel", "builtin:ellipsoid"}) {
+        if (lowered == builtin || lowered.starts_with(builtin + std::string(":"))) {
+            return true;
+        }
+    }
+    std::error_code ignored;
+    const auto endings = {".stl", ".obj", ".ply", ".off", ".gltf", ".glb"};
+    return !lowered.starts_with("builtin:") && !std::filesystem::is_directory(source, ignored) &&
+           std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return lowered.ends_with(ending); });
+}
+
+Result<PathInfo> meshAt(const InfoOptions& options, const std::string& source) {
+    const Result<MeshData> mesh = loadMesh(source, options.meshes);
+    if (!mesh.ok()) {
+        return mesh.error();
+    }
+    const Result<MeshFacts> facts = checkMesh(mesh->view());
+    if (!facts.ok()) {
+        return facts.error();
+    }
+    return PathInfo{source, {}, MeshInfo{*facts, closednessOf(mesh->view()), unitHint(facts->bounds)}};
+}
+
+Result<PathInfo> volumeAt(const InfoOptions& options, const std::vector<ControlPoint>& points,
+                          const std::string& source) {
+    const Result<VolumeData> volume = loadVolume(source);
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const Result<ValueRange> values = checkVolume(volume->view());
+    if (!values.ok()) {
+        return values.error();
+    }
+    const TransferFunctionOptions& function = options.transferFunction;
+    const ValueRange domain = tableDomain(function, volume->type, *values);
+    const std::vector<ControlPoint> used = points.empty() ? defaultRamp(domain) : points;
+    Result<VolumeInfo> info =
+        volumeInfo(volume->view(), *values, {used, domain, function.tableSize}, function.threshold);
+    if (!info.ok()) {
+        return info.error();
+    }
+    return PathInfo{source, std::move(*info), {}};
+}
+
+Result<void> checkPaths(const InfoOptions& options) {
+    std::vector<std::string> volumes;
+    MeshOptions meshes;
+    for (const std::string& path : options.paths) {
+        if (path.empty()) {
+            return badArgument("PATH: an empty value");
+        }
+        (isMesh(path) ? meshes.sources : volumes).push_back(path);
+    }
+    std::vector<NamedPath> inputs = inputPaths(volumes, meshes, options.transferFunction, {});
+    return checkOutputs({{"--output", options.output.path}}, inputs);
+}
+
+Outcome runInfo(const InfoOptions& options) {
+    if (const Result<void> usable = checkPaths(options); !usable.ok()) {
+        return usable.error();
+    }
+    const Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
+    if (!points.ok()) {
+        return points.error();
+    }
+    std::vector<PathInfo> paths;
+    for (const std::string& source : options.paths) {
+        Result<PathInfo> info = isMesh(source) ? meshAt(options, source) : volumeAt(options, *points, source);
+        if (!info.ok()) {
+            return info.error();
+        }
+        paths.push_back(std::move(*info));
+    }
+    const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
+        if (options.output.format() == Format::Text) {
+            writeInfoText(out, paths, options.transferFunction.threshold);
+        } else {
+            writeTable(out, options.output.format(), infoTable(paths));
+        }
+        return {};
+    });
+    return written.ok() ? Outcome() : Outcome(written.error());
+}
+
+} // namespace
+
+Command addInfo(CLI::App& program) {
+    auto options = std::make_shared<InfoOptions>();
+    CLI::App* parser = program.add_subcommand("info", "what volume and mesh files hold");
+    parser->footer(kFooter);
+    parser->add_option("PATH", options->paths, "volumes and meshes, as --volume and --mesh take them")
+        ->type_name("...")
+        ->required();
+    addMeshOptions(*parser, options->meshes, false);
+    parser->remove_option(parser->get_option("--mesh"));
+    addTransferFunctionOptions(*parser, options->transferFunction);
+    addOutputOptions(*parser, options->output);
+    return {parser, [options] { return runInfo(*options); }};
+}
+
+} // namespace voxtact::app

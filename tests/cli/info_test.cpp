@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// voxtact info: what it says of volumes and meshes whose content is known. No device is needed.
+#include "app/info/mesh_info.h"
+#include "cli_fixture.h"
+#include "voxtact/builtin.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace voxtact::test {
+namespace {
+
+using Json = nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class InfoTest : public CliTest {
+  protected:
+    static Json rows(const Arguments& more) {
+        Arguments all{"info", "--format", "json"};
+        all.insert(all.end(), more.begin(), more.end());
+        return Json::parse(output(all)).at("rows");
+    }
+    /// 4 x 2 x 1 voxels at a NIfTI transform (RAS), counted up from 0.
+    [[nodiscard]] std::string counted(const std::array<float, 12>& rows) const {
+        std::string file = path("counted.nii");
+        writeNifti(file, {.sizes = {3, 4, 2, 2, 1, 1, 1, 1}, .bytes = 16});
+        std::string text = readText(file);
+        const std::int16_t code = 1;
+        text.replace(254, 2, reinterpret_cast<const char*>(&code), 2);
+        text.replace(280, sizeof rows, reinterpret_cast<const char*>(rows.data()), sizeof rows);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float spacing = std::hypot(rows[axis], rows[4 + axis], rows[8 + axis]);
+            text.replace(80 + 4 * axis, sizeof spacing, reinterpret_cast<const char*>(&spacing), sizeof spacing);
+        }
+        for (std::size_t i = 0; i < 16; ++i) {
+            text[352 + i] = static_cast<char>(i);
+        }
+        writeText(file, text);
+        return file;
+    }
+};
+
+TEST_F(InfoTest, AVolumeWhoseVoxelsAreKnown) {
+    // x runs to the right at 1 mm, y to the front at 2 mm, z upwards at 3 mm.
+    const std::string file = counted({1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30});
+    const Json row = rows({file, "--opacity", "0:0,16:1", "--tf-domain", "0:16", "--threshold", "0.5"}).at(0);
+    EXPECT_EQ(row.at("kind"), "volume");
+    EXPECT_EQ(row.at("orientation"), "RAS");
+    EXPECT_EQ(row.at("oblique_degrees"), 0);
+    EXPECT_EQ(row.at("type"), "uint8");
+    EXPECT_EQ(row.at("size_x").get<int>() * 100 + row.at("size_y").get<int>() * 10 + row.at("size_z").get<int>(), 422);
+    EXPECT_EQ(row.at("spacing_y"), 2);
+    EXPECT_EQ(row.at("value_min"), 0);
+    EXPECT_EQ(row.at("value_max"), 15);
+    EXPECT_EQ(row.at("value_mean"), 7.5);
+    EXPECT_NEAR(row.at("opaque_percent").get<double>(), 50, 1e-9) << "8 to 15 of 16";
+    // LPS: x and y negated; half a voxel beyond the centres.
+    EXPECT_EQ(row.at("min_x"), -13.5);
+    EXPECT_EQ(row.at("max_x"), -9.5);
+    EXPECT_EQ(row.at("min_y"), -23);
+    EXPECT_EQ(row.at("max_z"), 34.5);
+    ASSERT_EQ(row.at("histogram").size(), 16U);
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_EQ(row["histogram"][i].at("count"), 1);
+        EXPECT_EQ(row["histogram"][i].at("name"), std::to_string(i));
+    }
+}
+
+TEST_F(InfoTest, LettersSayWhereTheAxesRun) {
+    // As nibabel's aff2axcodes: rows are world R, A, S, columns the index axes.
+    EXPECT_EQ(rows({counted({-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0})}).at(0).at("orientation"), "LAS");
+    EXPECT_EQ(rows({counted({0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 0})}).at(0).at("orientation"), "PIR");
+    const float c = std::cos(0.3F);
+    const float s = std::sin(0.3F);
+    const Json oblique = rows({counted({c, -s, 0, 0, s, c, 0, 0, 0, 0, 1, 0})}).at(0);
+    EXPECT_EQ(oblique.at("orientation"), "RAS");
+    EXPECT_NEAR(oblique.at("oblique_degrees").get<double>(), 0.3 * 180 / 3.14159265, 0.01);
+}
+
+TEST_F(InfoTest, HistogramsHoldEveryVoxel) {
+    for (const char* name : {"builtin:head:16", "builtin:ct:16", "builtin:noise:16", "builtin:shells:16"}) {
+        const Json row = rows({name}).at(0);
+        std::uint64_t all = 0;
+        for (const Json& bin : row.at("histogram")) {
+            all += bin.at("count").get<std::uint64_t>();
+        }
+        EXPECT_EQ(all, row.at("size_x").get<std::uint64_t>() * row.at("size_y").get<std::uint64_t>() *
+                           row.at("size_z").get<std::uint64_t>())
+            << name;
+        EXPECT_LE(row.at("histogram").size(), 16U);
+    }
+    writeNifti(path("alike.nii"), {.value = 7});
+    const Json alike = rows({path("alike.nii")}).at(0);
+    ASSERT_EQ(alike.at("histogram").size(), 1U);
+    EXPECT_EQ(alike["histogram"][0].at("name"), "7");
+}
+
+TEST_F(InfoTest, MeshesAreClosedOrNot) {
+    const std::string tetrahedron = "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+    writeText(path("open.obj"), tetrahedron);
+    writeText(path("closed.obj"), tetrahedron + "f 2 3 4\n");
+    writeText(path("turned.obj"), tetrahedron + "f 2 4 3\n");
+    writeText(path("many.obj"), tetrahedron + "f 2 3 4\nf 2 3 4\n");
+    const Json all = rows({path("open.obj"), path("closed.obj"), path("turned.obj"), path("many.obj")});
+    EXPECT_EQ(all.at(0).at("closed"), 0);
+    EXPECT_EQ(all.at(0).at("open_edges"), 3);
+    EXPECT_EQ(all.at(1).at("closed"), 1);
+    EXPECT_EQ(all.at(1).at("triangles"), 4);
+    EXPECT_EQ(all.at(1).at("vertices"), 4);
+    EXPECT_EQ(all.at(1).at("parts"), 1);
+    EXPECT_EQ(all.at(1).at("max_z"), 10);
+    EXPECT_EQ(all.at(1).at("turned_edges"), 0);
+    EXPECT_EQ(all.at(2).at("closed"), 1);
+    EXPECT_EQ(all.at(2).at("turned_edges"), 3);
+    EXPECT_EQ(all.at(3).at("closed"), 0);
+    EXPECT_EQ(all.at(3).at("edges_of_many"), 3);
+}
+
+TEST_F(InfoTest, BuiltinsAreClosedAndInOnePart) {
+    for (const char* name : {"scalpel:500", "ellipsoid:500"}) {
+        const Result<MeshData> mesh = makeBuiltinMesh(name);
+        ASSERT_TRUE(mesh.ok());
+        const app::Closedness found = app::closednessOf(mesh->view());
+        EXPECT_TRUE(found.closed());
+        EXPECT_EQ(found.turned, 0U);
+        EXPECT_EQ(found.parts, 1U);
+    }
+}
+
+TEST_F(InfoTest, MetresAreSuspected) {
+    output({"make", "mesh", "builtin:scalpel:500", path("tool.stl")});
+    EXPECT_EQ(rows({path("tool.stl")}).at(0).at("hint"), "");
+    EXPECT_THAT(rows({path("tool.stl"), "--mesh-scale", "0.001"}).at(0).at("hint").get<std::string>(),
+                HasSubstr("metres? --mesh-scale 1000"));
+    EXPECT_THAT(rows({path("tool.stl"), "--mesh-scale", "1000"}).at(0).at("hint").get<std::string>(),
+                HasSubstr("micrometres"));
+}
+
+TEST_F(InfoTest, TextAndCsv) {
+    const std::string text = output({"info", "builtin:head:16", "builtin:scalpel:500", "--format", "text"});
+    EXPECT_THAT(text, AllOf(HasSubstr("16 x 16 x 16 voxels, uint8"), HasSubstr("orientation  LPS"),
+                            HasSubstr("-100 -100 -100 to 100 100 100 mm"), HasSubstr("|####"),
+                            HasSubstr("500 triangles"), HasSubstr("closed       yes")));
+    const auto lines = linesOf(output({"info", "builtin:head:16", "builtin:scalpel:500"}));
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_TRUE(lines[0].starts_with("path,kind,min_x,"));
+    EXPECT_EQ(std::count(lines[1].begin(), lines[1].end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
+    EXPECT_EQ(std::count(lines[2].begin(), lines[2].end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
+}
+
+TEST_F(InfoTest, WhatCannotBeSaid) {
+    EXPECT_THAT(refused(2, {"info"}), HasSubstr("PATH is required"));
+    EXPECT_THAT(refused(1, {"info", path("no.nii")}), HasSubstr("no.nii"));
+    EXPECT_THAT(refused(1, {"info", path("no.stl")}), HasSubstr("no.stl"));
+    writeText(path("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_THAT(refused(2, {"info", path("m.obj"), "--output", path("m.obj")}), HasSubstr("not overwritten"));
+}
+
+} // namespace
+} // namespace voxtact::test
