@@ -19,14 +19,15 @@
 namespace voxtact::io {
 
 /// NIfTI-1 (.nii, .hdr/.img, each also with .gz), NRRD (.nrrd, .nhdr), MetaImage (.mha, .mhd), or a folder with one
-/// DICOM series, one slice a file. World is LPS, as ITK gives it; left-handed directions are kept. Voxels keep their
-/// type where it is one of ScalarType; other integers become int16, else uint16, else float when every voxel survives
-/// exactly (refused otherwise), and double becomes float; both are said in `notes`, and so is a NIfTI or NRRD file that
-/// does not say how the patient lies. NIfTI's slope and intercept and DICOM's rescale are applied, which may make
-/// floats. Refuses 2D (NIfTI: one slice too), 4D with more than one image, RGB, complex and vector images, empty
-/// images, NaN and infinite voxels (the first is named), singular directions, truncated and damaged files (checksums of
-/// compressed data are verified), voxels as text or spread over several files, NIfTI-2, and DICOM folders with several
-/// series (named), fewer than 2 slices, missing slices or uneven gaps, and slices sheared by a tilted gantry.
+/// DICOM series: one slice a file, or enhanced multi-frame. World is LPS, as ITK gives it; left-handed directions are
+/// kept. Voxels keep their type where it is one of ScalarType; other integers become int16, else uint16, else float
+/// when every voxel survives exactly (refused otherwise), and double becomes float; both are said in `notes`, and so is
+/// a NIfTI or NRRD file that does not say how the patient lies. NIfTI's slope and intercept and DICOM's rescale are
+/// applied, which may make floats. Refuses 2D (NIfTI: one slice too), 4D with more than one image, RGB, complex and
+/// vector images, empty images, NaN and infinite voxels (the first is named), singular directions, truncated and
+/// damaged files (checksums of compressed data are verified), voxels as text or spread over several files, NIfTI-2, and
+/// DICOM folders with several series (named), fewer than 2 slices, missing slices or uneven gaps, and slices sheared by
+/// a tilted gantry.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path);
 
 /// NIfTI (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending. Written to a temporary name, read back and

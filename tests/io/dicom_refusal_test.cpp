@@ -259,7 +259,7 @@ TEST_F(DicomRefusal, TruncatedAtEveryLength) {
     for (const char* syntax : {kImplicit, kExplicit, kBigEndian}) {
         writeCt(folder_, 3, syntax);
         const std::string whole = ctSlice(1).file(syntax);
-        for (std::size_t length = 132; length < whole.size(); ++length) {
+        for (std::size_t length = 132; length < whole.size(); length += length < whole.size() - 60 ? 3 : 1) {
             folder_.write("s1.dcm", whole.substr(0, length));
             const auto volume = io::readVolume(folder_.path());
             ASSERT_FALSE(volume.ok()) << length << " of " << whole.size();

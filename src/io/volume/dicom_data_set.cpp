@@ -74,6 +74,35 @@ const DicomSyntax* syntaxWithoutHeader(std::string_view head) {
     return numberAt<std::uint32_t>(head, 4) <= kLongest ? kUntyped : nullptr;
 }
 
+/// How a file begins: with 128 bytes and a magic word, with the meta header alone, or like a data set.
+enum class Beginning { Magic, Meta, DataSet, Other };
+
+constexpr std::size_t kMagicAt = 128;
+constexpr std::string_view kMagic = "DICM";
+
+Beginning beginningOf(DicomStream& stream) {
+    const std::string_view head = stream.peek(kMagicAt + kMagic.size());
+    if (head.size() == kMagicAt + kMagic.size() && head.ends_with(kMagic)) {
+        return Beginning::Magic;
+    }
+    if (head.starts_with("\x02\0\0\0UL\4\0"sv)) {
+        return Beginning::Meta;
+    }
+    return syntaxWithoutHeader(head.substr(0, 8)) != nullptr ? Beginning::DataSet : Beginning::Other;
+}
+
+/// What the meta header says, or where it says nothing, what the data set looks like.
+Result<const DicomSyntax*> syntaxOf(const DicomFile& file, DicomStream& stream) {
+    if (const std::string* uid = file.set.find(dicom::kTransferSyntax); uid != nullptr) {
+        return syntaxNamed(file.path, *uid);
+    }
+    const DicomSyntax* likely = syntaxWithoutHeader(stream.peek(8));
+    if (likely == nullptr) {
+        return cannotRead(file.path, "it says no TransferSyntaxUID (0002,0010); get the file again");
+    }
+    return likely;
+}
+
 } // namespace
 
 std::string toText(DicomTag tag) {
@@ -102,8 +131,6 @@ std::string_view DicomDataSet::text(DicomTag tag) const {
 }
 
 Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path) {
-    constexpr std::size_t kMagicAt = 128;
-    constexpr std::string_view kMagic = "DICM";
     Result<DicomStream> stream = DicomStream::open(path);
     if (!stream.ok()) {
         return stream.error();
@@ -111,31 +138,19 @@ Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path
     DicomFile file;
     file.path = path;
     file.bytes = stream->mostLeft();
-    const bool magic = stream->peek(kMagicAt + kMagic.size()).substr(std::min(file.bytes, kMagicAt)) == kMagic;
-    const std::string_view head = stream->peek(8);
-    const bool metaFirst = head.starts_with("\x02\0\0\0UL\4\0"sv);
-    if (!magic && !metaFirst && syntaxWithoutHeader(head) == nullptr) {
+    const Beginning beginning = beginningOf(*stream);
+    if (beginning == Beginning::Other) {
         return std::optional<DicomFile>();
     }
-    if (magic && !stream->skip(kMagicAt + kMagic.size())) {
-        return cannotRead(path, "it is truncated: it ends within its header; get the file again");
+    DicomWalker meta(*stream, *kTyped);
+    if ((beginning == Beginning::Magic && !stream->skip(kMagicAt + kMagic.size())) || !meta.meta(file.set)) {
+        return cannotRead(path, meta.problem());
     }
-    DicomWalker walker(*stream, *kTyped);
-    if (!walker.meta(file.set)) {
-        return cannotRead(path, walker.problem());
+    const Result<const DicomSyntax*> syntax = syntaxOf(file, *stream);
+    if (!syntax.ok()) {
+        return syntax.error();
     }
-    if (const std::string* uid = file.set.find(dicom::kTransferSyntax); uid != nullptr) {
-        const Result<const DicomSyntax*> syntax = syntaxNamed(path, *uid);
-        if (!syntax.ok()) {
-            return syntax.error();
-        }
-        file.syntax = *syntax;
-    } else {
-        file.syntax = syntaxWithoutHeader(stream->peek(8));
-        if (file.syntax == nullptr) {
-            return cannotRead(path, "it says no TransferSyntaxUID (0002,0010); get the file again");
-        }
-    }
+    file.syntax = *syntax;
     file.dataSetAt = stream->position();
     if (file.syntax->deflated) {
         if (Result<void> inflating = stream->inflateFromHere(); !inflating.ok()) {
@@ -146,7 +161,7 @@ Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path
     if (!data.dataSet(file.set)) {
         // What only looked like DICOM is left alone.
         constexpr std::size_t kSure = 3;
-        if (!magic && !metaFirst && data.elements() < kSure) {
+        if (beginning == Beginning::DataSet && data.elements() < kSure) {
             return std::optional<DicomFile>();
         }
         return cannotRead(path, data.problem());

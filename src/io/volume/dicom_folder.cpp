@@ -19,18 +19,16 @@ namespace fs = std::filesystem;
 
 /// Files that hold no image by what they say they are (SOP classes, PS3.6): directories, reports, plans, measurements.
 bool holdsNoImage(const DicomFile& file) {
-    constexpr std::array<std::string_view, 12> kClasses{
+    constexpr std::array<std::string_view, 10> kClasses{
         "1.2.840.10008.1.3.10",          // DICOMDIR
         "1.2.840.10008.5.1.4.1.1.11.",   // presentation states
-        "1.2.840.10008.5.1.4.1.1.66",    // raw data, registrations, fiducials (see below)
+        "1.2.840.10008.5.1.4.1.1.66",    // raw data, registrations, fiducials
         "1.2.840.10008.5.1.4.1.1.67",    // real-world value mapping
         "1.2.840.10008.5.1.4.1.1.78.",   // eyes measured
         "1.2.840.10008.5.1.4.1.1.88.",   // structured reports, key objects
         "1.2.840.10008.5.1.4.1.1.9.",    // waveforms
         "1.2.840.10008.5.1.4.1.1.104.",  // documents
-        "1.2.840.10008.5.1.4.1.1.481.3", // structure sets
-        "1.2.840.10008.5.1.4.1.1.481.4", // treatment records
-        "1.2.840.10008.5.1.4.1.1.481.5", // plans
+        "1.2.840.10008.5.1.4.1.1.481.",  // structure sets, plans, treatment records
         "1.2.840.10008.5.1.4.1.1.200."}; // protocols
     std::string_view uid = file.set.text(dicom::kSopClass);
     if (uid.empty()) {
@@ -160,6 +158,49 @@ Result<void> checkExpansion(const fs::path& folder, const std::vector<DicomFile>
     return {};
 }
 
+struct Stack {
+    std::vector<DicomImage> images; ///< of each file
+    std::vector<DicomSlice> slices; ///< of all files
+};
+
+Result<Stack> stackOf(const fs::path& folder, const std::vector<DicomFile>& files) {
+    Stack stack;
+    for (const DicomFile& file : files) {
+        const Result<DicomImage> image = dicomImage(file);
+        if (!image.ok()) {
+            return image.error();
+        }
+        const Result<std::vector<DicomSlice>> frames = dicomSlices(file, *image, stack.images.size());
+        if (!frames.ok()) {
+            return frames.error();
+        }
+        stack.images.push_back(*image);
+        stack.slices.insert(stack.slices.end(), frames->begin(), frames->end());
+    }
+    if (Result<void> alike = checkAlike(files, stack.images, stack.slices); !alike.ok()) {
+        return alike.error();
+    }
+    if (stack.slices.size() < 2) {
+        return cannotRead(folder, "the DICOM series has fewer than 2 slices; a 3D image is needed");
+    }
+    if (Result<void> sane = checkExpansion(folder, files, stack.images); !sane.ok()) {
+        return sane.error();
+    }
+    return stack;
+}
+
+std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const StoredImage& image) {
+    std::vector<std::string> notes{"DICOM series of " + std::to_string(stack.slices.size()) + " slices, " +
+                                   millimetres(image.grid.spacing[2]) + " mm apart"};
+    if (std::string note = rescaleNote(stack.slices, image.type); !note.empty()) {
+        notes.push_back(std::move(note));
+    }
+    if (found.others > 0) {
+        notes.push_back(std::to_string(found.others) + " DICOM files without images left out");
+    }
+    return notes;
+}
+
 } // namespace
 
 Result<StoredImage> readDicomFolder(const fs::path& folder, std::vector<std::string>& notes) {
@@ -171,50 +212,23 @@ Result<StoredImage> readDicomFolder(const fs::path& folder, std::vector<std::str
     if (Result<void> one = checkOneSeries(folder, files); !one.ok()) {
         return one.error();
     }
-    std::vector<DicomImage> images;
-    std::vector<DicomSlice> slices;
-    for (const DicomFile& file : files) {
-        const Result<DicomImage> image = dicomImage(file);
-        if (!image.ok()) {
-            return image.error();
-        }
-        const Result<std::vector<DicomSlice>> frames = dicomSlices(file, *image, images.size());
-        if (!frames.ok()) {
-            return frames.error();
-        }
-        images.push_back(*image);
-        slices.insert(slices.end(), frames->begin(), frames->end());
+    Result<Stack> stack = stackOf(folder, files);
+    if (!stack.ok()) {
+        return stack.error();
     }
-    if (Result<void> alike = checkAlike(files, images, slices); !alike.ok()) {
-        return alike.error();
-    }
-    if (slices.size() < 2) {
-        return cannotRead(folder, "the DICOM series has fewer than 2 slices; a 3D image is needed");
-    }
-    if (Result<void> sane = checkExpansion(folder, files, images); !sane.ok()) {
-        return sane.error();
-    }
-    const Result<Grid> grid = stackSlices(folder, files, images.front(), slices);
+    const Result<Grid> grid = stackSlices(folder, files, stack->images.front(), stack->slices);
     if (!grid.ok()) {
         return grid.error();
     }
-    const StoredType type = dicomType(images, slices);
-    Result<std::vector<std::byte>> voxels = dicomVoxels(files, images, slices, type);
+    StoredImage image;
+    image.grid = *grid;
+    image.type = dicomType(stack->images, stack->slices);
+    Result<std::vector<std::byte>> voxels = dicomVoxels(files, stack->images, stack->slices, image.type);
     if (!voxels.ok()) {
         return voxels.error();
     }
-    notes.push_back("DICOM series of " + std::to_string(slices.size()) + " slices, " + millimetres(grid->spacing[2]) +
-                    " mm apart");
-    if (std::string note = rescaleNote(slices, type); !note.empty()) {
-        notes.push_back(std::move(note));
-    }
-    if (found->others > 0) {
-        notes.push_back(std::to_string(found->others) + " DICOM files without images left out");
-    }
-    StoredImage image;
-    image.grid = *grid;
-    image.type = type;
     image.voxels = std::move(*voxels);
+    notes = notesOf(*found, *stack, image);
     return image;
 }
 

@@ -334,7 +334,8 @@ Result<void> Decoder::scan(std::size_t at, std::size_t end) {
         }
         return lossless(bits, constants_[constant], first, shift);
     }
-    if (first != 0 || last != 63 || shift != 0 || !others_[rest].isThere || !hasQuantization_[quantizationTable_]) {
+    // First and last coefficient mean nothing here, and some writers put other numbers there.
+    if (shift != 0 || !others_[rest].isThere || !hasQuantization_[quantizationTable_]) {
         return damaged("a scan's parameters");
     }
     return sequential(bits, constants_[constant], others_[rest]);
