@@ -56,7 +56,7 @@ std::string rawDeflated(const std::string& content) {
     return out;
 }
 
-std::string padded(std::string text, char with) {
+std::string padded(const std::string& text, char with) {
     return text.size() % 2 == 0 ? text : text + with;
 }
 
@@ -82,8 +82,8 @@ DicomSet& DicomSet::words(std::uint32_t tag, std::vector<std::uint16_t> values) 
     return *this;
 }
 
-DicomSet& DicomSet::bytes(std::uint32_t tag, std::string values) {
-    elements_[tag] = {"OB", padded(std::move(values), '\0'), {}, {}, {}};
+DicomSet& DicomSet::bytes(std::uint32_t tag, const std::string& values) {
+    elements_[tag] = {"OB", padded(values, '\0'), {}, {}, {}};
     return *this;
 }
 

@@ -32,7 +32,7 @@ class DicomSet {
     /// 16 bits a word, of the type OW.
     DicomSet& words(std::uint32_t tag, std::vector<std::uint16_t> values);
     /// Of the type OB.
-    DicomSet& bytes(std::uint32_t tag, std::string values);
+    DicomSet& bytes(std::uint32_t tag, const std::string& values);
     /// Encapsulated: an empty table of offsets, and the pieces.
     DicomSet& pieces(std::uint32_t tag, std::vector<std::string> values);
     DicomSet& remove(std::uint32_t tag);
