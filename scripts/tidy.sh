@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# clang-tidy on every .cpp of src/ and tests/ that the build compiles, one process a core. Usage: tidy.sh BUILD_FOLDER
-# [FILE...]. A file that passed is looked at again only when it, a header of ours or the checks have changed.
+# clang-tidy on every .cpp of src/ that the build compiles, one process a core. Usage: tidy.sh BUILD_FOLDER
+# [FILE|FOLDER...]. A file that passed is looked at again only when it, a header of ours or the checks have changed.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 build=${1:?usage: tidy.sh BUILD_FOLDER [FILE...]}
@@ -9,11 +9,8 @@ shift
 stamps=$build/tidy
 mkdir -p "$stamps"
 
-if [ $# -gt 0 ]; then
-    files=$(printf '%s\n' "$@")
-else
-    files=$(find src tests -name '*.cpp' | sort)
-fi
+[ $# -gt 0 ] || set -- src
+files=$(find "$@" -name '*.cpp' | sort)
 newest=$(find src tests include shaders .clang-tidy -name '*.h' -printf '%T@\n' -o -name .clang-tidy -printf '%T@\n' |
     sort -n | tail -n 1)
 

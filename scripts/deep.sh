@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What takes too long for every change: the tests under the address and undefined-behaviour sanitizers and under the
+# thread sanitizer, every fuzz target for a minute, every mutant. All of it runs, and the status is 1 if any part failed.
+# Under the thread sanitizer the tiers of the host alone: lavapipe's own threads are not built with it.
+set -uo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
+failed=()
+
+sanitized() {
+    local preset=$1 tiers=$2
+    { [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >/dev/null; } &&
+        cmake --build --preset "$preset" >"build/$preset.log" 2>&1 &&
+        ctest --preset "$preset" -j "$(nproc)" -L "$tiers"
+}
+
+# lavapipe and the validation layer keep what they have until the end of the process.
+ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0} sanitized asan '^(unit|cpu|io|fuzz|faults|cli|gpu)$' || failed+=(asan)
+sanitized tsan '^(unit|cpu|io|fuzz)$' || failed+=(tsan)
+scripts/fuzz.sh 60 || failed+=(fuzz)
+scripts/mutate.py || failed+=(mutate)
+
+if [ ${#failed[@]} -gt 0 ]; then
+    printf 'deep: failed: %s\n' "${failed[*]}" >&2
+    exit 1
+fi
