@@ -67,6 +67,17 @@ Result<AutoChoice> choose(const DetectOptions& options, const Session& session, 
 Result<void> checkDetectPaths(const DetectOptions& options) {
     const ExtraOptions& extra = options.extra;
     std::vector<NamedPath> inputs = inputPaths(options.volumes, options.meshes, options.transferFunction, options.view);
+    if (options.jobs.fromFile) {
+        addInput(inputs, "--jobs", options.jobsPath);
+        for (const std::vector<std::string>* sources : {&options.jobs.volumes, &options.jobs.meshes}) {
+            for (const std::string& source : *sources) {
+                addInput(inputs, "--jobs", source);
+            }
+        }
+        for (const std::filesystem::path& poses : options.jobs.poses) {
+            addInput(inputs, "--jobs", poses);
+        }
+    }
     if (!extra.labels.empty()) {
         inputs.push_back({"--labels", extra.labels});
         inputs.push_back({"--label-names", labelNamesPath(extra.labelNames, extra.labels)});

@@ -152,21 +152,21 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
     return {};
 }
 
-void addPath(std::vector<NamedPath>& paths, const char* option, const fs::path& path) {
+} // namespace
+
+void addInput(std::vector<NamedPath>& inputs, const char* option, const fs::path& path) {
     if (!path.empty() && path != "-" && !path.string().starts_with("builtin:")) {
-        paths.push_back({option, path});
+        inputs.push_back({option, path});
     }
 }
-
-} // namespace
 
 std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes) {
     std::vector<NamedPath> paths;
     for (const std::string& volume : volumes) {
-        addPath(paths, "--volume", volume);
+        addInput(paths, "--volume", volume);
     }
     for (const std::string& mesh : meshes.sources) {
-        addPath(paths, "--mesh", mesh);
+        addInput(paths, "--mesh", mesh);
     }
     return paths;
 }
@@ -174,9 +174,9 @@ std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const
 std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes,
                                   const TransferFunctionOptions& transferFunction, const ViewOptions& view) {
     std::vector<NamedPath> paths = inputPaths(volumes, meshes);
-    addPath(paths, "--transfer-function", transferFunction.path);
-    addPath(paths, "--poses", view.poses);
-    addPath(paths, "--camera", view.camera);
+    addInput(paths, "--transfer-function", transferFunction.path);
+    addInput(paths, "--poses", view.poses);
+    addInput(paths, "--camera", view.camera);
     return paths;
 }
 

@@ -16,7 +16,9 @@ struct NamedPath {
     std::filesystem::path path;
 };
 
-/// The files and folders that the options read; builtins are none.
+/// Adds a file or folder that is read; builtins, standard input and empty paths are none.
+void addInput(std::vector<NamedPath>& inputs, const char* option, const std::filesystem::path& path);
+/// The files and folders that the options read.
 [[nodiscard]] std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes);
 [[nodiscard]] std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes,
                                                 const TransferFunctionOptions& transferFunction,

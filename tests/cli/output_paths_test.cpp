@@ -17,7 +17,7 @@ class OutputPathsTest : public CliTest {
         writeText(path("m.obj"), "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
         writeNifti(path("v.nii"), {});
         writeNifti(path("labels.nii"), {});
-        writeText(path("labels.txt"), "1 one\n");
+        writeText(path("labels.nii.txt"), "1 one\n");
         writeText(path("poses.txt"), kIdentity);
         writeText(path("camera.txt"), kIdentity);
         writeText(path("opacity.tf"), "0 0\n255 1\n");
@@ -60,7 +60,7 @@ TEST_F(OutputPathsTest, InputsOfDetect) {
     expectRefused(detect({"--projection", "view", "--camera", path("camera.txt"), "--output", path("camera.txt")}),
                   "--camera");
     expectRefused(detect({"--labels", path("labels.nii"), "--output", path("labels.nii")}), "--labels");
-    expectRefused(detect({"--labels", path("labels.nii"), "--output", path("labels.txt")}), "--label-names");
+    expectRefused(detect({"--labels", path("labels.nii"), "--output", path("labels.nii.txt")}), "--label-names");
     // A file of another name in the same folder is none of them.
     output(detect({"--labels", path("labels.nii"), "--output", path("new.csv")}));
     output(detect({"--output", path("new.csv")}));
