@@ -114,20 +114,67 @@ CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
                             storedAt(cell + ivec3(1, 1, 1)), range.z, range.w);
 }
 
-/// `number` is that of the triangle.
-void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single) {
-    const vec3 centre = vec3(cell) + 0.5;
-    if (!single && certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), 0.5)) {
-        return;
+VoxelPoint vertexOf(uint corner) {
+    const vec3 position = positionOf(constants.mesh, corner);
+    return voxelPoint(position.x, position.y, position.z);
+}
+
+/// Of which triangle `placed` is.
+uint placedOf = 0xffffffffu;
+PreciseTriangle placed;
+
+void placeAgain(CertifiedPair transform, uint number) {
+    if (placedOf != number) {
+        placed = preciseTriangle(transform, constants.item, vertexOf(3 * number), vertexOf(3 * number + 1),
+                                  vertexOf(3 * number + 2));
+        placedOf = number;
     }
-    const CertifiedCell known =
-        certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
+}
+
+/// Whether a certain fragment is known, and no more are asked for.
+bool isDone() {
+    return kStopAtFirst && (survivors > 0 || results[pair].countLow > 0);
+}
+
+/// `plane`: of a triangle that is not usable in single precision.
+bool planeMisses(CertifiedTriangle triangle, PrecisePlane plane, bool usable, vec3 centre, float radius) {
+    const VoxelPoint at = voxelPoint(centre.x, centre.y, centre.z);
+    return usable ? certifiedPlaneMisses(triangle, at, radius) : precisePlaneMisses(plane, at, radius);
+}
+
+/// `number` is that of the triangle. What single precision leaves undecided is placed again, precisely.
+void decideCell(CertifiedPair transform, uint number, CertifiedTriangle triangle, bool usable, ivec3 cell, vec4 range) {
+    const CertifiedCorners corners = cornersOf(cell, range);
+    CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.delta);
     if (!certifiedCellMayBeOpaque(opacities(), known)) {
         return;
     }
     VoxelPoint witness;
-    const int verdict =
-        certifiedFragment(opacities(), constants.item, triangle, known, cell.x, cell.y, cell.z, witness);
+    int verdict = CERTIFIED_UNDECIDED;
+    for (int attempt = usable ? 0 : 1; attempt < 3 && verdict == CERTIFIED_UNDECIDED && !isDone(); ++attempt) {
+        const bool within = attempt == 2;
+        VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
+        int count;
+        if (attempt == 0) {
+            count = certifiedBegin(opacities(), triangle, known, cell.x, cell.y, cell.z, polygon);
+        } else {
+            if (within) {
+                if (!preciseCrosses(known)) {
+                    break;
+                }
+                known = preciseWithin(known);
+            } else {
+                placeAgain(transform, number);
+                known = preciseCell(constants.item, placed, corners, cell.x, cell.y, cell.z);
+            }
+            count = certifiedBeginAgain(placed, known, cell.x, cell.y, cell.z, within, polygon);
+        }
+        const float resolution = attempt == 0 ? constants.item.resolution : certifiedFinest(constants.item);
+        verdict =
+            certifiedSettle(opacities(), resolution, known, cell.x, cell.y, cell.z, polygon, count, witness);
+        // What is within has no opaque point, but there is more.
+        verdict = within && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
+    }
     if (verdict == CERTIFIED_CERTAIN) {
         ++survivors;
 #ifdef OUTPUTS
@@ -140,31 +187,41 @@ void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range,
 }
 
 /// Every step-th of a triangle's cells in each brick, from `first` on.
-void decideCells(uint number, CertifiedTriangle triangle, CertifiedBounds bounds, int first, int step) {
+void decideCells(CertifiedPair transform, uint number, CertifiedTriangle triangle, CertifiedBounds bounds, int first,
+                 int step) {
     const CellBox cells = cellsOf(bounds);
     const CellBox box = bricksOf(cells);
     const bool single = cells.lo == cells.hi;
     const int count = volumeOf(box);
+    bool hasPlane = false;
+    PrecisePlane plane;
     for (int i = 0; i < count; ++i) {
         const ivec3 brick = placeIn(box, i);
         const vec4 range = brickAt(brick);
         if (!brickMayBeOpaque(range)) {
             continue;
         }
-        if (!bounds.usable) {
-            undecided = true;
+        if (!bounds.usable && !hasPlane) {
+            placeAgain(transform, number);
+            hasPlane = true;
+            plane = precisePlane(constants.item, placed);
+        }
+        if (!bounds.usable && (!preciseKnown(placed) || placed.outside)) {
+            undecided = undecided || !preciseKnown(placed);
             return;
         }
         const ivec3 corner = (brick << VOXTACT_BRICK_SHIFT) - 1;
         const vec3 centre = vec3(corner) + float(kBrickSide / 2);
-        if (count > 1 &&
-            certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), float(kBrickSide / 2))) {
+        if (count > 1 && planeMisses(triangle, plane, bounds.usable, centre, float(kBrickSide / 2))) {
             continue;
         }
         const CellBox within = CellBox(max(cells.lo, corner), min(cells.hi, corner + kBrickSide - 1));
         const int most = volumeOf(within);
-        for (int cell = first; cell < most; cell += step) {
-            decideCell(number, triangle, placeIn(within, cell), range, single);
+        for (int place = first; place < most; place += step) {
+            const ivec3 cell = placeIn(within, place);
+            if (single || !planeMisses(triangle, plane, bounds.usable, vec3(cell) + 0.5, 0.5)) {
+                decideCell(transform, number, triangle, bounds.usable, cell, range);
+            }
         }
     }
 }
@@ -185,7 +242,7 @@ void decideTriangle(CertifiedPair transform, uint triangle, int first, int step)
         queue[atomicAdd(queued, 1u)] = triangle;
         return;
     }
-    decideCells(triangle, certifiedTriangle(a.point, b.point, c.point, bounds.delta), bounds, first, step);
+    decideCells(transform, triangle, certifiedTriangle(a.point, b.point, c.point, bounds.delta), bounds, first, step);
 }
 
 /// Whether the group's cluster may touch a brick that may have an opaque point: asked by all lanes together.

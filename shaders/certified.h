@@ -8,13 +8,15 @@
 #ifndef VOXTACT_CERTIFIED_H
 #define VOXTACT_CERTIFIED_H
 
-#include "certified_cell.h"
+#include "certified_precise.h"
 
 #define CERTIFIED_NONE 0      // the triangle has no opaque point in the cell
 #define CERTIFIED_CERTAIN 1   // it has one
 #define CERTIFIED_UNDECIDED 2 // neither could be shown
 /// Bisecting the longest edge halves all of them within three steps: enough for a resolution of 2^-12.
 #define CERTIFIED_STACK 48
+/// Voxels: what is placed precisely is divided as far.
+#define CERTIFIED_FINE_RESOLUTION 0.0009765625f
 /// Pieces of a fragment that are looked at before it is left undecided.
 #define CERTIFIED_MAX_PIECES 2048
 
@@ -337,33 +339,60 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
     return certifiedMayBeOpaque(table, least, greatest, cell.pointError);
 }
 
-/// A fragment's verdict. Expects a cell that may have an opaque point. `witness` is in voxel space, set where it is
-/// certain.
-EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTriangle triangle, CertifiedCell cell,
-                            int x, int y, int z, OUT(VoxelPoint) witness) {
+/// What certifiedBegin() and certifiedBeginAgain() return beside a polygon's corners.
+#define CERTIFIED_NO_POLYGON -1
+
+/// The polygon of a fragment. None where it has no opaque point. Expects a cell that may have one.
+EXACT int certifiedBegin(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell, int x, int y, int z,
+                         ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+    const VoxelPoint origin = voxelPoint(float(x), float(y), float(z));
+    if (!certifiedCellAllOpaque(table, cell) && !certifiedPartMayBeOpaque(table, triangle, cell, origin)) {
+        return 0;
+    }
+    return certifiedClip(triangle, cell, origin, polygon);
+}
+
+/// The same of a precise triangle, in the cell of preciseCell(), or of what is certainly in the domain, `within`, in
+/// that of preciseWithin(). CERTIFIED_NO_POLYGON where nothing can be said.
+EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int x, int y, int z, bool within,
+                              ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+    if (!preciseKnown(triangle)) {
+        return CERTIFIED_NO_POLYGON;
+    }
+    if (triangle.outside) {
+        return 0;
+    }
+    return preciseClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), within, polygon);
+}
+
+/// The resolution for precise triangles: what few fragments are left may take longer.
+EXACT float certifiedFinest(CertifiedItem item) {
+    return certifiedMin(item.resolution, CERTIFIED_FINE_RESOLUTION);
+}
+
+/// A fragment's verdict, from its polygon. `witness` is in voxel space, set where it is certain.
+EXACT int certifiedSettle(OpacityTable table, float resolution, CertifiedCell cell, int x, int y, int z,
+                          ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count, OUT(VoxelPoint) witness) {
     const VoxelPoint origin = voxelPoint(float(x), float(y), float(z));
     witness = origin;
-    const bool full = certifiedCellAllOpaque(table, cell);
-    if (!full && !certifiedPartMayBeOpaque(table, triangle, cell, origin)) {
-        return CERTIFIED_NONE;
-    }
-    VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
-    const int count = certifiedClip(triangle, cell, origin, polygon);
     if (count == 0) {
         return CERTIFIED_NONE;
     }
+    if (count == CERTIFIED_NO_POLYGON) {
+        return CERTIFIED_UNDECIDED;
+    }
     VoxelPoint within;
-    if (full && certifiedSafeCorner(cell, polygon, count, within)) {
+    if (certifiedCellAllOpaque(table, cell) && certifiedSafeCorner(cell, polygon, count, within)) {
         witness = voxelPoint(origin.x + within.x, origin.y + within.y, origin.z + within.z);
         return CERTIFIED_CERTAIN;
     }
-    const int verdict = certifiedDecide(table, cell, item.resolution, polygon, count, within);
+    const int verdict = certifiedDecide(table, cell, resolution, polygon, count, within);
     witness = voxelPoint(origin.x + within.x, origin.y + within.y, origin.z + within.z);
     return verdict;
 }
 
 /// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a
-/// delta that is not less than the triangle's: certifiedFragment() then finds the same.
+/// delta that is not less than the triangle's: certifiedSettle() then finds the same.
 EXACT bool certifiedVertexProves(OpacityTable table, CertifiedCell cell, VoxelPoint vertex, int x, int y, int z) {
     const VoxelPoint at = voxelDifference(vertex, voxelPoint(float(x), float(y), float(z)));
     return certifiedPointProves(table, cell, at, certifiedInterpolate(cell, at.x, at.y, at.z));

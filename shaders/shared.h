@@ -79,10 +79,13 @@ struct TracedFragment {
 
 /// What the projection `conservative` needs of one pair; element `pair` of a std430 buffer.
 struct CertifiedPair {
-    vec4 reference;               // a point of object space near the volume; w is 0
+    vec4 reference;               // a point of object space near the volume; w: see `place`
     vec4 voxel_from_reference[3]; // rows: voxel space from object space less the reference. Voxel i's centre is at i
     vec4 error;                   // of a transformed vertex, (x, y, z) from the reference, in voxels along each axis:
                                   // error * (|x|, |y|, |z|, 1)
+    vec4 place[9]; // rows: from object space to `scale` of CertifiedItem times the place along an axis, from the near
+                   // face of the domain; of each the sum of three, [axis], [3 + axis] and [6 + axis]. It is off by at
+                   // most reference.w of what `error` says
 };
 
 /// What it needs of one batch item. The entry coordinate of a stored value (see opacity_ranges.h) is
@@ -99,6 +102,7 @@ struct CertifiedItem {
     int sizeX; // voxels
     int sizeY;
     int sizeZ;
+    float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there
 };
 
 /// Push constants of the projection `conservative`.
@@ -156,9 +160,9 @@ static_assert(sizeof(MeshConstants) == 16 && sizeof(DominantGrid) == 16);
 static_assert(sizeof(ItemConstants) <= VOXTACT_OFFSET_DOMINANT);
 static_assert(VOXTACT_OFFSET_DOMINANT + sizeof(DominantConstants) <= 128, "Vulkan's least maxPushConstantsSize");
 static_assert(sizeof(ComputeConstants) == 76);
-static_assert(sizeof(CertifiedPair) == 80);
-static_assert(sizeof(CertifiedItem) == 44);
-static_assert(sizeof(CertifiedConstants) == 76);
+static_assert(sizeof(CertifiedPair) == 224);
+static_assert(sizeof(CertifiedItem) == 80);
+static_assert(sizeof(CertifiedConstants) == 112);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif

@@ -39,7 +39,8 @@ void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer,
 /// The same for the projection conservative.
 void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                           const ResultsImpl& results) {
-    static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::PairTransform), "they share a buffer");
+    static_assert(sizeof(shader::CertifiedPair) <= kTransformsOfCertified * sizeof(shader::PairTransform),
+                  "they share a buffer");
     BufferUpdate<shader::CertifiedPair> update(context, commandBuffer, results.transforms.get());
     for (const BatchItem& item : batch.items) {
         const VolumeImpl& volume = item.volume->impl();
@@ -77,6 +78,10 @@ void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, c
 }
 
 } // namespace
+
+std::uint32_t transformsPerPair(Projection projection) noexcept {
+    return projection == Projection::Conservative ? kTransformsOfCertified : viewsPerPair(projection);
+}
 
 void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                     const ResultsImpl& results, const DetectorDesc& desc) {

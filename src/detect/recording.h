@@ -6,6 +6,11 @@
 
 namespace voxtact {
 
+/// PairTransforms whose room in the buffer a CertifiedPair takes.
+inline constexpr std::uint32_t kTransformsOfCertified = 2;
+/// PairTransforms that a pair takes in the buffer.
+[[nodiscard]] std::uint32_t transformsPerPair(Projection projection) noexcept;
+
 /// What every pass needs before it: the transforms of a checked batch, and results of zero that say which pair they
 /// are. Waits for whatever still uses an earlier batch of the same Results. Leaves them ready for shaders, and the
 /// queries reset where the method counts by query.
