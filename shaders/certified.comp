@@ -287,12 +287,19 @@ void main() {
         }
         triangle = within ? indices[constants.clusterWord + 6 * constants.clusterCount + triangle] : 0;
     }
-    if (within) {
-        decideTriangle(transform, triangle, 0, 1);
-    }
-    barrier();
-    for (uint i = 0; i < queued; ++i) {
-        decideTriangle(transform, queue[i], int(lane), VOXTACT_COMPUTE_GROUP);
+    // The lane's own triangle first, then the queue, which is complete by then. One call: what it stands for is most of
+    // the program, and some compilers take time by the square of it.
+    uint turns = 1;
+    for (uint turn = 0; turn < turns; ++turn) {
+        const bool own = turn == 0;
+        if (within || !own) {
+            decideTriangle(transform, own ? triangle : queue[turn - 1], own ? 0 : int(lane),
+                           own ? 1 : VOXTACT_COMPUTE_GROUP);
+        }
+        if (own) {
+            barrier();
+            turns += queued;
+        }
     }
     const uint total = subgroupAdd(survivors);
     const bool open = subgroupOr(undecided ? 1u : 0u) != 0;
