@@ -27,15 +27,15 @@ struct VolumeReadOptions {
 };
 
 /// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,
-/// .mhd), or a folder with one DICOM series: one slice a file, or enhanced multi-frame. World is LPS, in millimetres; left-handed directions are
-/// kept. Voxels keep their type where it is one of ScalarType; other integers become int16, else uint16, else float
-/// when every voxel survives exactly (refused otherwise), and double becomes float; both are said in `notes`, and so is
-/// what a file does not say and is assumed. NIfTI's slope and intercept and DICOM's rescale are applied, which may make
-/// floats.
+/// .mhd), or a folder with one DICOM series: one slice a file, or enhanced multi-frame. World is LPS, in millimetres;
+/// left-handed directions are kept. Voxels keep their type where it is one of ScalarType; other integers become int16,
+/// else uint16, else float when every voxel survives exactly (refused otherwise), and double becomes float; both are
+/// said in `notes`, and so is what a file does not say and is assumed. NIfTI's slope and intercept and DICOM's rescale
+/// are applied, which may make floats.
 ///
-/// NIfTI: the place is that of nibabel's `affine`: the sform, else the qform, else the centre; a qform that differs from
-/// the sform is noted, and an sform with a shear of more than 0.1 degrees is refused. Lengths in metres and micrometres
-/// become millimetres. NRRD and MetaImage: shears are kept, and noted.
+/// NIfTI: the place is that of nibabel's `affine`: the sform, else the qform, else the centre; a qform that differs
+/// from the sform is noted, and an sform with a shear of more than 0.1 degrees is refused. Lengths in metres and
+/// micrometres become millimetres. NRRD and MetaImage: shears are kept, and noted.
 ///
 /// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
 /// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files

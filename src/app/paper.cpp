@@ -16,9 +16,10 @@ namespace voxtact::app {
 namespace {
 
 void addNotes(const BenchOptions& options, PaperResult& result) {
-    result.notes.emplace_back("recording is in none of the times; collision: the detection of one pair, alone; "
-                              "overhead: of a frame with the detection in it against one without, round by round; a round "
-                              "has one frame without it for all methods");
+    result.notes.emplace_back(
+        "recording is in none of the times; collision: the detection of one pair, alone; "
+        "overhead: of a frame with the detection in it against one without, round by round; a round "
+        "has one frame without it for all methods");
     result.notes.emplace_back("mesh and volume are times of the GPU only; cpu detects while the picture is made, which "
                               "the wall clock alone tells");
     // More samples never have less of an interval, and there may be more than the memory holds at once.

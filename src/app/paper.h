@@ -5,7 +5,7 @@
 
 namespace voxtact::app {
 
-/// Unless told otherwise: every pose is timed, and there are samples enough for an interval of 95 %. On lavapipe on two cores, where a frame takes half a second, the whole is over in five minutes.
+/// Unless told otherwise: every pose is timed, and there are samples enough for an interval of 95 %.
 inline constexpr std::uint32_t kPaperPoses = 7; ///< of a scene
 inline constexpr std::uint32_t kPaperRepetitions = 7;
 

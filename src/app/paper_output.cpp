@@ -177,8 +177,9 @@ std::vector<Section> paperSections(const PaperResult& result) {
     for (const NamedClock& clock : kClocks) {
         if (hasTimes(clock, result)) {
             sections.push_back(
-                {std::string(clock.title) + ", ms: medians, with the 10th and 90th percentile; of the overhead, the "
-                                            "interval that has the median with a confidence of 95 % or more; an overhead below 0 is noise",
+                {std::string(clock.title) +
+                     ", ms: medians, with the 10th and 90th percentile; of the overhead, the "
+                     "interval that has the median with a confidence of 95 % or more; an overhead below 0 is noise",
                  tableOf(rowsOf(result.rows, [&](const PaperRow& row) { return paperCells(row, clock, result); }))});
         }
     }
@@ -284,10 +285,14 @@ Json paperSceneJson(const PaperScene& scene) {
 }
 
 Json publishedJson(const published::Row& row) {
-    return {{"table", row.table},         {"scene", row.scene},
-            {"mesh_ms", row.mesh},        {"volume_ms", row.volume},
-            {"collision_ms", row.collision}, {"rendering_ms", row.rendering},
-            {"total_ms", row.total},      {"overhead_percent", row.overhead}};
+    return {{"table", row.table},
+            {"scene", row.scene},
+            {"mesh_ms", row.mesh},
+            {"volume_ms", row.volume},
+            {"collision_ms", row.collision},
+            {"rendering_ms", row.rendering},
+            {"total_ms", row.total},
+            {"overhead_percent", row.overhead}};
 }
 
 Json rowJson(const PaperRow& row, const PaperResult& result) {

@@ -16,13 +16,15 @@ inline constexpr double kConfidence = 0.95;
 /// Three significant digits, without an exponent.
 [[nodiscard]] std::string shortNumber(double value);
 
-/// The median of what detection adds to a frame, percent: "2.6", or "noise" where it is below 0, since detection adds no
-/// less than nothing. Then the interval that holds it, or that there are too few samples for one. At least one sample.
+/// The median of what detection adds to a frame, percent: "2.6", or "noise" where it is below 0, since detection adds
+/// no less than nothing. Then the interval that holds it, or that there are too few samples for one. At least one
+/// sample.
 [[nodiscard]] std::string overheadText(const std::vector<double>& percents);
 
 /// What was found, in plain English, a sentence each: the agreement, then what detection adds, then the rest.
-/// The median of what detection adds to a frame, percent: "2.6", or "noise" where it is below 0, since detection adds no
-/// less than nothing. Then the interval that holds it, or that there are too few samples for one. At least one sample.
+/// The median of what detection adds to a frame, percent: "2.6", or "noise" where it is below 0, since detection adds
+/// no less than nothing. Then the interval that holds it, or that there are too few samples for one. At least one
+/// sample.
 [[nodiscard]] std::string overheadText(const std::vector<double>& percents);
 
 [[nodiscard]] std::vector<std::string> paperSummary(const PaperResult& result);

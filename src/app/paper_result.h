@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-/// What `voxtact bench --paper` finds: the measurements of the paper (Volume-Surface Collision Detection, Tables 1 and 2)
-/// made again.
+/// What `voxtact bench --paper` finds: the measurements of the paper (Volume-Surface Collision Detection, Tables 1 and
+/// 2) made again.
 namespace voxtact::app {
 
 /// What the paper publishes of its own measurements, on its own hardware (OpenGL). It does not say with which viewport,
@@ -29,8 +29,8 @@ struct Row {
     double total = 0;
     double overhead = 0; ///< percent: collision / rendering
 };
-/// As printed. Slips: the total of Table 1, v2s2 repeats the rendering (it should be 6.083), and the overhead of Table 2,
-/// v2s1 is 15.8 by its own columns.
+/// As printed. Slips: the total of Table 1, v2s2 repeats the rendering (it should be 6.083), and the overhead of Table
+/// 2, v2s1 is 15.8 by its own columns.
 inline constexpr std::array<Row, 8> kTables{{
     {1, "v1s1", 0.043, 5.793, 0.502, 5.835, 6.337, 8.6},
     {1, "v1s2", 0.356, 5.793, 0.789, 6.148, 6.937, 12.8},

@@ -215,7 +215,8 @@ std::string overheadText(const std::vector<double>& percents) {
     const double median = spreadOf(percents).median;
     const std::optional<MedianInterval> interval = medianInterval(percents, kConfidence);
     return (median < 0 ? "noise" : shortNumber(median)) +
-           (interval ? " (" + shortNumber(interval->low) + " to " + shortNumber(interval->high) + ")" : " (no interval)");
+           (interval ? " (" + shortNumber(interval->low) + " to " + shortNumber(interval->high) + ")"
+                     : " (no interval)");
 }
 
 std::vector<std::string> paperSummary(const PaperResult& result) {

@@ -158,7 +158,7 @@ Result<std::size_t> ByteReader::inflate(std::byte* to, std::size_t length) {
 }
 
 Result<std::size_t> ByteReader::read(std::byte* to, std::size_t length) {
-    const Result<std::size_t> got = inflater_ ? inflate(to, length) : stored_->read(to, length);
+    Result<std::size_t> got = inflater_ ? inflate(to, length) : stored_->read(to, length);
     if (stored_->failed) {
         return cannotRead(path_, "reading stopped before its end", ErrorCode::File);
     }

@@ -69,8 +69,7 @@ Result<double> millimetresPerUnit(const fs::path& path, const NrrdHeader& header
                             : name == "um" || name == "\xC2\xB5m" || name == "micron" ? 1e-3
                                                                                       : 1;
         if (unit && *unit != here) {
-            return cannotRead(path,
-                              "its axes have different units of length (" + inQuotes(text) + "); write it anew");
+            return cannotRead(path, "its axes have different units of length (" + inQuotes(text) + "); write it anew");
         }
         unit = here;
         at = end + 1;
