@@ -3,6 +3,7 @@
 #include "io/errors.h"
 #include "io/volume/itk_image.h"
 #include "io/volume/itk_session.h"
+#include "io/volume/volume_container.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
@@ -51,20 +52,6 @@ void writeImage(itk::ImageIOBase& io, const fs::path& path, const VolumeView& vo
     io.Write(volume.voxels.data());
 }
 
-/// The largest distance in millimetres between the places of the same corner of the image.
-double displacement(const Grid& a, const Grid& b) {
-    const Mat4 world_from_a = worldFromTexture(a);
-    const Mat4 world_from_b = worldFromTexture(b);
-    double most = 0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        const Vec3 texture{corner & 1U ? 1.0 : 0.0, corner & 2U ? 1.0 : 0.0, corner & 4U ? 1.0 : 0.0};
-        const Vec3 p = transformPoint(world_from_a, texture);
-        const Vec3 q = transformPoint(world_from_b, texture);
-        most = std::max(most, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
-    }
-    return most;
-}
-
 /// Why the file system takes no more; empty where it does.
 std::string whyNotMore(const fs::path& file) {
     // More than a disk keeps back for rounding.
@@ -101,7 +88,7 @@ Result<void> checkPlace(const fs::path& temporary, const fs::path& path, VolumeF
     const Result<ItkImage> written = readInformation(*io, temporary);
     constexpr double kShare = 0.01;
     const double tolerance = kShare * *std::min_element(grid.spacing.begin(), grid.spacing.end());
-    if (!written.ok() || written->grid.size != grid.size || !(displacement(written->grid, grid) <= tolerance)) {
+    if (!written.ok() || written->grid.size != grid.size || !(cornersApart(written->grid, grid) <= tolerance)) {
         return cannotWrite(path, "this format cannot hold the image's size, place or direction; write a .nrrd file",
                            ErrorCode::Format);
     }
