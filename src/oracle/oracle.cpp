@@ -177,6 +177,14 @@ void widen(TextureBox& box, double share, const TextureBox& whole) {
     }
 }
 
+/// Widens a box to hold a coordinate.
+void include(TextureBox& box, const Vec3& coordinate) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(box.lo[axis], coordinate[axis]);
+        box.hi[axis] = std::max(box.hi[axis], coordinate[axis]);
+    }
+}
+
 Reach reachOf(const Scene& scene, const Triangle& triangle, const OracleFragment& at, double pixels) {
     const Polygon most = oracle::clipAndSnap(triangle, scene.view, ViewVolume::Widened);
     if (most.undivided) {
@@ -193,6 +201,9 @@ Reach reachOf(const Scene& scene, const Triangle& triangle, const OracleFragment
     if (!box) {
         box = oracle::coordinatesOf(triangle);
     }
+    // A rasteriser may interpolate between the corners as they were before snapping (llvmpipe does). Where the centre
+    // is outside of those, that extrapolates: in a sliver by many times its extent.
+    include(*box, oracle::extrapolatedCoordinate(triangle, scene.view, at.x, at.y));
     widen(*box, oracle::planeError(most, scene.view), oracle::coordinatesOf(triangle));
     return {certain ? Vote::Yes : Vote::Mixed, *box};
 }
@@ -233,14 +244,6 @@ Doubt doubtOf(Vote coverage, Vote domain, Vote opacity) {
 double edgeDistance(const Polygon& polygon, const OracleFragment& at, bool covered) {
     const double distance = oracle::outlineDistance(polygon, at.x, at.y);
     return covered ? distance : -distance;
-}
-
-/// The oracle's coordinate is reachable, whatever the tolerance.
-void include(TextureBox& box, const Vec3& coordinate) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.lo[axis] = std::min(box.lo[axis], coordinate[axis]);
-        box.hi[axis] = std::max(box.hi[axis], coordinate[axis]);
-    }
 }
 
 Vec3 clampTo(const TextureBox& box, Vec3 coordinate) {

@@ -72,8 +72,10 @@ ScreenCorner toScreen(const Corner& corner, const View& view) {
     const double dx = (corner.clipError[0] + std::abs(x) * corner.clipError[3]) / w * view.width / 2;
     const double dy = (corner.clipError[1] + std::abs(y) * corner.clipError[3]) / w * view.height / 2;
     ScreenCorner out;
-    out.x = std::llround(toPixels(x, view.width) * kSubPixels);
-    out.y = std::llround(toPixels(y, view.height) * kSubPixels);
+    out.exactX = toPixels(x, view.width);
+    out.exactY = toPixels(y, view.height);
+    out.x = std::llround(out.exactX * kSubPixels);
+    out.y = std::llround(out.exactY * kSubPixels);
     out.w = w;
     out.texture = corner.texture;
     out.textureError = corner.textureError;
@@ -204,6 +206,33 @@ template <class Corners> TextureBox boxOf(const Corners& corners) {
         }
     }
     return box;
+}
+
+std::array<double, 2> pixelsOf(const ScreenCorner& corner) {
+    return {static_cast<double>(corner.x) / kSubPixels, static_cast<double>(corner.y) / kSubPixels};
+}
+
+double longestEdge(const Polygon& polygon) {
+    double longest = 0;
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+        const auto a = pixelsOf(polygon.corners[i]);
+        const auto b = pixelsOf(polygon.corners[(i + 1) % polygon.corners.size()]);
+        longest = std::max(longest, std::hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    return longest;
+}
+
+/// Pixels: twice the area over the longest edge.
+template <class Place> double heightOf(const Polygon& polygon, const Place& place) {
+    double doubledArea = 0;
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+        const auto a = place(polygon.corners[i]);
+        const auto b = place(polygon.corners[(i + 1) % polygon.corners.size()]);
+        // Relative to the first corner, so that nothing large cancels.
+        const auto origin = place(polygon.corners.front());
+        doubledArea += (a[0] - origin[0]) * (b[1] - origin[1]) - (b[0] - origin[0]) * (a[1] - origin[1]);
+    }
+    return std::abs(doubledArea) / std::max(longestEdge(polygon), 1 / kSubPixels);
 }
 
 } // namespace
@@ -339,24 +368,15 @@ TextureBox coordinatesOf(const Triangle& triangle) {
 }
 
 double planeError(const Polygon& polygon, const View& view) {
-    double doubledArea = 0;
-    double longest = 0;
-    const auto pixels = [](std::int64_t subPixels) { return static_cast<double>(subPixels) / kSubPixels; };
-    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-        const ScreenCorner& a = polygon.corners[i];
-        const ScreenCorner& b = polygon.corners[(i + 1) % polygon.corners.size()];
-        // Relative to the first corner, so that nothing large cancels.
-        const ScreenCorner& origin = polygon.corners.front();
-        doubledArea +=
-            pixels(a.x - origin.x) * pixels(b.y - origin.y) - pixels(b.x - origin.x) * pixels(a.y - origin.y);
-        longest = std::max(longest, std::hypot(pixels(b.x - a.x), pixels(b.y - a.y)));
-    }
+    const double height = std::min(heightOf(polygon, [](const ScreenCorner& c) { return pixelsOf(c); }),
+                                   heightOf(polygon, [](const ScreenCorner& c) {
+                                       return std::array{c.exactX, c.exactY};
+                                   }));
     // Roundings in setting up and evaluating the plane.
     constexpr double kPlaneRoundings = 8;
-    const double height = std::abs(doubledArea) / std::max(longest, 1 / kSubPixels);
     const double thinnest = std::max(height, 1e-9);
     const double anchor = static_cast<double>(std::max(view.width, view.height));
-    return kPlaneRoundings * kFloatRounding * (longest + anchor) / thinnest;
+    return kPlaneRoundings * kFloatRounding * (longestEdge(polygon) + anchor) / thinnest;
 }
 
 } // namespace voxtact::cpu::oracle

@@ -30,6 +30,8 @@ struct Corner {
 struct ScreenCorner {
     std::int64_t x = 0; ///< 1/256 pixels
     std::int64_t y = 0;
+    double exactX = 0; ///< pixels, before snapping
+    double exactY = 0;
     double w = 1;
     Vec3 texture{};
     double drift = 0; ///< pixels by which single precision may move it, snapping aside
@@ -82,7 +84,8 @@ enum class ViewVolume : std::uint32_t { True, Widened, Narrowed };
 
 /// How far a rasteriser that interpolates by a plane equation in single precision, anchored at the viewport's corner,
 /// may be off, as a share of the triangle's extent in texture space. Both its parts grow as the triangle gets thin: the
-/// area loses its digits, and the gradient is multiplied by the distance from the anchor.
+/// area loses its digits, and the gradient is multiplied by the distance from the anchor. The plane may be that of the
+/// corners before or after snapping.
 [[nodiscard]] double planeError(const Polygon& polygon, const View& view);
 
 } // namespace voxtact::cpu::oracle

@@ -136,6 +136,22 @@ TEST(OracleEvidence, NarrowPeaksBetweenEntriesAreSeen) {
     EXPECT_GT(at.opacityHigh, 0.7);
 }
 
+TEST(OracleEvidence, ASliverMayBeSampledOutsideOfItself) {
+    // Thinner than 1/256 pixel: snapping puts its edge onto the centres of a row, which are outside of the true
+    // triangle. There its own plane is at z = 0.39, though all of it is between 0.2 and 0.3.
+    const auto corner = [](double x, double subPixels, double z) {
+        return Vec3{x / 64, (32.5 + subPixels / 256) / 64, z};
+    };
+    OracleScene scene = handMade(8);
+    scene.volume = makeUnitImage(8, [](auto, auto, auto z) { return z < 3 ? 0 : 255; });
+    scene.mesh = {};
+    addTriangle(scene.mesh, corner(10, -0.4, 0.2), corner(50, 0.4, 0.2), corner(49.9, 0.6, 0.3));
+    const Evidence found = evidence(scene, {0, 10, 32});
+    EXPECT_TRUE(found.covered);
+    EXPECT_FALSE(found.survives);
+    EXPECT_EQ(found.doubt, Doubt::Coverage) << found.opacityHigh;
+}
+
 TEST(OracleEvidence, OutsideTheViewNothingIsInDoubt) {
     OracleScene scene = handMade(8);
     scene.world_from_object = translation({0, 0, -2});

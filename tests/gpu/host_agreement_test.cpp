@@ -210,6 +210,23 @@ TEST_F(HostAgreementTest, EveryDifferingFragmentHasAReason) {
     EXPECT_GT(compared_, 10000U);
 }
 
+TEST_F(HostAgreementTest, EveryDifferingFragmentOfASliverHasAReason) {
+    std::mt19937_64 random(testSeed());
+    FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
+    for (std::size_t i = 0; i < kScenes / 7 && !HasFailure(); ++i) {
+        RandomScene scene = makeRandomScene(random, 2);
+        if (scene.domain.hi - scene.domain.lo > kWidestDomain) {
+            continue;
+        }
+        // One row of pixels: most triangles are thinner than a sub-pixel.
+        scene.view.width = chance(random, 0.5) ? 4096 : 16384;
+        scene.view.height = 1;
+        expectEveryDifferenceHasAReason(trace, scene, 0, "scene " + std::to_string(i));
+    }
+    report();
+    EXPECT_GT(compared_, 10000U);
+}
+
 TEST_F(HostAgreementTest, EveryDifferingFragmentOnTheRealHeadHasAReason) {
     std::mt19937_64 random(testSeed());
     const RandomScene scene = realHead(25, 1.0, random);
