@@ -5,7 +5,7 @@
 #include "app/inputs.h"
 #include "app/opaque_cells.h"
 #include "app/random_poses.h"
-#include "app/render_view.h"
+#include "app/render/view.h"
 #include "core/text.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/render_show.h"
+#include "app/render/show.h"
 #include "app/standard_streams.h"
 #include "core/text.h"
 #include "voxtact/cpu.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/render_view.h"
+#include "app/render/view.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/render_colours.h"
+#include "app/render/colours.h"
 
 namespace voxtact::app {
 
