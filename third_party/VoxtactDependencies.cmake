@@ -20,8 +20,6 @@ endif()
 
 # voxtact::io
 if(VOXTACT_BUILD_IO)
-  enable_language(C) # ITK's look for HDF5 compiles a C file
-  find_package(ITK 5.2 CONFIG REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta)
   find_package(nlohmann_json 3.10 CONFIG REQUIRED)
   # JPEG 2000 in DICOM files. OpenJPEG's own package file asks for its programs, which nobody needs.
   find_path(VOXTACT_OPENJPEG_INCLUDE_DIR openjpeg.h PATH_SUFFIXES openjpeg-2.5 REQUIRED)
@@ -50,5 +48,8 @@ if(VOXTACT_BUILD_TESTS)
   find_package(GTest REQUIRED)
   if(VOXTACT_BUILD_IO)
     find_package(charls 2.3 CONFIG REQUIRED) # writes JPEG-LS
+    # The judge of our readers and writers.
+    enable_language(C) # its look for HDF5 compiles a C file
+    find_package(ITK 5.2 CONFIG REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta)
   endif()
 endif()

@@ -17,8 +17,7 @@
 
 /// Files (target voxtact::io). Errors name the file and the reason, and where there is one the line. A folder, pipe,
 /// socket or device in the place of a file is refused before it is opened.
-/// Thread-safety: safe from any thread on different files. ITK's writers share global state, so calls of writeVolume()
-/// wait for each other, and ITK's global warning display is off while one runs.
+/// Thread-safety: safe from any thread on different files.
 namespace voxtact::io {
 
 struct VolumeReadOptions {
@@ -49,10 +48,10 @@ struct VolumeReadOptions {
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> content,
                                                         const VolumeReadOptions& options = {});
 
-/// NIfTI (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending. Written to a temporary name, read back and
-/// renamed. NRRD and MetaImage keep the grid to the last bits; NIfTI holds it in single precision. Refuses what
-/// checkVolume() refuses, and a grid that the format cannot hold to a hundredth of a voxel (NIfTI: directions that are
-/// not at right angles, fewer than 2 slices, sizes above 32767).
+/// NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending. Written to a temporary name and renamed.
+/// NRRD and MetaImage keep the grid to the last bits; NIfTI holds it in single precision, as sform and qform. Refuses
+/// what checkVolume() refuses, and a grid that the format cannot hold to a hundredth of a voxel (NIfTI: directions that
+/// are not at right angles, fewer than 2 slices, sizes above 32767).
 VOXTACT_API Result<void> writeVolume(const std::filesystem::path& path, const VolumeView& volume);
 
 /// What the coordinates of a mesh file mean.
@@ -173,9 +172,5 @@ class OutputFile {
 /// Calls `write` with the stream of an OutputFile, and commits that when everything went well.
 VOXTACT_API Result<void> writeFile(const std::filesystem::path& path,
                                    const std::function<Result<void>(std::ostream&)>& write);
-/// The same for libraries that open files themselves: `write` gets the temporary path, which has `path`'s ending, and
-/// must itself find out whether all was written. Refuses devices and pipes.
-VOXTACT_API Result<void> writeFileAt(const std::filesystem::path& path,
-                                     const std::function<Result<void>(const std::filesystem::path& temporary)>& write);
 
 } // namespace voxtact::io

@@ -158,23 +158,6 @@ Result<void> OutputFile::commit() {
     });
 }
 
-Result<void> writeFileAt(const fs::path& path, const std::function<Result<void>(const fs::path& temporary)>& write) {
-    return guard([&]() -> Result<void> {
-        const Result<fs::path> target = targetOf(path);
-        if (!target.ok()) {
-            return target.error();
-        }
-        if (isSpecial(*target)) {
-            return cannotWrite(path, "it is not an ordinary file");
-        }
-        TemporaryFile temporary(*target);
-        if (Result<void> written = write(temporary.path()); !written.ok()) {
-            return written;
-        }
-        return temporary.renameTo(*target);
-    });
-}
-
 Result<void> writeFile(const fs::path& path, const std::function<Result<void>(std::ostream&)>& write) {
     return guard([&]() -> Result<void> {
         Result<OutputFile> file = OutputFile::create(path);

@@ -2,9 +2,11 @@
 #include "io_test_support.h"
 
 #include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkObject.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -76,6 +78,27 @@ class RandomHeaders {
         return text.str() + stored;
     }
 
+    /// An image at a random place, one in two left-handed.
+    VolumeData volume() {
+        sizes_ = {whole(2, 5), whole(2, 5), whole(2, 5)};
+        VolumeData made;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            made.grid.size[axis] = static_cast<std::uint32_t>(sizes_[axis]);
+            made.grid.spacing[axis] = size();
+            made.grid.origin[axis] = real();
+        }
+        made.grid.direction = rotation();
+        if (chance(0.5)) {
+            std::swap_ranges(made.grid.direction.begin(), made.grid.direction.begin() + 3,
+                             made.grid.direction.begin() + 3);
+        }
+        made.type = chance(0.5) ? ScalarType::UInt16 : ScalarType::UInt8;
+        for (const char byte : noise(made.type == ScalarType::UInt16)) {
+            made.voxels.push_back(static_cast<std::byte>(byte));
+        }
+        return made;
+    }
+
   private:
     double uniform(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
     double real() { return uniform(-100, 100); }
@@ -131,9 +154,17 @@ class RandomHeaders {
     std::array<int, 3> sizes_{};
 };
 
-void expectItk(itk::ImageIOBase& io, const std::filesystem::path& path) {
-    const auto volume = io::readVolume(path);
-    ASSERT_TRUE(isOk(volume)) << contentOf(path).substr(0, 600);
+void expectSamePlace(const Grid& a, const Grid& b, double tolerance) {
+    ASSERT_EQ(a.size, b.size);
+    const Mat4 ours = worldFromIndex(a);
+    const Mat4 theirs = worldFromIndex(b);
+    for (std::size_t i = 0; i < 16; ++i) {
+        ASSERT_NEAR(ours[i], theirs[i], tolerance) << "element " << i;
+    }
+}
+
+/// What ITK reads is the volume.
+void expectItk(itk::ImageIOBase& io, const std::filesystem::path& path, const VolumeData& volume, double tolerance) {
     io.SetFileName(path.string());
     io.ReadImageInformation();
     itk::ImageIORegion region(3);
@@ -147,15 +178,18 @@ void expectItk(itk::ImageIOBase& io, const std::filesystem::path& path) {
         std::copy(direction.begin(), direction.end(), itk.direction.begin() + 3 * axis);
     }
     io.SetIORegion(region);
-    ASSERT_EQ(volume->grid.size, itk.size);
-    const Mat4 ours = worldFromIndex(volume->grid);
-    const Mat4 theirs = worldFromIndex(itk);
-    for (std::size_t i = 0; i < 16; ++i) {
-        ASSERT_NEAR(ours[i], theirs[i], 1e-11) << "element " << i << " of\n" << contentOf(path).substr(0, 600);
-    }
+    expectSamePlace(volume.grid, itk, tolerance);
     std::vector<std::byte> voxels(static_cast<std::size_t>(io.GetImageSizeInBytes()));
     io.Read(voxels.data());
-    ASSERT_EQ(volume->voxels, voxels) << contentOf(path).substr(0, 600);
+    ASSERT_EQ(volume.voxels, voxels);
+}
+
+/// What ITK reads is what we read.
+void expectAsItk(itk::ImageIOBase& io, const std::filesystem::path& path) {
+    SCOPED_TRACE(contentOf(path).substr(0, 600));
+    const auto volume = io::readVolume(path);
+    ASSERT_TRUE(isOk(volume));
+    expectItk(io, path, *volume, 1e-11);
 }
 
 TEST(ItkJudge, NrrdAndMetaImageAreReadAsItkReadsThem) {
@@ -166,8 +200,38 @@ TEST(ItkJudge, NrrdAndMetaImageAreReadAsItkReadsThem) {
     const TemporaryFolder folder;
     for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
         SCOPED_TRACE("case " + std::to_string(i) + " of seed " + std::to_string(seed));
-        expectItk(*itk::NrrdImageIO::New(), folder.write("v.nrrd", random.nrrd()));
-        expectItk(*itk::MetaImageIO::New(), folder.write("v.mha", random.meta()));
+        expectAsItk(*itk::NrrdImageIO::New(), folder.write("v.nrrd", random.nrrd()));
+        expectAsItk(*itk::MetaImageIO::New(), folder.write("v.mha", random.meta()));
+    }
+}
+
+TEST(ItkJudge, ReadsWhatWeWrite) {
+    const std::uint64_t seed = std::random_device()();
+    std::cout << "seed " << seed << "\n";
+    itk::Object::SetGlobalWarningDisplay(false);
+    RandomHeaders random(seed);
+    const TemporaryFolder folder;
+    for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
+        SCOPED_TRACE("case " + std::to_string(i) + " of seed " + std::to_string(seed));
+        const VolumeData volume = random.volume();
+        const auto write = [&](const char* name) {
+            EXPECT_TRUE(isOk(io::writeVolume(folder / name, volume.view())));
+            return folder / name;
+        };
+        constexpr double kSinglePrecision = 1e-4; // of 100 mm
+        expectItk(*itk::NrrdImageIO::New(), write("v.nrrd"), volume, 1e-11);
+        expectItk(*itk::MetaImageIO::New(), write("v.mha"), volume, 1e-11);
+        expectItk(*itk::NiftiImageIO::New(), write("v.nii"), volume, kSinglePrecision);
+        expectItk(*itk::NiftiImageIO::New(), write("v.nii.gz"), volume, kSinglePrecision);
+        // A reader that knows the qform alone finds the same place, up to what a quaternion of floats is uncertain by.
+        std::string bytes = contentOf(folder / "v.nii");
+        constexpr std::size_t kSformCode = 254;
+        ASSERT_NE(bytes[kSformCode], 0);
+        bytes[kSformCode] = 0;
+        const auto byQform = io::readVolume(folder.write("q.nii", bytes));
+        ASSERT_TRUE(isOk(byQform));
+        constexpr double kQuaternion = 1e-2;
+        expectSamePlace(byQform->grid, volume.grid, kQuaternion);
     }
 }
 

@@ -77,9 +77,6 @@ TEST(WriteFile, DevicesAreWrittenToAndNotReplaced) {
     }
     expectRefused(io::writeFile("/dev/full", writeNew), "cannot write '/dev/full': No space left on device");
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
-    expectRefused(io::writeFileAt("/dev/full", [](const fs::path&) { return Result<void>(); }),
-                  "it is not an ordinary file");
-    EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
 TEST(OutputFile, IsThereOnceItIsCommitted) {
@@ -119,19 +116,6 @@ TEST(OutputFile, SaysTheFirstReason) {
                                     return stream ? Result<void>() : Error{ErrorCode::File, 0, "it stopped"};
                                 }),
                   "No space left on device");
-}
-
-TEST(WriteFileAt, TemporaryHasTheEnding) {
-    const TemporaryFolder folder;
-    ASSERT_TRUE(isOk(io::writeFileAt(folder / "a.nii.gz", [&](const fs::path& temporary) -> Result<void> {
-        EXPECT_TRUE(temporary.string().ends_with("a.nii.gz"));
-        EXPECT_EQ(temporary.parent_path(), folder.path());
-        EXPECT_NE(temporary, folder / "a.nii.gz");
-        std::ofstream(temporary) << "x";
-        return {};
-    })));
-    EXPECT_EQ(contentOf(folder / "a.nii.gz"), "x");
-    EXPECT_EQ(folder.entries(), 1U);
 }
 
 } // namespace

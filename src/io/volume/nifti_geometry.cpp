@@ -220,6 +220,23 @@ std::int32_t definedCode(std::int32_t code, const char* name, std::vector<std::s
     return code;
 }
 
+/// A turn as b, c and d of the unit quaternion with a >= 0: the one of Shepperd's four formulas that divides by most.
+/// `columns`: at right angles, right-handed.
+std::array<double, 3> quaternionOf(const std::array<Vec3, 3>& columns) {
+    const auto& [x, y, z] = columns;
+    const std::array<double, 4> squares{1 + x[0] + y[1] + z[2], 1 + x[0] - y[1] - z[2], 1 - x[0] + y[1] - z[2],
+                                        1 - x[0] - y[1] + z[2]};
+    const std::array<std::array<double, 4>, 4> products{{{squares[0], y[2] - z[1], z[0] - x[2], x[1] - y[0]},
+                                                         {y[2] - z[1], squares[1], x[1] + y[0], z[0] + x[2]},
+                                                         {z[0] - x[2], x[1] + y[0], squares[2], y[2] + z[1]},
+                                                         {x[1] - y[0], z[0] + x[2], y[2] + z[1], squares[3]}}};
+    const auto most = static_cast<std::size_t>(std::ranges::max_element(squares) - squares.begin());
+    const std::array<double, 4>& row = products[most];
+    const double length = std::hypot(std::hypot(row[0], row[1]), std::hypot(row[2], row[3]));
+    const double sign = row[0] < 0 ? -1 : 1;
+    return {sign * row[1] / length, sign * row[2] / length, sign * row[3] / length};
+}
+
 void noteUnsaid(const NiftiHeader& header, std::vector<std::string>& notes) {
     const bool isAnalyze = header.kind == NiftiHeader::Kind::Analyze;
     const bool hasOrigin = header.analyzeOrigin != std::array<double, 3>{};
@@ -231,6 +248,38 @@ void noteUnsaid(const NiftiHeader& header, std::vector<std::string>& notes) {
 }
 
 } // namespace
+
+void setNiftiGrid(NiftiHeader& header, const Grid& grid) {
+    constexpr std::int32_t kScannerPlace = 1;
+    constexpr std::int32_t kMillimetres = 2;
+    std::array<Vec3, 3> columns{};
+    header.sizes.clear();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        header.sizes.push_back(grid.size[axis]);
+        header.pixdim[axis + 1] = grid.spacing[axis];
+        for (std::size_t row = 0; row < 3; ++row) {
+            const double turn = row < 2 ? -1 : 1; // LPS to RAS
+            columns[axis][row] = turn * grid.direction[3 * axis + row];
+            header.srow[row][axis] = columns[axis][row] * grid.spacing[axis];
+            header.srow[row][3] = turn * grid.origin[row];
+        }
+    }
+    header.units = kMillimetres;
+    header.sformCode = kScannerPlace;
+    const auto& [x, y, z] = columns;
+    const double volume =
+        x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) + x[2] * (y[0] * z[1] - y[1] * z[0]);
+    header.pixdim[0] = volume < 0 ? -1 : 1;
+    if (shearDegrees(grid) > kMostShear) {
+        return;
+    }
+    header.qformCode = kScannerPlace;
+    for (std::size_t row = 0; row < 3; ++row) {
+        columns[2][row] *= header.pixdim[0];
+        header.qoffset[row] = header.srow[row][3];
+    }
+    header.quaternion = quaternionOf(columns);
+}
 
 Result<Grid> niftiGrid(const fs::path& path, const NiftiHeader& written, std::vector<std::string>& notes) {
     NiftiHeader header = written;

@@ -4,7 +4,11 @@
 #include "io/byte_source.h"
 #include "io/errors.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <span>
+#include <utility>
 
 namespace voxtact::io {
 
@@ -121,6 +125,25 @@ Result<NiftiHeader> parseSecond(const fs::path& path, std::string_view head, boo
     return parsed.ok() ? withOffset(path, std::move(*parsed), offset, single) : parsed;
 }
 
+/// Writes the fields of a NIfTI-1 header.
+class Writer {
+  public:
+    Writer() : bytes_(kNifti1Bytes, '\0') {}
+
+    template <class Number> void put(std::size_t offset, std::size_t i, Number number) {
+        std::memcpy(bytes_.data() + offset + i * sizeof number, &number, sizeof number);
+    }
+    void putReals(std::size_t offset, std::span<const double> numbers) {
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            put(offset, i, static_cast<float>(numbers[i]));
+        }
+    }
+    [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+};
+
 bool beginsWith(std::string_view head, std::size_t headerBytes, bool swapped) {
     return numberAt<std::int32_t>(head, 0, swapped) == static_cast<std::int32_t>(headerBytes);
 }
@@ -129,6 +152,32 @@ bool beginsWith(std::string_view head, std::size_t headerBytes, bool swapped) {
 
 bool isNifti2(std::string_view head) {
     return head.size() >= 4 && (beginsWith(head, kNifti2Bytes, false) || beginsWith(head, kNifti2Bytes, true));
+}
+
+std::string nifti1Bytes(const NiftiHeader& header, StoredType voxels) {
+    const NiftiType type = *std::ranges::find(kNiftiTypes, voxels, &NiftiType::stored);
+    Writer out;
+    out.put(0, 0, static_cast<std::int32_t>(kNifti1Bytes));
+    out.put(kNifti1.sizes, 0, static_cast<std::int16_t>(header.sizes.size()));
+    for (std::size_t i = 1; i < 8; ++i) {
+        const std::int64_t size = i <= header.sizes.size() ? header.sizes[i - 1] : 1;
+        out.put(kNifti1.sizes, i, static_cast<std::int16_t>(size));
+    }
+    out.put(kNifti1.type, 0, type.number);
+    out.put(kNifti1.type, 1, static_cast<std::int16_t>(8 * storedBytes(voxels))); // bitpix
+    out.putReals(kNifti1.pixdim, header.pixdim);
+    out.put(kNifti1.voxelOffset, 0, static_cast<float>(header.voxelOffset));
+    out.putReals(kNifti1.slope, std::array{header.slope, header.intercept});
+    out.put(kNifti1.units, 0, static_cast<std::uint8_t>(header.units));
+    out.put(kNifti1.qformCode, 0, static_cast<std::int16_t>(header.qformCode));
+    out.put(kNifti1.sformCode, 0, static_cast<std::int16_t>(header.sformCode));
+    out.putReals(kNifti1.quaternion, header.quaternion);
+    out.putReals(kNifti1.qoffset, header.qoffset);
+    for (std::size_t row = 0; row < 3; ++row) {
+        out.putReals(kNifti1.srow + row * 4 * sizeof(float), header.srow[row]);
+    }
+    out.put(kNifti1.magic, 0, std::array{'n', '+', '1', '\0'});
+    return out.take();
 }
 
 Result<NiftiHeader> parseNiftiHeader(const fs::path& path, std::string_view head, bool single) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,22 @@ struct NiftiHeader {
     std::array<double, 3> analyzeOrigin{};       ///< SPM's voxel, counted from 1, in Analyze files
 };
 
+/// A data type of single numbers.
+struct NiftiType {
+    std::int16_t number;
+    StoredType stored;
+};
+constexpr std::array<NiftiType, 10> kNiftiTypes{{{2, StoredType::UInt8},
+                                                 {4, StoredType::Int16},
+                                                 {8, StoredType::Int32},
+                                                 {16, StoredType::Float32},
+                                                 {64, StoredType::Float64},
+                                                 {256, StoredType::Int8},
+                                                 {512, StoredType::UInt16},
+                                                 {768, StoredType::UInt32},
+                                                 {1024, StoredType::Int64},
+                                                 {1280, StoredType::UInt64}}};
+
 constexpr std::size_t kNifti1Bytes = 348;
 constexpr std::size_t kNifti2Bytes = 540;
 
@@ -42,6 +59,13 @@ constexpr std::size_t kNifti2Bytes = 540;
 /// voxels are one file.
 [[nodiscard]] Result<NiftiHeader> parseNiftiHeader(const std::filesystem::path& path, std::string_view head,
                                                    bool single);
+
+/// The header as NIfTI-1 has it, in the machine's byte order, of a file that holds such voxels as well. The sizes fit
+/// int16.
+[[nodiscard]] std::string nifti1Bytes(const NiftiHeader& header, StoredType voxels);
+
+/// Says the place of the voxels, mm: the sform, and the qform where the axes are at right angles. The sizes too.
+void setNiftiGrid(NiftiHeader& header, const Grid& grid);
 
 /// The place of the voxels, as nibabel's `affine` says it, in mm and LPS: the sform where its code is set, else the
 /// qform, else what nibabel takes when neither is. What is assumed, and an sform and a qform that differ, are noted.

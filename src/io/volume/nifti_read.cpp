@@ -38,22 +38,8 @@ NiftiFiles filesOf(const VolumeSource& source, const fs::path& path) {
 
 /// The type, or the reason why such voxels are no scalars.
 Result<StoredType> storedType(const fs::path& path, std::int16_t type) {
-    struct Known {
-        std::int16_t type;
-        StoredType stored;
-    };
-    constexpr std::array<Known, 10> kScalars{{{2, StoredType::UInt8},
-                                              {4, StoredType::Int16},
-                                              {8, StoredType::Int32},
-                                              {16, StoredType::Float32},
-                                              {64, StoredType::Float64},
-                                              {256, StoredType::Int8},
-                                              {512, StoredType::UInt16},
-                                              {768, StoredType::UInt32},
-                                              {1024, StoredType::Int64},
-                                              {1280, StoredType::UInt64}}};
-    for (const Known& known : kScalars) {
-        if (known.type == type) {
+    for (const NiftiType& known : kNiftiTypes) {
+        if (known.number == type) {
             return known.stored;
         }
     }

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/text.h"
 #include "io/errors.h"
-#include "io/volume/itk_image.h"
-#include "io/volume/itk_session.h"
+#include "io/volume/nifti_header.h"
 #include "io/volume/volume_container.h"
 #include "voxtact/io.h"
 
+#include <zlib.h>
+
 #include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <fstream>
-#include <system_error>
+#include <bit>
+#include <new>
+#include <ostream>
+#include <string_view>
+#include <vector>
 
 namespace voxtact::io {
 
@@ -18,81 +21,150 @@ namespace {
 
 namespace fs = std::filesystem;
 
-itk::IOComponentEnum componentOf(ScalarType type) {
+static_assert(std::endian::native == std::endian::little, "voxels are written as they lie in memory");
+
+StoredType storedType(ScalarType type) {
     switch (type) {
     case ScalarType::UInt8:
-        return itk::IOComponentEnum::UCHAR;
+        return StoredType::UInt8;
     case ScalarType::Int16:
-        return itk::IOComponentEnum::SHORT;
+        return StoredType::Int16;
     case ScalarType::UInt16:
-        return itk::IOComponentEnum::USHORT;
+        return StoredType::UInt16;
     case ScalarType::Float32:
         break;
     }
-    return itk::IOComponentEnum::FLOAT;
+    return StoredType::Float32;
 }
 
-void writeImage(itk::ImageIOBase& io, const fs::path& path, const VolumeView& volume) {
-    io.SetFileName(path.string());
-    io.SetNumberOfDimensions(3);
-    itk::ImageIORegion region(3);
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        io.SetDimensions(axis, volume.grid.size[axis]);
-        io.SetSpacing(axis, volume.grid.spacing[axis]);
-        io.SetOrigin(axis, volume.grid.origin[axis]);
-        const double* column = volume.grid.direction.data() + std::size_t{3} * axis;
-        io.SetDirection(axis, std::vector<double>(column, column + 3));
-        region.SetIndex(axis, 0);
-        region.SetSize(axis, volume.grid.size[axis]);
-    }
-    io.SetIORegion(region);
-    io.SetPixelType(itk::IOPixelEnum::SCALAR);
-    io.SetNumberOfComponents(1);
-    io.SetComponentType(componentOf(volume.type));
-    io.Write(volume.voxels.data());
+std::string vector(const Vec3& numbers, const char* between) {
+    return number(numbers[0]) + between + number(numbers[1]) + between + number(numbers[2]);
 }
 
-/// Why the file system takes no more; empty where it does.
-std::string whyNotMore(const fs::path& file) {
-    // More than a disk keeps back for rounding.
-    const std::vector<char> some(std::size_t{1} << 20U);
-    errno = 0;
-    std::ofstream stream(file, std::ios::binary | std::ios::app);
-    stream.write(some.data(), static_cast<std::streamsize>(some.size()));
-    stream.close();
-    return !stream && errno != 0 ? std::generic_category().message(errno) : "";
+Vec3 directionOf(const Grid& grid, std::size_t axis) {
+    return {grid.direction[3 * axis], grid.direction[3 * axis + 1], grid.direction[3 * axis + 2]};
 }
 
-/// ITK does not say when a write fails: on a full disk there would be half a file.
-Result<void> checkVoxels(const fs::path& temporary, const fs::path& path, VolumeFormat format,
-                         const VolumeView& volume) {
-    std::vector<std::byte> voxels;
-    try {
-        const ImageIo io = makeImageIo(format);
-        if (readInformation(*io, temporary).ok()) {
-            readVoxels(*io, voxels);
+std::string sizesOf(const Grid& grid) {
+    return std::to_string(grid.size[0]) + " " + std::to_string(grid.size[1]) + " " + std::to_string(grid.size[2]);
+}
+
+std::string nrrdHead(const VolumeView& volume) {
+    const char* const type = volume.type == ScalarType::UInt8    ? "uint8"
+                             : volume.type == ScalarType::Int16  ? "int16"
+                             : volume.type == ScalarType::UInt16 ? "uint16"
+                                                                 : "float";
+    const Grid& grid = volume.grid;
+    std::string text = "NRRD0004\ntype: " + std::string(type) +
+                       "\ndimension: 3\nspace: left-posterior-superior\nsizes: " + sizesOf(grid) +
+                       "\nspace directions:";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Vec3 step = directionOf(grid, axis);
+        for (double& component : step) {
+            component *= grid.spacing[axis];
         }
-    } catch (const itk::ExceptionObject&) {
-        voxels.clear();
+        text += " (" + vector(step, ",") + ")";
     }
-    if (std::ranges::equal(voxels, volume.voxels)) {
-        return {};
-    }
-    const std::string full = whyNotMore(temporary);
-    return cannotWrite(path, full.empty() ? "what was written is not in the file" : full);
+    return text + "\nkinds: domain domain domain\nendian: little\nencoding: raw\nspace origin: (" +
+           vector(grid.origin, ",") + ")\n\n";
 }
 
-/// NIfTI holds single precision, and only directions at right angles; ITK squares others without a word.
-Result<void> checkPlace(const fs::path& temporary, const fs::path& path, VolumeFormat format, const Grid& grid) {
-    const ImageIo io = makeImageIo(format);
-    const Result<ItkImage> written = readInformation(*io, temporary);
-    constexpr double kShare = 0.01;
-    const double tolerance = kShare * *std::min_element(grid.spacing.begin(), grid.spacing.end());
-    if (!written.ok() || written->grid.size != grid.size || !(cornersApart(written->grid, grid) <= tolerance)) {
+std::string metaHead(const VolumeView& volume) {
+    const char* const type = volume.type == ScalarType::UInt8    ? "MET_UCHAR"
+                             : volume.type == ScalarType::Int16  ? "MET_SHORT"
+                             : volume.type == ScalarType::UInt16 ? "MET_USHORT"
+                                                                 : "MET_FLOAT";
+    const Grid& grid = volume.grid;
+    return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+           "CompressedData = False\nTransformMatrix = " +
+           vector(directionOf(grid, 0), " ") + " " + vector(directionOf(grid, 1), " ") + " " +
+           vector(directionOf(grid, 2), " ") + "\nOffset = " + vector(grid.origin, " ") +
+           "\nCenterOfRotation = 0 0 0\nElementSpacing = " + vector(grid.spacing, " ") +
+           "\nDimSize = " + sizesOf(grid) + "\nElementType = " + type + "\nElementDataFile = LOCAL\n";
+}
+
+/// Refuses what a reader would not find where it is: NIfTI holds single precision, 16-bit sizes, and right angles.
+Result<std::string> niftiHead(const fs::path& path, const VolumeView& volume) {
+    const auto refused = [&] {
         return cannotWrite(path, "this format cannot hold the image's size, place or direction; write a .nrrd file",
                            ErrorCode::Format);
+    };
+    const Grid& grid = volume.grid;
+    if (std::ranges::max(grid.size) > static_cast<std::uint32_t>(INT16_MAX)) {
+        return refused();
     }
-    return {};
+    constexpr std::size_t kNoExtension = 4;
+    NiftiHeader header;
+    header.voxelOffset = kNifti1Bytes + kNoExtension;
+    header.slope = 1;
+    setNiftiGrid(header, grid);
+    std::string bytes = nifti1Bytes(header, storedType(volume.type));
+    const Result<NiftiHeader> read = parseNiftiHeader(path, bytes, true);
+    std::vector<std::string> notes;
+    const Result<Grid> found =
+        read.ok() && imageBytes(path, read->sizes, 1).ok() ? niftiGrid(path, *read, notes) : Result<Grid>(refused());
+    constexpr double kShare = 0.01;
+    if (!found.ok() || !(cornersApart(*found, grid) <= kShare * std::ranges::min(grid.spacing))) {
+        return refused();
+    }
+    bytes.append(kNoExtension, '\0');
+    return bytes;
+}
+
+/// Packs what is written as gzip.
+class GzipWriter {
+  public:
+    explicit GzipWriter(std::ostream& out) : out_(out) {
+        constexpr int kMostWindow = 15;
+        constexpr int kGzip = 16;
+        constexpr int kMemory = 8; // zlib's own default
+        if (::deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kMostWindow + kGzip, kMemory,
+                           Z_DEFAULT_STRATEGY) != Z_OK) {
+            throw std::bad_alloc();
+        }
+    }
+    GzipWriter(const GzipWriter&) = delete;
+    GzipWriter& operator=(const GzipWriter&) = delete;
+    ~GzipWriter() { ::deflateEnd(&stream_); }
+
+    /// The last one says so. Stops where `out` does.
+    void write(std::string_view bytes, bool last) {
+        constexpr std::size_t kPiece = std::size_t{1} << 30U; // zlib counts in 32 bits
+        do {
+            const std::string_view piece = bytes.substr(0, kPiece);
+            bytes.remove_prefix(piece.size());
+            // zlib does not write there; its old interface only does not say so.
+            stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(piece.data()));
+            stream_.avail_in = static_cast<uInt>(piece.size());
+            drain(last && bytes.empty() ? Z_FINISH : Z_NO_FLUSH);
+        } while (!bytes.empty() && out_);
+    }
+
+  private:
+    void drain(int flush) {
+        do {
+            stream_.next_out = reinterpret_cast<Bytef*>(packed_.data());
+            stream_.avail_out = static_cast<uInt>(packed_.size());
+            ::deflate(&stream_, flush);
+            out_.write(packed_.data(), static_cast<std::streamsize>(packed_.size() - stream_.avail_out));
+        } while (stream_.avail_out == 0 && out_);
+    }
+
+    std::ostream& out_;
+    z_stream stream_{};
+    std::vector<char> packed_ = std::vector<char>(std::size_t{1} << 16U);
+};
+
+Result<std::string> headOf(const fs::path& path, VolumeFormat format, const VolumeView& volume) {
+    switch (format) {
+    case VolumeFormat::Nifti:
+        return niftiHead(path, volume);
+    case VolumeFormat::Nrrd:
+        return nrrdHead(volume);
+    case VolumeFormat::Meta:
+        break;
+    }
+    return metaHead(volume);
 }
 
 } // namespace
@@ -107,17 +179,21 @@ Result<void> writeVolume(const fs::path& path, const VolumeView& volume) {
         if (const Result<ValueRange> range = checkVolume(volume); !range.ok()) {
             return cannotWrite(path, range.error().text, range.error().code);
         }
-        const VolumeFormat format = volumeFormat(path).value_or(VolumeFormat::Nrrd);
-        return writeFileAt(path, [&](const fs::path& temporary) -> Result<void> {
-            const ItkSession session;
-            try {
-                writeImage(*makeImageIo(format), temporary, volume);
-                Result<void> written = checkVoxels(temporary, path, format, volume);
-                return written.ok() ? checkPlace(temporary, path, format, volume.grid) : written;
-            } catch (const itk::ExceptionObject& problem) {
-                const std::string full = whyNotMore(temporary);
-                return cannotWrite(path, full.empty() ? itkReason(problem) : full);
+        const Result<std::string> head = headOf(path, volumeFormat(path).value_or(VolumeFormat::Nrrd), volume);
+        if (!head.ok()) {
+            return head.error();
+        }
+        const std::string_view voxels(reinterpret_cast<const char*>(volume.voxels.data()), volume.voxels.size());
+        return writeFile(path, [&](std::ostream& out) -> Result<void> {
+            if (ending.ends_with(".gz")) {
+                GzipWriter packed(out);
+                packed.write(*head, false);
+                packed.write(voxels, true);
+            } else {
+                out.write(head->data(), static_cast<std::streamsize>(head->size()));
+                out.write(voxels.data(), static_cast<std::streamsize>(voxels.size()));
             }
+            return {}; // the file's close() says whether all was written
         });
     });
 }
