@@ -45,6 +45,14 @@ Error badLine(const std::filesystem::path& path, std::uint64_t line, std::string
     return Error{ErrorCode::Format, 0, path.string() + " line " + std::to_string(line) + ": " + std::string(reason)};
 }
 
+std::string printable(std::string_view text) {
+    constexpr std::size_t kLongest = 64;
+    std::string result(text.substr(0, kLongest));
+    std::replace_if(
+        result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text.size() > kLongest ? result + "..." : result;
+}
+
 std::string oneLine(std::string_view text) {
     std::string line;
     for (const char c : text) {

@@ -22,6 +22,10 @@ namespace voxtact::io {
 /// What libraries say, in one line: line breaks and runs of blanks become one blank.
 [[nodiscard]] std::string oneLine(std::string_view text);
 
+/// A short text of the user's or a file's, as a message may quote it: other than ASCII letters and signs become '?',
+/// and after 64 of them "..." follows.
+[[nodiscard]] std::string printable(std::string_view text);
+
 /// The length of a file; refuses what is not there, what is no file (folders, pipes, sockets, devices), before it is
 /// opened, and files that cannot be opened.
 [[nodiscard]] Result<std::uint64_t> readableFile(const std::filesystem::path& path);

@@ -203,7 +203,7 @@ Result<std::vector<ControlPoint>> parseOpacity(std::string_view text) {
     return guard([&]() -> Result<Points> {
         const auto refuse = [&](std::size_t item, std::string_view reason) {
             return Error{ErrorCode::InvalidArgument, 0,
-                         "opacity '" + std::string(text) + "': point " + std::to_string(item + 1) + ": " +
+                         "opacity '" + printable(text) + "': point " + std::to_string(item + 1) + ": " +
                              std::string(reason)};
         };
         Points points;

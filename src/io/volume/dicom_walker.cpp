@@ -69,14 +69,6 @@ std::string trimmed(std::string_view text) {
 
 } // namespace
 
-std::string printable(std::string_view text) {
-    constexpr std::size_t kLongest = 64;
-    std::string result(text.substr(0, kLongest));
-    std::replace_if(
-        result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return text.size() > kLongest ? result + "..." : result;
-}
-
 DicomWalker::DicomWalker(DicomStream& stream, const DicomSyntax& syntax)
     : stream_(stream), typed_(syntax.typed), big_(syntax.big), encapsulated_(syntax.coding != DicomCoding::Native) {}
 

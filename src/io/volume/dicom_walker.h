@@ -8,9 +8,6 @@
 
 namespace voxtact::io {
 
-/// Text from a file as it may stand in a message: one line, ASCII, not long.
-[[nodiscard]] std::string printable(std::string_view text);
-
 /// Goes through a data set element by element. Every length is checked against what is around it before it is used.
 class DicomWalker {
   public:
