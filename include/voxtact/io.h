@@ -23,6 +23,9 @@ namespace voxtact::io {
 struct VolumeReadOptions {
     /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it.
     std::optional<std::uint32_t> frame;
+    /// SeriesInstanceUID of the series of a DICOM folder. A folder that holds several is refused without it. Empty: the
+    /// only one.
+    std::string series;
 };
 
 /// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,
@@ -39,7 +42,7 @@ struct VolumeReadOptions {
 /// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
 /// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files
 /// (checksums of compressed data are verified), voxels as text or spread over several files, and DICOM folders with
-/// several series (named), fewer than 2 slices, missing slices or uneven gaps, and slices sheared by a tilted gantry.
+/// several series unless one is chosen, fewer than 2 slices, missing slices or uneven gaps, and slices sheared by a tilted gantry.
 /// Memory is bounded by what the file holds, whatever its header claims; compressed, deflate packs up to 1032 bytes
 /// into one.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path,

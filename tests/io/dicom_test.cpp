@@ -60,6 +60,16 @@ TEST(Dicom, WithoutHeaderOrEnding) {
     }
 }
 
+TEST(Dicom, OneOfSeveralSeries) {
+    const TemporaryFolder folder;
+    writeCt(folder, 3);
+    for (int i = 0; i < 2; ++i) {
+        folder.write("t" + std::to_string(i) + ".dcm", ctSlice(i).text(0x0020000E, "UI", "5.5.5").file());
+    }
+    expectCt(io::readVolume(folder.path(), {.frame = {}, .series = "1.2.3.4"}), 3);
+    expectCt(io::readVolume(folder.path(), {.frame = {}, .series = "5.5.5"}), 2);
+}
+
 TEST(Dicom, OtherFilesBesideTheSlices) {
     const TemporaryFolder folder;
     writeCt(folder, 3);

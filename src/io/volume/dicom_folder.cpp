@@ -112,15 +112,10 @@ std::string describe(const std::string& uid, const std::vector<const DicomFile*>
     return text + std::to_string(files.size()) + (files.size() == 1 ? " file)" : " files)");
 }
 
-Result<void> checkOneSeries(const fs::path& folder, const std::vector<DicomFile>& files) {
+using Series = std::map<std::string, std::vector<const DicomFile*>>;
+
+std::string listOf(const Series& series) {
     constexpr std::size_t kMostListed = 8;
-    std::map<std::string, std::vector<const DicomFile*>> series;
-    for (const DicomFile& file : files) {
-        series[std::string(file.set.text(dicom::kSeries))].push_back(&file);
-    }
-    if (series.size() == 1) {
-        return {};
-    }
     std::string list;
     std::size_t listed = 0;
     for (const auto& [uid, of] : series) {
@@ -130,8 +125,28 @@ Result<void> checkOneSeries(const fs::path& folder, const std::vector<DicomFile>
         }
         list += (list.empty() ? "" : ", ") + describe(uid, of);
     }
-    return cannotRead(folder, "the folder holds " + std::to_string(series.size()) + " DICOM series: " + list +
-                                  "; put the one that is meant into a folder of its own");
+    return list;
+}
+
+/// Leaves the files of the series that is wanted, or of the only one.
+Result<void> chooseSeries(const fs::path& folder, std::string_view wanted, std::vector<DicomFile>& files) {
+    Series series;
+    for (const DicomFile& file : files) {
+        series[std::string(file.set.text(dicom::kSeries))].push_back(&file);
+    }
+    if (wanted.empty()) {
+        return series.size() == 1
+                   ? Result<void>()
+                   : cannotRead(folder, "the folder holds " + std::to_string(series.size()) +
+                                            " DICOM series: " + listOf(series) +
+                                            "; choose one by its UID, or put it into a folder of its own");
+    }
+    if (!series.contains(std::string(wanted))) {
+        return cannotRead(folder,
+                          "the folder holds no DICOM series " + printable(wanted) + "; it holds " + listOf(series));
+    }
+    std::erase_if(files, [&](const DicomFile& file) { return file.set.text(dicom::kSeries) != wanted; });
+    return {};
 }
 
 /// What is compressed may claim to be anything; what series really become is far below a thousand times their files.
@@ -203,15 +218,15 @@ std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const 
 
 } // namespace
 
-Result<StoredImage> readDicomFolder(const fs::path& folder, std::vector<std::string>& notes) {
-    const Result<Survey> found = survey(folder);
+Result<StoredImage> readDicomFolder(const fs::path& folder, std::string_view wanted, std::vector<std::string>& notes) {
+    Result<Survey> found = survey(folder);
     if (!found.ok()) {
         return found.error();
     }
-    const std::vector<DicomFile>& files = found->images;
-    if (Result<void> one = checkOneSeries(folder, files); !one.ok()) {
-        return one.error();
+    if (Result<void> chosen = chooseSeries(folder, wanted, found->images); !chosen.ok()) {
+        return chosen.error();
     }
+    const std::vector<DicomFile>& files = found->images;
     Result<Stack> stack = stackOf(folder, files);
     if (!stack.ok()) {
         return stack.error();
