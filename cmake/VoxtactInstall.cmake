@@ -3,7 +3,7 @@
 # packages behind voxtact::cpu and voxtact::io are not there. The program installs itself, in src/app.
 #
 # Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu`,
-# `voxtact_io` and `voxtact_render`.
+# `voxtact_io`, `voxtact_render` and `voxtact_samples`.
 include(CMakePackageConfigHelpers)
 set(voxtact_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/voxtact")
 set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
@@ -13,7 +13,9 @@ file(GLOB voxtact_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/voxta
 set(voxtact_io_headers "${PROJECT_SOURCE_DIR}/include/voxtact/io.h")
 set(voxtact_cpu_headers "${PROJECT_SOURCE_DIR}/include/voxtact/cpu.h")
 set(voxtact_render_headers "${PROJECT_SOURCE_DIR}/include/voxtact/render.h")
-list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers} ${voxtact_render_headers})
+set(voxtact_samples_headers "${PROJECT_SOURCE_DIR}/include/voxtact/builtin.h")
+list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers} ${voxtact_render_headers}
+     ${voxtact_samples_headers})
 
 # voxtact_install(TARGET EXPORT_SET HEADER...): installs under the component TARGET.
 function(voxtact_install target export_set)
@@ -36,6 +38,9 @@ if(VOXTACT_BUILD_IO)
 endif()
 if(VOXTACT_BUILD_RENDER)
   voxtact_install(voxtact_render voxtact-render-targets ${voxtact_render_headers})
+endif()
+if(VOXTACT_BUILD_SAMPLES)
+  voxtact_install(voxtact_samples voxtact-samples-targets ${voxtact_samples_headers})
 endif()
 
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/voxtact-config.cmake.in"

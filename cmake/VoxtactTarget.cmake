@@ -16,3 +16,43 @@ function(voxtact_target target)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${VOXTACT_EXPORT_MAP}")
   endif()
 endfunction()
+
+# voxtact_room(NAME SOURCE...): the sources of a room, each compiled once. A library is made of rooms' objects, with
+# voxtact_add_rooms(); what a shared one hides, others find in voxtact_NAME_inside, with voxtact_look_inside().
+function(voxtact_room name)
+  set(room voxtact_${name}_objects)
+  add_library(${room} OBJECT ${ARGN})
+  voxtact_target(${room})
+  target_include_directories(${room} PUBLIC "${PROJECT_SOURCE_DIR}/include"
+                                     PRIVATE "${PROJECT_SOURCE_DIR}/src" "${PROJECT_SOURCE_DIR}/shaders")
+  # No prototypes: a call of a linked vk* function does not compile.
+  target_compile_definitions(${room} PRIVATE VK_NO_PROTOTYPES)
+  # Builtins, poses and matrices are the same on every machine: no fused multiply-add, wherever the processor has one.
+  target_compile_options(${room} PRIVATE -ffp-contract=off)
+  target_link_libraries(${room} PUBLIC Vulkan::Headers PRIVATE glm::glm)
+endfunction()
+
+# voxtact_add_rooms(LIBRARY ROOM...)
+function(voxtact_add_rooms library)
+  get_target_property(type ${library} TYPE)
+  foreach(room ${ARGN})
+    target_sources(${library} PRIVATE $<TARGET_OBJECTS:voxtact_${room}_objects>)
+    if(type STREQUAL "SHARED_LIBRARY")
+      add_library(voxtact_${room}_inside STATIC $<TARGET_OBJECTS:voxtact_${room}_objects>)
+      set_target_properties(voxtact_${room}_inside PROPERTIES LINKER_LANGUAGE CXX)
+    endif()
+  endforeach()
+endfunction()
+
+# voxtact_look_inside(TARGET ROOM...): the target uses what a shared library does not export of these rooms, which are
+# named after those that they use. It takes a copy of its own of the objects that it needs, and exports nothing of them.
+function(voxtact_look_inside target)
+  set(rooms ${ARGN})
+  list(REVERSE rooms)
+  foreach(room ${rooms})
+    if(TARGET voxtact_${room}_inside)
+      target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:voxtact_${room}_inside>)
+      target_link_options(${target} PRIVATE "LINKER:--exclude-libs,libvoxtact_${room}_inside.a")
+    endif()
+  endforeach()
+endfunction()

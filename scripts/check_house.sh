@@ -15,12 +15,14 @@ allowed() {
     cpu) echo "core cpu" ;;
     oracle) echo "core oracle" ;;
     device) echo "core gpu detect device" ;;
-    app) echo "core gpu detect render io cpu oracle device app" ;;
+    samples) echo "core samples" ;;
+    lab) echo "core gpu detect render io cpu samples oracle device lab" ;;
+    app) echo "core gpu detect render io cpu samples oracle device lab app" ;;
     *) return 1 ;;
     esac
 }
 
-parts="core gpu detect render io cpu oracle device app"
+parts="core gpu detect render io cpu samples oracle device lab app"
 wrong=0
 complain() {
     printf '%s\n' "$1" >&2
@@ -43,7 +45,7 @@ done
 # No Vulkan in the parts that promise to do without.
 while IFS= read -r hit; do
     complain "$hit: no Vulkan here"
-done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu src/oracle 2>/dev/null | cut -d: -f1,2)
+done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu src/samples src/oracle 2>/dev/null | cut -d: -f1,2)
 
 while IFS=: read -r file line text; do
     case "$text" in

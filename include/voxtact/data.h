@@ -157,6 +157,17 @@ struct View {
     std::uint32_t height = 512;
 };
 
+/// A scene in host memory for measuring with: one mesh at some poses against one volume.
+struct MeasureScene {
+    VolumeData volume{};
+    MeshData mesh{};
+    std::vector<ControlPoint> points{};
+    ValueRange domain{};
+    std::vector<Mat4> world_from_object{};
+    View view{};
+    double threshold = kDefaultThreshold;
+};
+
 /// An orthographic view along world -z (from above, anterior up: world x runs to the left, y down) whose square
 /// pixels frame the box of the volume, with a margin of 1 %.
 [[nodiscard]] VOXTACT_API Mat4 framingCamera(const Grid& grid, std::uint32_t width, std::uint32_t height) noexcept;

@@ -245,23 +245,8 @@ struct SelfTestVerdict {
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
 
-/// A scene in host memory for measuring with: one mesh at some poses against one volume.
-struct MeasureScene {
-    VolumeData volume{};
-    MeshData mesh{};
-    std::vector<ControlPoint> points{};
-    ValueRange domain{};
-    std::vector<Mat4> world_from_object{};
-    View view{};
-    double threshold = kDefaultThreshold;
-};
-
-/// The builtin scalpel at 32 poses, from just outside to deep inside the builtin head of 64^3 voxels, 256x256 pixels:
-/// the same on every machine.
-[[nodiscard]] VOXTACT_API Result<MeasureScene> makeMeasureScene();
-
 struct MeasureDesc {
-    const MeasureScene* scene = nullptr;          ///< null: makeMeasureScene()
+    const MeasureScene* scene = nullptr;          ///< must be given; makeMeasureScene() of voxtact::samples makes one
     std::span<const CountingMethod> methods = {}; ///< empty: all that the Context knows
     std::optional<Filter> filter = std::nullopt;  ///< nothing: defaultFilter() of each
     std::uint32_t repetitions = 5;                ///< at most; fewer for a method that takes long

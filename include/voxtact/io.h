@@ -113,7 +113,6 @@ class PoseReader {
 /// locale. Errors name the line ("poses.txt line 7: 15 numbers, a pose has 16 (row by row)"). Refuses what
 /// checkAffine() refuses, and a file without a matrix.
 [[nodiscard]] VOXTACT_API Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path);
-VOXTACT_API Result<void> writePoses(const std::filesystem::path& path, std::span<const Mat4> world_from_object);
 
 /// One `clip_from_world` matrix: 16 numbers, row by row, on any number of lines. Refuses a singular one.
 [[nodiscard]] VOXTACT_API Result<Mat4> readCamera(const std::filesystem::path& path);

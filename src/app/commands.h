@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/shared_options.h"
+#include "app/options/shared_options.h"
 
 /// One function a subcommand: adds it, with its options, to the program.
 namespace voxtact::app {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
-#include "app/standard_streams.h"
-#include "app/text_for_messages.h"
+#include "app/output/standard_streams.h"
+#include "app/output/text_for_messages.h"
 #include "app/version.h"
 
 #include <CLI/CLI.hpp>

@@ -124,6 +124,28 @@ void sortPairs(std::vector<BoxPair>& pairs, std::size_t boxes) {
     pairs = std::move(sorted);
 }
 
+bool overlap(const Box& a, const Box& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(a.lo[axis] <= b.hi[axis] && b.lo[axis] <= a.hi[axis])) {
+            return false;
+        }
+    }
+    return !isEmpty(a) && !isEmpty(b);
+}
+
+/// A set of one box is asked about in the order of the other: nothing need be sorted.
+std::vector<BoxPair> pairsOfOne(std::span<const Box> left, std::span<const Box> right) {
+    std::vector<BoxPair> pairs;
+    for (std::size_t l = 0; l < left.size(); ++l) {
+        for (std::size_t r = 0; r < right.size(); ++r) {
+            if (overlap(left[l], right[r])) {
+                pairs.push_back({static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(r)});
+            }
+        }
+    }
+    return pairs;
+}
+
 Result<void> checkCount(std::size_t boxes) {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 32U;
     if (boxes > kMost) {
@@ -206,6 +228,9 @@ Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> left, std::sp
             if (Result<void> count = checkCount(boxes); !count.ok()) {
                 return count.error();
             }
+        }
+        if (left.size() == 1 || right.size() == 1) {
+            return pairsOfOne(left, right);
         }
         const std::size_t axis = widestAxis({left, right});
         const std::vector<Swept> lefts = sweepOrder(left, axis);

@@ -49,8 +49,7 @@ struct CertifiedCell {
 
 /// The verdicts on a pair, whose view is ignored. Refuses what oracleSurvivors() refuses but for the view, and a
 /// resolution that is not positive and finite.
-[[nodiscard]] VOXTACT_API Result<CertifiedOracle> certifiedOracle(const OraclePair& pair,
-                                                                  double resolution = kOracleResolution);
+[[nodiscard]] Result<CertifiedOracle> certifiedOracle(const OraclePair& pair, double resolution = kOracleResolution);
 
 /// How much a cell is enlarged before it is said that a triangle has no opaque point in it, voxels to each side, unless
 /// told otherwise.
@@ -60,7 +59,7 @@ inline constexpr double kCellMargin = 0x1p-9;
 /// cells it has none, not even in the cell enlarged by `margin`. A point in a face between cells is in neither
 /// beyond doubt. Refuses what certifiedOracle() refuses, a triangle that the mesh does not have and a margin that is
 /// not within 0 to 1.
-[[nodiscard]] VOXTACT_API Result<std::vector<CertifiedCell>>
-certifiedCells(const OraclePair& pair, std::uint32_t triangle, double margin = kCellMargin);
+[[nodiscard]] Result<std::vector<CertifiedCell>> certifiedCells(const OraclePair& pair, std::uint32_t triangle,
+                                                                double margin = kCellMargin);
 
 } // namespace voxtact::cpu

@@ -74,7 +74,7 @@ struct Tolerance {
 };
 
 /// Every surviving fragment in double precision, sorted. Refuses what the engine refuses.
-[[nodiscard]] VOXTACT_API Result<std::vector<OracleFragment>> oracleSurvivors(const OraclePair& pair);
+[[nodiscard]] Result<std::vector<OracleFragment>> oracleSurvivors(const OraclePair& pair);
 
 /// What the oracle knows of a fragment that somebody else has, or has not: any triangle at any pixel of the viewport,
 /// covered or not. Refuses what oracleSurvivors() refuses, a fragment that is not of the mesh and viewport, and
@@ -82,7 +82,7 @@ struct Tolerance {
 [[nodiscard]] Result<Evidence> oracleEvidence(const OraclePair& pair, const OracleFragment& fragment,
                                               const Tolerance& tolerance);
 /// The same for many fragments of one pair, in their order.
-[[nodiscard]] VOXTACT_API Result<std::vector<Evidence>>
+[[nodiscard]] Result<std::vector<Evidence>>
 oracleEvidence(const OraclePair& pair, std::span<const OracleFragment> fragments, const Tolerance& tolerance);
 
 } // namespace voxtact::cpu

@@ -7,7 +7,7 @@
 //
 // VOXTACT_BENCH_VOLUME names the volume (a file) where voxtact::io is built, VOXTACT_BENCH_POSES the poses a scene,
 // VOXTACT_BENCH_RAMP the ramp "lo hi" in the volume's unit, VOXTACT_BENCH_THREADS the threads.
-#include "app/random_poses.h"
+#include "lab/random_poses.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the program says of arguments that are long, not text, or misspelt, and of the time that is left.
-#include "app/progress.h"
-#include "app/text_for_messages.h"
+#include "app/output/progress.h"
+#include "app/output/text_for_messages.h"
 #include "cli_fixture.h"
 
 namespace voxtact::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A lost device is remembered: every later call that reaches it says so.
-#include "detect/localize.h"
-#include "detect/trace.h"
+#include "lab/localize.h"
+#include "lab/trace.h"
 #include "pretend_driver.h"
 #include "scenarios.h"
 #include "sweep.h"
@@ -127,6 +127,8 @@ std::vector<Call> detectCalls(Objects& o, const Own& own) {
     const BatchItem item = o.setting.item(poses);
     const Batch batch{{&item, 1}, someView(), kThreshold};
     BatchAnswer answer;
+    MeasureScene scene;
+    scene.world_from_object = poses;
     return {
         {"Detector::create", codeOf(Detector::create(context, Objects::kDesc))},
         {"Detector::cmdDetect", codeOf(o.detector.cmdDetect(own.commands, batch, o.results))},
@@ -139,7 +141,7 @@ std::vector<Call> detectCalls(Objects& o, const Own& own) {
         {"Results::gpuMilliseconds", codeOf(o.results.gpuMilliseconds())},
         {"ResultRing::create", codeOf(ResultRing::create(context, 2, {}))},
         {"selfTest", codeOf(selfTest(context, o.queue))},
-        {"measureMethods", codeOf(measureMethods(context, o.queue))},
+        {"measureMethods", codeOf(measureMethods(context, o.queue, {.scene = &scene}))},
         {"FragmentTrace::create", codeOf(FragmentTrace::create(context, Filter::Hardware, o.queue))},
         {"FragmentTrace::survivors", codeOf(o.trace.survivors(batch))},
         {"Localizer::create", codeOf(Localizer::create(context, Filter::Hardware, o.queue))},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The arguments that the subcommands share, one a line of the input.
-#include "app/shared_options.h"
+#include "app/options/shared_options.h"
 #include "fuzz.h"
 
 #include <CLI/CLI.hpp>

@@ -2,11 +2,13 @@
 // Which methods a device can do, and the self-test.
 #include "gpu_fixture.h"
 #include "interception.h"
+#include "voxtact/builtin.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace voxtact::test {
 namespace {
@@ -167,8 +169,9 @@ TEST_F(MethodsTest, MeasuresWhatItTrusts) {
 
 TEST_F(MethodsTest, MeasuresTheChosenMethodsByTheChosenFilter) {
     constexpr std::array kMethods{CountingMethod::Atomic, CountingMethod::Query};
-    const auto speeds =
-        take(measureMethods(context(), queue(), {.methods = kMethods, .filter = Filter::Exact, .repetitions = 0}));
+    const MeasureScene scene = take(makeMeasureScene());
+    const auto speeds = take(measureMethods(
+        context(), queue(), {.scene = &scene, .methods = kMethods, .filter = Filter::Exact, .repetitions = 0}));
     ASSERT_EQ(speeds.size(), 2U);
     EXPECT_EQ(speeds[0].verdict.method, CountingMethod::Query);
     EXPECT_EQ(speeds[1].verdict.method, CountingMethod::Atomic);
@@ -180,7 +183,9 @@ TEST_F(MethodsTest, MeasuresNothingThatIsNotThere) {
         deviceWithout([](FeatureRequest& request) { request.features2.features.fragmentStoresAndAtomics = VK_FALSE; });
     const Context context = take(Context::create(device.contextDesc()));
     constexpr std::array kMethods{CountingMethod::Query, CountingMethod::Atomic};
-    const auto speeds = take(measureMethods(context, device.queueAccess(), {.methods = kMethods, .repetitions = 1}));
+    const MeasureScene scene = take(makeMeasureScene());
+    const auto speeds =
+        take(measureMethods(context, device.queueAccess(), {.scene = &scene, .methods = kMethods, .repetitions = 1}));
     ASSERT_EQ(speeds.size(), 2U);
     EXPECT_GT(speeds[0].pairsPerSecond, 0);
     EXPECT_FALSE(speeds[1].verdict.available);
@@ -189,9 +194,12 @@ TEST_F(MethodsTest, MeasuresNothingThatIsNotThere) {
 
     MeasureScene empty = take(makeMeasureScene());
     empty.world_from_object.clear();
-    const auto refused = measureMethods(context, device.queueAccess(), {.scene = &empty});
-    ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+    for (const MeasureScene* none : {&std::as_const(empty), static_cast<const MeasureScene*>(nullptr)}) {
+        const auto refused = measureMethods(context, device.queueAccess(), {.scene = none});
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(refused.error().text, HasSubstr("MeasureDesc::scene"));
+    }
 }
 
 TEST_F(MethodsTest, TheMeasuredSceneHasHitsAndMisses) {

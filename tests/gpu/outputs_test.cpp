@@ -5,9 +5,9 @@
 
 #include "cpu/random_scene.h"
 #include "detect/results_impl.h"
-#include "detect/trace.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
+#include "lab/trace.h"
 #include "support/contact_scenes.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"

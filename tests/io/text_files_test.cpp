@@ -23,11 +23,12 @@ TEST(Poses, RowsBecomeColumns) {
     EXPECT_EQ((*poses)[1][8], 5);
 }
 
-TEST(Poses, RoundTripIsExact) {
+TEST(Poses, ShortestTextIsExact) {
     const TemporaryFolder folder;
     const Mat4 pose{0.1, 1.0 / 3, -1e-300, 0, 2e17, 5e-324, 1, 0, 7, 8, 9, 0, -0.0, 1e308, 3, 1};
-    ASSERT_TRUE(isOk(io::writePoses(folder / "p.txt", std::array<Mat4, 2>{pose, identity()})));
-    const auto poses = io::readPoses(folder / "p.txt");
+    const auto poses = io::readPoses(folder.write("p.txt", "0.1 2e17 7 -0 0.3333333333333333 5e-324 8 1e308 "
+                                                           "-1e-300 1 9 3 0 0 0 1\n" +
+                                                               kIdentity));
     ASSERT_TRUE(isOk(poses));
     EXPECT_THAT(*poses, testing::ElementsAre(pose, identity()));
 }
@@ -71,14 +72,6 @@ TEST(Poses, RefusalsNameTheLine) {
     expectRefused(io::readPoses(folder.write("nothing.txt", "")), "it holds no pose");
     expectRefused(io::readPoses(folder / "absent.txt"), "absent.txt': there is no such file");
     expectRefused(io::readPoses(folder.path()), "it is a folder, not a file");
-}
-
-TEST(Poses, OnlyAffineOnesAreWritten) {
-    const TemporaryFolder folder;
-    Mat4 bad = identity();
-    bad[3] = 1;
-    expectRefused(io::writePoses(folder / "p.txt", std::array<Mat4, 2>{identity(), bad}), "pose 1");
-    EXPECT_EQ(folder.entries(), 0U);
 }
 
 TEST(Camera, AnyNumberOfLines) {

@@ -12,7 +12,7 @@ set(configure
 file(REMOVE "${BUILD}/CMakeCache.txt")
 step(${configure})
 file(STRINGS "${BUILD}/CMakeCache.txt" options REGEX "^VOXTACT_[A-Z_]+:BOOL=")
-foreach(option VOXTACT_BUILD_IO VOXTACT_INSTALL VOXTACT_WARNINGS_AS_ERRORS)
+foreach(option VOXTACT_BUILD_CPU VOXTACT_BUILD_IO VOXTACT_BUILD_RENDER VOXTACT_BUILD_SAMPLES VOXTACT_INSTALL VOXTACT_WARNINGS_AS_ERRORS)
   if(NOT "${option}:BOOL=OFF" IN_LIST options)
     message(FATAL_ERROR "${option} is not off by default in a subdirectory: ${options}")
   endif()
@@ -21,8 +21,8 @@ if(options MATCHES "VOXTACT_BUILD_(APP|TESTS):BOOL=ON")
   message(FATAL_ERROR "the program or the tests are on by default in a subdirectory: ${options}")
 endif()
 
-# The consumer's -Werror is not for voxtact, and a shared voxtact may leave no symbol open. The install rules are for
-# the tests that come after.
-step(${configure} -DVOXTACT_INSTALL=ON -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)
+# The consumer's -Werror is not for voxtact, and a shared voxtact may leave no symbol open. The install rules and the
+# other libraries are for the tests that come after.
+step(${configure} -DVOXTACT_INSTALL=ON -DVOXTACT_BUILD_CPU=ON -DVOXTACT_BUILD_RENDER=ON -DVOXTACT_BUILD_SAMPLES=ON -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)
 step("${CMAKE_COMMAND}" --build "${BUILD}")
 run_consumers("${BUILD}")

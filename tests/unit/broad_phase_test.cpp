@@ -121,6 +121,9 @@ TEST(BroadPhase, FindsWhatAllPairsFind) {
             const std::span right = std::span(boxes).subspan(half);
             ASSERT_EQ(overlappingPairs(left, right).value(), allPairs(left, right)) << "kind " << kind;
             ASSERT_EQ(overlappingPairs(right, left).value(), allPairs(right, left)) << "kind " << kind;
+            const std::span one = left.first(std::min<std::size_t>(left.size(), 1));
+            ASSERT_EQ(overlappingPairs(one, right).value(), allPairs(one, right)) << "kind " << kind;
+            ASSERT_EQ(overlappingPairs(right, one).value(), allPairs(right, one)) << "kind " << kind;
             found += expected.size();
         }
     }

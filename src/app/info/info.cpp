@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
 #include "app/info/info_table.h"
-#include "app/inputs.h"
-#include "app/output_paths.h"
-#include "app/size_note.h"
+#include "app/options/inputs.h"
+#include "app/options/output_paths.h"
+#include "app/output/size_note.h"
 
 #include <CLI/CLI.hpp>
 
@@ -110,10 +110,10 @@ Outcome runInfo(const InfoOptions& options) {
         paths.push_back(std::move(*info));
     }
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
-        if (options.output.format() == Format::Text) {
+        if (options.output.format() == io::Format::Text) {
             writeInfoText(out, paths, options.transferFunction.threshold);
         } else {
-            writeTable(out, options.output.format(), infoTable(paths));
+            io::writeTable(out, options.output.format(), infoTable(paths));
         }
         return {};
     });

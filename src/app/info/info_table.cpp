@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/info/info_table.h"
 
-#include "app/progress.h"
-#include "app/text_for_messages.h"
+#include "app/output/progress.h"
+#include "app/output/text_for_messages.h"
 #include "app/version.h"
 #include "core/text.h"
 
@@ -31,8 +31,8 @@ std::string rangeText(const HistogramBin& bin) {
     return bin.lo == bin.hi ? number(rounded(bin.lo)) : number(rounded(bin.lo)) + ".." + number(rounded(bin.hi));
 }
 
-std::vector<NamedCount> histogramCounts(const VolumeInfo& volume) {
-    std::vector<NamedCount> counts;
+std::vector<io::NamedCount> histogramCounts(const VolumeInfo& volume) {
+    std::vector<io::NamedCount> counts;
     for (const HistogramBin& bin : volume.histogram) {
         counts.push_back({static_cast<std::int32_t>(counts.size()), rangeText(bin), bin.voxels});
     }
@@ -41,15 +41,17 @@ std::vector<NamedCount> histogramCounts(const VolumeInfo& volume) {
 
 struct Column {
     std::string name;
-    std::function<Cell(const PathInfo&)> cell;
+    std::function<io::Cell(const PathInfo&)> cell;
 };
 
 template <class Get> Column ofVolume(std::string name, Get get) {
-    return {std::move(name), [get](const PathInfo& path) { return path.volume ? Cell(get(*path.volume)) : Cell(); }};
+    return {std::move(name),
+            [get](const PathInfo& path) { return path.volume ? io::Cell(get(*path.volume)) : io::Cell(); }};
 }
 
 template <class Get> Column ofMesh(std::string name, Get get) {
-    return {std::move(name), [get](const PathInfo& path) { return path.mesh ? Cell(get(*path.mesh)) : Cell(); }};
+    return {std::move(name),
+            [get](const PathInfo& path) { return path.mesh ? io::Cell(get(*path.mesh)) : io::Cell(); }};
 }
 
 const Box& boxOf(const PathInfo& path) {
@@ -88,7 +90,7 @@ std::vector<Column> columns() {
     all.push_back(ofMesh("degenerate", [](const MeshInfo& mesh) { return std::uint64_t{mesh.facts.degenerate}; }));
     all.push_back(ofMesh("parts", [](const MeshInfo& mesh) { return std::uint64_t{mesh.closedness.parts}; }));
     all.push_back(ofMesh("closed", [](const MeshInfo& mesh) {
-        return mesh.closedness.closed() ? NumberWord{1, "yes"} : NumberWord{0, "no"};
+        return mesh.closedness.closed() ? io::NumberWord{1, "yes"} : io::NumberWord{0, "no"};
     }));
     all.push_back(ofMesh("open_edges", [](const MeshInfo& mesh) { return mesh.closedness.open; }));
     all.push_back(ofMesh("edges_of_many", [](const MeshInfo& mesh) { return mesh.closedness.many; }));
@@ -174,9 +176,9 @@ void writeMesh(std::ostream& out, const MeshInfo& mesh) {
 
 } // namespace
 
-Table infoTable(const std::vector<PathInfo>& paths) {
+io::Table infoTable(const std::vector<PathInfo>& paths) {
     std::vector<Column> all = columns();
-    Table table;
+    io::Table table;
     for (const Column& column : all) {
         table.columns.push_back(column.name);
     }

@@ -3,7 +3,7 @@
 
 #include "app/info/mesh_info.h"
 #include "app/info/volume_info.h"
-#include "app/output.h"
+#include "app/output/output.h"
 
 #include <iosfwd>
 #include <optional>
@@ -26,7 +26,7 @@ struct PathInfo {
 };
 
 /// A row a path; columns that are about the other kind are empty.
-[[nodiscard]] Table infoTable(const std::vector<PathInfo>& paths);
+[[nodiscard]] io::Table infoTable(const std::vector<PathInfo>& paths);
 /// For reading: a block a path, with the histogram as bars.
 void writeInfoText(std::ostream& out, const std::vector<PathInfo>& paths, double threshold);
 

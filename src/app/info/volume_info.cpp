@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/info/volume_info.h"
 
-#include "app/opaque_cells.h"
 #include "core/voxel_visit.h"
+#include "lab/opaque_cells.h"
 #include "voxtact/broad_phase.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/show.h"
-#include "app/standard_streams.h"
+#include "app/output/standard_streams.h"
 #include "core/text.h"
 #include "voxtact/cpu.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/session.h"
-#include "app/shared_options.h"
+#include "app/options/open_session.h"
+#include "app/options/shared_options.h"
 #include "voxtact/render.h"
 
 #include <optional>

@@ -14,11 +14,10 @@ namespace voxtact::cpu {
 class BrickOccupancy {
   public:
     /// `tolerance`, in stored units, is what the filter may be off by beside its weights: kEightBitFilterError.
-    VOXTACT_API BrickOccupancy(const Volume& volume, const TransferFunction& function, double threshold,
-                               double tolerance = 0);
+    BrickOccupancy(const Volume& volume, const TransferFunction& function, double threshold, double tolerance = 0);
 
     /// False only where no sample of a closed box within [0,1]^3 is opaque.
-    [[nodiscard]] VOXTACT_API bool mayBeOpaque(const Box& texture) const noexcept;
+    [[nodiscard]] bool mayBeOpaque(const Box& texture) const noexcept;
 
   private:
     std::array<std::int32_t, 3> size_{}; ///< voxels

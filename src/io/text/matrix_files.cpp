@@ -48,15 +48,6 @@ Result<Mat4> parsePose(const std::vector<std::string_view>& tokens, const std::f
     return pose;
 }
 
-void writeRows(std::ostream& stream, const Mat4& matrix) {
-    std::string line;
-    for (std::size_t i = 0; i < kElements; ++i) {
-        line += number(matrix[columnMajor(i)]);
-        line += i + 1 < kElements ? ' ' : '\n';
-    }
-    stream << line;
-}
-
 } // namespace
 
 struct PoseReader::State {
@@ -134,23 +125,6 @@ Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
         std::vector<Mat4> poses;
         const Result<bool> more = reader->read(std::numeric_limits<std::size_t>::max(), poses);
         return more.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : more.error();
-    });
-}
-
-Result<void> writePoses(const std::filesystem::path& path, std::span<const Mat4> world_from_object) {
-    return guard([&]() -> Result<void> {
-        for (std::size_t i = 0; i < world_from_object.size(); ++i) {
-            if (Result<void> affine = checkAffine(world_from_object[i], "pose " + std::to_string(i)); !affine.ok()) {
-                return affine;
-            }
-        }
-        return writeFile(path, [&](std::ostream& stream) -> Result<void> {
-            stream << "# world_from_object, 16 numbers a line, row by row\n";
-            for (const Mat4& pose : world_from_object) {
-                writeRows(stream, pose);
-            }
-            return {};
-        });
     });
 }
 

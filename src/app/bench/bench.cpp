@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench.h"
+
+#include "app/commands.h"
+
+#include <CLI/CLI.hpp>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(Measurements that compare engines on one scene in one run. The answers of every engine are checked before it is
+timed; rounds take a sample of every engine in turn, so that what else the machine does falls on all alike.
+
+--certified: does the mesh touch, and how much, by the projection conservative, which misses no contact: the host on
+one thread and on all, the device's compute path, and beside them the projection view and FCL (a mesh against an octree
+of the opaque voxels; where it is built in), with the share of certified contacts that each misses and of certified
+misses that it calls contacts. Poses at large, and poses around the onset of contact, from 0.75 voxels inside to 0.25
+outside. Default scene: builtin:scalpel:3068 and builtin:ellipsoid:49998 against builtin:head:256 with --opacity
+"40:0,80:1". Exit status 3 when engines that must agree do not.
+
+--outputs: what each projection costs beside the view, by the host and by the methods of the device, and what each of
+the outputs (touched triangles, bounds, labels, contacts) costs beside the bare count of the same method and projection.
+Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
+scene: builtin:scalpel:3068 against builtin:head:128.
+
+--paper, the default: the tables of the paper (Volume-Surface Collision Detection, Tables 1 and 2) measured again: what
+detection adds to a frame, in the scenes v1s1, v1s2, v2s1 and v2s2. v1 is a head of 256x256x256 voxels, v2 a sparse
+volume of 256x256x128, s1 an instrument of 3068 triangles, s2 a body of 49998; every pose touches. The frame is of
+--size, from the front: the mesh in the volume by ray casting and, with detection, one pair by one method in the same
+submission. The counts of every method are checked before frames are timed, and in them. Then the sweeps: times against
+the volume's size, the triangles, the viewport and the pairs in a batch, as voxtact compare takes them; which triangles
+touch, by one query a polygon and by better ways; and the making of the pre-integrated table. --data DIR: a folder with
+any of volumes/mrhead_256.nii.gz, volumes/bonsai_256x256x128.nrrd and meshes/armadillo_49998.ply, which then stand for
+v1, v2 and s2; else builtins do, with transfer functions that make as many of their voxels opaque. It needs a device, and
+has 7 poses and 7 repetitions unless told otherwise.
+
+Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
+samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,
+wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max; medians, and of the ratios of pairs a second to
+the first engine of the same scene in the same round (--outputs: projections to the view by the same method, outputs to
+the bare count). With --paper: scene,method,clock (gpu or wall),width,height,triangles,poses,survivors (of a pair, on
+average),hits (poses),samples,mesh_ms,volume_ms,collision_ms,collision_ms_p10,collision_ms_p90,rendering_ms,
+rendering_ms_p10,rendering_ms_p90,total_ms,total_ms_p10,total_ms_p90,collision_percent (collision/rendering),
+overhead_percent ((total-rendering)/rendering, round by round),overhead_low,overhead_high,confidence (of the interval
+that has the median); the scenes and what else was measured are in comments.
+
+Examples:
+  voxtact bench --certified
+  voxtact bench --outputs --repetitions 3
+  voxtact bench --paper --format text
+  voxtact bench --certified --volume head.nii.gz --mesh tool.stl --format json --output bench.json)";
+
+void addPaperOptions(CLI::App& parser, BenchOptions& options) {
+    addPath(parser, "--data", options.paperSettings.data,
+            "with --paper: a folder with files of its scenes; default: builtins");
+    addWholeNumber(
+        parser, "--scale", [&options](std::uint32_t scale) { options.paperSettings.scale = scale; },
+        {.least = 1, .most = 16}, "with --paper: the sides of its builtin volumes are divided by so many, for trying",
+        options.paperSettings.scale);
+    parser.add_flag("--no-sweeps", options.paperSettings.noSweeps, "with --paper: the tables alone");
+    addSize(
+        parser, [&options](const VkExtent2D& size) { options.paperSettings.size = size; },
+        "with --paper: of frames, in pixels");
+    addPath(parser, "--report", options.report,
+            "with --paper: an HTML page with charts, in one file, for reading without a network");
+}
+
+void addOptions(CLI::App& parser, BenchOptions& options) {
+    CLI::Option* certified =
+        parser.add_flag("--certified", options.certified, "yes or no, and counts, that miss no contact");
+    CLI::Option* outputs =
+        parser
+            .add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
+            ->excludes(certified);
+    parser
+        .add_flag("--paper", options.paper,
+                  "the paper's tables and sweeps, measured again: what detection adds to a frame; the default")
+        ->excludes(certified)
+        ->excludes(outputs);
+    addVolumeOption(parser, options.volumes);
+    parser.get_option("--volume")->required(false);
+    addMeshOptions(parser, options.meshes);
+    parser.get_option("--mesh")->required(false);
+    addTransferFunctionOptions(parser, options.transferFunction);
+    addWholeNumber(parser, "--poses", options.settings.poses, 1, "how many poses of each kind; with --paper 7");
+    addSeed(parser, options.settings.seed);
+    addWholeNumber(parser, "--repetitions", options.settings.repetitions, 1,
+                   "samples of each time, after a warm-up; with --paper 7");
+    addPaperOptions(parser, options);
+    addDeviceOptions(parser, options.device);
+    addOutputOptions(parser, options.output);
+    addProgressOption(parser, options.progress);
+}
+
+/// Options that the mode has no use for are refused: they would silently do nothing.
+Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) {
+    constexpr const char* kOfScenes[] = {
+        "--volume",  "--mesh",      "--mesh-space", "--mesh-scale", "--transfer-function",
+        "--opacity", "--tf-domain", "--tf-size",    "--threshold"};
+    constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--size", "--report"};
+    for (const char* option : options.paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
+        if (parser.count(option) > 0) {
+            return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option +
+                                                   ", or ask for --certified or --outputs"
+                                             : std::string(option) + " is for --paper");
+        }
+    }
+    if (options.paperSettings.scale > 1 && !options.paperSettings.data.empty()) {
+        return badArgument("--scale is for builtin volumes; leave out --data");
+    }
+    return {};
+}
+
+Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
+    BenchOptions options = given;
+    options.paper = !options.certified && !options.outputs;
+    if (const Result<void> usable = checkTogether(options, parser); !usable.ok()) {
+        return usable.error();
+    }
+    if (options.paper) {
+        PaperSettings& paper = options.paperSettings;
+        paper.poses = parser.count("--poses") > 0 ? options.settings.poses : paper.poses;
+        paper.repetitions = parser.count("--repetitions") > 0 ? options.settings.repetitions : paper.repetitions;
+        paper.seed = options.settings.seed;
+        return runPaper(options, parser);
+    }
+    options.settings.mode = options.outputs ? BenchMode::Outputs : BenchMode::Certified;
+    return runBenchEngines(options, parser);
+}
+
+} // namespace
+
+Command addBench(CLI::App& program) {
+    auto options = std::make_shared<BenchOptions>();
+    CLI::App* parser = program.add_subcommand("bench", "measurements: engines side by side, checked and timed");
+    parser->footer(kFooter);
+    addOptions(*parser, *options);
+    return {parser, [options, parser] { return runBench(*options, *parser); }};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/shared_options.h"
+#include "lab/bench_run.h"
+#include "lab/paper.h"
+
+#include <string>
+#include <vector>
+
+namespace voxtact::app {
+
+struct BenchOptions {
+    bool certified = false; ///< one of the three is meant
+    bool outputs = false;
+    bool paper = false;
+    BenchSettings settings;           ///< of --certified and --outputs
+    PaperSettings paperSettings;      ///< of --paper
+    std::vector<std::string> volumes; ///< none: the mode's own scene
+    MeshOptions meshes;               ///< the same
+    TransferFunctionOptions transferFunction;
+    DeviceChoice device;
+    OutputOptions output;
+    bool progress = false;
+    std::filesystem::path report; ///< paper
+};
+
+/// --certified and --outputs: engines side by side, checked and timed.
+[[nodiscard]] Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser);
+/// --paper
+[[nodiscard]] Outcome runPaper(const BenchOptions& options, const CLI::App& parser);
+
+} // namespace voxtact::app

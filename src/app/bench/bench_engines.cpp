@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench.h"
+#include "app/options/inputs.h"
+#include "app/options/lab_run.h"
+
+namespace voxtact::app {
+
+namespace {
+
+Result<BenchVolume> loadBenchVolume(const BenchOptions& options, const std::string& source) {
+    Result<VolumeData> data = loadVolume(source);
+    if (!data.ok()) {
+        return data.error();
+    }
+    const Result<ValueRange> range = checkVolume(data->view());
+    if (!range.ok()) {
+        return range.error();
+    }
+    TransferFunctionOptions wanted = options.transferFunction;
+    if (options.volumes.empty() && wanted.path.empty() && !wanted.opacity) {
+        wanted.opacity = kDefaultOpacity;
+    }
+    Result<std::vector<ControlPoint>> points = loadControlPoints(wanted);
+    if (!points.ok()) {
+        return points.error();
+    }
+    const ValueRange domain = tableDomain(wanted, data->type, *range);
+    std::vector<ControlPoint> ramp = points->empty() ? defaultRamp(domain) : std::move(*points);
+    Result<cpu::Volume> host = cpu::Volume::create(data->view());
+    if (!host.ok()) {
+        return host.error();
+    }
+    Result<cpu::TransferFunction> function = cpu::TransferFunction::create({ramp, domain, wanted.tableSize});
+    if (!function.ok()) {
+        return function.error();
+    }
+    const View view{framingCamera(data->grid, 512, 512), 512, 512};
+    return BenchVolume{.data = std::move(*data),
+                       .points = std::move(ramp),
+                       .domain = domain,
+                       .tableSize = wanted.tableSize,
+                       .threshold = wanted.threshold,
+                       .view = view,
+                       .host = std::move(*host),
+                       .hostFunction = std::move(*function),
+                       .device = std::nullopt,
+                       .deviceFunction = std::nullopt,
+                       .fcl = nullptr,
+                       .labels = {},
+                       .deviceLabels = std::nullopt};
+}
+
+Result<BenchMesh> loadBenchMesh(const BenchOptions& options, const std::string& source) {
+    Result<MeshData> data = loadMesh(source, options.meshes);
+    if (!data.ok()) {
+        return data.error();
+    }
+    Result<cpu::Mesh> host = cpu::Mesh::create(data->view());
+    if (!host.ok()) {
+        return host.error();
+    }
+    return BenchMesh{source, std::move(*data), std::move(*host), std::nullopt};
+}
+
+Result<std::vector<BenchMesh>> loadBenchMeshes(const BenchOptions& options) {
+    std::vector<BenchMesh> meshes;
+    for (const std::string& source :
+         options.meshes.sources.empty() ? defaultMeshes(options.settings.mode) : options.meshes.sources) {
+        Result<BenchMesh> mesh = loadBenchMesh(options, source);
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        meshes.push_back(std::move(*mesh));
+    }
+    return meshes;
+}
+
+/// The device's session; none, with a note, where there is no device and none was asked for.
+Result<std::optional<Session>> openBenchSession(const BenchOptions& options, BenchResult& result) {
+    Result<Session> session = openSession(options.device);
+    if (session.ok()) {
+        return std::optional(std::move(*session));
+    }
+    if (!options.device.wanted.empty() || options.device.validate) {
+        return session.error();
+    }
+    result.notes.push_back("no device: " + session.error().text);
+    return std::optional<Session>();
+}
+
+} // namespace
+
+Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
+    if (options.volumes.size() > 1) {
+        return badArgument("one --volume is enough, not several");
+    }
+    if (const Result<void> writable =
+            checkOutputs({{"--output", options.output.path}},
+                         inputPaths(options.volumes, options.meshes, options.transferFunction, {}));
+        !writable.ok()) {
+        return writable.error();
+    }
+    BenchResult result;
+    result.volume = options.volumes.empty() ? defaultVolume(options.settings.mode) : options.volumes.front();
+    std::shared_ptr<const ValidationMessages> messages;
+    {
+        const Result<std::optional<Session>> opened = openBenchSession(options, result);
+        if (!opened.ok()) {
+            return opened.error();
+        }
+        const Session* session = opened->has_value() ? &**opened : nullptr;
+        // What is on the device must end before the session.
+        Result<BenchVolume> volume = loadBenchVolume(options, result.volume);
+        if (!volume.ok()) {
+            return volume.error();
+        }
+        result.voxels = volume->data.grid.size;
+        result.threshold = volume->threshold;
+        const Provenance provenance = provenanceOf(parser);
+        result.machine =
+            session == nullptr ? describeHost(provenance) : describeMachine(*session, volume->data.type, provenance);
+        Result<std::vector<BenchMesh>> meshes = loadBenchMeshes(options);
+        if (!meshes.ok()) {
+            return meshes.error();
+        }
+        if (session != nullptr) {
+            messages = session->instance.messages();
+        }
+        ShownSteps shown(options.progress, "voxtact bench");
+        const Result<void> done = bench(options.settings, session, *volume, std::move(*meshes), shown.steps(), result);
+        if (!done.ok()) {
+            return done.error();
+        }
+    }
+    if (messages != nullptr) {
+        if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
+            return invalid;
+        }
+    }
+    if (!result.disagreement.empty()) {
+        return {kExitVerify, "engines that must agree do not: " + result.disagreement};
+    }
+    const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
+        writeBench(out, options.output.format(), options.settings, result);
+        return {};
+    });
+    return written.ok() ? Outcome() : Outcome(written.error());
+}
+
+} // namespace voxtact::app

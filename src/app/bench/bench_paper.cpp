@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench/bench.h"
+#include "app/options/lab_run.h"
+#include "app/render/colours.h"
+#include "app/render/view.h"
+#include "lab/paper_output.h"
+#include "lab/report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace voxtact::app {
+
+namespace {
+
+Result<void> writeOutputs(const BenchOptions& options, const PaperResult& result) {
+    std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
+                                          writePaper(out, options.output.format(), result);
+                                          return {};
+                                      }}};
+    if (!options.report.empty()) {
+        deliveries.push_back({options.report, [&](std::ostream& out) {
+                                  return writeReport(out, ReportKind::Paper, paperSummary(result), paperJson(result));
+                              }});
+    }
+    return deliverAll(std::move(deliveries));
+}
+
+} // namespace
+
+Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
+    PaperSettings settings = options.paperSettings;
+    settings.load = loaders();
+    settings.camera = [](const Grid& grid, const Box& also, const VkExtent2D& size) {
+        return viewFrom({}, grid, also, size.width, size.height);
+    };
+    settings.worldBox = worldBox;
+    settings.colours = plainColours();
+    if (const Result<void> usable =
+            checkReportPaths(options.output.path, options.report,
+                             {{"--data", settings.data / "volumes"}, {"--data", settings.data / "meshes"}});
+        !usable.ok()) {
+        return usable.error();
+    }
+    PaperResult result;
+    std::shared_ptr<const ValidationMessages> messages;
+    {
+        const Result<Session> session = openSession(options.device);
+        if (!session.ok()) {
+            return session.error();
+        }
+        messages = session->instance.messages();
+        result.machine.provenance = provenanceOf(parser);
+        ShownSteps shown(options.progress, "voxtact bench");
+        if (const Result<void> done = measurePaper(settings, *session, shown.steps(), result); !done.ok()) {
+            return done.error();
+        }
+    }
+    if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
+        return invalid;
+    }
+    if (!result.disagreement.empty()) {
+        return {kExitVerify, "methods that must agree do not: " + result.disagreement};
+    }
+    const Result<void> written = writeOutputs(options, result);
+    return written.ok() ? Outcome() : Outcome(written.error());
+}
+
+} // namespace voxtact::app

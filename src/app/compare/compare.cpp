@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands.h"
+#include "app/compare/compare_inputs.h"
+#include "app/options/lab_run.h"
+#include "lab/compare_output.h"
+#include "lab/compare_run.h"
+#include "lab/report.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(The same pairs, one mesh at many poses against one volume, by every method: verified first, then timed.
+
+Agreement. query = atomic = subgroup on every pose, query-any hits where they do, compute = cpu on every pose bit for
+bit. On --oracle poses each fragment of the device's rasteriser is compared with an oracle in double precision; one
+that only one side has must be within rounding of an edge, of the volume's boundary or of the threshold. Otherwise the
+exit status is 3, with the first pose and a command line that shows it again, and nothing is written.
+
+Times, after a warm-up. wall_ms is of a batch of pairs, gpu_ms the device's part. Mode sync: each pair is submitted and
+waited for alone, which is the paper's way, over all poses. Mode pipelined: a batch a submission, three in flight (cpu:
+a batch a call). Poses go round, so that none is warm in a cache.
+
+With --localize instead: which triangles touch, by the paper's two ways (an occlusion query a triangle; one a leaf of
+an OBB tree that meets the volume's box, or what its bricks hold), by the fragments of one pass, and by bounds, which
+miss none. The ways that look through the camera must agree, triangle by triangle; otherwise the exit status is 3.
+
+Columns of CSV: sweep,method,mode,batch,width,height,triangles,fragments (survivors of a pair, on average),samples,
+wall_ms_median,wall_ms_p10,wall_ms_p90,gpu_ms_median,pairs_per_s,fragments_per_s,voxels; then comments with what was
+found.
+
+Examples:
+  voxtact compare --volume builtin:head:128 --mesh builtin:scalpel
+  voxtact compare --volume head.nii.gz --mesh tool.stl --poses poses.txt --format json --output compare.json
+  voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --report report.html
+  voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --localize)";
+
+Result<void> writeOutputs(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
+    std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
+                                          writeCompare(out, options.output.format(), data, result);
+                                          return {};
+                                      }}};
+    if (!options.report.empty()) {
+        deliveries.push_back({options.report, [&](std::ostream& out) {
+                                  return writeReport(out, ReportKind::Compare, summarize(result),
+                                                     compareJson(data, result));
+                              }});
+    }
+    return deliverAll(std::move(deliveries));
+}
+
+Outcome outcomeOf(const CompareOptions& options, const CLI::App& parser, const CompareResult& result) {
+    const Verdict* failure = result.firstFailure();
+    if (failure == nullptr) {
+        return {};
+    }
+    const std::string again = commandLine(parser, {"--output", "--report", "--format", "--only-pose", "--sweep",
+                                                   "--oracle", "--keep-going", "--progress"}) +
+                              " --only-pose " + std::to_string(failure->first->pose) + " --oracle " +
+                              (options.settings.oraclePoses > 0 ? "1" : "0") + " --sweep " + failure->sweep;
+    return {kExitVerify, failure->rule + ": disagreement on pose " + std::to_string(failure->first->pose) + ": " +
+                             failure->first->text + "; again with: " + again};
+}
+
+Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
+    if (given.localize) {
+        return runLocalize(given, parser);
+    }
+    CompareOptions options = given;
+    options.settings.load = loaders();
+    if (!options.report.empty() && !options.sweepsGiven) {
+        options.settings.sweeps.assign(kSweeps.begin(), kSweeps.end());
+    }
+    if (const Result<void> writable =
+            checkReportPaths(options.output.path, options.report,
+                             inputPaths(options.volumes, options.meshes, options.transferFunction, options.view));
+        !writable.ok()) {
+        return writable.error();
+    }
+    const Result<CompareData> data = readCompareData(options);
+    if (!data.ok()) {
+        return data.error();
+    }
+    CompareResult result;
+    std::shared_ptr<const ValidationMessages> messages;
+    {
+        const Result<Session> session = openSession(options.device);
+        if (!session.ok()) {
+            return session.error();
+        }
+        messages = session->instance.messages();
+        result.machine = describeMachine(*session, data->volume.type, provenanceOf(parser));
+        ShownSteps shown(options.progress, "voxtact compare");
+        if (const Result<void> done = compare(options.settings, *data, *session, shown.steps(), result); !done.ok()) {
+            return done.error();
+        }
+    }
+    if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
+        return invalid;
+    }
+    Outcome outcome = outcomeOf(options, parser, result);
+    if (outcome.status != kExitDone && !options.settings.keepGoing) {
+        return outcome;
+    }
+    const Result<void> written = writeOutputs(options, *data, result);
+    return written.ok() ? outcome : Outcome(written.error());
+}
+
+} // namespace
+
+Command addCompare(CLI::App& program) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* parser = program.add_subcommand("compare", "the same pairs by every method: agreement and time");
+    parser->footer(kFooter);
+    addCompareOptions(*parser, *options);
+    return {parser, [options, parser] { return runCompare(*options, *parser); }};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/compare/compare_options.h"
+#include "lab/compare_scene.h"
+
+namespace voxtact::app {
+
+/// What the options name.
+[[nodiscard]] Result<CompareData> readCompareData(const CompareOptions& options);
+
+/// `voxtact compare --localize`.
+[[nodiscard]] Outcome runLocalize(const CompareOptions& given, const CLI::App& parser);
+
+} // namespace voxtact::app

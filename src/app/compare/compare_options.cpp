@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "app/compare/compare_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace voxtact::app {
+
+namespace {
+
+std::vector<std::string> partsOf(const std::string& list) {
+    std::vector<std::string> parts;
+    std::istringstream stream(list);
+    for (std::string part; std::getline(stream, part, ',');) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+std::string methodNames() {
+    std::string names;
+    for (const CountingMethod method : countingMethods()) {
+        names += (names.empty() ? "" : ", ") + std::string(toString(method));
+    }
+    return names;
+}
+
+void readMethods(const std::string& list, std::vector<CountingMethod>& methods) {
+    methods.clear();
+    for (const std::string& name : partsOf(list)) {
+        const std::optional<CountingMethod> method = countingMethodFromName(name);
+        if (!method) {
+            throw CLI::ValidationError("--methods", "'" + name + "' is not known; there are: " + methodNames());
+        }
+        methods.push_back(*method);
+    }
+    if (methods.empty()) {
+        throw CLI::ValidationError("--methods", "no method; there are: " + methodNames());
+    }
+}
+
+void readSweep(const std::string& name, CompareOptions& options) {
+    options.sweepsGiven = true;
+    options.settings.sweeps.clear();
+    for (const Sweep sweep : kSweeps) {
+        if (name == "all" || name == toString(sweep)) {
+            options.settings.sweeps.push_back(sweep);
+        }
+    }
+    if (options.settings.sweeps.empty() && name != "none") {
+        throw CLI::ValidationError(
+            "--sweep", "'" + name + "' is not known; there are: batch, triangles, fragments, voxels, all, none");
+    }
+}
+
+void addPoseOptions(CLI::App& parser, CompareOptions& options) {
+    parser.get_option("--poses")->description(
+        "a world_from_object matrix a line: 16 numbers, row by row; default: random ones, as make poses gives");
+    addWholeNumber(parser, "--count", options.count, 1, "how many random poses");
+    addSeed(parser, options.seed);
+    parser.get_option("--count")->excludes("--poses");
+    parser.get_option("--seed")->excludes("--poses");
+    parser.add_option("--only-pose", options.onlyPose, "this pose alone, by its number from 0")->type_name("K");
+}
+
+} // namespace
+
+void addCompareOptions(CLI::App& parser, CompareOptions& options) {
+    addVolumeOption(parser, options.volumes);
+    addMeshOptions(parser, options.meshes);
+    addTransferFunctionOptions(parser, options.transferFunction);
+    addViewOptions(parser, options.view);
+    addPoseOptions(parser, options);
+    options.settings.sweeps = {Sweep::Batch};
+    parser
+        .add_option_function<std::string>(
+            "--methods", [&options](const std::string& list) { readMethods(list, options.settings.methods); },
+            "which, as a list: " + methodNames() + "; default: all that the device can do, and cpu")
+        ->type_name("LIST");
+    addWholeNumber(parser, "--oracle", options.settings.oraclePoses, 0,
+                   "poses, spread evenly, that are checked fragment by fragment against the oracle; 0: none");
+    parser
+        .add_option_function<std::string>(
+            "--sweep", [&options](const std::string& name) { readSweep(name, options); },
+            "what is timed: batch, triangles, fragments, voxels, all, none; default: batch, and all with --report")
+        ->type_name("NAME");
+    addWholeNumber(parser, "--repeats", options.settings.repeats, 1, "samples of each time, after a warm-up");
+    parser
+        .add_option("--time-limit", options.settings.timeLimit,
+                    "seconds for the samples of a sweep: fewer than --repeats are taken where they do not fit")
+        ->type_name("SECONDS")
+        ->capture_default_str()
+        ->check(
+            [](const std::string& text) { return std::strtod(text.c_str(), nullptr) > 0 ? "" : "it is not above 0"; });
+    parser.add_flag("--keep-going", options.settings.keepGoing,
+                    "when methods disagree, time them and write the outputs all the same; the exit status stays 3");
+    CLI::Option* localize =
+        parser.add_flag("--localize", options.localize,
+                        "which triangles touch, by each way to tell, instead; 8 poses and 3 repeats unless given");
+    addPath(parser, "--report", options.report, "an HTML page with charts, in one file, for reading without a network");
+    for (const char* other : {"--methods", "--oracle", "--sweep", "--report"}) {
+        localize->excludes(other);
+    }
+    addDeviceOptions(parser, options.device);
+    addOutputOptions(parser, options.output);
+    addProgressOption(parser, options.progress);
+}
+
+} // namespace voxtact::app

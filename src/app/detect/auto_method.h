@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/open_session.h"
+#include "voxtact/detector.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+/// `--count auto`: the fastest way to count on this machine, measured once and remembered.
+namespace voxtact::app {
+
+/// Every method of a device, and the host engine (cpu) as the last, with how fast it was on the same scene.
+struct MeasuredMethods {
+    std::vector<MethodSpeed> speeds;
+    bool fresh = false; ///< measured just now, not remembered
+};
+
+/// From the cache folder of `choice`, or measured and, unless Vulkan is validated, put there. `filter`: nothing is each
+/// method's own; the host engine is not measured for hardware.
+[[nodiscard]] Result<MeasuredMethods> measuredMethods(const Session& session, std::optional<Filter> filter,
+                                                      const DeviceChoice& choice);
+
+/// What a method must be able to do to be chosen.
+struct AutoLimits {
+    std::optional<Filter> filter;
+    VkExtent2D size{1, 1};
+    bool host = true; ///< the host engine may be chosen
+};
+
+/// The fastest trusted method that counts exactly; query-any where there is no other; nothing where there is none.
+[[nodiscard]] std::optional<CountingMethod> fastest(std::span<const MethodSpeed> speeds, const AutoLimits& limits,
+                                                    const VkExtent2D& maxViewport);
+
+struct AutoChoice {
+    CountingMethod method;
+    std::string note; ///< what was measured; empty when that was remembered
+};
+
+/// fastest() of measuredMethods().
+[[nodiscard]] Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits,
+                                            const DeviceChoice& choice);
+
+/// For the projection conservative, which only compute and cpu do: the device where it is a GPU that can, or where the
+/// host may not be chosen.
+[[nodiscard]] CountingMethod conservativeMethod(const Session& session, const AutoLimits& limits);
+
+/// What to say when the host stands in because no device can be used.
+[[nodiscard]] std::string noDeviceNote(const Error& reason);
+
+} // namespace voxtact::app

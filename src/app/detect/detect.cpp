@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands.h"
+#include "app/detect/auto_method.h"
+#include "app/detect/pair_engine.h"
+#include "app/options/inputs.h"
+#include "app/options/output_paths.h"
+#include "app/output/interrupt.h"
+#include "app/output/standard_streams.h"
+
+#include <CLI/CLI.hpp>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(--volume and --mesh may be given several times. One row a pair: every pose of every mesh against every volume. Columns:
+  pose,mesh,volume             number of the pose in its file from 0; the sources as they were given
+  hit,count                    1 (yes) when at least one fragment survives; how many do; 2 (possible), with
+                               conservative: nothing certain, but fragments that could not be decided
+  exact                        1: the count is exact; 0: at least so many (query-any: zero or not zero is known)
+  method,projection            what the count comes from
+  triangles (--triangles)      how many triangles have survivors
+  contacts,depth (--contacts)  how many contacts there are, and the deepest in mm
+  labels (--labels)            survivors by label, most first: Frontal_Sup_L:12;Precentral_L:3
+  min_x,...,max_z (--bounds)   world box of the survivors in mm
+  job (--jobs)                 number of the job, from 0
+  gpu_ms,wall_ms (--timing)    device time, and time from the start of recording to the results in host memory, of
+                               the row's submission divided by its pairs. Submissions overlap: the last line
+                               '# pairs= wall_ms= pairs_per_s=' has the time of all. Reading files, uploads and making
+                               pipelines are not included; there is no warm-up. With --batch 1 each pair is submitted
+                               and waited for alone. With --count cpu gpu_ms is 0.
+Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY, in
+VTP (VTK, ParaView) and in .mrk.json (3D Slicer); the last two have the boxes of --bounds, too.
+
+Rows come as they are known. Ctrl-C leaves whole rows on standard output, and files as they were; exit status 130.
+
+Examples:
+  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --opacity "40:0,80:1" --format json
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --count atomic --timing --batch 1
+  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel --count cpu
+  voxtact detect --volume head.nii.gz --mesh tool.stl --labels atlas.nii.gz --contacts contacts.ply
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses - --count cpu --answer yes-no --threads 2 < poses.txt
+  voxtact detect --jobs jobs.csv --output rows.csv)";
+
+/// More only wait for each other.
+constexpr std::uint32_t kMostThreads = 1024;
+
+AutoLimits autoLimits(const DetectOptions& options) {
+    // Who names a device, or wants Vulkan validated, wants it used.
+    const bool host = options.device.wanted.empty() && !options.device.validate;
+    return {options.method.filter, options.view.size, host && options.method.filter != Filter::Hardware};
+}
+
+Result<AutoChoice> choose(const DetectOptions& options, const Session& session, const AutoLimits& limits) {
+    if (options.method.count) {
+        return AutoChoice{*options.method.count, {}};
+    }
+    if (options.method.projection == Projection::Conservative) {
+        return AutoChoice{conservativeMethod(session, limits), {}};
+    }
+    return autoMethod(session, limits, options.device);
+}
+
+/// No output may be an input, or another output.
+Result<void> checkDetectPaths(const DetectOptions& options) {
+    const ExtraOptions& extra = options.extra;
+    std::vector<NamedPath> inputs = inputPaths(options.volumes, options.meshes, options.transferFunction, options.view);
+    if (options.jobs.fromFile) {
+        addInput(inputs, "--jobs", options.jobsPath);
+        for (const std::vector<std::string>* sources : {&options.jobs.volumes, &options.jobs.meshes}) {
+            for (const std::string& source : *sources) {
+                addInput(inputs, "--jobs", source);
+            }
+        }
+        for (const std::filesystem::path& poses : options.jobs.poses) {
+            addInput(inputs, "--jobs", poses);
+        }
+    }
+    if (!extra.labels.empty()) {
+        inputs.push_back({"--labels", extra.labels});
+        inputs.push_back({"--label-names", labelNamesPath(extra.labelNames, extra.labels)});
+    }
+    return checkOutputs(
+        {{"--output", options.output.path}, {"--triangles", extra.triangles}, {"--contacts", extra.contacts}}, inputs);
+}
+
+/// By the device that the options name; by the host where they, or the want of a device, say so.
+Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs, std::vector<std::string>& notes,
+                        std::shared_ptr<const ValidationMessages>& messages, const UseEngine& answer) {
+    if (options.method.count == CountingMethod::Cpu) {
+        if (!options.device.wanted.empty()) {
+            notes.push_back("--device " + options.device.wanted +
+                            " is not used: the counting method cpu runs on the host");
+        }
+        return withHostEngine(options, inputs, answer);
+    }
+    const AutoLimits limits = autoLimits(options);
+    {
+        const Result<Session> session = openSession(options.device);
+        if (session.ok()) {
+            messages = session->instance.messages();
+            const Result<AutoChoice> choice = choose(options, *session, limits);
+            if (!choice.ok()) {
+                return choice.error();
+            }
+            if (!choice->note.empty()) {
+                notes.push_back(choice->note);
+            }
+            if (choice->method != CountingMethod::Cpu) {
+                return withDeviceEngine(options, inputs, *session, choice->method, answer);
+            }
+        } else if (options.method.count || !limits.host) {
+            return session.error();
+        } else {
+            notes.push_back(noDeviceNote(session.error()));
+        }
+    }
+    return withHostEngine(options, inputs, answer);
+}
+
+Outcome interruptedOutcome(const DetectOptions& options, DetectOutput& output) {
+    if (const Result<void> ended = output.breakOff(); !ended.ok()) {
+        return ended.error();
+    }
+    const bool toFile = !options.output.path.empty();
+    return interruptOutcome(toFile ? "'" + options.output.path.string() + "' is not written"
+                                   : std::to_string(output.rows()) + " pairs are written");
+}
+
+Outcome runDetect(DetectOptions options) {
+    if (const Result<void> usable = resolveOptions(options); !usable.ok()) {
+        return usable.error();
+    }
+    if (const Result<void> writable = checkDetectPaths(options); !writable.ok()) {
+        return writable.error();
+    }
+    const InterruptGuard guard;
+    Result<DetectInputs> inputs = readDetectInputs(options);
+    if (!inputs.ok()) {
+        return interrupted() ? interruptOutcome("nothing is written") : Outcome(inputs.error());
+    }
+    Result<DetectOutput> output = DetectOutput::create(options, *inputs);
+    if (!output.ok()) {
+        return output.error();
+    }
+    std::vector<std::string> notes; // to be said once all has gone well: an error is one line
+    std::shared_ptr<const ValidationMessages> messages;
+    double milliseconds = 0;
+    const Result<void> done = withEngine(options, *inputs, notes, messages, [&](PairEngine& engine) -> Result<void> {
+        const Result<double> took = answerPairs(options, *inputs, engine, *output, notes);
+        milliseconds = took.ok() ? *took : 0;
+        return took.ok() ? Result<void>() : took.error();
+    });
+    if (!done.ok()) {
+        return done.error();
+    }
+    if (messages) {
+        if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
+            return invalid;
+        }
+    }
+    if (interrupted()) {
+        return interruptedOutcome(options, *output);
+    }
+    if (const Result<void> written = output->finish(milliseconds); !written.ok()) {
+        return written.error();
+    }
+    if (const std::string cut = output->noteOfContacts(); !cut.empty()) {
+        notes.push_back(cut);
+    }
+    for (const std::string& note : notes) {
+        printNote(note);
+    }
+    return {};
+}
+
+void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
+    addPath(parser, "--triangles", options.triangles, "a CSV file for the touched triangles: pose,triangle,count");
+    addPath(
+        parser, "--contacts", options.contacts,
+        "a .csv, .ply, .vtp or .mrk.json file for the places where survivors are, with normal and depth; see below");
+    addNumber(
+        parser, "--max-depth", [&options](double depth) { options.maxDepth = depth; },
+        "mm, how far a contact's depth is followed", [](double depth) { return depth > 0; }, "above 0", "10");
+    addWholeNumber(
+        parser, "--most-contacts", [&options](std::uint32_t most) { options.mostContacts = most; }, {.least = 1},
+        "contacts that are kept; a longer list is cut, with a note", kDefaultMostContacts);
+    addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
+    addPath(parser, "--label-names", options.labelNames,
+            "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
+    parser.add_flag("--bounds", options.bounds, "adds the world box of the survivors to each row");
+}
+
+} // namespace
+
+Command addDetect(CLI::App& program) {
+    auto options = std::make_shared<DetectOptions>();
+    CLI::App* parser = program.add_subcommand("detect", "which pairs of mesh and volume touch, and how much");
+    parser->footer(kFooter);
+    addVolumeOption(*parser, options->volumes);
+    parser->get_option("--volume")->required(false);
+    addMeshOptions(*parser, options->meshes, false);
+    addPath(*parser, "--jobs", options->jobsPath,
+            "a CSV file of mesh,volume,poses, a job a line, instead of --mesh, --volume and --poses");
+    addTransferFunctionOptions(*parser, options->transferFunction);
+    addViewOptions(*parser, options->view);
+    addMethodOptions(*parser, options->method);
+    addExtraOptions(*parser, options->extra);
+    addName(*parser, "--answer", options->answer, {"count", "yes-no"},
+            "count, or yes-no: stops at the first contact, which is much faster; count is then 0 or 1, and exact 0; "
+            "default: count");
+    addWholeNumber(
+        *parser, "--batch", [options](std::uint32_t pairs) { options->batch = pairs; }, {.least = 1},
+        "pairs a submission, at most; few at first unless this is given, so that rows come soon", kDefaultBatch);
+    addWholeNumber(
+        *parser, "--threads", [options](std::uint32_t threads) { options->threads = threads; },
+        {.least = 0, .most = kMostThreads}, "of the counting method cpu; 0: one for each processor", 0);
+    parser->add_flag("--timing", options->timing, "adds gpu_ms and wall_ms to each row, and a last line; see below");
+    addDeviceOptions(*parser, options->device);
+    addOutputOptions(*parser, options->output);
+    addProgressOption(*parser, options->progress);
+    return {parser, [options] { return runDetect(*options); }};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/pair_engine.h"
+#include "app/options/inputs.h"
+#include "voxtact/contact_result.h"
+#include "voxtact/detector.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace voxtact::app {
+
+namespace {
+
+/// Enough to keep a device busy while the host records; more only costs memory.
+constexpr std::uint32_t kSubmissionsInFlight = 3;
+
+/// On the device and on the host.
+constexpr std::uint64_t kBytesOfContact = 2 * sizeof(ContactResult);
+
+/// Of volumes that are kept for a later job: less than any device has.
+constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{512} << 20U;
+
+/// A size that the user chose and the device has not is an unusable argument.
+Error blameTable(Error error) {
+    if (error.code == ErrorCode::LimitExceeded) {
+        return badArgument("--tf-size: " + error.text);
+    }
+    return error;
+}
+
+/// The room for contacts is what the user chose.
+Error blameContacts(Error error, const DetectOptions& options) {
+    if (error.code == ErrorCode::LimitExceeded && options.extra.mostContacts) {
+        return badArgument("--most-contacts: " + error.text);
+    }
+    return error;
+}
+
+struct DeviceVolume {
+    Volume volume;
+    TransferFunction transferFunction;
+    View view;
+    Grid grid;
+    std::uint64_t bytes = 0;
+};
+
+/// What is uploaded once.
+struct DeviceScene {
+    std::vector<Mesh> meshes;
+    std::optional<LabelMap> labels;
+};
+
+class DeviceEngine : public PairEngine {
+  public:
+    DeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
+                 const DetectorDesc& desc, const DeviceScene& scene, PairPipeline& pipeline, std::uint32_t pairs)
+        : options_(options), inputs_(inputs), session_(session), desc_(desc), scene_(scene), pipeline_(pipeline),
+          shelf_(options.jobs, kMostVolumeBytes), pace_(pairs, options.batch.has_value() || options.timing) {}
+
+    [[nodiscard]] std::string device() const override { return session_.device.physical().name; }
+    [[nodiscard]] std::string driver() const override { return session_.device.physical().driver; }
+    [[nodiscard]] PairAnswer untouched() const override {
+        PairAnswer answer;
+        answer.exactness = options_.yesNo() ? Exactness::LowerBound : exactness(desc_.method);
+        answer.method = desc_.method;
+        answer.projection = desc_.projection;
+        return answer;
+    }
+    [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
+    [[nodiscard]] Result<void> answer(const Window& window, WindowRows& rows,
+                                      const std::function<bool()>& stop) override;
+
+  private:
+    [[nodiscard]] Result<DeviceVolume> make(std::uint32_t volume) const;
+
+    const DetectOptions& options_;
+    const DetectInputs& inputs_;
+    const Session& session_;
+    const DetectorDesc& desc_;
+    const DeviceScene& scene_;
+    PairPipeline& pipeline_;
+    VolumeShelf<DeviceVolume> shelf_;
+    DeviceVolume* volume_ = nullptr;
+    BatchPace pace_;
+};
+
+Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
+    const std::string& source = options_.jobs.volumes[number];
+    const Result<VolumeData> data = loadVolume(source);
+    if (!data.ok()) {
+        return data.error();
+    }
+    const QueueAccess queue = session_.device.queueAccess();
+    Result<Volume> volume =
+        Volume::upload(session_.context, queue, data->view(),
+                       {.name = source.c_str(), .bricks = desc_.projection == Projection::Conservative});
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const VolumeSettings settings =
+        settingsFor(options_, inputs_, number, *data, volume->valueRange().value_or(ValueRange{}));
+    Result<TransferFunction> function = TransferFunction::upload(
+        session_.context, queue, {settings.points, settings.domain, options_.transferFunction.tableSize});
+    if (!function.ok()) {
+        return blameTable(function.error());
+    }
+    return DeviceVolume{std::move(*volume), std::move(*function), settings.view, data->grid, data->voxels.size()};
+}
+
+Result<Grid> DeviceEngine::use(std::uint32_t job) {
+    const Result<DeviceVolume*> volume = shelf_.get(job, [&] { return make(options_.jobs.jobs[job].volume); });
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    volume_ = *volume;
+    return volume_->grid;
+}
+
+Result<void> DeviceEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
+    std::vector<BatchItem> items;
+    for (const WindowItem& item : window.items) {
+        items.push_back({&scene_.meshes[options_.jobs.jobs[item.job].mesh], &volume_->volume,
+                         &volume_->transferFunction, item.selected, scene_.labels ? &*scene_.labels : nullptr});
+    }
+    return pipeline_.run({items, volume_->view, options_.transferFunction.threshold},
+                         {.pair = [&](const TimedAnswer& timed) { rows.add(timed); },
+                          .submission = [&](const BatchAnswer& answer) { rows.endBatch(answer); },
+                          .stop = stop,
+                          .pace = &pace_});
+}
+
+DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
+    DetectorDesc desc;
+    desc.method = method;
+    desc.projection = *options.method.projection;
+    desc.filter = options.method.filter.value_or(defaultFilter(method));
+    desc.boundary = options.method.boundary;
+    desc.outputs = options.extra.outputs();
+    desc.samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel);
+    desc.resolution = options.method.resolution.value_or(kDefaultResolution);
+    desc.stopAtFirst = options.yesNo() && desc.projection == Projection::Conservative;
+    return desc;
+}
+
+/// Submissions so large, and so many of them, that the answers beside the counts keep within what they may take.
+PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& inputs) {
+    const Outputs outputs = options.extra.outputs();
+    const std::uint64_t contactBytes = outputs.contacts ? options.extra.contactRoom() * kBytesOfContact : 0;
+    const bool oneAtATime = options.mostPairs() == 1 || contactBytes * kSubmissionsInFlight > kMostOutputBytes;
+    PipelineDesc desc;
+    desc.frames = oneAtATime ? 1 : kSubmissionsInFlight;
+    desc.pairsPerSubmission = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        pairsPerBatch(options, inputs, desc.frames),
+        std::clamp<std::uint64_t>(inputs.pairs(options.jobs).value_or(kDefaultBatch), 1, kWindowPairs)));
+    desc.timestamps = options.timing;
+    if (outputs.any()) {
+        desc.room = OutputRoom{
+            .triangles = outputs.triangles ? desc.pairsPerSubmission * mostTriangles(inputs) : 0,
+            .labels = outputs.labels ? desc.pairsPerSubmission * std::uint64_t{inputs.labels->values.size()} : 0,
+            .contacts = outputs.contacts ? options.extra.contactRoom() : 0};
+    }
+    return desc;
+}
+
+Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs& inputs, const Session& session) {
+    DeviceScene scene;
+    const QueueAccess queue = session.device.queueAccess();
+    for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
+        Result<Mesh> mesh = Mesh::upload(session.context, queue, inputs.meshes[i].view(),
+                                         {.name = options.jobs.meshes[i].c_str(), .clusters = true});
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        scene.meshes.push_back(std::move(*mesh));
+    }
+    if (inputs.labels) {
+        Result<LabelMap> labels =
+            LabelMap::upload(session.context, queue, *inputs.labels, options.extra.labels.string().c_str());
+        if (!labels.ok()) {
+            return labels.error();
+        }
+        scene.labels = std::move(*labels);
+    }
+    return scene;
+}
+
+} // namespace
+
+Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
+                              CountingMethod method, const UseEngine& answer) {
+    if (usesView(*options.method.projection)) {
+        if (Result<void> viewport = checkViewport(options.view.size, session.context.maxViewport(),
+                                                  "'" + session.device.physical().name + "'");
+            !viewport.ok()) {
+            return viewport;
+        }
+    }
+    const Result<Detector> detector = Detector::create(session.context, descOf(options, method));
+    if (!detector.ok()) {
+        return detector.error();
+    }
+    const Result<DeviceScene> scene = uploadScene(options, inputs, session);
+    if (!scene.ok()) {
+        return scene.error();
+    }
+    const PipelineDesc desc = pipelineDescOf(options, inputs);
+    Result<PairPipeline> pipeline = PairPipeline::create(session.device, session.context, *detector, desc);
+    if (!pipeline.ok()) {
+        return blameContacts(pipeline.error(), options);
+    }
+    DeviceEngine engine(options, inputs, session, detector->desc(), *scene, *pipeline, desc.pairsPerSubmission);
+    return answer(engine);
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/detect_run.h"
+
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+
+/// The files of `voxtact detect` beside its table.
+namespace voxtact::app {
+
+/// pose,triangle,count; with several jobs also mesh,volume, and with --jobs also job.
+void writeTriangleHeader(std::ostream& out, const DetectOptions& options);
+void writeTriangle(std::ostream& out, const DetectOptions& options, const Row& row, const TouchedTriangle& touched);
+
+/// What there is for a file of contacts; `bounds` with --bounds only.
+struct ContactList {
+    std::span<const KeptContact> contacts;
+    std::span<const KeptBounds> bounds;
+};
+
+/// The endings of a file of contacts, as a message names them.
+[[nodiscard]] std::string contactEndings();
+[[nodiscard]] bool isContactEnding(const std::filesystem::path& path);
+/// By the ending of --contacts.
+void writeContacts(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                   const ContactList& list);
+
+/// pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label; with names of labels also label_name, with several jobs also
+/// mesh,volume, and with --jobs also job. World, mm.
+void writeContactsCsv(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                      const ContactList& list);
+/// The same as points with normals and colours: binary little-endian PLY, in the order of the CSV. mesh and volume are
+/// numbers, which comments name.
+void writeContactsPly(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                      const ContactList& list);
+/// As points with their normals for VTK and ParaView, with the boxes of `bounds` as lines: XML PolyData with appended
+/// raw arrays. mesh and volume are numbers, which a comment names.
+void writeContactsVtp(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                      const ContactList& list);
+/// As markups for 3D Slicer: a list of points, and a box of interest for each of `bounds`. LPS.
+void writeContactsMarkups(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                          const ContactList& list);
+
+} // namespace voxtact::app

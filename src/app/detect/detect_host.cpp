@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/pair_engine.h"
+#include "app/options/inputs.h"
+#include "core/batch_cutter.h"
+#include "voxtact/cpu.h"
+
+namespace voxtact::app {
+
+namespace {
+
+/// The table is in memory, which has no limit that could be named; beyond this one it is a slip.
+constexpr std::uint32_t kMostTableEntries = 1U << 24U;
+
+/// Of volumes that are kept for a later job.
+constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{2} << 30U;
+
+struct HostVolume {
+    cpu::Volume volume;
+    cpu::TransferFunction transferFunction;
+    View view;
+    std::uint64_t bytes = 0;
+};
+
+class HostEngine : public PairEngine {
+  public:
+    HostEngine(const DetectOptions& options, const DetectInputs& inputs, cpu::Detector detector,
+               std::vector<cpu::Mesh> meshes)
+        : options_(options), inputs_(inputs), detector_(std::move(detector)), meshes_(std::move(meshes)),
+          shelf_(options.jobs, kMostVolumeBytes),
+          pace_(pairsPerBatch(options, inputs, 1), options.batch.has_value() || options.timing) {}
+
+    [[nodiscard]] std::string device() const override { return "host"; }
+    [[nodiscard]] std::string driver() const override {
+        return "cpu, " + std::to_string(detector_.threads()) + (detector_.threads() == 1 ? " thread" : " threads");
+    }
+    [[nodiscard]] PairAnswer untouched() const override {
+        PairAnswer answer;
+        answer.exactness = options_.yesNo() ? Exactness::LowerBound : Exactness::Exact;
+        answer.method = CountingMethod::Cpu;
+        answer.projection = *options_.method.projection;
+        return answer;
+    }
+    [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
+    [[nodiscard]] Result<void> answer(const Window& window, WindowRows& rows,
+                                      const std::function<bool()>& stop) override;
+
+  private:
+    [[nodiscard]] Result<HostVolume> make(std::uint32_t volume) const;
+
+    const DetectOptions& options_;
+    const DetectInputs& inputs_;
+    cpu::Detector detector_;
+    std::vector<cpu::Mesh> meshes_;
+    VolumeShelf<HostVolume> shelf_;
+    HostVolume* volume_ = nullptr;
+    BatchPace pace_;
+};
+
+Result<HostVolume> HostEngine::make(std::uint32_t number) const {
+    const Result<VolumeData> data = loadVolume(options_.jobs.volumes[number]);
+    if (!data.ok()) {
+        return data.error();
+    }
+    const Result<ValueRange> values = checkVolume(data->view());
+    if (!values.ok()) {
+        return values.error();
+    }
+    Result<cpu::Volume> volume = cpu::Volume::create(data->view());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const VolumeSettings settings = settingsFor(options_, inputs_, number, *data, *values);
+    Result<cpu::TransferFunction> function =
+        cpu::TransferFunction::create({settings.points, settings.domain, options_.transferFunction.tableSize});
+    if (!function.ok()) {
+        return function.error();
+    }
+    return HostVolume{std::move(*volume), std::move(*function), settings.view, data->voxels.size()};
+}
+
+Result<Grid> HostEngine::use(std::uint32_t job) {
+    const Result<HostVolume*> volume = shelf_.get(job, [&] { return make(options_.jobs.jobs[job].volume); });
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    volume_ = *volume;
+    return volume_->volume.grid();
+}
+
+Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
+    std::vector<cpu::BatchItem> all;
+    for (const WindowItem& item : window.items) {
+        all.push_back({&meshes_[options_.jobs.jobs[item.job].mesh], &volume_->volume, &volume_->transferFunction,
+                       item.selected, inputs_.labels ? &*inputs_.labels : nullptr});
+    }
+    BatchCutter<cpu::BatchItem> cutter(all);
+    std::vector<cpu::BatchItem> items;
+    std::vector<Piece> pieces;
+    while (!stop() && cutter.next(pace_.size(), items, pieces)) {
+        const Result<BatchAnswer> answer =
+            detector_.detect({items, volume_->view, options_.transferFunction.threshold});
+        if (!answer.ok()) {
+            return answer.error();
+        }
+        TimedAnswer timed;
+        timed.gpuMilliseconds = 0;
+        timed.wallMilliseconds = answer->wallMilliseconds / static_cast<double>(answer->pairs.size());
+        for (const PairAnswer& pair : answer->pairs) {
+            timed.answer = pair;
+            timed.item = pieces[pair.item].item;
+            timed.pose = pieces[pair.item].firstPose + pair.pose;
+            rows.add(timed);
+        }
+        rows.endBatch(*answer);
+        pace_.took(static_cast<std::uint32_t>(answer->pairs.size()), answer->wallMilliseconds);
+    }
+    return {};
+}
+
+Result<void> checkLimits(const DetectOptions& options) {
+    if (options.transferFunction.tableSize > kMostTableEntries) {
+        return badArgument("--tf-size: " + std::to_string(options.transferFunction.tableSize) +
+                           " is beyond what the counting method cpu can do, " + std::to_string(kMostTableEntries));
+    }
+    return !usesView(*options.method.projection)
+               ? Result<void>()
+               : checkViewport(options.view.size, {cpu::kMaxViewport, cpu::kMaxViewport}, "the counting method cpu");
+}
+
+} // namespace
+
+Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& inputs, const UseEngine& answer) {
+    if (Result<void> possible = checkLimits(options); !possible.ok()) {
+        return possible;
+    }
+    const MethodOptions& method = options.method;
+    Result<cpu::Detector> detector =
+        cpu::Detector::create({.threads = options.threads,
+                               .boundary = method.boundary,
+                               .stopAtFirst = options.yesNo(),
+                               .projection = *method.projection,
+                               .outputs = options.extra.outputs(),
+                               .samplesPerVoxel = method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel),
+                               .resolution = method.resolution.value_or(kDefaultResolution),
+                               .mostContacts = options.extra.contactRoom()});
+    if (!detector.ok()) {
+        return detector.error();
+    }
+    std::vector<cpu::Mesh> meshes;
+    for (const MeshData& data : inputs.meshes) {
+        Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        meshes.push_back(std::move(*mesh));
+    }
+    HostEngine engine(options, inputs, std::move(*detector), std::move(meshes));
+    return answer(engine);
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/detect_run.h"
+#include "app/options/inputs.h"
+#include "app/output/standard_streams.h"
+#include "core/text.h"
+#include "voxtact/io.h"
+
+namespace voxtact::app {
+
+namespace {
+
+/// A domain that leaves out some of the data is the user's right, and easily a slip.
+void noteValuesOutside(const ValueRange& domain, const ValueRange& data, const std::string& source) {
+    if (data.lo < domain.lo || data.hi > domain.hi) {
+        printNote(source + ": its values " + number(data.lo) + ":" + number(data.hi) +
+                  " go beyond --tf-domain; they take the opacity at its ends");
+    }
+}
+
+Result<void> readLabels(const ExtraOptions& options, DetectInputs& inputs) {
+    if (options.labels.empty()) {
+        return {};
+    }
+    Result<LabelData> labels = loadLabels(options.labels);
+    if (!labels.ok()) {
+        return labels.error();
+    }
+    inputs.labels = std::move(*labels);
+    Result<std::map<std::int32_t, std::string>> names = loadLabelNames(options.labelNames, options.labels);
+    if (!names.ok()) {
+        return names.error();
+    }
+    inputs.labelNames = std::move(*names);
+    return {};
+}
+
+} // namespace
+
+std::optional<std::uint64_t> DetectInputs::pairs(const PairJobs& jobs) const {
+    std::uint64_t sum = 0;
+    for (const Job& job : jobs.jobs) {
+        const std::optional<std::uint64_t> count = poses[job.poses].count();
+        if (!count) {
+            return std::nullopt;
+        }
+        sum += *count;
+    }
+    return sum;
+}
+
+Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
+    for (const std::string& source : options.jobs.volumes) {
+        // Volumes are read one at a time, so the last may be late: look now whether it is there at all.
+        std::error_code ignored;
+        if (!source.starts_with("builtin:") && !std::filesystem::exists(source, ignored)) {
+            return Error{ErrorCode::File, 0, "cannot read '" + source + "': there is no such file or folder"};
+        }
+    }
+    DetectInputs inputs;
+    Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
+    if (!points.ok()) {
+        return points.error();
+    }
+    inputs.points = std::move(*points);
+    for (std::uint32_t i = 0; i < options.jobs.poses.size(); ++i) {
+        Result<PoseSource> poses = PoseSource::open(options.jobs.poses[i], options.jobs.uses(i) > 1);
+        if (!poses.ok()) {
+            return poses.error();
+        }
+        inputs.poses.push_back(std::move(*poses));
+    }
+    if (!options.view.camera.empty()) {
+        const Result<Mat4> camera = io::readCamera(options.view.camera);
+        if (!camera.ok()) {
+            return camera.error();
+        }
+        inputs.clip_from_world = *camera;
+    }
+    for (const std::string& source : options.jobs.meshes) {
+        Result<MeshData> mesh = loadMesh(source, options.meshes);
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        const Result<MeshFacts> facts = checkMesh(mesh->view());
+        if (!facts.ok()) {
+            return facts.error();
+        }
+        inputs.bounds.push_back(facts->bounds);
+        inputs.meshes.push_back(std::move(*mesh));
+    }
+    if (Result<void> labels = readLabels(options.extra, inputs); !labels.ok()) {
+        return labels.error();
+    }
+    return inputs;
+}
+
+VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,
+                           const VolumeData& data, const ValueRange& values) {
+    const auto [width, height] = options.view.size;
+    const ValueRange domain = tableDomain(options.transferFunction, data.type, values);
+    noteValuesOutside(domain, values, options.jobs.volumes[volume]);
+    return {.domain = domain,
+            .points = inputs.points.empty() ? defaultRamp(domain) : inputs.points,
+            .view = {inputs.clip_from_world ? *inputs.clip_from_world : framingCamera(data.grid, width, height), width,
+                     height}};
+}
+
+Result<void> checkViewport(const VkExtent2D& size, const VkExtent2D& most, const std::string& who) {
+    if (size.width <= most.width && size.height <= most.height) {
+        return {};
+    }
+    const auto text = [](const VkExtent2D& extent) {
+        return std::to_string(extent.width) + "x" + std::to_string(extent.height);
+    };
+    return badArgument("--size: " + text(size) + " is beyond what " + who + " can do, " + text(most));
+}
+
+} // namespace voxtact::app

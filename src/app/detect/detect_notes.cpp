@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/detect_notes.h"
+
+#include "app/output/size_note.h"
+#include "voxtact/broad_phase.h"
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+/// Longer lists say no more.
+constexpr std::size_t kMostNotes = 5;
+
+void addSome(const std::vector<std::string>& some, std::vector<std::string>& notes) {
+    for (std::size_t i = 0; i < some.size() && i < kMostNotes; ++i) {
+        notes.push_back(some[i]);
+    }
+    if (some.size() > kMostNotes) {
+        notes.push_back("and " + std::to_string(some.size() - kMostNotes) + " more of this kind");
+    }
+}
+
+} // namespace
+
+FitNotes::FitNotes(const DetectOptions& options, const DetectInputs& inputs)
+    : options_(options), inputs_(inputs), near_(options.jobs.jobs.size()), poses_(options.jobs.jobs.size()),
+      sizes_(options.jobs.jobs.size()) {}
+
+void FitNotes::look(const Window& window, const Grid& grid) {
+    for (const WindowItem& item : window.items) {
+        if (poses_[item.job] == 0) {
+            const Box& object = inputs_.bounds[options_.jobs.jobs[item.job].mesh];
+            // The corners of a box that is turned are farther apart than its own: too little to matter here.
+            sizes_[item.job] = sizeNote(diagonal(transformBox(item.poses.front(), object)),
+                                        diagonal(transformBox(worldFromTexture(grid), {{0, 0, 0}, {1, 1, 1}})));
+        }
+        poses_[item.job] += item.poses.size();
+    }
+}
+
+void FitNotes::addTo(std::vector<std::string>& notes) const {
+    std::vector<std::string> sizes;
+    std::vector<std::string> places;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+        const PairJobs& jobs = options_.jobs;
+        const std::string& mesh = jobs.meshes[jobs.jobs[i].mesh];
+        const std::string& volume = jobs.volumes[jobs.jobs[i].volume];
+        if (!sizes_[i].empty()) {
+            sizes.push_back(mesh + " against " + volume + ": the mesh " + sizes_[i]);
+        }
+        if (poses_[i] > 0 && near_[i] == 0 && options_.method.boundary != Boundary::Clamp) {
+            places.push_back(mesh + " does not come near " + volume +
+                             (poses_[i] == 1 ? " at its pose" : " at any of " + std::to_string(poses_[i]) + " poses") +
+                             "; are --mesh-space, --mesh-scale and the poses (world mm, LPS) right?");
+        }
+    }
+    addSome(sizes, notes);
+    addSome(places, notes);
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/pair_window.h"
+
+namespace voxtact::app {
+
+/// What is to be said of a mesh that is a thousand times too small or too large for a volume, or that comes near it at
+/// no pose: most often its unit, or its space, is another one than was said.
+class FitNotes {
+  public:
+    /// Both must outlive it.
+    FitNotes(const DetectOptions& options, const DetectInputs& inputs);
+
+    /// How many poses of each job bring the mesh's box near the volume; selectPoses() counts.
+    [[nodiscard]] std::vector<std::uint64_t>& near() noexcept { return near_; }
+    /// Counts the poses, and looks at the size of the mesh at the first pose of each job.
+    void look(const Window& window, const Grid& grid);
+    /// Once all windows have been looked at.
+    void addTo(std::vector<std::string>& notes) const;
+
+  private:
+    const DetectOptions& options_;
+    const DetectInputs& inputs_;
+    std::vector<std::uint64_t> near_;
+    std::vector<std::uint64_t> poses_;
+    std::vector<std::string> sizes_; ///< the note of each job; empty: none
+};
+
+} // namespace voxtact::app

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/detect_files.h"
+#include "app/detect/detect_run.h"
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+/// On the device, on the host, and unpacked.
+constexpr std::uint64_t kBytesOfTriangle = sizeof(std::uint32_t) * 2 + sizeof(TouchedTriangle);
+constexpr std::uint64_t kBytesOfLabel = sizeof(std::uint32_t) * 2 + sizeof(LabelCount);
+
+/// What is put to what: a file says, or the other options do.
+Result<void> resolveJobs(DetectOptions& options) {
+    const bool byFile = !options.jobsPath.empty();
+    for (const auto& [option, given] :
+         {std::pair("--volume", !options.volumes.empty()), std::pair("--mesh", !options.meshes.sources.empty())}) {
+        if (given == byFile) {
+            return badArgument(option +
+                               std::string(byFile ? ": --jobs names meshes, volumes and poses; leave out one of the two"
+                                                  : " is required, or --jobs; see voxtact detect --help"));
+        }
+    }
+    if (!byFile) {
+        options.jobs = allPairs(options.meshes.sources, options.volumes, options.view.poses);
+        return {};
+    }
+    if (!options.view.poses.empty()) {
+        return badArgument("--poses: --jobs names meshes, volumes and poses; leave out one of the two");
+    }
+    Result<PairJobs> jobs = readJobs(options.jobsPath);
+    if (!jobs.ok()) {
+        return jobs.error();
+    }
+    options.jobs = std::move(*jobs);
+    return {};
+}
+
+Result<void> checkHost(const DetectOptions& options) {
+    if (options.method.count != CountingMethod::Cpu) {
+        return {};
+    }
+    if (options.method.filter == Filter::Hardware) {
+        return badArgument("--filter hardware: the counting method cpu has no device's sampler; it filters exact only");
+    }
+    if (options.device.validate) {
+        return badArgument("--validate: the counting method cpu uses no Vulkan, there is nothing to validate; leave "
+                           "out one of the two");
+    }
+    return {};
+}
+
+Result<void> checkConservative(const MethodOptions& method) {
+    if (method.projection != Projection::Conservative) {
+        return {};
+    }
+    if (method.filter == Filter::Hardware) {
+        return badArgument("--filter hardware: the projection conservative filters exact only");
+    }
+    if (!canBeConservative(method)) {
+        return badArgument(std::string("--count ") + toString(*method.count) +
+                           ": the projection conservative is answered by compute, cpu and auto only");
+    }
+    if (method.boundary == Boundary::Clamp) {
+        return badArgument("--boundary clamp: the projection conservative always tests the range; leave it out, or add "
+                           "--projection view");
+    }
+    return {};
+}
+
+/// Refuses an option that would change nothing.
+Result<void> checkUsed(bool given, const char* option, bool used, const std::string& why) {
+    return given && !used ? badArgument(option + (": " + why)) : Result<void>();
+}
+
+Result<void> checkProjection(const DetectOptions& options) {
+    const Projection projection = *options.method.projection;
+    const std::string name = toString(projection);
+    const std::string camera =
+        "the projection " + name + " has no camera; leave it out, or add --projection view or two-view";
+    const ViewOptions& view = options.view;
+    for (const Result<void>& used :
+         {checkUsed(view.sizeGiven, "--size", usesView(projection), camera),
+          checkUsed(!view.camera.empty(), "--camera", usesView(projection), camera),
+          checkUsed(options.method.samplesPerVoxel.has_value(), "--samples-per-voxel",
+                    projection == Projection::DominantAxis, "it is for --projection dominant-axis, not for " + name),
+          checkUsed(options.method.resolution.has_value(), "--resolution", projection == Projection::Conservative,
+                    "it is for --projection conservative, not for " + name)}) {
+        if (!used.ok()) {
+            return used;
+        }
+    }
+    return {};
+}
+
+Result<void> checkExtra(const DetectOptions& options) {
+    const ExtraOptions& extra = options.extra;
+    const std::string contacts = "it is about contacts, and --contacts is not given";
+    for (const Result<void>& used :
+         {checkUsed(extra.maxDepth.has_value(), "--max-depth", !extra.contacts.empty(), contacts),
+          checkUsed(extra.mostContacts.has_value(), "--most-contacts", !extra.contacts.empty(), contacts),
+          checkUsed(!extra.labelNames.empty(), "--label-names", !extra.labels.empty(),
+                    "it names the labels of a label map, and --labels is not given")}) {
+        if (!used.ok()) {
+            return used;
+        }
+    }
+    if (!extra.contacts.empty() && !isContactEnding(extra.contacts)) {
+        return badArgument("--contacts: the ending of '" + extra.contacts.string() + "' says no format; it must be " +
+                           contactEndings());
+    }
+    if (options.yesNo() && extra.outputs().any()) {
+        const char* option = !extra.contacts.empty()    ? "--contacts"
+                             : !extra.triangles.empty() ? "--triangles"
+                             : extra.bounds             ? "--bounds"
+                                                        : "--labels";
+        return badArgument(std::string("--answer yes-no stops at the first contact, and ") + option +
+                           " is about all of them; leave out one of the two");
+    }
+    return {};
+}
+
+} // namespace
+
+Outputs ExtraOptions::outputs() const {
+    return {.triangles = !triangles.empty(),
+            .contacts = !contacts.empty(),
+            .bounds = bounds,
+            .labels = !labels.empty(),
+            .maxDepth = maxDepth.value_or(kDefaultMaxDepth)};
+}
+
+bool canBeConservative(const MethodOptions& method) {
+    const bool byMethod =
+        !method.count || method.count == CountingMethod::Compute || method.count == CountingMethod::Cpu;
+    return byMethod && method.filter != Filter::Hardware;
+}
+
+Result<void> resolveOptions(DetectOptions& options) {
+    if (options.output.path == "-") {
+        options.output.path.clear();
+    }
+    if (Result<void> jobs = resolveJobs(options); !jobs.ok()) {
+        return jobs;
+    }
+    if (Result<void> host = checkHost(options); !host.ok()) {
+        return host;
+    }
+    if (!options.method.projection) {
+        options.method.projection = canBeConservative(options.method) ? Projection::Conservative : Projection::View;
+    }
+    if (Result<void> conservative = checkConservative(options.method); !conservative.ok()) {
+        return conservative;
+    }
+    if (Result<void> projection = checkProjection(options); !projection.ok()) {
+        return projection;
+    }
+    return checkExtra(options);
+}
+
+std::uint64_t mostTriangles(const DetectInputs& inputs) {
+    std::uint64_t most = 0;
+    for (const MeshData& mesh : inputs.meshes) {
+        most = std::max<std::uint64_t>(most, mesh.indices.size() / 3);
+    }
+    return most;
+}
+
+std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t copies) {
+    std::uint64_t bytes = sizeof(Row);
+    if (options.extra.outputs().triangles) {
+        bytes += mostTriangles(inputs) * kBytesOfTriangle;
+    }
+    if (inputs.labels) {
+        bytes += inputs.labels->values.size() * kBytesOfLabel;
+    }
+    const std::uint64_t fit = std::max<std::uint64_t>(kMostOutputBytes / copies / bytes, 1);
+    return options.extra.outputs().any() ? static_cast<std::uint32_t>(std::min<std::uint64_t>(options.mostPairs(), fit))
+                                         : options.mostPairs();
+}
+
+} // namespace voxtact::app

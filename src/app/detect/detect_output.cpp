@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/detect_output.h"
+
+#include "app/detect/detect_files.h"
+#include "app/detect/detect_table.h"
+#include "app/output/standard_streams.h"
+#include "io/text/table.h"
+#include "voxtact/io.h"
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace voxtact::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Columns of text are as wide as what is in them: a screen of rows is waited for before they are settled, and more
+/// where they come fast, but not long.
+constexpr auto kTextWait = std::chrono::milliseconds(300);
+constexpr auto kLongTextWait = std::chrono::seconds(3);
+constexpr std::size_t kFewTextRows = 32;
+constexpr std::size_t kManyTextRows = 4096;
+
+double rounded(double value, double parts) {
+    return std::round(value * parts) / parts;
+}
+
+} // namespace
+
+struct DetectOutput::State {
+    State(const DetectOptions& how, const DetectInputs& what)
+        : options(how), inputs(what), format(how.output.format()), columns(how, what),
+          // What validation says decides whether there is a table at all.
+          held(how.output.path.empty() && how.device.validate) {}
+
+    Result<void> writeRows(std::span<const Row> part);
+    Result<void> writeHeld();
+    Result<void> pass();
+    std::ostream& out() { return table ? table->stream() : text; }
+
+    const DetectOptions& options;
+    const DetectInputs& inputs;
+    io::Format format;
+    DetectColumns columns;
+    bool held;
+    std::ostringstream text{}; ///< on its way to standard output
+    std::optional<io::OutputFile> table{};
+    std::optional<io::OutputFile> triangles{};
+    std::optional<io::OutputFile> contactsFile{};
+    std::optional<io::TableWriter> writer{};
+    io::NamedCells facts{};
+    std::vector<Row> waiting{}; ///< rows of text before its columns are settled
+    std::optional<Clock::time_point> firstWaiting{};
+    std::uint64_t rows = 0;
+    std::vector<KeptContact> contacts{};
+    std::vector<KeptBounds> bounds{};
+    std::uint64_t contactsFound = 0;
+};
+
+Result<void> DetectOutput::State::writeRows(std::span<const Row> part) {
+    io::Table rowsTable = columns.table(part);
+    rowsTable.facts = facts;
+    writer->add(rowsTable);
+    return pass();
+}
+
+Result<void> DetectOutput::State::writeHeld() {
+    const std::vector<Row> all = std::move(waiting);
+    waiting.clear();
+    return writeRows(all);
+}
+
+/// Hands on what has been written.
+Result<void> DetectOutput::State::pass() {
+    if (table) {
+        // A disk that is full now will not have room for the rest.
+        return table->stream() ? Result<void>() : table->close();
+    }
+    if (held) {
+        return {};
+    }
+    const std::string part = text.str();
+    text.str({});
+    return writeStandardOutput(part);
+}
+
+DetectOutput::DetectOutput(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+DetectOutput::DetectOutput(DetectOutput&&) noexcept = default;
+DetectOutput::~DetectOutput() = default;
+
+Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const DetectInputs& inputs) {
+    auto state = std::make_unique<State>(options, inputs);
+    for (const auto& [path, file] :
+         {std::pair(&options.output.path, &state->table), std::pair(&options.extra.triangles, &state->triangles),
+          std::pair(&options.extra.contacts, &state->contactsFile)}) {
+        if (path->empty()) {
+            continue;
+        }
+        Result<io::OutputFile> opened = io::OutputFile::create(*path);
+        if (!opened.ok()) {
+            return opened.error();
+        }
+        *file = std::move(*opened);
+    }
+    if (state->triangles) {
+        writeTriangleHeader(state->triangles->stream(), options);
+    }
+    state->writer.emplace(state->out(), state->format);
+    return DetectOutput(std::move(state));
+}
+
+void DetectOutput::begin(const std::string& device, const std::string& driver) {
+    state_->facts = detectFacts(device, driver);
+}
+
+Result<void> DetectOutput::add(std::span<const Row> rows) {
+    State& state = *state_;
+    state.rows += rows.size();
+    if (state.options.extra.bounds && !state.options.extra.contacts.empty()) {
+        for (const Row& row : rows) {
+            if (row.bounds && state.bounds.size() < state.options.extra.contactRoom()) {
+                state.bounds.push_back({*row.bounds, row.job, row.pose});
+            }
+        }
+    }
+    if (state.format != io::Format::Text) {
+        return state.writeRows(rows);
+    }
+    const Clock::time_point now = Clock::now();
+    if (!state.firstWaiting) {
+        state.firstWaiting = now;
+    }
+    state.waiting.insert(state.waiting.end(), rows.begin(), rows.end());
+    const bool wait = now - *state.firstWaiting < (state.waiting.size() < kFewTextRows ? kLongTextWait : kTextWait) &&
+                      state.waiting.size() < kManyTextRows;
+    return wait ? Result<void>() : state.writeHeld();
+}
+
+void DetectOutput::addTriangle(const Row& row, const TouchedTriangle& touched) {
+    if (state_->triangles) {
+        writeTriangle(state_->triangles->stream(), state_->options, row, touched);
+    }
+}
+
+bool DetectOutput::keepContact(const Row& row, const Contact& contact) {
+    if (state_->contacts.size() >= state_->options.extra.contactRoom()) {
+        return false;
+    }
+    state_->contacts.push_back({contact, row.job, row.pose});
+    return true;
+}
+
+void DetectOutput::countContacts(std::uint64_t found) noexcept {
+    state_->contactsFound += found;
+}
+
+std::uint64_t DetectOutput::rows() const noexcept {
+    return state_->rows;
+}
+
+Result<void> DetectOutput::finish(double wallMilliseconds) {
+    State& state = *state_;
+    if (Result<void> written = state.writeHeld(); !written.ok()) {
+        return written;
+    }
+    io::NamedCells timing;
+    if (state.options.timing) {
+        const double seconds = wallMilliseconds / 1000;
+        const double rate = seconds > 0 ? static_cast<double>(state.rows) / seconds : 0;
+        timing = {
+            {"pairs", state.rows}, {"wall_ms", rounded(wallMilliseconds, 1e6)}, {"pairs_per_s", rounded(rate, 10)}};
+    }
+    state.writer->end(timing);
+    if (state.contactsFile) {
+        writeContacts(state.contactsFile->stream(), state.options, state.inputs, {state.contacts, state.bounds});
+    }
+    // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
+    for (std::optional<io::OutputFile>* file : {&state.table, &state.triangles, &state.contactsFile}) {
+        if (Result<void> closed = *file ? (*file)->close() : Result<void>(); !closed.ok()) {
+            return closed;
+        }
+    }
+    state.held = false;
+    if (Result<void> written = state.table ? Result<void>() : state.pass(); !written.ok()) {
+        return written;
+    }
+    for (std::optional<io::OutputFile>* file : {&state.contactsFile, &state.triangles, &state.table}) {
+        if (Result<void> named = *file ? (*file)->commit() : Result<void>(); !named.ok()) {
+            return named;
+        }
+    }
+    return {};
+}
+
+Result<void> DetectOutput::breakOff() {
+    State& state = *state_;
+    if (state.table) {
+        return {};
+    }
+    state.held = false;
+    if (Result<void> written = state.writeHeld(); !written.ok()) {
+        return written;
+    }
+    state.writer->end({}, false);
+    return state.pass();
+}
+
+std::string DetectOutput::noteOfContacts() const {
+    const State& state = *state_;
+    if (state.contactsFound <= state.contacts.size()) {
+        return {};
+    }
+    return state.options.extra.contacts.string() + ": " + std::to_string(state.contacts.size()) + " of " +
+           std::to_string(state.contactsFound) + " contacts were kept (--most-contacts " +
+           std::to_string(state.options.extra.contactRoom()) + ")";
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/detect_run.h"
+
+#include <memory>
+#include <span>
+
+namespace voxtact::app {
+
+/// What `voxtact detect` writes: rows on standard output as they come, files when all is done and well, all of them or
+/// none. Thread-safety: none; one thread at a time.
+class DetectOutput {
+  public:
+    /// Opens the files. Both must outlive it. Wants begin() before the rest.
+    [[nodiscard]] static Result<DetectOutput> create(const DetectOptions& options, const DetectInputs& inputs);
+    DetectOutput(DetectOutput&&) noexcept;
+    ~DetectOutput();
+
+    /// Who answers: for JSON.
+    void begin(const std::string& device, const std::string& driver);
+    /// The next rows.
+    [[nodiscard]] Result<void> add(std::span<const Row> rows);
+    void addTriangle(const Row& row, const TouchedTriangle& touched);
+    /// False: as many are kept as there is room for.
+    [[nodiscard]] bool keepContact(const Row& row, const Contact& contact);
+    void countContacts(std::uint64_t found) noexcept;
+
+    [[nodiscard]] std::uint64_t rows() const noexcept;
+
+    /// Completes what has been written; the files get their names. `wallMilliseconds` is for --timing.
+    [[nodiscard]] Result<void> finish(double wallMilliseconds);
+    /// Completes standard output with the rows that there are; no file gets its name.
+    [[nodiscard]] Result<void> breakOff();
+
+    /// A list that was cut is still a good run, with fewer contacts than there are; empty: it was not.
+    [[nodiscard]] std::string noteOfContacts() const;
+
+    struct State;
+
+  private:
+    explicit DetectOutput(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace voxtact::app

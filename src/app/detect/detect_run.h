@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/detect_jobs.h"
+#include "app/detect/pose_source.h"
+#include "app/options/open_session.h"
+#include "app/options/shared_options.h"
+#include "app/output/output.h"
+#include "device/pair_pipeline.h"
+#include "voxtact/labels.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the parts of `voxtact detect` share: its options, what is read for it, and a row of what comes out.
+namespace voxtact::app {
+
+constexpr std::uint32_t kDefaultBatch = 1024;
+constexpr std::uint32_t kDefaultMostContacts = 1U << 20U;
+
+/// What is asked for beside the counts.
+struct ExtraOptions {
+    std::filesystem::path triangles; ///< files to write; empty: not asked for
+    std::filesystem::path contacts;
+    std::filesystem::path labels; ///< a label map to read
+    std::filesystem::path labelNames;
+    bool bounds = false;
+    std::optional<double> maxDepth;
+    std::optional<std::uint32_t> mostContacts;
+
+    [[nodiscard]] Outputs outputs() const;
+    [[nodiscard]] std::uint32_t contactRoom() const { return mostContacts.value_or(kDefaultMostContacts); }
+};
+
+struct DetectOptions {
+    std::vector<std::string> volumes; ///< as given; the jobs have each once
+    MeshOptions meshes;
+    std::filesystem::path jobsPath;
+    PairJobs jobs; ///< set by resolveOptions()
+    TransferFunctionOptions transferFunction;
+    ViewOptions view;
+    MethodOptions method;
+    DeviceChoice device;
+    OutputOptions output;
+    ExtraOptions extra;
+    std::string answer = "count";
+    bool progress = true;
+    bool timing = false;
+    std::optional<std::uint32_t> batch;
+    std::uint32_t threads = 0; ///< 0: one for each processor
+
+    [[nodiscard]] bool yesNo() const { return answer == "yes-no"; }
+    [[nodiscard]] std::uint32_t mostPairs() const { return batch.value_or(kDefaultBatch); }
+    /// Whether the numbers of pose and triangle alone do not say which mesh and volume are meant.
+    [[nodiscard]] bool hasSeveralJobs() const { return jobs.jobs.size() > 1; }
+};
+
+/// What is read before there is a device.
+struct DetectInputs {
+    std::vector<MeshData> meshes;
+    std::vector<Box> bounds; ///< of the meshes, object space
+    std::vector<ControlPoint> points;
+    std::vector<PoseSource> poses;
+    std::optional<Mat4> clip_from_world;
+    std::optional<LabelData> labels;
+    std::map<std::int32_t, std::string> labelNames;
+
+    /// Of all jobs; nothing where standard input has not told yet.
+    [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;
+};
+
+/// The answer for one pair.
+struct Row {
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0; ///< number in its file
+    TimedAnswer timed;
+    std::uint64_t triangles = 0; ///< touched ones
+    std::uint64_t contacts = 0;  ///< found, kept or not
+    double depth = 0;            ///< of the deepest contact that was kept, mm
+    std::optional<Box> bounds;
+    std::vector<LabelCount> labels;
+};
+
+/// A contact, and whose it is.
+struct KeptContact {
+    Contact contact;
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0;
+};
+
+/// A pair's world box, where a file of contacts is to have it.
+struct KeptBounds {
+    Box box;
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0;
+};
+
+/// Decides what the options leave open: afterwards there are a projection and jobs. Refuses options that do not go
+/// together.
+[[nodiscard]] Result<void> resolveOptions(DetectOptions& options);
+
+/// Whether a method and filter can answer in the projection conservative.
+[[nodiscard]] bool canBeConservative(const MethodOptions& method);
+
+/// Meshes, poses, camera, control points and labels; volumes are read one at a time, later.
+[[nodiscard]] Result<DetectInputs> readDetectInputs(const DetectOptions& options);
+
+/// What a volume is looked at with.
+struct VolumeSettings {
+    ValueRange domain;
+    std::vector<ControlPoint> points;
+    View view;
+};
+
+/// `values`: smallest and largest voxel. Says so where some lie outside the domain.
+[[nodiscard]] VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,
+                                         const VolumeData& data, const ValueRange& values);
+
+/// Refuses a viewport beyond `most`, which is what `who` can do.
+[[nodiscard]] Result<void> checkViewport(const VkExtent2D& size, const VkExtent2D& most, const std::string& who);
+
+/// Bytes for the answers beside the counts of all batches in flight.
+constexpr std::uint64_t kMostOutputBytes = std::uint64_t{256} << 20U;
+
+/// Of the largest mesh.
+[[nodiscard]] std::uint64_t mostTriangles(const DetectInputs& inputs);
+/// Pairs of a batch or submission: as many as --batch says, or fewer where the answers beside the counts would take
+/// too much memory. `copies` of them are in flight.
+[[nodiscard]] std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& inputs,
+                                          std::uint32_t copies);
+
+/// The name of a label; its number where it has none.
+[[nodiscard]] std::string labelName(const DetectInputs& inputs, std::int32_t label);
+
+} // namespace voxtact::app

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/window_rows.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+namespace voxtact::app {
+
+/// What answers pairs: the host, or a method of a device.
+class PairEngine {
+  public:
+    PairEngine() = default;
+    PairEngine(const PairEngine&) = delete;
+    PairEngine& operator=(const PairEngine&) = delete;
+    virtual ~PairEngine() = default;
+
+    [[nodiscard]] virtual std::string device() const = 0;
+    [[nodiscard]] virtual std::string driver() const = 0;
+    /// The answer for a pair that cannot touch.
+    [[nodiscard]] virtual PairAnswer untouched() const = 0;
+    /// Makes the volume of a job the one that answer() is about; says where it lies.
+    [[nodiscard]] virtual Result<Grid> use(std::uint32_t job) = 0;
+    /// Answers for the selected poses of the window, in order. Ends early, and well, once `stop` says so.
+    [[nodiscard]] virtual Result<void> answer(const Window& window, WindowRows& rows,
+                                              const std::function<bool()>& stop) = 0;
+};
+
+/// All pairs of the jobs by the engine. Ends early, and well, once the user interrupts. Returns the milliseconds that
+/// the engine took. What is to be said of meshes and volumes that do not fit is added to `notes`.
+[[nodiscard]] Result<double> answerPairs(const DetectOptions& options, DetectInputs& inputs, PairEngine& engine,
+                                         DetectOutput& output, std::vector<std::string>& notes);
+
+/// Calls `answer` for an engine of the session's device, or of the host (no Vulkan). What it was made of ends with it.
+using UseEngine = std::function<Result<void>(PairEngine&)>;
+[[nodiscard]] Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs,
+                                            const Session& session, CountingMethod method, const UseEngine& answer);
+[[nodiscard]] Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& inputs,
+                                          const UseEngine& answer);
+
+/// Volumes that are ready, kept while a later job has them and there is room: read once, not for each job.
+template <class Ready> class VolumeShelf {
+  public:
+    VolumeShelf(const PairJobs& jobs, std::uint64_t mostBytes) : jobs_(jobs), mostBytes_(mostBytes) {}
+
+    /// The volume of this job, made by `make` (Result<Ready>, where Ready::bytes says how large it is) if it is not
+    /// there.
+    template <class Make> Result<Ready*> get(std::uint32_t job, const Make& make) {
+        const std::uint32_t volume = jobs_.jobs[job].volume;
+        if (const auto found = ready_.find(volume); found != ready_.end()) {
+            return &found->second;
+        }
+        std::erase_if(ready_, [&](const auto& entry) { return nextUse(entry.first, job) == kNever; });
+        for (std::uint64_t bytes = bytesOf(); !ready_.empty() && bytes > mostBytes_; bytes = bytesOf()) {
+            ready_.erase(std::max_element(ready_.begin(), ready_.end(), [&](const auto& a, const auto& b) {
+                return nextUse(a.first, job) < nextUse(b.first, job);
+            }));
+        }
+        Result<Ready> made = make();
+        if (!made.ok()) {
+            return made.error();
+        }
+        return &ready_.emplace(volume, std::move(*made)).first->second;
+    }
+
+  private:
+    static constexpr std::size_t kNever = SIZE_MAX;
+
+    /// The next job from this one on that has the volume.
+    [[nodiscard]] std::size_t nextUse(std::uint32_t volume, std::size_t job) const {
+        while (job < jobs_.jobs.size() && jobs_.jobs[job].volume != volume) {
+            ++job;
+        }
+        return job < jobs_.jobs.size() ? job : kNever;
+    }
+    [[nodiscard]] std::uint64_t bytesOf() const {
+        std::uint64_t sum = 0;
+        for (const auto& [volume, ready] : ready_) {
+            sum += ready.bytes;
+        }
+        return sum;
+    }
+
+    const PairJobs& jobs_;
+    std::uint64_t mostBytes_;
+    std::map<std::uint32_t, Ready> ready_;
+};
+
+} // namespace voxtact::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/detect_run.h"
+#include "core/batch_pace.h"
+
+/// The pairs of the jobs in order, a bounded number at a time, and which of them are put to an engine.
+namespace voxtact::app {
+
+/// Of a window: few against what a device does in a second, and 8 MB of matrices.
+constexpr std::uint32_t kWindowPairs = 1U << 16U;
+
+/// Some poses of a job. The object-space mesh at those that are `selected` comes near the volume; at the others nothing
+/// can touch.
+struct WindowItem {
+    std::uint32_t job = 0;
+    std::uint64_t firstPose = 0;
+    std::vector<Mat4> poses;
+    std::vector<Mat4> selected;
+    std::vector<std::uint32_t> numbers; ///< of the selected ones, in `poses`
+};
+
+struct Window {
+    std::vector<WindowItem> items;
+    std::size_t pairs = 0; ///< of all items, selected or not
+};
+
+/// Goes through the pairs of the jobs from `begin` to before `end`, which have one volume.
+class PairWindows {
+  public:
+    /// Both must outlive it.
+    PairWindows(const DetectOptions& options, DetectInputs& inputs, std::uint32_t begin, std::uint32_t end);
+
+    /// The next window, without pairs when all are out.
+    [[nodiscard]] Result<void> next(Window& window);
+
+  private:
+    const PairJobs& jobs_;
+    DetectInputs& inputs_;
+    std::uint32_t job_;
+    std::uint32_t end_;
+    std::optional<std::uint64_t> pose_; ///< the next one of the job; nothing: it has not begun
+    BatchPace pace_;                    ///< of a source that may be slow
+    Result<void> failure_;              ///< of the poses: told once those before it have been given
+};
+
+/// Selects of each item the poses at which the mesh's box comes near the volume: all poses where that does not follow
+/// (--boundary clamp), and with --timing, which is about every pair. Adds to near[job] how many come near.
+[[nodiscard]] Result<void> selectPoses(const DetectOptions& options, const DetectInputs& inputs, const Grid& grid,
+                                       Window& window, std::vector<std::uint64_t>& near);
+
+} // namespace voxtact::app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/window_rows.h"
+
+#include <algorithm>
+#include <span>
+
+namespace voxtact::app {
+
+WindowRows::WindowRows(const DetectOptions& options, const Window& window, const PairAnswer& untouched,
+                       DetectOutput& output)
+    : options_(options), window_(window), output_(output), rows_(window.pairs) {
+    std::size_t row = 0;
+    for (const WindowItem& item : window.items) {
+        firstRows_.push_back(row);
+        for (std::size_t pose = 0; pose < item.poses.size(); ++pose, ++row) {
+            rows_[row].job = item.job;
+            rows_[row].pose = item.firstPose + pose;
+            rows_[row].timed.answer = untouched;
+        }
+    }
+}
+
+void WindowRows::add(const TimedAnswer& timed) {
+    const std::size_t row = firstRows_[timed.item] + window_.items[timed.item].numbers[timed.pose];
+    rows_[row].timed = timed;
+    if (options_.yesNo()) {
+        // Methods that cannot stop early have counted them all.
+        PairAnswer& answer = rows_[row].timed.answer;
+        answer.count = std::min<std::uint64_t>(answer.count, 1);
+        answer.exactness = Exactness::LowerBound;
+    }
+    batch_.push_back(static_cast<std::uint32_t>(row));
+}
+
+void WindowRows::endBatch(const BatchAnswer& answer) {
+    for (const TouchedTriangle& touched : answer.triangles) {
+        Row& row = rows_[batch_[touched.pair]];
+        ++row.triangles;
+        output_.addTriangle(row, touched);
+    }
+    for (const Contact& contact : answer.contacts) {
+        Row& row = rows_[batch_[contact.pair]];
+        ++row.contacts;
+        if (output_.keepContact(row, contact)) {
+            row.depth = std::max(row.depth, contact.depth);
+        }
+    }
+    output_.countContacts(answer.contactsFound);
+    // Each survivor is a contact: a list that was cut does not say how many a pair has, its count does.
+    if (answer.contactsFound > answer.contacts.size()) {
+        for (const std::uint32_t row : batch_) {
+            rows_[row].contacts = std::max(rows_[row].contacts, rows_[row].timed.answer.count);
+        }
+    }
+    for (std::size_t pair = 0; pair < answer.bounds.size(); ++pair) {
+        rows_[batch_[pair]].bounds = answer.bounds[pair];
+    }
+    for (const LabelCount& label : answer.labels) {
+        rows_[batch_[label.pair]].labels.push_back(label);
+    }
+    if (!batch_.empty() && !options_.timing) {
+        deliver(std::size_t{batch_.back()} + 1);
+    }
+    batch_.clear();
+}
+
+void WindowRows::endWindow() {
+    deliver(rows_.size());
+}
+
+void WindowRows::deliver(std::size_t end) {
+    if (written_.ok()) {
+        written_ = output_.add(std::span<const Row>(rows_).subspan(delivered_, end - delivered_));
+    }
+    delivered_ = end;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/detect/detect_output.h"
+#include "app/detect/pair_window.h"
+
+namespace voxtact::app {
+
+/// The rows of a window: every pair, those that are not selected with the answer that nothing touches. They go to the
+/// output in order, as soon as they are known.
+class WindowRows {
+  public:
+    /// `untouched` says by which method and in which projection. All arguments must outlive it.
+    WindowRows(const DetectOptions& options, const Window& window, const PairAnswer& untouched, DetectOutput& output);
+
+    /// The answer for a selected pose of an item; in order.
+    void add(const TimedAnswer& timed);
+    /// The answers beside the counts of the pairs that were added since the last time. The rows up to the last of these
+    /// are known now; with --timing they wait for the end of the window, so that no time is of writing them.
+    void endBatch(const BatchAnswer& answer);
+    /// All that was selected has been answered.
+    void endWindow();
+
+    /// Whether the output took all rows.
+    [[nodiscard]] const Result<void>& written() const noexcept { return written_; }
+
+  private:
+    void deliver(std::size_t end);
+
+    const DetectOptions& options_;
+    const Window& window_;
+    DetectOutput& output_;
+    std::vector<Row> rows_;
+    std::vector<std::size_t> firstRows_; ///< of each item
+    std::vector<std::uint32_t> batch_;   ///< rows of the pairs of the current batch
+    std::size_t delivered_ = 0;
+    Result<void> written_;
+};
+
+} // namespace voxtact::app

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "app/commands.h"
+#include "app/options/inputs.h"
+#include "app/options/output_paths.h"
+#include "app/output/standard_streams.h"
+#include "core/text.h"
+#include "lab/random_poses.h"
+#include "voxtact/io.h"
+
+#include <CLI/CLI.hpp>
+
+#include <ostream>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kMeshFooter = R"(The ending says the format: .stl (binary), .obj, .ply (binary).
+
+Example:
+  voxtact make mesh builtin:scalpel:3068 scalpel.stl)";
+
+constexpr const char* kVolumeFooter = R"(The ending says the format: .nii, .nii.gz, .nrrd, .mha.
+
+Example:
+  voxtact make volume builtin:head:128 head.nii.gz)";
+
+constexpr const char* kPosesFooter =
+    R"(Each pose is a random rotation that puts a random vertex of the mesh at a random point of the volume's
+box, made larger by a tenth on each side: most meshes overlap the box, some are just beside it. The same
+seed gives the same poses on every machine. The output is what detect --poses reads.
+
+Example:
+  voxtact make poses --volume builtin:head:128 --mesh builtin:scalpel --count 1000 --seed 7 --output poses.txt)";
+
+struct MakeFileOptions {
+    std::string source;
+    std::filesystem::path path;
+};
+
+struct MakePosesOptions {
+    std::vector<std::string> volumes;
+    MeshOptions meshes;
+    std::uint32_t count = 100;
+    std::uint64_t seed = 1;
+    std::filesystem::path path;
+};
+
+Outcome outcomeOf(const Result<void>& result) {
+    return result.ok() ? Outcome() : Outcome(result.error());
+}
+
+/// The source as the loaders want it, or why it is not one of ours.
+Result<void> requireBuiltin(const std::string& source) {
+    if (!source.starts_with("builtin:")) {
+        return badArgument("'" + source + "' is not builtin:NAME[:SIZE]");
+    }
+    return {};
+}
+
+Outcome makeMesh(const MakeFileOptions& options) {
+    if (const Result<void> usable = requireBuiltin(options.source); !usable.ok()) {
+        return usable.error();
+    }
+    if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
+        return writable.error();
+    }
+    const Result<MeshData> mesh = loadMesh(options.source, {});
+    return mesh.ok() ? outcomeOf(io::writeMesh(options.path, mesh->view())) : Outcome(mesh.error());
+}
+
+Outcome makeVolume(const MakeFileOptions& options) {
+    if (const Result<void> usable = requireBuiltin(options.source); !usable.ok()) {
+        return usable.error();
+    }
+    if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
+        return writable.error();
+    }
+    const Result<VolumeData> volume = loadVolume(options.source);
+    return volume.ok() ? outcomeOf(io::writeVolume(options.path, volume->view())) : Outcome(volume.error());
+}
+
+void writePose(std::ostream& out, const Mat4& pose) {
+    for (std::size_t i = 0; i < 16; ++i) {
+        out << (i == 0 ? "" : " ") << number(pose[4 * (i % 4) + i / 4]);
+    }
+    out << '\n';
+}
+
+Outcome makePoses(const MakePosesOptions& options) {
+    if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
+        return badArgument("one --volume and one --mesh are needed, not several");
+    }
+    if (const Result<void> writable =
+            checkOutputs({{"--output", options.path}}, inputPaths(options.volumes, options.meshes));
+        !writable.ok()) {
+        return writable.error();
+    }
+    const Result<VolumeData> volume = loadVolume(options.volumes.front());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
+    if (!mesh.ok()) {
+        return mesh.error();
+    }
+    const std::vector<Mat4> poses = randomPoses(volume->grid, mesh->view(), options.count, options.seed);
+    return outcomeOf(deliver(options.path, [&](std::ostream& out) -> Result<void> {
+        out << "# voxtact make poses: " << options.count << " poses, seed " << options.seed << ", mesh "
+            << oneLine(options.meshes.sources.front()) << ", volume " << oneLine(options.volumes.front()) << '\n'
+            << "# world_from_object, 16 numbers a line, row by row\n";
+        for (const Mat4& pose : poses) {
+            writePose(out, pose);
+        }
+        return {};
+    }));
+}
+
+Command addMakeFile(CLI::App& make, const char* name, const char* what, const char* sources, const char* footer,
+                    Outcome (*run)(const MakeFileOptions&)) {
+    auto options = std::make_shared<MakeFileOptions>();
+    CLI::App* parser = make.add_subcommand(name, what);
+    parser->footer(footer);
+    parser->add_option("SOURCE", options->source, sources)->type_name("")->required();
+    parser->add_option("OUTPUT", options->path, "the file to write")->type_name("")->required();
+    return {parser, [options, run] { return run(*options); }};
+}
+
+Command addMakePoses(CLI::App& make) {
+    auto options = std::make_shared<MakePosesOptions>();
+    CLI::App* parser = make.add_subcommand("poses", "random rigid poses around a volume, for detect --poses");
+    parser->footer(kPosesFooter);
+    addVolumeOption(*parser, options->volumes);
+    addMeshOptions(*parser, options->meshes);
+    addWholeNumber(*parser, "--count", options->count, 1, "how many poses");
+    addSeed(*parser, options->seed);
+    addPath(*parser, "--output", options->path, "a file, or - for standard output, the default");
+    return {parser, [options] { return makePoses(*options); }};
+}
+
+} // namespace
+
+std::vector<Command> addMake(CLI::App& program) {
+    CLI::App* make = program.add_subcommand("make", "writes builtin meshes and volumes, and random poses, to files");
+    make->require_subcommand(1);
+    make->footer("Example:\n  voxtact make mesh builtin:scalpel:3068 scalpel.stl");
+    return {
+        addMakeFile(*make, "mesh", "writes a builtin mesh",
+                    "builtin:scalpel[:TRIANGLES] or builtin:ellipsoid[:TRIANGLES]", kMeshFooter, makeMesh),
+        addMakeFile(*make, "volume", "writes a builtin volume",
+                    "builtin:NAME[:SIZE] with head, sphere, noise, ct, shells or vessels, SIZE voxels a side",
+                    kVolumeFooter, makeVolume),
+        addMakePoses(*make),
+    };
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/cache_folder.h"
+
+#include "app/version.h"
+#include "voxtact/io.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+
+namespace voxtact::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Far above what a driver keeps for our few pipelines: a file beyond it is not ours.
+constexpr std::uintmax_t kMostBytes = 64U << 20U;
+
+/// An absolute path in an environment variable; the XDG specification has relative ones ignored.
+fs::path folderFrom(const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path folder = value == nullptr ? "" : value;
+    return folder.is_absolute() ? folder : fs::path();
+}
+
+fs::path standardFolder() {
+    if (const fs::path cache = folderFrom("XDG_CACHE_HOME"); !cache.empty()) {
+        return cache / "voxtact";
+    }
+    const fs::path home = folderFrom("HOME");
+    return home.empty() ? fs::path() : home / ".cache" / "voxtact";
+}
+
+std::string hexadecimal(std::uint64_t value, int digits) {
+    std::string text;
+    for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) {
+        text += "0123456789abcdef"[(value >> shift) & 15U];
+    }
+    return text;
+}
+
+/// FNV-1a: against truncation and bad sectors, not against an enemy, who could write the folder anyway.
+std::uint64_t checksum(std::string_view content) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : content) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    }
+    return hash;
+}
+
+/// The first line of every file. A driver may crash on a damaged pipeline cache, so that damage is found before.
+std::string headOf(std::string_view content) {
+    return "voxtact cache " + hexadecimal(content.size(), 16) + " " + hexadecimal(checksum(content), 16) + "\n";
+}
+
+} // namespace
+
+CacheFolder::CacheFolder(const std::string& wanted) {
+    if (wanted != "off") {
+        path_ = wanted.empty() ? standardFolder() : fs::path(wanted);
+    }
+}
+
+std::optional<std::string> CacheFolder::read(const std::string& name) const {
+    std::error_code error;
+    const fs::path path = path_ / name;
+    if (!on() || !fs::is_regular_file(path, error) || fs::file_size(path, error) > kMostBytes || error) {
+        return std::nullopt;
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string head;
+    std::getline(file, head);
+    std::string content{std::istreambuf_iterator<char>(file), {}};
+    if (file.bad() || head + "\n" != headOf(content)) {
+        return std::nullopt;
+    }
+    return content;
+}
+
+bool CacheFolder::write(const std::string& name, std::string_view content) const {
+    if (!on()) {
+        return false;
+    }
+    std::error_code error;
+    fs::create_directories(path_, error);
+    const Result<void> written = io::writeFile(path_ / name, [&](std::ostream& out) -> Result<void> {
+        out << headOf(content) << content;
+        return {};
+    });
+    return written.ok();
+}
+
+std::string cacheKey(const PhysicalDevice& device) {
+    std::string key;
+    for (const std::uint8_t byte : device.pipelineCacheUuid) {
+        key += hexadecimal(byte, 2);
+    }
+    return key + "-" + hexadecimal(device.driverVersion, 8) + "-" + programVersion();
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/inputs.h"
+
+#include "app/output/standard_streams.h"
+#include "voxtact/builtin.h"
+#include "voxtact/io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <string_view>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+/// What a file holds is no fault of the arguments.
+Error fileFault(Error error) {
+    if (error.code == ErrorCode::InvalidArgument) {
+        error.code = ErrorCode::Format;
+    }
+    return error;
+}
+
+void printNotes(const std::string& source, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        const bool named = note.find(source) != std::string::npos;
+        printNote(named ? note : source + ": " + note);
+    }
+}
+
+} // namespace
+
+Result<VolumeData> loadVolume(const std::string& source) {
+    const bool builtin = source.starts_with(kBuiltin);
+    Result<VolumeData> volume =
+        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : io::readVolume(source);
+    if (!volume.ok()) {
+        return builtin ? badArgument("--volume " + source + ": " + volume.error().text) : fileFault(volume.error());
+    }
+    printNotes(source, volume->notes);
+    return volume;
+}
+
+Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options) {
+    const bool builtin = source.starts_with(kBuiltin);
+    const io::MeshReadOptions reading{options.space == "ras" ? io::MeshSpace::RAS : io::MeshSpace::LPS, options.scale};
+    Result<MeshData> mesh =
+        builtin ? makeBuiltinMesh(std::string_view(source).substr(kBuiltin.size())) : io::readMesh(source, reading);
+    if (!mesh.ok()) {
+        return builtin ? badArgument("--mesh " + source + ": " + mesh.error().text) : fileFault(mesh.error());
+    }
+    const Result<MeshFacts> facts = checkMesh(mesh->view());
+    if (!facts.ok()) {
+        return fileFault(facts.error());
+    }
+    if (facts->degenerate > 0) {
+        mesh->notes.push_back(std::to_string(facts->degenerate) + " of " + std::to_string(facts->triangles) +
+                              " triangles have no area: they give no fragment");
+    }
+    printNotes(source, mesh->notes);
+    return mesh;
+}
+
+Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOptions& options) {
+    if (options.opacity) {
+        Result<std::vector<ControlPoint>> points = io::parseOpacity(*options.opacity);
+        return points.ok() ? points : badArgument("--" + points.error().text);
+    }
+    if (options.path.empty()) {
+        return std::vector<ControlPoint>{};
+    }
+    Result<std::vector<ControlPoint>> points = io::readTransferFunction(options.path);
+    return points.ok() ? points : fileFault(points.error());
+}
+
+ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data) {
+    if (options.domain) {
+        return *options.domain;
+    }
+    if (type == ScalarType::UInt8) {
+        return {0, 255};
+    }
+    if (data.lo < data.hi) {
+        return data;
+    }
+    // One value everywhere: it sits in the middle of a table that is as narrow as the numbers allow.
+    const double half = std::max(0.5, std::abs(data.lo) * 1e-6);
+    return {data.lo - half, data.lo + half};
+}
+
+std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
+    return {{domain.lo, 0}, {domain.hi, 1}};
+}
+
+Result<LabelData> loadLabels(const std::filesystem::path& path) {
+    const Result<VolumeData> volume = io::readVolume(path);
+    if (!volume.ok()) {
+        return fileFault(volume.error());
+    }
+    printNotes(path.string(), volume->notes);
+    Result<LabelData> labels = makeLabels(volume->view());
+    if (!labels.ok()) {
+        return Error{ErrorCode::Format, 0, "cannot use '" + path.string() + "' as a label map: " + labels.error().text};
+    }
+    return labels;
+}
+
+std::filesystem::path labelNamesPath(const std::filesystem::path& names, const std::filesystem::path& labels) {
+    if (!names.empty()) {
+        return names;
+    }
+    std::filesystem::path path = labels;
+    path.replace_extension(path.extension() == ".gz" ? "" : path.extension());
+    path += ".txt";
+    return path;
+}
+
+Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
+                                                           const std::filesystem::path& labels) {
+    const std::filesystem::path path = labelNamesPath(names, labels);
+    std::error_code ignored;
+    if (names.empty() && !std::filesystem::is_regular_file(path, ignored)) {
+        return std::map<std::int32_t, std::string>{};
+    }
+    Result<std::vector<io::LabelName>> read = io::readLabelNames(path);
+    if (!read.ok() && names.empty()) {
+        printNote("labels have numbers only: " + read.error().text + " (--label-names names another file)");
+        return std::map<std::int32_t, std::string>{};
+    }
+    if (!read.ok()) {
+        return fileFault(read.error());
+    }
+    std::map<std::int32_t, std::string> byLabel;
+    for (io::LabelName& entry : *read) {
+        byLabel.emplace(entry.label, std::move(entry.name));
+    }
+    return byLabel;
+}
+
+Result<std::vector<Mat4>> readStandardPoses() {
+    std::vector<Mat4> poses;
+    std::ios::sync_with_stdio(false);
+    Result<io::PoseReader> reader = io::PoseReader::over(std::cin, "standard input");
+    const Result<bool> read =
+        reader.ok() ? reader->read(std::numeric_limits<std::size_t>::max(), poses) : Result<bool>(reader.error());
+    return read.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : read.error();
+}
+
+Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path) {
+    if (path.empty()) {
+        return std::vector<Mat4>{identity()};
+    }
+    // Read as often as it has to be: it is all kept.
+    Result<std::vector<Mat4>> poses = path == "-" ? readStandardPoses() : io::readPoses(path);
+    if (!poses.ok()) {
+        return fileFault(poses.error());
+    }
+    return poses;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/shared_options.h"
+#include "voxtact/data.h"
+#include "voxtact/labels.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// What the options name, read into host memory. What a reader has to say goes to standard error as notes.
+namespace voxtact::app {
+
+/// A path, or `builtin:NAME`.
+[[nodiscard]] Result<VolumeData> loadVolume(const std::string& source);
+[[nodiscard]] Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options);
+
+/// The control points that the user gave; none when the default ramp is wanted.
+[[nodiscard]] Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOptions& options);
+/// The domain that the user gave; else 0..255 for uint8 and the data's range, made wider where that is one value.
+[[nodiscard]] ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data);
+/// Opacity from 0 to 1 over the domain.
+[[nodiscard]] std::vector<ControlPoint> defaultRamp(const ValueRange& domain);
+
+/// A label map. No `builtin:`.
+[[nodiscard]] Result<LabelData> loadLabels(const std::filesystem::path& path);
+/// Where the names of its labels are: `names`; where that is empty, the file beside it that is called like it without
+/// .gz, and with .txt.
+[[nodiscard]] std::filesystem::path labelNamesPath(const std::filesystem::path& names,
+                                                   const std::filesystem::path& labels);
+/// The names of its labels from there; none where `names` is empty and that file is not there or cannot be read.
+[[nodiscard]] Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
+                                                                         const std::filesystem::path& labels);
+
+/// All that standard input holds.
+[[nodiscard]] Result<std::vector<Mat4>> readStandardPoses();
+/// The identity when there is no path; "-" is standard input.
+[[nodiscard]] Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path);
+
+} // namespace voxtact::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/lab_run.h"
+
+#include "app/options/inputs.h"
+#include "app/version.h"
+#include "lab/report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+std::string quoted(const std::string& word) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view("_-./:=,+@%").find(static_cast<char>(c)) != std::string::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) {
+        return word;
+    }
+    std::string out = "'";
+    for (const char c : word) {
+        out += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return out + "'";
+}
+
+} // namespace
+
+std::string commandLine(const CLI::App& parser, const std::vector<std::string>& without) {
+    std::string line = "voxtact " + parser.get_name();
+    for (const CLI::Option* option : parser.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || std::find(without.begin(), without.end(), name) != without.end()) {
+            continue;
+        }
+        if (option->get_items_expected_max() == 0) {
+            line += " " + name;
+            continue;
+        }
+        for (const std::string& value : option->results()) {
+            line += " " + name + " " + quoted(value);
+        }
+    }
+    return line;
+}
+
+Provenance provenanceOf(const CLI::App& parser) {
+    return {programVersion(), gitRevision(), commandLine(parser)};
+}
+
+Loaders loaders() {
+    return {loadVolume, [](const std::string& source) { return loadMesh(source, {}); }};
+}
+
+Steps ShownSteps::steps() {
+    return {[this](std::uint64_t total) { progress_.emplace(wanted_, title_, total); },
+            [this] { progress_->update(++done_); }};
+}
+
+Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
+                              const std::vector<NamedPath>& inputs) {
+    if (Result<void> possible = report.empty() ? Result<void>() : reportPossible(); !possible.ok()) {
+        return possible;
+    }
+    return checkOutputs({{"--output", output}, {"--report", report}}, inputs);
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/open_session.h"
+#include "app/options/output_paths.h"
+#include "app/output/progress.h"
+#include "lab/compare_scene.h"
+
+/// What the commands that measure hand to the lab.
+namespace voxtact::app {
+
+/// The command line that gives the same run, quoted for a shell; without the options in `without`.
+[[nodiscard]] std::string commandLine(const CLI::App& parser, const std::vector<std::string>& without = {});
+[[nodiscard]] Provenance provenanceOf(const CLI::App& parser);
+/// loadVolume() and loadMesh(), files as they are.
+[[nodiscard]] Loaders loaders();
+
+/// Steps on a bar of progress. Must outlive the use of steps().
+class ShownSteps {
+  public:
+    ShownSteps(bool wanted, std::string title) : wanted_(wanted), title_(std::move(title)) {}
+    [[nodiscard]] Steps steps();
+
+  private:
+    bool wanted_;
+    std::string title_;
+    std::optional<Progress> progress_;
+    std::uint64_t done_ = 0;
+};
+
+/// checkOutputs() of both, each of them may be empty. Unsupported where there is to be a report, and the program was
+/// built without the library that draws the charts.
+[[nodiscard]] Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
+                                            const std::vector<NamedPath>& inputs);
+
+} // namespace voxtact::app

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/open_session.h"
+
+#include "app/output/standard_streams.h"
+
+namespace voxtact::app {
+
+Result<Session> openSession(const DeviceChoice& choice) {
+    Result<VulkanInstance> instance = VulkanInstance::create({.validate = choice.validate});
+    if (!instance.ok()) {
+        return instance.error();
+    }
+    const Result<std::vector<PhysicalDevice>> devices = instance->devices();
+    if (!devices.ok()) {
+        return devices.error();
+    }
+    const Result<PhysicalDevice> chosen = chooseDevice(*devices, choice.wanted);
+    if (!chosen.ok()) {
+        return chosen.error();
+    }
+    return openSessionOn(*instance, *chosen, pipelineStore(choice, *chosen),
+                         [](void*, const char* text) { printNote(text); });
+}
+
+PipelineStore pipelineStore(const DeviceChoice& choice, const PhysicalDevice& device) {
+    const CacheFolder folder(choice.cache);
+    if (!folder.on()) {
+        return {};
+    }
+    const std::string name = "pipelines-" + cacheKey(device);
+    return {[folder, name] { return folder.read(name); },
+            [folder, name](std::string_view blob) { folder.write(name, blob); }};
+}
+
+Outcome validationOutcome(const ValidationMessages& messages) {
+    const std::vector<std::string> all = messages.all();
+    if (all.empty()) {
+        return {};
+    }
+    const std::string more = all.size() > 1 ? " (and " + std::to_string(all.size() - 1) + " more)" : "";
+    return {kExitVerify, "--validate: " + all.front() + more};
+}
+
+} // namespace voxtact::app

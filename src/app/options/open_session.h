@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/cache_folder.h"
+#include "app/options/shared_options.h"
+#include "device/session.h"
+
+namespace voxtact::app {
+
+/// On the device that the user chose. The context's warnings are printed as notes.
+[[nodiscard]] Result<Session> openSession(const DeviceChoice& choice);
+/// Where the user wants a device's pipelines to be kept.
+[[nodiscard]] PipelineStore pipelineStore(const DeviceChoice& choice, const PhysicalDevice& device);
+
+/// Once everything made on the instance has ended: exit status 3 with the first message, if there was any.
+[[nodiscard]] Outcome validationOutcome(const ValidationMessages& messages);
+
+} // namespace voxtact::app

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/output_paths.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <sys/stat.h>
+
+namespace voxtact::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a file is, by whatever name.
+struct FileIdentity {
+    dev_t device = 0;
+    ino_t number = 0;
+
+    bool operator==(const FileIdentity&) const = default;
+};
+
+std::optional<FileIdentity> identityOf(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) {
+        return std::nullopt;
+    }
+    return FileIdentity{status.st_dev, status.st_ino};
+}
+
+/// "a%20b" as "a b": how glTF writes names.
+std::string withoutPercents(std::string_view text) {
+    constexpr int kHexadecimal = 16;
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned byte = 0;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(text.data() + i + 1, text.data() + i + 3, byte, kHexadecimal).ptr == text.data() + i + 3) {
+            out += static_cast<char>(byte);
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r";
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    return begin == std::string_view::npos ? std::string_view()
+                                           : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+/// Whatever in a line of a header may be the name of a file: all of it, what is behind `=` or `:`, what is in quotes.
+void addNames(std::string_view line, std::vector<std::string>& names) {
+    names.emplace_back(trimmed(line));
+    if (const std::size_t sign = line.find_first_of("=:"); sign != std::string_view::npos) {
+        names.emplace_back(trimmed(line.substr(sign + 1)));
+    }
+    for (std::size_t open = line.find('"'); open != std::string_view::npos;) {
+        const std::size_t close = line.find('"', open + 1);
+        if (close == std::string_view::npos) {
+            break;
+        }
+        names.push_back(withoutPercents(line.substr(open + 1, close - open - 1)));
+        open = close;
+    }
+}
+
+/// The file that belongs to a header whose format says so by its name.
+std::vector<std::string> siblingNames(const fs::path& header, const std::string& ending) {
+    const std::string stem = header.stem().string();
+    if (ending == ".hdr") {
+        return {stem + ".img", stem + ".img.gz"};
+    }
+    return {stem + ".hdr", stem + ".hdr.gz"};
+}
+
+/// Names that `header` may mean beside itself; no format is read strictly here.
+std::vector<std::string> namesIn(const fs::path& header) {
+    std::string ending = header.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    if (ending == ".gz") {
+        const fs::path inner = header.stem();
+        return inner.extension() == ".hdr" || inner.extension() == ".img"
+                   ? siblingNames(inner, inner.extension().string())
+                   : std::vector<std::string>{};
+    }
+    if (ending == ".hdr" || ending == ".img") {
+        return siblingNames(header, ending);
+    }
+    std::vector<std::string> names;
+    if (ending == ".nhdr" || ending == ".mhd" || ending == ".gltf") {
+        constexpr std::size_t kMost = std::size_t{1} << 22U;
+        std::ifstream file(header, std::ios::binary);
+        std::string line;
+        for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
+            addNames(line, names);
+        }
+    }
+    return names;
+}
+
+/// Whether the existing file `output` is read together with the file `input`.
+bool isNamedBy(const FileIdentity& output, const fs::path& input) {
+    const std::vector<std::string> names = namesIn(input);
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return !name.empty() && name.find('\0') == std::string::npos &&
+               identityOf(input.parent_path() / name) == output;
+    });
+}
+
+/// Whether `output` is a file of the folder `input`, or would become one.
+bool isMember(const fs::path& output, const fs::path& input) {
+    const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+    const std::optional<FileIdentity> identity = identityOf(output);
+    const std::optional<FileIdentity> place = identityOf(folder);
+    if (place && place == identityOf(input)) {
+        return true;
+    }
+    std::error_code problem;
+    for (fs::directory_iterator entry(input, problem); !problem && entry != fs::directory_iterator();
+         entry.increment(problem)) {
+        if (identity && identityOf(entry->path()) == identity) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
+    std::error_code ignored;
+    const std::string what = output.option + ": '" + output.path.string() + "' is ";
+    const std::string reads = "that " + input.option + " reads";
+    const std::string end = ", and is not overwritten; choose another path";
+    if (fs::is_directory(input.path, ignored)) {
+        return isMember(output.path, input.path)
+                   ? badArgument(what + "in the folder '" + input.path.string() + "' " + reads + end)
+                   : Result<void>();
+    }
+    const std::optional<FileIdentity> identity = identityOf(output.path);
+    if (identity && identity == identityOf(input.path)) {
+        return badArgument(what + "the file " + reads + end);
+    }
+    if (identity && isNamedBy(*identity, input.path)) {
+        return badArgument(what + "a file that '" + input.path.string() + "' consists of, " + reads + end);
+    }
+    return {};
+}
+
+} // namespace
+
+void addInput(std::vector<NamedPath>& inputs, const char* option, const fs::path& path) {
+    if (!path.empty() && path != "-" && !path.string().starts_with("builtin:")) {
+        inputs.push_back({option, path});
+    }
+}
+
+std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes) {
+    std::vector<NamedPath> paths;
+    for (const std::string& volume : volumes) {
+        addInput(paths, "--volume", volume);
+    }
+    for (const std::string& mesh : meshes.sources) {
+        addInput(paths, "--mesh", mesh);
+    }
+    return paths;
+}
+
+std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes,
+                                  const TransferFunctionOptions& transferFunction, const ViewOptions& view) {
+    std::vector<NamedPath> paths = inputPaths(volumes, meshes);
+    addInput(paths, "--transfer-function", transferFunction.path);
+    addInput(paths, "--poses", view.poses);
+    addInput(paths, "--camera", view.camera);
+    return paths;
+}
+
+Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs) {
+    for (const NamedPath& output : outputs) {
+        if (Result<void> writable = checkOutput(output.path); !writable.ok()) {
+            return writable;
+        }
+        if (output.path.empty() || output.path == "-") {
+            continue;
+        }
+        for (const NamedPath& input : inputs) {
+            if (Result<void> apart = checkApart(output, input); !apart.ok()) {
+                return apart;
+            }
+        }
+    }
+    std::vector<std::pair<std::string, fs::path>> all;
+    for (const NamedPath& output : outputs) {
+        all.emplace_back(output.option, output.path);
+    }
+    return checkDistinct(all);
+}
+
+} // namespace voxtact::app

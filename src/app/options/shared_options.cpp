@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/shared_options.h"
+
+#include "app/output/text_for_messages.h"
+#include "core/domain.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+
+namespace voxtact::app {
+
+namespace {
+
+/// All of `text` as a number; nothing when it is not one.
+template <class Number> std::optional<Number> parseNumber(std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return number;
+}
+
+std::string quote(std::string_view text) {
+    return forMessage(text);
+}
+
+[[noreturn]] void refuse(const char* option, const std::string& why) {
+    throw CLI::ValidationError(option, why);
+}
+
+std::string join(std::initializer_list<const char*> names) {
+    std::string text;
+    for (const char* name : names) {
+        text += (text.empty() ? "" : ", ") + std::string(name);
+    }
+    return text;
+}
+
+/// Refuses what is not in `available`.
+void requireName(const char* option, const std::string& name, std::initializer_list<const char*> available) {
+    if (std::find(available.begin(), available.end(), name) == available.end()) {
+        refuse(option, quote(name) + " is not known; there are: " + join(available));
+    }
+}
+
+/// An option whose text `parse` reads; it calls refuse() for what it cannot use.
+CLI::Option* addParsed(CLI::App& parser, const char* option, const std::function<void(const std::string&)>& parse,
+                       const std::string& help, const char* type, const char* standard) {
+    return parser.add_option_function<std::string>(option, parse, help)->type_name(type)->default_str(standard);
+}
+
+/// A shell variable that is not set must not silently mean the default.
+std::string refuseEmpty(const std::string& text) {
+    return text.empty() ? "an empty value" : "";
+}
+
+VkExtent2D parseSize(const char* option, const std::string& text) {
+    const std::size_t cross = text.find('x');
+    if (cross != std::string::npos) {
+        const auto width = parseNumber<std::uint32_t>(std::string_view(text).substr(0, cross));
+        const auto height = parseNumber<std::uint32_t>(std::string_view(text).substr(cross + 1));
+        if (width && height && *width > 0 && *height > 0) {
+            return {*width, *height};
+        }
+    }
+    refuse(option, quote(text) + " is not WIDTHxHEIGHT in pixels, each at least 1");
+}
+
+/// What DetectorDesc::resolution may be.
+bool isResolution(double voxels) {
+    return voxels >= 1.0 / 4096 && voxels <= 1;
+}
+
+ValueRange parseDomain(const char* option, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon != std::string::npos) {
+        const auto lo = parseNumber<double>(std::string_view(text).substr(0, colon));
+        const auto hi = parseNumber<double>(std::string_view(text).substr(colon + 1));
+        if (lo && hi && std::isfinite(*lo) && std::isfinite(*hi) && *lo < *hi) {
+            const ValueRange domain{*lo, *hi};
+            if (const Result<void> checked = checkDomain(domain, "the domain"); !checked.ok()) {
+                refuse(option, checked.error().text);
+            }
+            return domain;
+        }
+    }
+    refuse(option, quote(text) + " is not LO:HI, two numbers with LO below HI");
+}
+
+} // namespace
+
+void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
+               const std::function<bool(double)>& usable, const char* range, const char* standard) {
+    const auto parse = [option, store, usable, range](const std::string& text) {
+        const auto number = parseNumber<double>(text);
+        if (!number || !std::isfinite(*number) || !usable(*number)) {
+            refuse(option, quote(text) + " is not a number " + range);
+        }
+        store(*number);
+    };
+    addParsed(parser, option, parse, help, "NUMBER", standard);
+}
+
+void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
+                    const WholeRange& range, const std::string& help, std::uint32_t standard) {
+    const auto parse = [option, store, range](const std::string& text) {
+        const auto number = parseNumber<std::uint32_t>(text);
+        if (!number || *number < range.least || *number > range.most) {
+            refuse(option, quote(text) + " is not a whole number from " + std::to_string(range.least) + " to " +
+                               std::to_string(range.most));
+        }
+        store(*number);
+    };
+    addParsed(parser, option, parse, help, "N", std::to_string(standard).c_str());
+}
+
+void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
+                    const std::string& help) {
+    addWholeNumber(
+        parser, option, [&value](std::uint32_t number) { value = number; }, {.least = least}, help, value);
+}
+
+void addSeed(CLI::App& parser, std::uint64_t& seed) {
+    const auto parse = [&seed](const std::string& text) {
+        const auto number = parseNumber<std::uint64_t>(text);
+        if (!number) {
+            refuse("--seed", quote(text) + " is not a whole number from 0 to 2^64-1");
+        }
+        seed = *number;
+    };
+    addParsed(parser, "--seed", parse, "of the random poses, from 0 to 2^64-1", "S", std::to_string(seed).c_str());
+}
+
+void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help) {
+    parser.add_option(option, path, help)->type_name("PATH")->check(refuseEmpty);
+}
+
+void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
+    parser
+        .add_option("--volume", sources,
+                    "NIfTI, NRRD, MetaImage, a DICOM folder, or builtin:NAME[:SIZE] with head, sphere, noise, ct, "
+                    "shells, vessels")
+        ->type_name("PATH")
+        ->check(refuseEmpty)
+        ->allow_extra_args(false)
+        ->required();
+}
+
+void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
+    parser
+        .add_option("--mesh", options.sources,
+                    "STL, OBJ, PLY, OFF, glTF/GLB, or builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES]")
+        ->type_name("PATH")
+        ->check(refuseEmpty)
+        ->allow_extra_args(false)
+        ->required(required);
+    addParsed(
+        parser, "--mesh-space",
+        [&options](const std::string& name) {
+            requireName("--mesh-space", name, {"lps", "ras"});
+            options.space = name;
+        },
+        "what the coordinates of mesh files mean: lps or ras", "SPACE", "lps");
+    addNumber(
+        parser, "--mesh-scale", [&options](double scale) { options.scale = scale; },
+        "millimetres in a unit of mesh files", [](double scale) { return scale > 0; }, "above 0", "1");
+}
+
+void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options, bool threshold) {
+    addPath(parser, "--transfer-function", options.path,
+            "lines 'value opacity' in the image's units, or JSON with \"points\"; default: opacity rises from 0 to 1 "
+            "over the domain");
+    parser.add_option("--opacity", options.opacity, "the same as a list: \"v:a,v:a,...\"")
+        ->type_name("LIST")
+        ->excludes("--transfer-function");
+    addParsed(
+        parser, "--tf-domain",
+        [&options](const std::string& text) { options.domain = parseDomain("--tf-domain", text); },
+        "values that the table covers; default 0:255 for uint8, else the data's min and max", "LO:HI", "");
+    addWholeNumber(parser, "--tf-size", options.tableSize, 2, "entries of the table");
+    if (threshold) {
+        addNumber(
+            parser, "--threshold", [&options](double value) { options.threshold = value; },
+            "opacity from which a sample is opaque", [](double value) { return value >= 0 && value <= 1; },
+            "from 0 to 1", "0.1");
+    }
+}
+
+void addDegrees(CLI::App& parser, const char* option, std::optional<double>& value, const std::string& help) {
+    const auto parse = [option, &value](const std::string& text) {
+        const auto number = parseNumber<double>(text);
+        if (!number || !(std::abs(*number) <= 360)) {
+            refuse(option, quote(text) + " is not a number from -360 to 360");
+        }
+        value = *number;
+    };
+    addParsed(parser, option, parse, help, "DEGREES", "");
+}
+
+void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help) {
+    const auto parse = [option, &colour](const std::string& text) {
+        constexpr int kHexadecimal = 16;
+        for (std::size_t channel = 0; channel < colour.size(); ++channel) {
+            const char* digits = text.data() + 2 * channel;
+            unsigned value = 0;
+            if (text.size() != 2 * colour.size() ||
+                std::from_chars(digits, digits + 2, value, kHexadecimal).ptr != digits + 2) {
+                refuse(option, quote(text) + " is not a colour RRGGBB, six hexadecimal digits");
+            }
+            colour[channel] = value / 255.0;
+        }
+    };
+    addParsed(parser, option, parse, help, "RRGGBB", "");
+}
+
+void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
+             const std::string& help) {
+    const std::vector<const char*> known(names);
+    const auto parse = [option, &name, known](const std::string& text) {
+        if (std::find(known.begin(), known.end(), text) == known.end()) {
+            std::string all;
+            for (const char* one : known) {
+                all += (all.empty() ? "" : ", ") + std::string(one);
+            }
+            refuse(option, quote(text) + " is not known; there are: " + all);
+        }
+        name = text;
+    };
+    addParsed(parser, option, parse, help, "NAME", "");
+}
+
+void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help) {
+    addParsed(
+        parser, "--size", [store](const std::string& text) { store(parseSize("--size", text)); }, help, "WxH",
+        "512x512");
+}
+
+void addViewOptions(CLI::App& parser, ViewOptions& options) {
+    addPath(parser, "--poses", options.poses,
+            "a world_from_object matrix a line: 16 numbers, row by row; -: from standard input; default: the identity");
+    addPath(parser, "--camera", options.camera,
+            "a clip_from_world matrix: 16 numbers, row by row; default: along world -z, framing the volume");
+    addSize(
+        parser,
+        [&options](const VkExtent2D& size) {
+            options.size = size;
+            options.sizeGiven = true;
+        },
+        "viewport in pixels");
+}
+
+void addMethodOptions(CLI::App& parser, MethodOptions& options) {
+    addParsed(
+        parser, "--count",
+        [&options](const std::string& name) {
+            requireName("--count", name, {"query", "query-any", "atomic", "subgroup", "compute", "cpu", "auto"});
+            options.count = countingMethodFromName(name);
+        },
+        "how fragments are counted: query, query-any, atomic, subgroup, compute, cpu (the host, no Vulkan), auto (the "
+        "fastest here, measured once)",
+        "METHOD", "auto");
+    addParsed(
+        parser, "--projection",
+        [&options](const std::string& name) {
+            requireName("--projection", name, {"view", "two-view", "dominant-axis", "conservative"});
+            options.projection = projectionFromName(name);
+        },
+        "how a mesh becomes fragments: view (through the camera), two-view (and once more from the side), "
+        "dominant-axis "
+        "(each triangle from where it is largest), conservative (every voxel that it passes through, decided with "
+        "bounds: no contact is missed); default: conservative, and view for the methods and filters that cannot do it "
+        "(query, query-any, atomic, subgroup, --filter hardware)",
+        "P", "");
+    addWholeNumber(
+        parser, "--samples-per-voxel", [&options](std::uint32_t samples) { options.samplesPerVoxel = samples; },
+        {.least = 1, .most = kMostSamplesPerVoxel}, "dominant-axis: samples along a voxel's side",
+        kDefaultSamplesPerVoxel);
+    addNumber(
+        parser, "--resolution", [&options](double resolution) { options.resolution = resolution; },
+        "conservative: voxels, the length at which a piece of a triangle is not divided any more", isResolution,
+        "from 1/4096 to 1", "0.015625");
+    addParsed(
+        parser, "--filter",
+        [&options](const std::string& name) {
+            requireName("--filter", name, {"hardware", "exact"});
+            options.filter = name == "exact" ? Filter::Exact : Filter::Hardware;
+        },
+        "how the image is sampled: hardware (the sampler), exact (fp32 in a fixed order); default: exact for compute "
+        "and cpu, else hardware",
+        "F", "");
+    addParsed(
+        parser, "--boundary",
+        [&options](const std::string& name) {
+            requireName("--boundary", name, {"auto", "range", "clamp"});
+            options.boundary = name == "range" ? Boundary::Range : name == "clamp" ? Boundary::Clamp : Boundary::Auto;
+        },
+        "outside the volume: range (tested), clamp (boundary voxels are transparent), auto", "B", "auto");
+}
+
+void addDeviceOptions(CLI::App& parser, DeviceChoice& options) {
+    parser
+        .add_option(
+            "--device", options.wanted,
+            "number or part of the name (see voxtact devices); default: the first discrete GPU, else what there is")
+        ->type_name("INDEX|NAME")
+        ->check(refuseEmpty);
+    parser.add_flag("--validate", options.validate,
+                    "validation and synchronization validation on; any message fails the run (exit 3)");
+    parser
+        .add_option("--cache", options.cache,
+                    "folder for measured speeds and made pipelines, or off; default: $XDG_CACHE_HOME/voxtact, else "
+                    "~/.cache/voxtact")
+        ->type_name("DIR|off")
+        ->check(refuseEmpty);
+}
+
+void addOutputOptions(CLI::App& parser, OutputOptions& options) {
+    addPath(parser, "--output", options.path, "a file, or - for standard output, the default");
+    addParsed(
+        parser, "--format",
+        [&options](const std::string& name) {
+            requireName("--format", name, {"csv", "json", "text"});
+            options.formatName = name;
+        },
+        "csv, json or text; default: text on a terminal, else csv", "F", "");
+}
+
+void addProgressOption(CLI::App& parser, bool& shown) {
+    shown = true;
+    addParsed(
+        parser, "--progress",
+        [&shown](const std::string& name) {
+            requireName("--progress", name, {"auto", "never"});
+            shown = name == "auto";
+        },
+        "auto (standard error: a bar on a terminal, else a line a minute) or never", "WHEN", "auto");
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/output/outcome.h"
+#include "app/output/output.h"
+#include "voxtact/data.h"
+#include "voxtact/methods.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+/// The options that several commands have, and what they mean: one function a group adds them to a command.
+namespace voxtact::app {
+
+/// A command of the program: what parses its options, and what runs once they are parsed.
+struct Command {
+    CLI::App* parser = nullptr;
+    std::function<Outcome()> run;
+};
+
+struct MeshOptions {
+    std::vector<std::string> sources; ///< paths, or builtin:NAME
+    std::string space = "lps";
+    double scale = 1;
+};
+
+struct TransferFunctionOptions {
+    std::filesystem::path path;
+    std::optional<std::string> opacity;
+    std::optional<ValueRange> domain;
+    std::uint32_t tableSize = kDefaultTableSize;
+    double threshold = kDefaultThreshold;
+};
+
+struct ViewOptions {
+    std::filesystem::path poses;
+    std::filesystem::path camera;
+    VkExtent2D size{512, 512};
+    bool sizeGiven = false;
+};
+
+struct MethodOptions {
+    std::optional<CountingMethod> count;  ///< nothing: auto
+    std::optional<Projection> projection; ///< nothing: the one that the other options leave
+    std::optional<std::uint32_t> samplesPerVoxel;
+    std::optional<double> resolution;
+    std::optional<Filter> filter; ///< nothing: defaultFilter()
+    Boundary boundary = Boundary::Auto;
+};
+
+struct DeviceChoice {
+    std::string wanted; ///< empty: the default device
+    bool validate = false;
+    std::string cache; ///< a folder, "off", or empty: the user's cache folder
+};
+
+struct WholeRange {
+    std::uint32_t least = 0;
+    std::uint32_t most = UINT32_MAX;
+};
+/// A whole number, as an option.
+void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
+                    const WholeRange& range, const std::string& help, std::uint32_t standard);
+/// The same into a variable that holds the default.
+void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
+                    const std::string& help);
+/// --seed: any whole number that has 64 bits.
+void addSeed(CLI::App& parser, std::uint64_t& seed);
+/// A finite number that is `usable`, as an option; `range` says in words which are.
+void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
+               const std::function<bool(double)>& usable, const char* range, const char* standard);
+/// A path, as an option. An empty one (a shell variable that is not set) is refused.
+void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help);
+void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources);
+void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required = true);
+void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options, bool threshold = true);
+/// A number of degrees, as an option.
+void addDegrees(CLI::App& parser, const char* option, std::optional<double>& value, const std::string& help);
+/// A colour RRGGBB, as an option; each channel then from 0 to 1.
+void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help);
+/// One of `names`, as an option.
+void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
+             const std::string& help);
+/// --size, 512x512 unless given.
+void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help);
+void addViewOptions(CLI::App& parser, ViewOptions& options);
+void addMethodOptions(CLI::App& parser, MethodOptions& options);
+void addDeviceOptions(CLI::App& parser, DeviceChoice& options);
+void addOutputOptions(CLI::App& parser, OutputOptions& options);
+void addProgressOption(CLI::App& parser, bool& shown);
+
+} // namespace voxtact::app

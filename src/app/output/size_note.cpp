@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "app/output/size_note.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace voxtact::app {
+
+namespace {
+
+/// With three digits that count: "0.15".
+std::string rounded(double length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", length);
+    return text;
+}
+
+} // namespace
+
+double diagonal(const Box& box) {
+    return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]);
+}
+
+std::string sizeNote(double mesh, double volume) {
+    // A thousand, give or take what instruments and anatomies differ by.
+    constexpr double kStriking = 250;
+    if (!(mesh > 0) || !(volume > 0)) {
+        return {};
+    }
+    if (mesh * kStriking < volume) {
+        return "is " + rounded(mesh) + " mm long, the volume " + rounded(volume) +
+               " mm: if it is in metres, --mesh-scale 1000 says so";
+    }
+    if (mesh > volume * kStriking) {
+        return "is " + rounded(mesh) + " mm long, the volume " + rounded(volume) +
+               " mm: if it is in micrometres, --mesh-scale 0.001 says so";
+    }
+    return {};
+}
+
+std::string unitHint(const Box& bounds) {
+    // Instruments are centimetres to decimetres, bodies up to two metres.
+    constexpr double kShortest = 3;
+    constexpr double kLongest = 10000;
+    const double length = diagonal(bounds);
+    if (length > 0 && length < kShortest) {
+        return "only " + rounded(length) + " mm long: is it in metres? --mesh-scale 1000 says so";
+    }
+    if (length > kLongest) {
+        return rounded(length) + " mm long: is it in micrometres? --mesh-scale 0.001 says so";
+    }
+    return {};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/session.h"
+
+#include <memory>
+#include <optional>
+
+namespace voxtact::app {
+
+/// A function of the instance's: the one that it gives for a name is the one of that name.
+template <class Function> Function instanceFunction(const Session& session, const char* name) {
+    return reinterpret_cast<Function>(session.instance.getInstanceProcAddr()(session.instance.handle(), name));
+}
+
+/// A command buffer of the session's queue that is recorded anew each time, with a fence and timestamps.
+/// Thread-safety: none; one thread at a time.
+class TimedCommands {
+  public:
+    /// With `stamps` timestamps, where the queue has any. The device must outlive it.
+    [[nodiscard]] static Result<TimedCommands> create(const Session& session, std::uint32_t stamps);
+    TimedCommands(TimedCommands&&) noexcept;
+    TimedCommands& operator=(TimedCommands&&) noexcept;
+    /// Waits for what is in flight.
+    ~TimedCommands();
+
+    /// Null where the queue has none.
+    [[nodiscard]] VkQueryPool timestamps() const noexcept;
+
+    /// Begins the command buffer anew, with no timestamp written.
+    [[nodiscard]] Result<VkCommandBuffer> begin();
+    /// Writes a timestamp when all that was recorded before is done.
+    void cmdStamp(std::uint32_t number) const;
+    [[nodiscard]] Result<void> end();
+    [[nodiscard]] Result<void> submit();
+    [[nodiscard]] Result<void> wait();
+    /// Waits for everything on the device, after an error.
+    void waitForAll() const;
+    /// Between two timestamps of what was waited for, ms. Nothing where the queue has none.
+    [[nodiscard]] Result<std::optional<double>> between(std::uint32_t from, std::uint32_t to) const;
+
+  private:
+    struct State;
+    explicit TimedCommands(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace voxtact::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "device/timed_submission.h"
+
+#include <chrono>
+
+namespace voxtact::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+} // namespace
+
+Result<void> TimedSubmission::submit(const std::function<Result<void>(VkCommandBuffer)>& record) {
+    const Result<VkCommandBuffer> begun = commands_.begin();
+    if (!begun.ok()) {
+        return begun.error();
+    }
+    commands_.cmdStamp(0);
+    if (Result<void> recorded = record(*begun); !recorded.ok()) {
+        return recorded;
+    }
+    commands_.cmdStamp(1);
+    if (Result<void> ended = commands_.end(); !ended.ok()) {
+        return ended;
+    }
+    if (Result<void> submitted = commands_.submit(); !submitted.ok()) {
+        return submitted;
+    }
+    return commands_.wait();
+}
+
+Result<TimedSubmission> TimedSubmission::create(const Session& session) {
+    Result<TimedCommands> commands = TimedCommands::create(session, 2);
+    if (!commands.ok()) {
+        return commands.error();
+    }
+    return TimedSubmission(std::move(*commands));
+}
+
+Result<TimedSubmission::Times> TimedSubmission::run(const std::function<Result<void>(VkCommandBuffer)>& record) {
+    const auto begun = Clock::now();
+    if (const Result<void> done = submit(record); !done.ok()) {
+        commands_.waitForAll();
+        return done.error();
+    }
+    Times times;
+    times.wallMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    const Result<std::optional<double>> gpu = commands_.between(0, 1);
+    if (!gpu.ok()) {
+        return gpu.error();
+    }
+    times.gpuMilliseconds = *gpu;
+    return times;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "io/text/table.h"
+
+#include "core/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+namespace voxtact::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string inQuotes(const std::string& field) {
+    std::string out = "\"";
+    for (const char c : field) {
+        out += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return out + '"';
+}
+
+/// Among names with counts behind colons, semicolons between them.
+std::string listName(const std::string& name) {
+    if (name.find_first_of(",;:\"\r\n") == std::string::npos) {
+        return name;
+    }
+    return inQuotes(name);
+}
+
+std::string listText(const std::vector<NamedCount>& counts) {
+    std::string text;
+    for (const NamedCount& entry : counts) {
+        text += (text.empty() ? "" : ";") + listName(entry.name) + ":" + std::to_string(entry.count);
+    }
+    return text;
+}
+
+/// As a field of CSV or, where there are words, of text.
+std::string cellText(const Cell& cell, std::string_view nothing, bool words = false) {
+    if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
+        return std::to_string(*whole);
+    }
+    if (const auto* real = std::get_if<double>(&cell)) {
+        return number(*real);
+    }
+    if (const auto* text = std::get_if<std::string>(&cell)) {
+        return *text;
+    }
+    if (const auto* both = std::get_if<NumberWord>(&cell)) {
+        return words ? both->word : std::to_string(both->number);
+    }
+    if (const auto* counts = std::get_if<std::vector<NamedCount>>(&cell); counts != nullptr && !counts->empty()) {
+        return listText(*counts);
+    }
+    return std::string(nothing);
+}
+
+/// Numbers go to the right of their column.
+bool isRight(const Cell& cell) {
+    return std::holds_alternative<std::monostate>(cell) || std::holds_alternative<std::uint64_t>(cell) ||
+           std::holds_alternative<double>(cell);
+}
+
+Json toJson(const Cell& cell) {
+    if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
+        return *whole;
+    }
+    if (const auto* real = std::get_if<double>(&cell)) {
+        return *real;
+    }
+    if (const auto* text = std::get_if<std::string>(&cell)) {
+        return *text;
+    }
+    if (const auto* both = std::get_if<NumberWord>(&cell)) {
+        return both->number;
+    }
+    if (const auto* counts = std::get_if<std::vector<NamedCount>>(&cell)) {
+        Json list = Json::array();
+        for (const NamedCount& entry : *counts) {
+            list.push_back({{"label", entry.label}, {"name", entry.name}, {"count", entry.count}});
+        }
+        return list;
+    }
+    return nullptr;
+}
+
+/// File names may hold any bytes; the ones that are not UTF-8 are replaced.
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json cellsJson(const NamedCells& cells) {
+    Json object = Json::object();
+    for (const auto& [name, cell] : cells) {
+        object[name] = toJson(cell);
+    }
+    return object;
+}
+
+Json rowJson(const Table& table, std::size_t row) {
+    Json object = Json::object();
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+        object[table.columns[column]] = toJson(table.cell(row, column));
+    }
+    return object;
+}
+
+} // namespace
+
+Json rowsJson(const Table& table) {
+    Json rows = Json::array();
+    for (std::size_t row = 0; row < table.rows; ++row) {
+        rows.push_back(rowJson(table, row));
+    }
+    return rows;
+}
+
+TableWriter::TableWriter(std::ostream& out, Format format) : out_(out), format_(format) {}
+
+void TableWriter::addCsv(const Table& part) {
+    for (std::size_t column = 0; !begun_ && column < part.columns.size(); ++column) {
+        out_ << (column == 0 ? "" : ",") << part.columns[column] << (column + 1 == part.columns.size() ? "\n" : "");
+    }
+    for (std::size_t row = 0; row < part.rows; ++row) {
+        for (std::size_t column = 0; column < part.columns.size(); ++column) {
+            out_ << (column == 0 ? "" : ",") << csvField(cellText(part.cell(row, column), ""));
+        }
+        out_ << '\n';
+    }
+}
+
+void TableWriter::addText(const Table& part) {
+    widths_.resize(part.columns.size());
+    for (std::size_t column = 0; column < part.columns.size(); ++column) {
+        std::size_t& width = widths_[column];
+        width = std::max(width, part.columns[column].size());
+        for (std::size_t row = 0; row < part.rows; ++row) {
+            width = std::max(width, cellText(part.cell(row, column), "-", true).size());
+        }
+    }
+    const auto writeField = [&](const std::string& field, std::size_t column, bool right) {
+        const std::string padding(widths_[column] - field.size(), ' ');
+        const bool last = column + 1 == widths_.size();
+        out_ << (column == 0 ? "" : "  ") << (right ? padding : "") << field << (right || last ? "" : padding)
+             << (last ? "\n" : "");
+    };
+    for (std::size_t column = 0; !begun_ && column < part.columns.size(); ++column) {
+        const bool right = part.rows > 0 && isRight(part.cell(0, column));
+        writeField(part.columns[column], column, right);
+    }
+    for (std::size_t row = 0; row < part.rows; ++row) {
+        for (std::size_t column = 0; column < part.columns.size(); ++column) {
+            const Cell cell = part.cell(row, column);
+            writeField(cellText(cell, "-", true), column, isRight(cell));
+        }
+    }
+}
+
+void TableWriter::addJson(const Table& part) {
+    if (!begun_) {
+        out_ << "{\n";
+        for (const auto& [name, cell] : part.facts) {
+            out_ << dump(name) << ": " << dump(toJson(cell)) << ",\n";
+        }
+        out_ << "\"rows\": [";
+    }
+    for (std::size_t row = 0; row < part.rows; ++row) {
+        out_ << (rows_ + row == 0 ? "\n" : ",\n") << dump(rowJson(part, row));
+    }
+}
+
+void TableWriter::add(const Table& part) {
+    switch (format_) {
+    case Format::Csv:
+        addCsv(part);
+        break;
+    case Format::Json:
+        addJson(part);
+        break;
+    case Format::Text:
+        addText(part);
+        break;
+    }
+    begun_ = true;
+    rows_ += part.rows;
+}
+
+void TableWriter::end(const NamedCells& timing, bool whole) {
+    if (format_ == Format::Json) {
+        out_ << "\n]";
+        if (!timing.empty()) {
+            out_ << ",\n\"timing\": " << dump(cellsJson(timing));
+        }
+        out_ << (whole ? "\n}\n" : ",\n\"interrupted\": true\n}\n");
+    } else if (!timing.empty()) {
+        out_ << '#';
+        for (const auto& [name, cell] : timing) {
+            out_ << ' ' << name << '=' << cellText(cell, "-");
+        }
+        out_ << '\n';
+    }
+}
+
+void writeTable(std::ostream& out, Format format, const Table& table) {
+    TableWriter writer(out, format);
+    writer.add(table);
+    writer.end(table.timing);
+}
+
+std::string csvField(const std::string& field) {
+    return field.find_first_of(",\"\r\n") == std::string::npos ? field : inQuotes(field);
+}
+
+} // namespace voxtact::io

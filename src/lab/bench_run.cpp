@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "lab/bench_run.h"
+
+#include "lab/opaque_cells.h"
+#include "lab/random_poses.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace voxtact::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Engines = std::vector<std::unique_ptr<Engine>>;
+
+constexpr std::array<const char*, 2> kMeshes{"builtin:scalpel:3068", "builtin:ellipsoid:49998"};
+constexpr std::size_t kCounting = 1; ///< the engine that the others are held against: it knows what is possible
+/// Seconds of a sample: repeated up to the one, cut beyond the other.
+constexpr double kShortest = 0.03;
+constexpr double kLongest = 1.0;
+constexpr std::size_t kFewestPoses = 8;
+
+/// A set of poses with its engines, ready to be timed.
+struct Case {
+    const Engines* engines = nullptr;
+    std::vector<Mat4> poses;
+    std::vector<std::size_t> passes; ///< of a sample, by engine
+    std::vector<std::size_t> some;   ///< poses of a pass, by engine
+    std::size_t firstRow = 0;
+};
+
+struct Times {
+    double wall = 0;
+    double cpu = 0;
+};
+
+template <class Work> Result<Times> timed(Work&& work) {
+    const std::clock_t cpu = std::clock();
+    const auto wall = Clock::now();
+    if (Result<void> done = work(); !done.ok()) {
+        return done.error();
+    }
+    // A tick at least, so that no rate is infinite.
+    return Times{std::max(std::chrono::duration<double>(Clock::now() - wall).count(), 1e-9),
+                 static_cast<double>(std::max<std::clock_t>(std::clock() - cpu, 1)) / CLOCKS_PER_SEC};
+}
+
+/// The octree, or a note that says why there is none.
+void addFcl(BenchVolume& volume, BenchResult& result) {
+    const Result<OpaqueCells> cells =
+        opaqueCells(volume.data.view(), {volume.points, volume.domain, volume.tableSize}, volume.threshold);
+    if (fclVersion().empty() || !cells.ok()) {
+        result.notes.push_back("FCL: " + (cells.ok() ? "not built in" : cells.error().text));
+        return;
+    }
+    Vec3 origin{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        origin[axis] = cells->size[axis] / 2 * cells->side;
+    }
+    std::string why;
+    volume.fcl = makeFclVolume(
+        {cells->size, cells->side, &cells->opaque, multiply(cells->world_from_cells, translation(origin))}, why);
+    if (volume.fcl == nullptr) {
+        result.notes.push_back("FCL: " + why);
+        return;
+    }
+    result.notes.push_back(fclVersion() + ": BVHModel of OBBRSS against an octree of opaque voxels" +
+                           (cells->resampled ? ", which are no cubes: cells of the smallest spacing, each with the "
+                                               "value of the voxel at its centre"
+                                             : ""));
+}
+
+Result<std::vector<Mat4>> makePoses(const std::string& kind, const BenchSettings& settings, const BenchVolume& volume,
+                                    const BenchMesh& mesh, Engine& yesNo) {
+    const Grid& grid = volume.data.grid;
+    if (kind == "large") {
+        return randomPoses(grid, mesh.data.view(), settings.poses, settings.seed);
+    }
+    return onsetPoses(grid, mesh.data.view(), settings.poses, settings.seed,
+                      [&yesNo](const Mat4& pose) -> Result<bool> {
+                          const Result<std::vector<EngineAnswer>> answer = yesNo.run({&pose, 1});
+                          return answer.ok() ? Result<bool>(answer->front().hit) : Result<bool>(answer.error());
+                      });
+}
+
+/// Says where an engine does not count as the one that it must count as.
+std::string compareCounts(std::span<const EngineAnswer> bare, std::span<const EngineAnswer> answers,
+                          const BenchRow& row) {
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+        if (bare[i].count != answers[i].count) {
+            return row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name + " " +
+                   row.engine.projection + " " + row.engine.question + " counts " + std::to_string(answers[i].count) +
+                   ", without the output it is " + std::to_string(bare[i].count);
+        }
+    }
+    return {};
+}
+
+/// Runs every engine once: its answers are judged, and say how long a sample is.
+Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kind, BenchResult& result) {
+    std::vector<EngineAnswer> certified;
+    Result<Times> first = timed([&]() -> Result<void> {
+        Result<std::vector<EngineAnswer>> answers = (*one.engines)[kCounting]->run(one.poses);
+        if (!answers.ok()) {
+            return answers.error();
+        }
+        certified = std::move(*answers);
+        return {};
+    });
+    if (!first.ok()) {
+        return first.error();
+    }
+    one.firstRow = result.rows.size();
+    std::vector<std::vector<EngineAnswer>> all;
+    for (const std::unique_ptr<Engine>& engine : *one.engines) {
+        std::vector<EngineAnswer> answers;
+        const Result<Times> took = timed([&]() -> Result<void> {
+            Result<std::vector<EngineAnswer>> run = engine->run(one.poses);
+            if (!run.ok()) {
+                return run.error();
+            }
+            answers = std::move(*run);
+            return {};
+        });
+        if (!took.ok()) {
+            return took.error();
+        }
+        BenchRow row{.mesh = mesh.name,
+                     .triangles = static_cast<std::uint32_t>(mesh.data.indices.size() / 3),
+                     .poses = kind,
+                     .engine = engine->facts(),
+                     .pairs = one.poses.size()};
+        std::string disagreement = judgeEngine(certified, answers, row);
+        if (disagreement.empty() && row.engine.sameCounts) {
+            disagreement = compareCounts(all[row.engine.ratioTo], answers, row);
+        }
+        if (result.disagreement.empty()) {
+            result.disagreement = disagreement;
+        }
+        all.push_back(std::move(answers));
+        result.rows.push_back(std::move(row));
+        const double fits = static_cast<double>(one.poses.size()) * std::min(1.0, kLongest / took->wall);
+        one.some.push_back(std::min(one.poses.size(), std::max(kFewestPoses, static_cast<std::size_t>(fits))));
+        one.passes.push_back(std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(kShortest / took->wall))));
+    }
+    return {};
+}
+
+/// A sample of every engine, one after the other.
+Result<void> timeRound(const Case& one, BenchResult& result) {
+    for (std::size_t i = 0; i < one.engines->size(); ++i) {
+        const auto poses = std::span(one.poses).first(one.some[i]);
+        const Result<Times> took = timed([&]() -> Result<void> {
+            for (std::size_t pass = 0; pass < one.passes[i]; ++pass) {
+                if (Result<std::vector<EngineAnswer>> run = (*one.engines)[i]->run(poses); !run.ok()) {
+                    return run.error();
+                }
+            }
+            return {};
+        });
+        if (!took.ok()) {
+            return took.error();
+        }
+        BenchRow& row = result.rows[one.firstRow + i];
+        const auto pairs = static_cast<double>(poses.size() * one.passes[i]);
+        row.wallRate.push_back(pairs / took->wall);
+        row.cpuRate.push_back(pairs / took->cpu);
+        const BenchRow& beside = result.rows[one.firstRow + row.engine.ratioTo];
+        row.wallRatio.push_back(row.wallRate.back() / beside.wallRate.back());
+        row.cpuRatio.push_back(row.cpuRate.back() / beside.cpuRate.back());
+    }
+    return {};
+}
+
+/// Around the onset of contact there are hardly any survivors to have outputs of.
+std::span<const char* const> kindsOf(BenchMode mode) {
+    static constexpr std::array kKinds{"large", "onset"};
+    return std::span(kKinds).first(mode == BenchMode::Outputs ? 1 : 2);
+}
+
+/// The sets of poses of a mesh: verified, then timed.
+Result<void> benchMesh(const BenchSettings& settings, const BenchVolume& volume, BenchMesh& mesh,
+                       const Session* session, const std::function<void()>& step, BenchResult& result) {
+    if (session != nullptr) {
+        if (Result<void> uploaded = uploadMesh(*session, mesh); !uploaded.ok()) {
+            return uploaded;
+        }
+    }
+    const bool outputs = settings.mode == BenchMode::Outputs;
+    const Result<Engines> engines =
+        outputs ? makeOutputEngines(volume, mesh, session) : makeEngines(volume, mesh, session);
+    if (!engines.ok()) {
+        return engines.error();
+    }
+    for (const char* kind : kindsOf(settings.mode)) {
+        Result<std::vector<Mat4>> poses = makePoses(kind, settings, volume, mesh, *engines->front());
+        if (!poses.ok()) {
+            return poses.error();
+        }
+        Case one{.engines = &*engines, .poses = std::move(*poses), .passes = {}, .some = {}};
+        if (Result<void> verified = verifyCase(one, mesh, kind, result); !verified.ok()) {
+            return verified;
+        }
+        for (std::uint32_t round = 0; round < settings.repetitions && result.disagreement.empty(); ++round) {
+            if (Result<void> done = timeRound(one, result); !done.ok()) {
+                return done;
+            }
+            step();
+        }
+    }
+    return {};
+}
+
+/// A label for each octant.
+LabelData octants(const Grid& grid) {
+    LabelData labels{grid, {}, {0, 1, 2, 3, 4, 5, 6, 7}};
+    labels.indices.reserve(voxelCount(grid));
+    for (std::uint32_t z = 0; z < grid.size[2]; ++z) {
+        for (std::uint32_t y = 0; y < grid.size[1]; ++y) {
+            for (std::uint32_t x = 0; x < grid.size[0]; ++x) {
+                const int octant =
+                    (2 * x >= grid.size[0] ? 1 : 0) + (2 * y >= grid.size[1] ? 2 : 0) + (2 * z >= grid.size[2] ? 4 : 0);
+                labels.indices.push_back(static_cast<std::uint16_t>(octant));
+            }
+        }
+    }
+    return labels;
+}
+
+} // namespace
+
+const char* defaultVolume(BenchMode mode) {
+    // The large scene is for engines that skip what cannot touch.
+    return mode == BenchMode::Outputs ? "builtin:head:128" : "builtin:head:256";
+}
+
+std::vector<std::string> defaultMeshes(BenchMode mode) {
+    return {kMeshes.begin(), kMeshes.begin() + (mode == BenchMode::Outputs ? 1 : kMeshes.size())};
+}
+
+Result<void> bench(const BenchSettings& settings, const Session* session, BenchVolume& volume,
+                   std::vector<BenchMesh> meshes, const Steps& steps, BenchResult& result) {
+    if (settings.mode == BenchMode::Outputs) {
+        volume.labels = octants(volume.data.grid);
+    }
+    if (session != nullptr) {
+        if (Result<void> uploaded = uploadVolume(*session, volume); !uploaded.ok()) {
+            return uploaded;
+        }
+    }
+    if (settings.mode == BenchMode::Certified) {
+        addFcl(volume, result);
+    }
+    steps.begin(kindsOf(settings.mode).size() * settings.repetitions * meshes.size());
+    for (BenchMesh& mesh : meshes) {
+        if (Result<void> done = benchMesh(settings, volume, mesh, session, steps.step, result); !done.ok()) {
+            return done;
+        }
+    }
+    return {};
+}
+
+} // namespace voxtact::app

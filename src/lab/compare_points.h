@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/compare_verify.h"
+
+namespace voxtact::app {
+
+/// A measurement that is repeated: what, by whom, and where its samples go.
+struct Point {
+    MethodRunner* runner = nullptr;
+    Work work;
+    std::uint32_t perSubmission = 1;
+    std::uint32_t frames = 1;
+    Series series;
+    double spent = 0; ///< ms
+    bool finished = false;
+};
+
+[[nodiscard]] Point makePoint(Sweep sweep, MethodRunner& runner, const Work& work, Mode mode, std::uint32_t batch);
+/// A point a runner: all the pairs in one submission.
+void addPoints(Sweep sweep, const Runners& runners, const Work& work, std::vector<Point>& points);
+
+/// The counts of a point agree before it is timed: adds the verdicts that failed. `where` says which point it is.
+[[nodiscard]] Result<void> verifyPoint(const Runners& runners, const Work& work, std::span<const std::uint32_t> poses,
+                                       const std::string& where, Sweep sweep, CompareResult& result);
+
+/// The warm-up, then rounds. Each point has its share of the time and takes samples as long as they fit, one at least.
+[[nodiscard]] Result<void> measure(std::vector<Point>& points, const CompareSettings& settings, CompareResult& result,
+                                   const std::function<void()>& step);
+/// The series of points that were measured, in the order of mode and batch.
+void collect(std::vector<Point>& points, CompareResult& result);
+/// Measures and collects points whose counts were verified; nothing where one failed and the run is not to go on.
+[[nodiscard]] Result<void> measureVerified(std::vector<Point>& points, const CompareSettings& settings,
+                                           CompareResult& result, const std::function<void()>& step);
+
+} // namespace voxtact::app

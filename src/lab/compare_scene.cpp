@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "lab/compare_scene.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace voxtact::app {
+
+namespace {
+
+std::string cpuName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
+            return line.substr(line.find(": ") + 2);
+        }
+    }
+    return "unknown";
+}
+
+void describeDriver(const Session& session, Machine& machine) {
+    // The function that an instance gives for a name is the one of that name.
+    const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+        session.instance.getInstanceProcAddr()(session.instance.handle(), "vkGetPhysicalDeviceProperties2"));
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    getProperties(session.device.physical().handle, &properties);
+    machine.driver = driver.driverName;
+    machine.driverVersion = driver.driverInfo;
+    machine.llvmpipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+}
+
+bool floatFilterForced() {
+    const char* const tuning = std::getenv("GALLIVM_PERF");
+    return tuning != nullptr && std::string_view(tuning).find("no_aos_sampling") != std::string_view::npos;
+}
+
+bool isHopper(const std::string& name) {
+    return name.find("H100") != std::string::npos || name.find("H200") != std::string::npos;
+}
+
+} // namespace
+
+Result<void> checkViewport(const Session& session, const VkExtent2D& size) {
+    const VkExtent2D most = session.context.maxViewport();
+    if (size.width <= most.width && size.height <= most.height &&
+        std::max(size.width, size.height) <= cpu::kMaxViewport) {
+        return {};
+    }
+    return Error{ErrorCode::InvalidArgument, 0,
+                 "--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) + " is beyond what '" +
+                     session.device.physical().name + "' can do"};
+}
+
+Machine describeHost(const Provenance& provenance) {
+    Machine machine;
+    machine.provenance = provenance;
+    machine.cpu = cpuName();
+    machine.cpuThreads = std::max(1U, std::thread::hardware_concurrency());
+    return machine;
+}
+
+Machine describeMachine(const Session& session, ScalarType type, const Provenance& provenance) {
+    const PhysicalDevice& physical = session.device.physical();
+    Machine machine = describeHost(provenance);
+    machine.device = physical.name;
+    machine.deviceType = deviceTypeName(physical.type);
+    machine.api = apiVersionText(physical.apiVersion);
+    describeDriver(session, machine);
+    machine.eightBitFilter = machine.llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
+    machine.filter =
+        machine.eightBitFilter
+            ? "llvmpipe filters a uint8 volume in 8-bit arithmetic (GALLIVM_PERF=no_aos_sampling: in float)"
+        : machine.llvmpipe ? "llvmpipe filters this volume in float"
+                           : "the device's sampler; its weights may have as few as 8 fraction bits";
+    if (machine.llvmpipe) {
+        machine.notes.emplace_back("llvmpipe is a rasteriser on the CPU: the methods of the device and cpu share the "
+                                   "same cores");
+        machine.notes.emplace_back("a query counts one draw, so query and query-any split a batch into a draw a pair; "
+                                   "atomic and subgroup draw a batch at once");
+    }
+    if (isHopper(physical.name)) {
+        machine.notes.emplace_back("on this card only two TPCs (4 of 132 multiprocessors) run vertex and fragment "
+                                   "shaders: every time of query, query-any, atomic and subgroup is of a small part of "
+                                   "it, and compute is not held back");
+    }
+    if (!session.device.hasTimestamps()) {
+        machine.notes.emplace_back("the queue has no timestamps: there is no GPU time");
+    }
+    return machine;
+}
+
+Result<Subject> makeSubject(const Session& session, MeshData data) {
+    Result<Mesh> device = Mesh::upload(session.context, session.device.queueAccess(), data.view(),
+                                       {.name = data.name.c_str(), .clusters = true});
+    if (!device.ok()) {
+        return device.error();
+    }
+    Result<cpu::Mesh> host = cpu::Mesh::create(data.view());
+    if (!host.ok()) {
+        return host.error();
+    }
+    return Subject{std::move(data), std::move(*device), std::move(*host)};
+}
+
+Result<Surroundings> makeSurroundings(const Session& session, const VolumeView& volume,
+                                      const TransferFunctionDesc& transferFunction,
+                                      const VolumeOptions& volumeOptions) {
+    const QueueAccess queue = session.device.queueAccess();
+    Result<Volume> onDevice = Volume::upload(session.context, queue, volume, volumeOptions);
+    if (!onDevice.ok()) {
+        return onDevice.error();
+    }
+    Result<TransferFunction> table = TransferFunction::upload(session.context, queue, transferFunction);
+    if (!table.ok()) {
+        return table.error().code == ErrorCode::LimitExceeded
+                   ? Error{ErrorCode::InvalidArgument, 0, "--tf-size: " + table.error().text}
+                   : table.error();
+    }
+    Result<cpu::Volume> hostVolume = cpu::Volume::create(volume);
+    if (!hostVolume.ok()) {
+        return hostVolume.error();
+    }
+    Result<cpu::TransferFunction> hostTable = cpu::TransferFunction::create(transferFunction);
+    if (!hostTable.ok()) {
+        return hostTable.error();
+    }
+    return Surroundings{std::move(*onDevice), std::move(*table), std::move(*hostVolume), std::move(*hostTable)};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "lab/paper_frames.h"
+
+#include "lab/frame_target.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+namespace voxtact::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What a picture needs beside what the detection has.
+struct PictureParts {
+    Renderer renderer;
+    RenderTransferFunction function;
+    RenderBricks bricks;
+    MeshNormals normals;
+    RenderTargets targets;
+};
+
+Result<PictureParts> makePicture(const Session& session, const CompareData& data, const Surroundings& surroundings,
+                                 const Subject& subject, const std::vector<ColourPoint>& colours) {
+    const QueueAccess queue = session.device.queueAccess();
+    Result<Renderer> renderer = Renderer::create(session.context);
+    if (!renderer.ok()) {
+        return renderer.error();
+    }
+    RenderTransferFunctionDesc desc;
+    desc.opacity = {data.points, data.domain};
+    desc.colours = colours;
+    desc.step = *std::ranges::min_element(data.volume.grid.spacing) / 2;
+    Result<RenderTransferFunction> function = RenderTransferFunction::upload(*renderer, queue, desc);
+    if (!function.ok()) {
+        return function.error();
+    }
+    Result<RenderBricks> bricks = RenderBricks::create(*renderer, surroundings.volume);
+    if (!bricks.ok()) {
+        return bricks.error();
+    }
+    Result<MeshNormals> normals = MeshNormals::upload(*renderer, queue, subject.data.view());
+    if (!normals.ok()) {
+        return normals.error();
+    }
+    Result<RenderTargets> targets = RenderTargets::create(*renderer, {data.view.width, data.view.height});
+    if (!targets.ok()) {
+        return targets.error();
+    }
+    return PictureParts{std::move(*renderer), std::move(*function), std::move(*bricks), std::move(*normals),
+                        std::move(*targets)};
+}
+
+Result<Results> makeResults(const Session& session) {
+    return Results::create(session.context, {.maxPairs = 1,
+                                             .readBack = true,
+                                             .timestamps = session.device.hasTimestamps(),
+                                             .queueFamily = session.device.queueAccess().family});
+}
+
+} // namespace
+
+struct FrameLoop::State {
+    const Session& session;
+    const CompareData& data;
+    const Surroundings& surroundings;
+    const Subject& subject;
+    PictureParts picture;
+    Results results;
+    std::map<CountingMethod, Detector> detectors{};
+    std::optional<cpu::Detector> host{};
+    FrameTarget target; ///< ends first, and waits then
+
+    Result<void> record(FramePart part, CountingMethod method, const Mat4& pose);
+    Result<void> cmdPicture(VkCommandBuffer commands, const Mat4& pose);
+    Result<void> cmdDetect(VkCommandBuffer commands, CountingMethod method, const Mat4& pose);
+    Result<std::uint64_t> detectOnHost(const Mat4& pose);
+    Result<void> readTimes(FramePart part, bool onDevice, FrameSample& sample);
+};
+
+Result<void> FrameLoop::State::cmdPicture(VkCommandBuffer commands, const Mat4& pose) {
+    Scene scene;
+    scene.volume = &surroundings.volume;
+    scene.transferFunction = &picture.function;
+    scene.bricks = &picture.bricks;
+    scene.mesh = &subject.device;
+    scene.normals = &picture.normals;
+    scene.world_from_object = pose;
+    scene.clip_from_world = data.view.clip_from_world;
+    Target where;
+    where.view = target.view();
+    where.extent = picture.targets.extent();
+    where.targets = &picture.targets;
+    where.timestamps = target.timestamps();
+    where.firstTimestamp = kPictureBegins;
+    return picture.renderer.cmdRender(commands, scene, where);
+}
+
+Result<void> FrameLoop::State::cmdDetect(VkCommandBuffer commands, CountingMethod method, const Mat4& pose) {
+    const BatchItem item{&subject.device, &surroundings.volume, &surroundings.transferFunction, {&pose, 1}};
+    Result<void> recorded =
+        detectors.at(method).cmdDetect(commands, {{&item, 1}, data.view, kDefaultThreshold}, results);
+    return recorded.ok() ? results.cmdReadBack(commands) : recorded;
+}
+
+Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, const Mat4& pose) {
+    const Result<VkCommandBuffer> commands = target.begin();
+    if (!commands.ok()) {
+        return commands.error();
+    }
+    if (part != FramePart::Detection) {
+        if (Result<void> recorded = cmdPicture(*commands, pose); !recorded.ok()) {
+            return recorded;
+        }
+    }
+    if (part != FramePart::Rendering && method != CountingMethod::Cpu) {
+        if (Result<void> recorded = cmdDetect(*commands, method, pose); !recorded.ok()) {
+            return recorded;
+        }
+    }
+    return target.end();
+}
+
+Result<std::uint64_t> FrameLoop::State::detectOnHost(const Mat4& pose) {
+    const cpu::BatchItem item{&subject.host, &surroundings.hostVolume, &surroundings.hostTransferFunction, {&pose, 1}};
+    const Result<BatchAnswer> answer = host->detect({{&item, 1}, data.view, kDefaultThreshold});
+    if (!answer.ok()) {
+        return answer.error();
+    }
+    return answer->pairs.front().count;
+}
+
+Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSample& sample) {
+    if (target.timestamps() == VK_NULL_HANDLE) {
+        return {};
+    }
+    struct Reading {
+        std::optional<double>& time;
+        std::uint32_t from;
+        std::uint32_t to;
+        bool wanted;
+    };
+    const bool drawn = part != FramePart::Detection;
+    // While the host detects, a frame is not what is submitted alone.
+    const bool whole = part != FramePart::Both || onDevice;
+    for (const Reading& reading :
+         {Reading{sample.mesh, kPictureBegins, kMeshDone, drawn}, Reading{sample.volume, kMeshDone, kVolumeDone, drawn},
+          Reading{sample.all, kFrameBegins, kFrameEnds, whole}}) {
+        if (!reading.wanted) {
+            continue;
+        }
+        const Result<std::optional<double>> time = target.between(reading.from, reading.to);
+        if (!time.ok()) {
+            return time.error();
+        }
+        reading.time = *time;
+    }
+    if (part == FramePart::Detection) {
+        const Result<double> time = results.gpuMilliseconds();
+        if (!time.ok()) {
+            return time.error();
+        }
+        sample.detection = *time;
+    }
+    return {};
+}
+
+FrameLoop::FrameLoop(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+FrameLoop::FrameLoop(FrameLoop&&) noexcept = default;
+FrameLoop& FrameLoop::operator=(FrameLoop&&) noexcept = default;
+FrameLoop::~FrameLoop() = default;
+
+Result<FrameLoop> FrameLoop::create(const Session& session, const CompareData& data, const Surroundings& surroundings,
+                                    const Subject& subject, const std::vector<ColourPoint>& colours) {
+    Result<PictureParts> picture = makePicture(session, data, surroundings, subject, colours);
+    if (!picture.ok()) {
+        return picture.error();
+    }
+    Result<Results> results = makeResults(session);
+    if (!results.ok()) {
+        return results.error();
+    }
+    Result<FrameTarget> target =
+        FrameTarget::create(session, RendererDesc{}.colorFormat, {data.view.width, data.view.height});
+    if (!target.ok()) {
+        return target.error();
+    }
+    return FrameLoop(std::unique_ptr<State>(new State{.session = session,
+                                                      .data = data,
+                                                      .surroundings = surroundings,
+                                                      .subject = subject,
+                                                      .picture = std::move(*picture),
+                                                      .results = std::move(*results),
+                                                      .target = std::move(*target)}));
+}
+
+Result<void> FrameLoop::add(CountingMethod method) {
+    if (method == CountingMethod::Cpu) {
+        Result<cpu::Detector> host = cpu::Detector::create();
+        if (!host.ok()) {
+            return host.error();
+        }
+        state_->host.emplace(std::move(*host));
+        return {};
+    }
+    Result<Detector> detector =
+        Detector::create(state_->session.context, {.method = method, .filter = defaultFilter(method)});
+    if (!detector.ok()) {
+        return detector.error();
+    }
+    state_->detectors.emplace(method, std::move(*detector));
+    return {};
+}
+
+Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const Mat4& world_from_object) {
+    const bool onHost = part != FramePart::Rendering && method == CountingMethod::Cpu;
+    const bool onDevice = part != FramePart::Rendering && !onHost;
+    const bool submits = part != FramePart::Detection || onDevice;
+    if (submits) {
+        if (Result<void> recorded = state_->record(part, method, world_from_object); !recorded.ok()) {
+            return recorded.error();
+        }
+    }
+    FrameSample sample;
+    const auto begun = Clock::now();
+    if (submits) {
+        if (Result<void> submitted = state_->target.submit(); !submitted.ok()) {
+            return submitted.error();
+        }
+    }
+    if (onHost) {
+        const Result<std::uint64_t> count = state_->detectOnHost(world_from_object);
+        if (!count.ok()) {
+            return count.error();
+        }
+        sample.count = *count;
+    }
+    if (submits) {
+        if (Result<void> waited = state_->target.wait(); !waited.ok()) {
+            return waited.error();
+        }
+    }
+    sample.wall = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    if (onDevice) {
+        const Result<std::span<const PairResult>> read = state_->results.read();
+        if (!read.ok()) {
+            return read.error();
+        }
+        sample.count = unpack(read->front()).count;
+    }
+    if (submits) {
+        if (Result<void> timed = state_->readTimes(part, onDevice, sample); !timed.ok()) {
+            return timed.error();
+        }
+    }
+    return sample;
+}
+
+} // namespace voxtact::app

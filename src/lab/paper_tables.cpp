@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "lab/paper_tables.h"
+
+#include "lab/compare_verify.h"
+#include "lab/paper_frames.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace voxtact::app {
+
+namespace {
+
+/// What is timed of each method.
+constexpr std::array<FramePart, 2> kParts{FramePart::Detection, FramePart::Both};
+
+/// A scene on the device and the host, with what was verified of it.
+struct PaperWork {
+    const PaperInput& input;
+    const Surroundings& surroundings;
+    const Subject& subject;
+    std::vector<CountingMethod> methods{};
+    std::vector<NamedCounts> counts{}; ///< by method, in their order
+    std::size_t firstRow = 0;          ///< theirs follow each other
+};
+
+void addNote(std::string note, PaperResult& result) {
+    if (std::ranges::find(result.notes, note) == result.notes.end()) {
+        result.notes.push_back(std::move(note));
+    }
+}
+
+/// Those that can be had; the others are told once.
+std::vector<CountingMethod> methodsOf(const Session& session, PaperResult& result) {
+    std::vector<CountingMethod> methods;
+    const auto supports = session.context.methods();
+    for (const CountingMethod method : countingMethods()) {
+        const auto support = std::ranges::find(supports, method, &MethodSupport::method);
+        const bool known = method == CountingMethod::Cpu || support != supports.end();
+        if (method == CountingMethod::Cpu || (known && support->available)) {
+            methods.push_back(method);
+        } else {
+            addNote(std::string("no ") + toString(method) +
+                        " on this device: " + (known ? support->reason : "this version has it not"),
+                    result);
+        }
+    }
+    return methods;
+}
+
+/// Counts every pose by every method. The first broken rule is the result's.
+Result<void> verify(const Session& session, PaperWork& work, PaperResult& result) {
+    Runners runners;
+    for (const CountingMethod method : work.methods) {
+        Result<std::unique_ptr<MethodRunner>> runner =
+            makeRunner(session, work.surroundings, method, kDefaultThreshold);
+        if (!runner.ok()) {
+            return runner.error();
+        }
+        runners.push_back(std::move(*runner));
+    }
+    const CompareData& data = work.input.data;
+    Result<std::vector<NamedCounts>> counts = countAll(runners, {&work.subject, data.poses, data.view});
+    if (!counts.ok()) {
+        return counts.error();
+    }
+    work.counts = std::move(*counts);
+    for (const Verdict& verdict : judgeCounts(work.counts, data.poseNumbers)) {
+        if (verdict.failed() && result.disagreement.empty()) {
+            result.disagreement = work.input.scene.name + ", " + verdict.rule + ": pose " +
+                                  std::to_string(verdict.first->pose) + ": " + verdict.first->text;
+        }
+    }
+    return {};
+}
+
+void addRows(PaperWork& work, PaperResult& result) {
+    work.firstRow = result.rows.size();
+    for (const NamedCounts& counts : work.counts) {
+        const auto sum = static_cast<double>(std::accumulate(counts.counts.begin(), counts.counts.end(), 0ULL));
+        const auto hits = std::ranges::count_if(counts.counts, [](std::uint64_t count) { return count > 0; });
+        result.rows.push_back({.scene = result.scenes.size(),
+                               .method = counts.method,
+                               .survivors = sum / static_cast<double>(counts.counts.size()),
+                               .hits = static_cast<std::uint32_t>(hits)});
+    }
+    result.scenes.push_back(work.input.scene);
+}
+
+void add(const std::optional<double>& time, std::vector<double>& samples) {
+    if (time) {
+        samples.push_back(*time);
+    }
+}
+
+void keep(FramePart part, const FrameSample& sample, PaperRow& row) {
+    switch (part) {
+    case FramePart::Rendering:
+        add(sample.mesh, row.gpu.mesh);
+        add(sample.volume, row.gpu.volume);
+        add(sample.all, row.gpu.rendering);
+        row.wall.rendering.push_back(sample.wall);
+        return;
+    case FramePart::Detection:
+        add(sample.detection, row.gpu.collision);
+        row.wall.collision.push_back(sample.wall);
+        return;
+    case FramePart::Both:
+        add(sample.all, row.gpu.total);
+        row.wall.total.push_back(sample.wall);
+        return;
+    }
+}
+
+/// The two frames of a method at a pose. A count that is not the verified one is the result's disagreement.
+Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t method, std::size_t pose, bool backwards,
+                        PaperRow* row, PaperResult& result) {
+    const std::uint64_t verified = work.counts[method].counts[pose];
+    for (std::size_t i = 0; i < kParts.size(); ++i) {
+        const FramePart part = kParts.at(backwards ? kParts.size() - 1 - i : i);
+        const Result<FrameSample> sample = frames.run(part, work.methods[method], work.input.data.poses[pose]);
+        if (!sample.ok()) {
+            return sample.error();
+        }
+        if (sample->count.value_or(verified) != verified && result.disagreement.empty()) {
+            result.disagreement = work.input.scene.name + ", pose " + std::to_string(pose) + ": " +
+                                  work.counts[method].method + (part == FramePart::Both ? " in a frame" : " alone") +
+                                  " counts " + std::to_string(*sample->count) + ", before it was " +
+                                  std::to_string(verified);
+        }
+        if (row != nullptr) {
+            keep(part, *sample, *row);
+        }
+    }
+    return {};
+}
+
+/// A frame without detection. It is the same by every method, so that a round takes one for all of them.
+Result<void> takeRendering(FrameLoop& frames, const PaperWork& work, std::size_t pose, bool kept, PaperResult& result) {
+    const Result<FrameSample> sample =
+        frames.run(FramePart::Rendering, work.methods.front(), work.input.data.poses[pose]);
+    if (!sample.ok()) {
+        return sample.error();
+    }
+    for (std::size_t method = 0; kept && method < work.methods.size(); ++method) {
+        keep(FramePart::Rendering, *sample, result.rows[work.firstRow + method]);
+    }
+    return {};
+}
+
+/// Every method in turn, and in their middle the frame that they are held against. `round` counts from 1; in round 0 no
+/// time is kept.
+Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t round, PaperResult& result) {
+    const std::size_t poses = work.input.data.poses.size();
+    const std::size_t pose = (round + poses - 1) % poses;
+    // A pose that comes again, after an even number of rounds too, is taken the other way round.
+    const bool backwards = (round + (round + poses - 1) / poses) % 2 == 0;
+    for (std::size_t i = 0; i < work.methods.size() && result.disagreement.empty(); ++i) {
+        if (i == work.methods.size() / 2) {
+            if (Result<void> taken = takeRendering(frames, work, pose, round > 0, result); !taken.ok()) {
+                return taken;
+            }
+        }
+        const std::size_t method = backwards ? work.methods.size() - 1 - i : i;
+        PaperRow* row = round == 0 ? nullptr : &result.rows[work.firstRow + method];
+        if (Result<void> taken = takeFrames(frames, work, method, pose, backwards, row, result); !taken.ok()) {
+            return taken;
+        }
+    }
+    return {};
+}
+
+Result<void> timeFrames(const Session& session, const PaperSettings& settings, const PaperWork& work,
+                        PaperResult& result, const std::function<void()>& step) {
+    Result<FrameLoop> frames =
+        FrameLoop::create(session, work.input.data, work.surroundings, work.subject, settings.colours);
+    if (!frames.ok()) {
+        return frames.error();
+    }
+    for (const CountingMethod method : work.methods) {
+        if (Result<void> added = frames->add(method); !added.ok()) {
+            return added;
+        }
+    }
+    for (std::uint64_t round = 0; round <= settings.repetitions && result.disagreement.empty(); ++round) {
+        if (Result<void> taken = takeRound(*frames, work, round, result); !taken.ok()) {
+            return taken;
+        }
+        step();
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, const PaperInput& input,
+                               PaperResult& result, const std::function<void()>& step) {
+    const Result<Surroundings> surroundings =
+        makeSurroundings(session, input.data.volume.view(), input.data.transferFunction(), {.bricks = true});
+    if (!surroundings.ok()) {
+        return surroundings.error();
+    }
+    const Result<Subject> subject = makeSubject(session, input.data.mesh);
+    if (!subject.ok()) {
+        return subject.error();
+    }
+    PaperWork work{.input = input, .surroundings = *surroundings, .subject = *subject};
+    work.methods = methodsOf(session, result);
+    if (Result<void> verified = verify(session, work, result); !verified.ok()) {
+        return verified;
+    }
+    step();
+    addRows(work, result);
+    return timeFrames(session, settings, work, result, step);
+}
+
+std::uint64_t paperSceneSteps(const PaperSettings& settings) {
+    return std::uint64_t{2} + settings.repetitions;
+}
+
+} // namespace voxtact::app

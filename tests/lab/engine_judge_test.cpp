@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What compare --localize and bench --certified make of answers that differ.
+#include "lab/bench_run.h"
+#include "lab/compare_localize.h"
+
+#include <gtest/gtest.h>
+
+namespace voxtact::test {
+namespace {
+
+using app::BenchRow;
+using app::EngineAnswer;
+using app::LocalizeResult;
+using app::LocalizeWay;
+
+LocalizeWay way(const std::string& name, bool byView, std::vector<std::vector<TouchedTriangle>> found) {
+    LocalizeWay made{.name = name, .byView = byView, .found = std::move(found)};
+    for (const auto& pose : made.found) {
+        made.triangles += pose.size();
+    }
+    return made;
+}
+
+LocalizeResult twoPoses(std::vector<TouchedTriangle> secondOfLeaf) {
+    LocalizeResult result;
+    result.poseNumbers = {4, 9};
+    result.ways.push_back(way("polygon", true, {{{0, 1, 5}, {0, 7, 2}}, {{0, 3, 1}}}));
+    result.ways.push_back(way("leaf", true, {{{0, 1, 5}, {0, 7, 2}}, std::move(secondOfLeaf)}));
+    result.ways.push_back({.name = "fragments", .unchecked = "no such device"});
+    result.ways.push_back(way("certified", false, {{{0, 1, 1}, {0, 2, 1}}, {{0, 3, 9}, {0, 8, 1}}}));
+    return result;
+}
+
+TEST(LocalizeJudgeTest, MissedAndWrongAreAgainstTheCertifiedSet) {
+    LocalizeResult result = twoPoses({{0, 3, 1}});
+    judgeLocalize(result);
+    EXPECT_FALSE(result.failedPose);
+    EXPECT_EQ(result.ways[0].missed, 2U) << "triangle 2 of the first pose, 8 of the second";
+    EXPECT_EQ(result.ways[0].wrong, 1U) << "triangle 7";
+    EXPECT_EQ(result.ways[3].missed, 0U);
+    EXPECT_EQ(result.ways[3].wrong, 0U);
+    EXPECT_EQ(disagreementOf(result), "");
+}
+
+TEST(LocalizeJudgeTest, AnotherTriangleOrCountIsADisagreement) {
+    LocalizeResult lost = twoPoses({});
+    judgeLocalize(lost);
+    EXPECT_EQ(lost.failedPose, 9U);
+    EXPECT_EQ(lost.failure, "triangle 3: polygon 1, leaf 0 fragments");
+    EXPECT_EQ(disagreementOf(lost), "polygon = leaf = leaf-bricks = fragments: disagreement on pose 9: triangle 3: "
+                                    "polygon 1, leaf 0 fragments");
+    LocalizeResult other = twoPoses({{0, 3, 2}});
+    judgeLocalize(other);
+    EXPECT_EQ(other.failedPose, 9U);
+    EXPECT_EQ(other.failure, "triangle 3: polygon 1, leaf 2 fragments");
+}
+
+TEST(EngineJudgeTest, MissedAndFalseAreCounted) {
+    const std::vector<EngineAnswer> certified{{true, false, 3}, {true, false, 1}, {false, true, 0}, {false, false, 0}};
+    const std::vector<EngineAnswer> answers{{true, false, 1}, {false, false, 0}, {true, false, 1}, {true, false, 1}};
+    BenchRow row{.engine = {.name = "other", .question = "yes/no"}};
+    EXPECT_EQ(judgeEngine(certified, answers, row), "") << "it need not agree";
+    EXPECT_EQ(row.contacts, 2U);
+    EXPECT_EQ(row.untouched, 1U);
+    EXPECT_EQ(row.missed, 1U);
+    EXPECT_EQ(row.wrong, 1U) << "what is possible is no false contact";
+}
+
+TEST(EngineJudgeTest, CertifiedEnginesMustAgree) {
+    const std::vector<EngineAnswer> certified{{true, false, 3}, {false, true, 0}};
+    BenchRow counting{
+        .mesh = "m", .poses = "onset", .engine = {.name = "compute", .question = "count", .certified = true}};
+    EXPECT_EQ(judgeEngine(certified, certified, counting), "");
+    EXPECT_EQ(judgeEngine(certified, std::vector<EngineAnswer>{{true, false, 2}, {false, true, 0}}, counting),
+              "m, poses onset, pose 0: compute count says 2, it must be 3");
+    BenchRow yesNo{.mesh = "m", .poses = "onset", .engine = {.name = "cpu", .question = "yes/no", .certified = true}};
+    EXPECT_EQ(judgeEngine(certified, std::vector<EngineAnswer>{{true, false, 1}, {false, true, 0}}, yesNo), "");
+    EXPECT_NE(judgeEngine(certified, std::vector<EngineAnswer>{{true, false, 1}, {false, false, 0}}, yesNo), "");
+}
+
+} // namespace
+} // namespace voxtact::test
