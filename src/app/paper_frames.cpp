@@ -2,7 +2,7 @@
 #include "app/paper_frames.h"
 
 #include "app/frame_target.h"
-#include "app/render/colours.h"
+#include "app/render/presets.h"
 #include "voxtact/render.h"
 
 #include <algorithm>
