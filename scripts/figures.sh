@@ -21,7 +21,7 @@ touching() {
 draw() {
     local picture=$1
     shift
-    "$program" render --size 512x512 --output "$picture" "$@"
+    "$program" render --size 512x512 --no-annotate --output "$picture" "$@"
     printf '%s/%s\n' "$PWD" "$picture"
 }
 

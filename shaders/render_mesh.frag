@@ -13,6 +13,7 @@ layout(location = 1) in vec3 worldNormal;
 #endif
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float distanceFromNear;
+layout(push_constant) uniform Which { uint which; };
 
 #if defined(PAINT_FRAGMENTS)
 layout(location = 2) in vec3 textureCoordinate;
@@ -24,13 +25,13 @@ layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D trans
 
 vec4 paint() {
     // A detector that clamps has proven that the range test would change nothing.
-    const bool survivor = survives(textureCoordinate, picture.item, true, false);
-    if ((picture.switches & PICTURE_DISCARDED) == 0u) {
-        return survivor ? picture.contactColour : picture.meshColour;
+    const bool survivor = survives(textureCoordinate, meshes[which].item, true, false);
+    if ((meshes[which].switches & PICTURE_MESH_DISCARDED) == 0u) {
+        return survivor ? meshes[which].contactColour : meshes[which].colour;
     }
-    const float above = hardwareOpacity(textureCoordinate, picture.item) - picture.item.threshold;
-    const float share = clamp(above / max(1.0 - picture.item.threshold, 1e-6), 0.0, 1.0);
-    return vec4(survivor ? vec3(mix(DARKEST, 1.0, share)) : picture.discardedColour.rgb, picture.contactColour.a);
+    const float above = hardwareOpacity(textureCoordinate, meshes[which].item) - meshes[which].item.threshold;
+    const float share = clamp(above / max(1.0 - meshes[which].item.threshold, 1e-6), 0.0, 1.0);
+    return vec4(survivor ? vec3(mix(DARKEST, 1.0, share)) : meshes[which].discardedColour.rgb, meshes[which].contactColour.a);
 }
 #elif defined(PAINT_TRIANGLES)
 layout(set = PICTURE_SET_TRIANGLES, binding = 0, std430) readonly buffer Triangles { uint painted[]; };
@@ -38,15 +39,27 @@ layout(set = PICTURE_SET_TRIANGLES, binding = 0, std430) readonly buffer Triangl
 vec4 paint() {
     const uint triangle = uint(gl_PrimitiveID);
     const bool chosen = (painted[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
-    return chosen ? picture.contactColour : picture.meshColour;
+    return chosen ? meshes[which].contactColour : meshes[which].colour;
 }
 #else
 vec4 paint() {
-    return picture.meshColour;
+    return meshes[which].colour;
 }
 #endif
 
+bool isClipped() {
+    for (int i = 0; i < picture.planeCount; ++i) {
+        if (dot(picture.planes[i].xyz, world) > picture.planes[i].w) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void main() {
+    if ((meshes[which].switches & PICTURE_MESH_CLIPPED) != 0u && isClipped()) {
+        discard;
+    }
     const vec4 point = ROWS4(picture.world_from_clip, vec4(clipOf(gl_FragCoord.xy), 0.0, 1.0));
     const vec3 way = world - point.xyz / point.w;
     distanceFromNear = length(way);
@@ -58,7 +71,7 @@ void main() {
         const vec3 normal = cross(dFdx(world), dFdy(world));
 #endif
         const float size = length(normal);
-        const vec3 toEye = distanceFromNear > 0.0 ? way / distanceFromNear : vec3(0.0);
-        colour.rgb = lit(vec4(colour.rgb, 1.0), size > 0.0 ? normal / size : toEye, toEye);
+        const vec3 away = distanceFromNear > 0.0 ? way / distanceFromNear : vec3(0.0);
+        colour.rgb = lit(vec4(colour.rgb, 1.0), size > 0.0 ? normal / size : away, away);
     }
 }

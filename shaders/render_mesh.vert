@@ -12,17 +12,18 @@ layout(location = 1) in vec3 normal;
 layout(location = 1) out vec3 worldNormal;
 #endif
 layout(location = 0) out vec3 world;
+layout(push_constant) uniform Which { uint which; };
 #ifdef PAINT_FRAGMENTS
 layout(location = 2) out vec3 textureCoordinate;
 #endif
 
 void main() {
-    const PairTransform transform = PairTransform(picture.clip_from_object, picture.texture_from_object);
+    const PairTransform transform = PairTransform(meshes[which].clip_from_object, meshes[which].texture_from_object);
     const ExactCorner corner = exactVertex(transform, position.x, position.y, position.z);
     const vec4 point = vec4(position, 1.0);
-    world = ROWS3(picture.world_from_object, point);
+    world = ROWS3(meshes[which].world_from_object, point);
 #ifdef SMOOTH
-    worldNormal = ROWS3(picture.normal_from_object, vec4(normal, 0.0));
+    worldNormal = ROWS3(meshes[which].normal_from_object, vec4(normal, 0.0));
 #endif
 #ifdef PAINT_FRAGMENTS
     textureCoordinate = vec3(corner.tx, corner.ty, corner.tz);

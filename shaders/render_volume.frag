@@ -18,6 +18,7 @@ layout(set = PICTURE_SET_BRICKS, binding = 0, std430) readonly buffer Bricks {
 layout(location = 0) out vec4 colour;
 
 #include "opacity_table.h"
+#include "render_light.glsl"
 
 #define ENOUGH 0.99
 // More than the rounding of a filtered scalar, in entries.
@@ -52,8 +53,36 @@ vec2 insideBox(vec3 origin, vec3 direction, vec3 lo, vec3 hi) {
     return vec2(max(max(first.x, first.y), first.z), min(min(last.x, last.y), last.z));
 }
 
-float scalarAt(vec3 coordinate) {
-    return textureLod(volume, coordinate, 0.0).r * picture.scalarScale + picture.scalarBias;
+/// Where a ray comes in and goes out: x and y, mm. `normal`, of unit length, is of the face through which it comes in:
+/// of the volume's border, of a clipping plane or, of a ray that begins inside, the near plane, which faces it.
+vec2 seenPart(Ray ray, out vec3 normal) {
+    normal = ray.world;
+    float from = 0.0;
+    float to = ray.end;
+    for (int i = 0; i < 3; ++i) {
+        const float slope = abs(ray.direction[i]) < 1e-20 ? 1e-20 : ray.direction[i];
+        const float a = -ray.origin[i] / slope;
+        const float b = (1.0 - ray.origin[i]) / slope;
+        if (min(a, b) > from) {
+            from = min(a, b);
+            normal = normalize(picture.texture_from_world[i].xyz);
+        }
+        to = min(to, max(a, b));
+    }
+    for (int i = 0; i < picture.planeCount; ++i) {
+        const vec4 plane = picture.texturePlanes[i];
+        const float slope = dot(plane.xyz, ray.direction);
+        const float at = (plane.w - dot(plane.xyz, ray.origin)) / slope;
+        if (slope == 0.0) {
+            to = dot(plane.xyz, ray.origin) > plane.w ? -1.0 : to;
+        } else if (slope > 0.0) {
+            to = min(to, at);
+        } else if (at > from) {
+            from = at;
+            normal = picture.planes[i].xyz;
+        }
+    }
+    return vec2(from, to);
 }
 
 /// Whether no scalar that samples in a brick can have is seen.
@@ -83,24 +112,6 @@ vec2 brickAt(Ray ray, float at) {
     return vec2(part.y, isEmpty(range) ? 1.0 : 0.0);
 }
 
-vec3 gradientAt(vec3 coordinate) {
-    const vec3 voxels = vec3(textureSize(volume, 0));
-    const vec3 h = 1.0 / voxels;
-    const vec3 difference = vec3(scalarAt(coordinate + vec3(h.x, 0, 0)) - scalarAt(coordinate - vec3(h.x, 0, 0)),
-                                 scalarAt(coordinate + vec3(0, h.y, 0)) - scalarAt(coordinate - vec3(0, h.y, 0)),
-                                 scalarAt(coordinate + vec3(0, 0, h.z)) - scalarAt(coordinate - vec3(0, 0, h.z)));
-    const vec3 slope = difference * voxels * 0.5;
-    return slope.x * picture.texture_from_world[0].xyz + slope.y * picture.texture_from_world[1].xyz +
-           slope.z * picture.texture_from_world[2].xyz;
-}
-
-vec3 shaded(vec4 segment, Ray ray, float middle) {
-    const vec3 gradient = gradientAt(ray.origin + middle * ray.direction);
-    const float size = length(gradient);
-    // Without a direction there is no surface, and all light arrives.
-    return lit(segment, size > 0.0 ? gradient / size : ray.world, ray.world);
-}
-
 /// (0, 1], by a permuted congruential generator (O'Neill, "PCG", 2014).
 float hashOf(uvec2 pixel) {
     uint state = (pixel.x + 65536u * pixel.y) * 747796405u + 2891336453u;
@@ -109,13 +120,15 @@ float hashOf(uvec2 pixel) {
     return (float(state >> 8u) + 1.0) / 16777216.0;
 }
 
-/// Colour times opacity, and opacity, of the ray from one distance to another.
-vec4 march(Ray ray, float from, float to, float firstStep) {
+/// Colour times opacity, and opacity, of the ray from one distance to another. It came in through a face.
+vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
     const float step = picture.step;
     vec4 sum = vec4(0.0);
     float at = from;
     float next = from + firstStep;
     float front = scalarAt(ray.origin + at * ray.direction);
+    // Whether all was visible from the face on: it cuts through matter.
+    bool cut = (picture.switches & PICTURE_FACES) != 0u;
     float brickEnd = picture.bricksX > 0 ? from : PICTURE_NOTHING;
     // The bound is for llvmpipe (seen in Mesa 22.3): without, it goes on to a limit of its own, 65535 rounds, in some
     // blocks of pixels that are long done.
@@ -127,6 +140,7 @@ vec4 march(Ray ray, float from, float to, float firstStep) {
             const float beyond = floor((min(brick.x, to) - next) / step);
             if (brick.y > 0.0 && beyond >= 0.0) {
                 at = next + beyond * step;
+                cut = false;
                 next = at + step;
                 front = scalarAt(ray.origin + at * ray.direction);
                 if (at >= to) {
@@ -145,9 +159,13 @@ vec4 march(Ray ray, float from, float to, float firstStep) {
                 segment *= opacity / segment.a;
             }
             if ((picture.switches & PICTURE_LIT_VOLUME) != 0u) {
-                segment.rgb = shaded(segment, ray, 0.5 * (at + end));
+                const float middle = 0.5 * (at + end);
+                const float face = cut ? clamp(2.0 - (middle - from) / picture.faceDepth, 0.0, 1.0) : 0.0;
+                segment.rgb = shaded(segment, ray.origin + middle * ray.direction, ray.world, faceNormal, face);
             }
             sum += (1.0 - sum.a) * segment;
+        } else {
+            cut = false;
         }
         front = back;
         at = end;
@@ -161,13 +179,14 @@ void main() {
     const float mesh = texelFetch(meshDistance, pixel, 0).r;
     const vec4 behind = texelFetch(meshColour, pixel, 0); // and how much of it is seen through the volume
     const Ray ray = rayOf(gl_FragCoord.xy);
-    const vec2 part = insideBox(ray.origin, ray.direction, vec3(0.0), vec3(1.0));
-    const float from = max(part.x, 0.0);
-    const float to = min(part.y, min(ray.end, mesh));
+    vec3 faceNormal;
+    const vec2 part = seenPart(ray, faceNormal);
+    const float from = part.x;
+    const float to = min(part.y, mesh);
     vec4 sum = vec4(0.0);
     if (from < to) {
         const bool jitter = (picture.switches & PICTURE_JITTER) != 0u;
-        sum = march(ray, from, to, picture.step * (jitter ? hashOf(uvec2(pixel)) : 1.0));
+        sum = march(ray, from, to, picture.step * (jitter ? hashOf(uvec2(pixel)) : 1.0), faceNormal);
     }
     const vec3 seen = sum.rgb + (1.0 - sum.a) * behind.rgb;
     colour = vec4(behind.a > 0.0 ? mix(seen, behind.rgb, behind.a) : seen, 1.0);

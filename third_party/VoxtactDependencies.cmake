@@ -35,6 +35,9 @@ if(VOXTACT_BUILD_APP)
   find_file(VOXTACT_CHART_LICENCE copyright PATHS /usr/share/doc/libjs-chart.js NO_DEFAULT_PATH)
   find_package(CLI11 CONFIG REQUIRED)
   find_path(VOXTACT_VOLK_INCLUDE_DIR volk.h REQUIRED)
+  # What `render` writes on pictures with: it becomes part of the program. Any TrueType file will do.
+  find_file(VOXTACT_FONT DejaVuSans.ttf PATHS /usr/share/fonts /usr/local/share/fonts
+            PATH_SUFFIXES truetype/dejavu TTF dejavu dejavu-sans-fonts NO_DEFAULT_PATH REQUIRED)
   # FCL is what `bench` compares with, where it is found.
   find_package(octomap QUIET)
   find_package(fcl QUIET)

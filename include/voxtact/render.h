@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,6 +20,9 @@
 /// (pre-integrated classification: Engel, Kraus and Ertl, "High-Quality Pre-Integrated Volume Rendering Using
 /// Hardware-Accelerated Pixel Shading", 2001), so that a thin shell in the transfer function is not missed between two
 /// samples. A ray ends where its opacity reaches 0.99.
+///
+/// Clipping planes take a part of the volume away. Where one of them, or the volume's own border, cuts through what is
+/// visible, the gradient says nothing about the cut: such a face is shaded with its plane's normal.
 ///
 /// What a detector decides about the mesh can be painted on it (MeshPaint). A fragment of the mesh is a pixel that it
 /// covers: each that is seen is decided by the detector's own shader text, from the same numbers.
@@ -50,15 +54,33 @@ struct RendererDesc {
     VkFormat colorFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< of the pictures; a colour attachment. There is no depth image
 };
 
-/// How light falls: from the eye, on both sides of a surface (Blinn-Phong).
+/// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong).
 struct Lighting {
     bool volume = true; ///< by the gradient, from central differences; false: the colours as they are
     bool mesh = true;
     double ambient = 0.25;
-    double diffuse = 0.75;
+    double diffuse = 0.75; ///< of the light at the eye
     double specular = 0.2;
     double shininess = 30;
+    /// What a second light adds where a surface faces it; its glint is this part of `specular`.
+    double side = 0;
+    Vec3 sideFrom{-0.55, 0.6, 0.6}; ///< where it is: to the picture's right, up, and towards the eye; of any length
+    /// 0..1: how dark a place of the volume is that is shut in. What is between it and `reach` mm, along its normal,
+    /// shuts in; faces of a cut are open.
+    double occlusion = 0;
+    double reach = 8;
+    /// Where the border of the volume, a clipping plane or the near plane cuts through what is visible: light falls on
+    /// the plane, all of it from the eye and without gloss, for two voxels of the longest spacing behind it, and goes
+    /// over to the gradient in two more. false: the gradient at once, which is noise on such a face.
+    bool faces = true;
 };
+
+/// The side `normal` points to is away: points p of world space with dot(normal, p) > offset.
+struct ClipPlane {
+    Vec3 normal{}; ///< of any length; it scales `offset`
+    double offset = 0;
+};
+inline constexpr std::size_t kMostClipPlanes = 6;
 
 class RenderTransferFunction;
 class RenderTargets;
@@ -93,16 +115,23 @@ struct MeshPaint {
     double through = 0;
 };
 
-/// What is to be seen.
-struct Scene {
-    const Volume* volume = nullptr;
-    const RenderTransferFunction* transferFunction = nullptr;
-    const RenderBricks* bricks = nullptr; ///< optional, of `volume`: what is transparent is skipped
-    const Mesh* mesh = nullptr;           ///< optional
+/// A mesh at a pose, and how it looks.
+struct SceneMesh {
+    const Mesh* mesh = nullptr;
     const MeshNormals* normals = nullptr; ///< optional, of `mesh`: smooth; without, each triangle is flat
     Mat4 world_from_object = identity();  ///< of the mesh; affine, not singular
     Colour meshColour{0.75, 0.78, 0.82};
     MeshPaint paint{};
+    bool clipped = false; ///< by Scene::clipPlanes, as the volume is
+};
+
+/// What is to be seen: a volume, and meshes in it. It is its first mesh itself; without one, `mesh` is null.
+struct Scene : SceneMesh {
+    const Volume* volume = nullptr;
+    const RenderTransferFunction* transferFunction = nullptr;
+    const RenderBricks* bricks = nullptr;       ///< optional, of `volume`: what is transparent is skipped
+    std::span<const SceneMesh> others = {};     ///< further meshes, or the same at further poses; none is null
+    std::span<const ClipPlane> clipPlanes = {}; ///< at most kMostClipPlanes: what any of them takes away is away
     /// Orthographic or perspective; not singular. The near plane may be at depth 0 or 1, the far one at infinity.
     Mat4 clip_from_world{};
     Colour background{};
@@ -118,6 +147,9 @@ struct Target {
     VkExtent2D extent{};               ///< of the picture, from the image's corner; at most that of `targets`
     VkImageLayout layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; ///< or GENERAL; while the commands execute
     RenderTargets* targets = nullptr;
+    /// The part of the picture that is made; without an extent all of it. Pixels outside are left as they are, and
+    /// those inside are the same as in the whole: a picture that takes long can be made in pieces.
+    VkRect2D area{};
     /// A pool of timestamps, or null. Three are written, from firstTimestamp on: when the work before the picture is
     /// done, when the mesh is, and when the volume is. The caller has reset them, and the queue's family has
     /// timestamps.
@@ -134,23 +166,25 @@ class Renderer {
     VOXTACT_API Renderer& operator=(Renderer&&) noexcept;
     VOXTACT_API ~Renderer();
 
-    /// Records a picture: no allocation, no submission, no wait. All pixels of the extent are written, with alpha 1.
+    /// Records a picture: no allocation, no submission, no wait. All pixels of the extent, or of Target::area, are
+    /// written, with alpha 1.
     ///
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics
     ///   expects          volume, bricks, transfer functions, mesh, normals and painted triangles readable as
     ///                    cmdUpload() leaves them, wrapped ones in the layout that was given and made visible to
     ///                    VERTEX_INPUT / FRAGMENT_SHADER by the caller; the target's image in Target::layout, ready for
-    ///                    COLOR_ATTACHMENT_OUTPUT / COLOR_ATTACHMENT_WRITE; its contents are discarded
+    ///                    COLOR_ATTACHMENT_OUTPUT / COLOR_ATTACHMENT_WRITE; what is in the area is discarded
     ///   leaves           the image in the same layout, written at COLOR_ATTACHMENT_OUTPUT / COLOR_ATTACHMENT_WRITE:
     ///                    the next reader waits for that
     ///   targets          an earlier use of the same RenderTargets in this queue is waited for
     ///   queries          no occlusion query may be active
     ///   bound state lost graphics pipeline, descriptor sets 0..3 of the graphics bind point, vertex bindings 0 and 1,
-    ///                    index buffer, dynamic viewport and scissor
+    ///                    index buffer, push constants, dynamic viewport and scissor
     ///
     /// On error nothing was recorded. Refuses a singular camera or pose, colours outside 0..1, objects that do not
-    /// belong together, a step that gives a ray through the volume more than 65536 samples, and a paint without what it
-    /// needs.
+    /// belong together, a step that gives a ray through the volume more than 65536 samples, a paint without what it
+    /// needs, a clipping plane whose normal is zero, more than kMostClipPlanes of them, and an area that is not in the
+    /// picture.
     VOXTACT_API Result<void> cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const;
 
     [[nodiscard]] RendererImpl& impl() const noexcept { return *impl_; }
@@ -177,8 +211,14 @@ class BlockingRenderer {
     VOXTACT_API BlockingRenderer& operator=(BlockingRenderer&&) noexcept;
     VOXTACT_API ~BlockingRenderer();
 
+    /// How far a picture is: rows that are done, and all.
+    using Progress = std::function<void(std::uint32_t done, std::uint32_t rows)>;
+
     /// Refuses what RenderTargets::create() and Renderer::cmdRender() refuse.
     [[nodiscard]] VOXTACT_API Result<Picture> render(const Scene& scene, VkExtent2D extent);
+    /// The same picture, but in bands of rows, a submission each, of about a fifth of a second: `progress` is called
+    /// after each, on this thread. It must not throw.
+    [[nodiscard]] VOXTACT_API Result<Picture> render(const Scene& scene, VkExtent2D extent, const Progress& progress);
     [[nodiscard]] VOXTACT_API const Renderer& renderer() const noexcept;
 
   private:

@@ -2,6 +2,7 @@
 #include "lab/paper_frames.h"
 
 #include "lab/frame_target.h"
+#include "voxtact/render.h"
 
 #include <algorithm>
 #include <chrono>

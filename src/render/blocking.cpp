@@ -5,6 +5,8 @@
 #include "gpu/submit.h"
 #include "render/render_impl.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <optional>
 
@@ -59,6 +61,39 @@ void cmdReadBack(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
             VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
+/// A picture in one piece, or in bands that take about a fifth of a second each: the first is short, and each of the
+/// next has as many rows as the pace of the one before asks for.
+class Bands {
+  public:
+    Bands(VkExtent2D extent, bool several)
+        : height_(extent.height), last_(several ? std::min(extent.height, kFirstRows) : extent.height) {}
+
+    [[nodiscard]] std::uint32_t first() const noexcept { return first_; }
+    [[nodiscard]] std::uint32_t last() const noexcept { return last_; }
+    /// After a band is done. False: it was the last.
+    [[nodiscard]] bool next() {
+        constexpr double kSeconds = 0.2;
+        constexpr std::uint32_t kMostTimes = 8; // as many rows as before
+        const auto now = Clock::now();
+        const double took = std::max(std::chrono::duration<double>(now - begun_).count(), 1e-6);
+        begun_ = now;
+        const std::uint32_t rows = last_ - first_;
+        const double wanted = std::clamp(rows * kSeconds / took, 1.0, static_cast<double>(kMostTimes) * rows);
+        first_ = last_;
+        last_ = height_ - first_ > wanted ? first_ + static_cast<std::uint32_t>(wanted) : height_;
+        return first_ < height_;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::uint32_t kFirstRows = 32;
+
+    std::uint32_t height_;
+    std::uint32_t first_ = 0;
+    std::uint32_t last_;
+    Clock::time_point begun_ = Clock::now();
+};
+
 } // namespace
 
 struct BlockingRenderer::State {
@@ -67,23 +102,70 @@ struct BlockingRenderer::State {
     std::optional<Frame> frame;
     Submitter submitter;
 
-    Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene);
+    /// A band of rows: from the first on, before the last.
+    Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last);
+    /// A submission.
+    Result<void> renderBand(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last);
+    Result<void> prepare(VkExtent2D extent);
+    Result<Picture> read();
 };
 
-Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, const Scene& scene) {
-    barrier(context, commandBuffer, frame->image.image.get(),
-            {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
-            {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
-             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL});
+Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first,
+                                             std::uint32_t last) {
+    const VkExtent2D extent = frame->targets.extent();
+    constexpr ImageUse kWritten{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    if (first == 0) {
+        barrier(context, commandBuffer, frame->image.image.get(),
+                {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kWritten);
+    } else {
+        barrier(context, commandBuffer, frame->image.image.get(), kWritten, kWritten);
+    }
     Target target;
     target.view = frame->image.view.get();
-    target.extent = frame->targets.extent();
+    target.extent = extent;
     target.targets = &frame->targets;
+    target.area = {{0, static_cast<std::int32_t>(first)}, {extent.width, last - first}};
     if (Result<void> recorded = renderer.cmdRender(commandBuffer, scene, target); !recorded.ok()) {
         return recorded;
     }
-    cmdReadBack(context, commandBuffer, *frame);
+    if (last == extent.height) {
+        cmdReadBack(context, commandBuffer, *frame);
+    }
     return {};
+}
+
+Result<void> BlockingRenderer::State::renderBand(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first,
+                                                 std::uint32_t last) {
+    if (Result<void> recorded = record(commandBuffer, scene, first, last); !recorded.ok()) {
+        return recorded;
+    }
+    return submitter.submitAndWait();
+}
+
+Result<void> BlockingRenderer::State::prepare(VkExtent2D extent) {
+    const VkExtent2D kept = frame ? frame->targets.extent() : VkExtent2D{};
+    if (frame && kept.width == extent.width && kept.height == extent.height) {
+        return {};
+    }
+    frame.reset();
+    Result<Frame> made = makeFrame(renderer, extent);
+    if (!made.ok()) {
+        return made.error();
+    }
+    frame.emplace(std::move(*made));
+    return {};
+}
+
+Result<Picture> BlockingRenderer::State::read() {
+    if (Result<void> visible = invalidate(context, frame->readBack); !visible.ok()) {
+        return visible.error();
+    }
+    const VkExtent2D extent = frame->targets.extent();
+    Picture picture{extent.width, extent.height, {}};
+    picture.rgba.resize(kPixelBytes * extent.width * extent.height);
+    std::memcpy(picture.rgba.data(), frame->readBack.mapped, picture.rgba.size());
+    return picture;
 }
 
 BlockingRenderer::BlockingRenderer(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -107,35 +189,30 @@ Result<BlockingRenderer> BlockingRenderer::create(const Context& context, const 
 }
 
 Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent) {
+    return render(scene, extent, {});
+}
+
+Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent, const Progress& progress) {
     return guard([&]() -> Result<Picture> {
         State& state = live(state_);
-        // First of all: a submission whose wait failed may still be using the frame.
-        const Result<VkCommandBuffer> commandBuffer = state.submitter.begin();
-        if (!commandBuffer.ok()) {
-            return commandBuffer.error();
-        }
-        const VkExtent2D kept = state.frame ? state.frame->targets.extent() : VkExtent2D{};
-        if (!state.frame || kept.width != extent.width || kept.height != extent.height) {
-            state.frame.reset();
-            Result<Frame> frame = makeFrame(state.renderer, extent);
-            if (!frame.ok()) {
-                return frame.error();
+        Bands bands(extent, progress != nullptr);
+        do {
+            // First of all: a submission whose wait failed may still be using the frame.
+            const Result<VkCommandBuffer> commandBuffer = state.submitter.begin();
+            if (!commandBuffer.ok()) {
+                return commandBuffer.error();
             }
-            state.frame.emplace(std::move(*frame));
-        }
-        if (Result<void> recorded = state.record(*commandBuffer, scene); !recorded.ok()) {
-            return recorded.error();
-        }
-        if (Result<void> done = state.submitter.submitAndWait(); !done.ok()) {
-            return done.error();
-        }
-        if (Result<void> visible = invalidate(state.context, state.frame->readBack); !visible.ok()) {
-            return visible.error();
-        }
-        Picture picture{extent.width, extent.height, {}};
-        picture.rgba.resize(kPixelBytes * extent.width * extent.height);
-        std::memcpy(picture.rgba.data(), state.frame->readBack.mapped, picture.rgba.size());
-        return picture;
+            if (Result<void> prepared = state.prepare(extent); !prepared.ok()) {
+                return prepared.error();
+            }
+            if (Result<void> done = state.renderBand(*commandBuffer, scene, bands.first(), bands.last()); !done.ok()) {
+                return done.error();
+            }
+            if (progress) {
+                progress(bands.last(), extent.height);
+            }
+        } while (bands.next());
+        return state.read();
     });
 }
 

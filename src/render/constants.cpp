@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/pair_transform.h"
 #include "core/table_extremes.h"
 #include "core/text.h"
+#include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
 #include <algorithm>
@@ -12,39 +12,11 @@ namespace voxtact {
 namespace {
 
 using shader::PictureConstants;
-using shader::vec4;
 
 constexpr double kMostSamples = 65536;
 
 Error refuse(std::string text) {
     return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
-
-vec4 rowOf(const Mat4& matrix, std::size_t row) {
-    return {static_cast<float>(matrix[row]), static_cast<float>(matrix[4 + row]), static_cast<float>(matrix[8 + row]),
-            static_cast<float>(matrix[12 + row])};
-}
-
-template <std::size_t Rows> void setRows(vec4 (&rows)[Rows], const Mat4& matrix) {
-    for (std::size_t row = 0; row < Rows; ++row) {
-        rows[row] = rowOf(matrix, row);
-    }
-}
-
-/// The part of an affine matrix that directions see.
-Mat4 linearPart(Mat4 matrix) {
-    matrix[12] = matrix[13] = matrix[14] = 0;
-    return matrix;
-}
-
-Mat4 transposed(const Mat4& matrix) {
-    Mat4 out{};
-    for (std::size_t column = 0; column < 4; ++column) {
-        for (std::size_t row = 0; row < 4; ++row) {
-            out[4 * row + column] = matrix[4 * column + row];
-        }
-    }
-    return out;
 }
 
 /// Whether the near plane is at depth 1. What is nearer to an eye has the larger w of world_from_clip; an orthographic
@@ -58,36 +30,6 @@ bool isTurned(const Mat4& world_from_clip) {
 Mat4 forwards(const Mat4& world_from_clip, bool turned) {
     constexpr Mat4 kTurnedDepth{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1};
     return turned ? multiply(world_from_clip, kTurnedDepth) : world_from_clip;
-}
-
-Result<void> checkLighting(const Lighting& lighting) {
-    for (const double value : {lighting.ambient, lighting.diffuse, lighting.specular, lighting.shininess}) {
-        if (!(value >= 0) || !std::isfinite(value)) {
-            return refuse("the lighting has a value of " + number(value) + ", which is not finite or below 0");
-        }
-    }
-    return {};
-}
-
-Result<void> setMesh(PictureConstants& constants, const Scene& scene) {
-    if (scene.mesh == nullptr) {
-        return {};
-    }
-    if (Result<void> affine = checkAffine(scene.world_from_object, "the mesh's pose"); !affine.ok()) {
-        return affine;
-    }
-    const Result<Mat4> object_from_world = inverse(linearPart(scene.world_from_object));
-    if (!object_from_world.ok()) {
-        return refuse("the mesh's pose cannot be used: " + object_from_world.error().text);
-    }
-    // The camera as it is, turned or not: what is painted is decided from these numbers, as a detector does.
-    const shader::PairTransform transform =
-        pairTransform(scene.clip_from_world, scene.world_from_object, scene.volume->impl().texture_from_world);
-    std::ranges::copy(transform.clip_from_object, constants.clip_from_object);
-    std::ranges::copy(transform.texture_from_object, constants.texture_from_object);
-    setRows(constants.world_from_object, scene.world_from_object);
-    setRows(constants.normal_from_object, transposed(*object_from_world));
-    return {};
 }
 
 void setCamera(PictureConstants& constants, const VolumeImpl& volume, const Mat4& world_from_clip) {
@@ -139,17 +81,6 @@ Result<void> checkSamples(const Scene& scene) {
     return {};
 }
 
-void setLook(PictureConstants& constants, const Scene& scene) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        constants.meshColour[channel] = static_cast<float>(scene.meshColour[channel]);
-    }
-    const Lighting& lighting = scene.lighting;
-    constants.light = {static_cast<float>(lighting.ambient), static_cast<float>(lighting.diffuse),
-                       static_cast<float>(lighting.specular), static_cast<float>(lighting.shininess)};
-    constants.switches = (lighting.volume ? PICTURE_LIT_VOLUME : 0U) | (lighting.mesh ? PICTURE_LIT_MESH : 0U) |
-                         (scene.jitter ? PICTURE_JITTER : 0U);
-}
-
 } // namespace
 
 Result<void> checkColour(const Colour& colour, const char* what) {
@@ -166,9 +97,8 @@ Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target) {
     if (!world_from_clip.ok()) {
         return refuse("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
     }
-    for (const Result<void>& checked :
-         {checkColour(scene.background, "the background"), checkColour(scene.meshColour, "the mesh's colour"),
-          checkLighting(scene.lighting), checkSamples(scene)}) {
+    for (const Result<void>& checked : {checkColour(scene.background, "the background"), checkLighting(scene.lighting),
+                                        checkClipPlanes(scene.clipPlanes), checkSamples(scene)}) {
         if (!checked.ok()) {
             return checked.error();
         }
@@ -176,14 +106,12 @@ Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target) {
     PictureSetup setup;
     setup.depthTurned = isTurned(*world_from_clip);
     PictureConstants& constants = setup.constants;
-    if (Result<void> set = setMesh(constants, scene); !set.ok()) {
-        return set.error();
-    }
-    setCamera(constants, scene.volume->impl(), forwards(*world_from_clip, setup.depthTurned));
+    const Mat4 forward = forwards(*world_from_clip, setup.depthTurned);
+    setCamera(constants, scene.volume->impl(), forward);
     setFunction(constants, scene);
-    setLook(constants, scene);
+    setLight(constants, scene, forward);
+    setClipPlanes(constants, scene);
     constants.viewport = {static_cast<float>(target.extent.width), static_cast<float>(target.extent.height), 0, 0};
-    setPaint(setup, scene);
     return setup;
 }
 

@@ -28,22 +28,24 @@ Result<void> checkFunction(const ContextImpl& context, const MeshPaint& paint) {
     return checkFraction(paint.threshold, "threshold");
 }
 
-Result<void> checkTriangles(const ContextImpl& context, const Scene& scene) {
-    const PaintedTriangles* triangles = scene.paint.triangles;
+Result<void> checkTriangles(const ContextImpl& context, const SceneMesh& mesh) {
+    const PaintedTriangles* triangles = mesh.paint.triangles;
     if (triangles == nullptr) {
         return refuse("Scene::paint has no triangles to paint");
     }
     if (&triangles->impl().context != &context) {
         return refuse("Scene::paint has triangles of another Context");
     }
-    if (triangles->impl().room < scene.mesh->triangles()) {
+    if (triangles->impl().room < mesh.mesh->triangles()) {
         return refuse("Scene::paint has bits for " + std::to_string(triangles->impl().room) +
-                      " triangles, the mesh has " + std::to_string(scene.mesh->triangles()));
+                      " triangles, the mesh has " + std::to_string(mesh.mesh->triangles()));
     }
     return {};
 }
 
-PaintBy paintedBy(Paint what) {
+} // namespace
+
+PaintBy paintedBy(Paint what) noexcept {
     switch (what) {
     case Paint::Contacts:
     case Paint::Discarded:
@@ -56,10 +58,8 @@ PaintBy paintedBy(Paint what) {
     return PaintBy::Nobody;
 }
 
-} // namespace
-
-Result<void> checkPaint(const ContextImpl& context, const Scene& scene) {
-    const MeshPaint& paint = scene.paint;
+Result<void> checkPaint(const ContextImpl& context, const SceneMesh& mesh) {
+    const MeshPaint& paint = mesh.paint;
     if (paint.what == Paint::Plain) {
         return {};
     }
@@ -67,11 +67,11 @@ Result<void> checkPaint(const ContextImpl& context, const Scene& scene) {
         return refuse("Scene::paint: there is no paint number " +
                       std::to_string(static_cast<std::uint32_t>(paint.what)));
     }
-    if (scene.mesh == nullptr) {
+    if (mesh.mesh == nullptr) {
         return refuse("Scene::paint is given without a mesh");
     }
     if (Result<void> parts =
-            paint.what == Paint::Triangles ? checkTriangles(context, scene) : checkFunction(context, paint);
+            paint.what == Paint::Triangles ? checkTriangles(context, mesh) : checkFunction(context, paint);
         !parts.ok()) {
         return parts;
     }
@@ -85,23 +85,21 @@ Result<void> checkPaint(const ContextImpl& context, const Scene& scene) {
     return {};
 }
 
-void setPaint(PictureSetup& setup, const Scene& scene) {
-    const MeshPaint& paint = scene.paint;
-    setup.paintedBy = paintedBy(paint.what);
-    if (setup.paintedBy == PaintBy::Nobody) {
+void setPaint(shader::PictureMesh& constants, const Volume& volume, const MeshPaint& paint) {
+    const PaintBy by = paintedBy(paint.what);
+    if (by == PaintBy::Nobody) {
         return;
     }
-    shader::PictureConstants& constants = setup.constants;
     for (std::size_t channel = 0; channel < 3; ++channel) {
         constants.contactColour[channel] = static_cast<float>(paint.contactColour[channel]);
         constants.discardedColour[channel] = static_cast<float>(paint.discardedColour[channel]);
     }
     constants.contactColour[3] = static_cast<float>(paint.through);
-    constants.switches |= paint.what == Paint::Discarded ? PICTURE_DISCARDED : 0U;
-    if (setup.paintedBy == PaintBy::Fragments) {
-        const VolumeImpl& volume = scene.volume->impl();
-        constants.item = itemConstants(volume.valueSlope, volume.valueIntercept, paint.transferFunction->impl().domain,
-                                       paint.threshold);
+    constants.switches |= paint.what == Paint::Discarded ? PICTURE_MESH_DISCARDED : 0U;
+    if (by == PaintBy::Fragments) {
+        const VolumeImpl& impl = volume.impl();
+        constants.item =
+            itemConstants(impl.valueSlope, impl.valueIntercept, paint.transferFunction->impl().domain, paint.threshold);
     }
 }
 

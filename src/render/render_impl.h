@@ -14,6 +14,9 @@ inline constexpr VkFormat kMeshColourFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kMeshDistanceFormat = VK_FORMAT_R32_SFLOAT;
 inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
 
+/// That the number of a mesh is pushed to.
+inline constexpr VkShaderStageFlags kMeshStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
 /// Who says which part of a mesh is painted: a pipeline each.
 enum class PaintBy : std::uint32_t { Nobody, Fragments, Triangles };
 inline constexpr std::size_t kPaintBys = 3;
@@ -93,17 +96,43 @@ struct PaintedTrianglesImpl {
 /// What a picture is recorded with.
 struct PictureSetup {
     shader::PictureConstants constants{};
-    PaintBy paintedBy = PaintBy::Nobody;
     bool depthTurned = false; ///< the camera's near plane is at depth 1
 };
 
-/// Refuses what cannot be seen.
+/// Refuses what cannot be seen. Of a scene that is good otherwise.
 [[nodiscard]] Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target);
+
+/// The meshes of a scene, by number from 0: its own, if it has one, then the others.
+[[nodiscard]] std::size_t meshCount(const Scene& scene) noexcept;
+[[nodiscard]] const SceneMesh& meshOf(const Scene& scene, std::size_t number) noexcept;
+/// Refuses a pose or colours that cannot be used.
+[[nodiscard]] Result<void> checkMeshLook(const SceneMesh& mesh);
+/// Of a mesh that is good.
+[[nodiscard]] shader::PictureMesh setUpMesh(const Scene& scene, const SceneMesh& mesh);
+
+[[nodiscard]] Result<void> checkLighting(const Lighting& lighting);
+[[nodiscard]] Result<void> checkClipPlanes(std::span<const ClipPlane> planes);
+/// Of planes and lighting that are good.
+void setClipPlanes(shader::PictureConstants& constants, const Scene& scene);
+void setLight(shader::PictureConstants& constants, const Scene& scene, const Mat4& world_from_clip);
+
+/// The meshes in front of the background, and their distance; without any the background alone. Records their
+/// constants, too.
+void cmdMeshPass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
+                 const PictureSetup& setup, const Target& target, VkRect2D area);
+
+/// Of the renderer's own images.
+[[nodiscard]] VkRenderingAttachmentInfo renderAttachment(VkImageView view, VkImageLayout layout,
+                                                         VkAttachmentLoadOp load);
+void beginRendering(const ContextImpl& context, VkCommandBuffer commandBuffer, VkExtent2D picture, VkRect2D area,
+                    std::span<const VkRenderingAttachmentInfo> colours, const VkRenderingAttachmentInfo* depth,
+                    bool depthTurned);
 
 [[nodiscard]] Result<void> checkColour(const Colour& colour, const char* what);
 /// Refuses a paint that lacks what it needs. Of a scene that is good otherwise.
-[[nodiscard]] Result<void> checkPaint(const ContextImpl& context, const Scene& scene);
-void setPaint(PictureSetup& setup, const Scene& scene);
+[[nodiscard]] Result<void> checkPaint(const ContextImpl& context, const SceneMesh& mesh);
+[[nodiscard]] PaintBy paintedBy(Paint what) noexcept;
+void setPaint(shader::PictureMesh& constants, const Volume& volume, const MeshPaint& paint);
 
 /// Fills RendererImpl::meshPipelines.
 [[nodiscard]] Result<void> makeMeshPipelines(RendererImpl& renderer);

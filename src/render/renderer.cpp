@@ -97,16 +97,18 @@ Result<void> makePipelineLayouts(RendererImpl& renderer) {
         !made.ok()) {
         return made;
     }
+    constexpr VkPushConstantRange kMesh{kMeshStages, 0, sizeof(std::uint32_t)};
     const VkDescriptorSetLayout sets[] = {context.setLayouts[VOXTACT_SET_VOLUME], renderer.functionLayout.get(),
                                           renderer.targetsLayout.get(), renderer.bricksLayout.get()};
-    if (Result<void> made = makePipelineLayout(context, renderer.pictureLayout, sets, {}, "picture pipeline layout");
+    if (Result<void> made =
+            makePipelineLayout(context, renderer.pictureLayout, sets, {&kMesh, 1}, "picture pipeline layout");
         !made.ok()) {
         return made;
     }
     const VkDescriptorSetLayout paintSets[] = {context.setLayouts[VOXTACT_SET_VOLUME],
                                                context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION],
                                                renderer.targetsLayout.get(), renderer.bricksLayout.get()};
-    return makePipelineLayout(context, renderer.paintLayout, paintSets, {}, "paint pipeline layout");
+    return makePipelineLayout(context, renderer.paintLayout, paintSets, {&kMesh, 1}, "paint pipeline layout");
 }
 
 Result<void> keep(Owned<VkPipeline>& out, Result<Owned<VkPipeline>> made) {

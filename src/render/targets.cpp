@@ -66,9 +66,9 @@ Result<void> makeImages(RenderTargetsImpl& targets) {
 
 Result<void> describe(RenderTargetsImpl& targets) {
     ContextImpl& context = targets.renderer.context;
-    Result<Buffer> constants = makeBuffer(context, sizeof(shader::PictureConstants),
-                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                          MemoryUse::Device, "picture constants");
+    Result<Buffer> constants = makeBuffer(
+        context, sizeof(shader::PictureConstants) + PICTURE_MESHES * sizeof(shader::PictureMesh),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device, "picture constants");
     if (!constants.ok()) {
         return constants.error();
     }

@@ -202,6 +202,270 @@ TEST_F(RenderShowTest, ThresholdThatNothingReachesIsSaidAndDrawn) {
     }
 }
 
+TEST_F(RenderPictureTest, ClippingTakesASideAway) {
+    const std::array<int, 3> background{0, 0, 0};
+    const auto seen = [&](const Arguments& more, int from, int to) {
+        Arguments all{"--preset", "mr"};
+        all.insert(all.end(), more.begin(), more.end());
+        const PngPicture head = picture(all);
+        std::size_t count = 0;
+        for (int i = 0; i < 64 * 48; ++i) {
+            count += i % 64 >= from && i % 64 < to && pixel(head, i % 64, i / 64) != background ? 1U : 0U;
+        }
+        return count;
+    };
+    // From the front the patient's left is at the right.
+    ASSERT_GT(seen({}, 34, 64), 200U);
+    EXPECT_EQ(seen({"--clip", "left"}, 34, 64), 0U);
+    EXPECT_EQ(seen({"--clip", "left"}, 0, 30), seen({}, 0, 30));
+    EXPECT_EQ(seen({"--clip", "right:0"}, 0, 30), 0U);
+    EXPECT_GT(seen({"--clip", "right:0"}, 34, 64), 200U);
+    // The same by its numbers, and both.
+    EXPECT_EQ(picture({"--preset", "mr", "--clip", "left:10"}).rgba,
+              picture({"--preset", "mr", "--clip", "1,0,0,10"}).rgba);
+    EXPECT_EQ(seen({"--clip", "left:0", "--clip", "-1,0,0,0.5"}, 0, 64), 0U);
+    // What is nearer goes, and the face of the cut is seen.
+    EXPECT_EQ(picture({"--preset", "mr", "--clip", "near:20"}).rgba,
+              picture({"--preset", "mr", "--clip", "0,-1,0,20"}).rgba);
+    EXPECT_NE(picture({"--preset", "mr", "--clip", "near:20"}).rgba, picture({"--preset", "mr"}).rgba);
+}
+
+TEST_F(RenderPictureTest, ClippingThatTakesNothingIsSaid) {
+    const Ran ran = run(render(path("a.png"), {"--clip", "top:900"}));
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_THAT(ran.err, AllOf(HasSubstr("--clip top:900 takes nothing"), HasSubstr("mm")));
+}
+
+/// A square before the face.
+std::string squareAt(double x, double y) {
+    const auto vertex = [&](double dx, double dz) {
+        return "v " + std::to_string(x + dx) + " " + std::to_string(y) + " " + std::to_string(dz) + "\n";
+    };
+    return vertex(-15, -15) + vertex(15, -15) + vertex(15, 15) + vertex(-15, 15) + "f 1 2 3\nf 1 3 4\n";
+}
+
+TEST_F(RenderPictureTest, SeveralMeshesAndPoses) {
+    writeText(path("a.obj"), squareAt(-50, -150));
+    writeText(path("b.obj"), squareAt(50, -150));
+    writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n1 0 0 0  0 1 0 0  0 0 1 60  0 0 0 1\n"
+                                 "1 0 0 0  0 1 0 0  0 0 1 -60  0 0 0 1\n");
+    const auto coloured = [&](const Arguments& more) {
+        Arguments all{"--preset",      "mr",     "--mesh",        path("a.obj"), "--mesh", path("b.obj"),
+                      "--mesh-colour", "ff0000", "--mesh-colour", "0000ff"};
+        all.insert(all.end(), more.begin(), more.end());
+        output(render(path("a.png"), all));
+        const PngPicture seen = readPng(path("a.png"));
+        std::size_t red = 0;
+        std::size_t blue = 0;
+        for (int i = 0; i < 64 * 48; ++i) {
+            const auto [r, g, b] = pixel(seen, i % 64, i / 64);
+            red += r > 150 && g < 70 && b < 70 ? 1U : 0U;
+            blue += b > 150 && g < 70 && r < 70 ? 1U : 0U;
+        }
+        return std::pair(red, blue);
+    };
+    const auto [red, blue] = coloured({});
+    EXPECT_GT(red, 20U);
+    EXPECT_EQ(blue, red);
+    const Arguments poses{"--poses", path("poses.txt"), "--pose"};
+    const auto at = [&](const char* which) {
+        Arguments all = poses;
+        all.emplace_back(which);
+        return coloured(all);
+    };
+    EXPECT_EQ(at("0"), std::pair(red, blue));
+    EXPECT_GT(at("0,2").first, 2 * red - 10);
+    EXPECT_EQ(at("all"), at("0-2"));
+    EXPECT_GT(at("all").second, at("0,2").second);
+}
+
+TEST_F(RenderPictureTest, PresetsAreDifferentPictures) {
+    std::vector<std::vector<std::uint8_t>> pictures;
+    const auto add = [&](const char* volume, const char* preset) {
+        output({"render", "--volume", volume, "--size", "64x48", "--preset", preset, "--output", path("a.png")});
+        pictures.push_back(readPng(path("a.png")).rgba);
+    };
+    for (const char* preset : {"mr", "mr-skin", "mr-brain"}) {
+        add("builtin:head:32", preset);
+    }
+    for (const char* preset : {"ct", "ct-bone", "ct-soft", "ct-vessels", "ct-lung"}) {
+        add("builtin:ct:32", preset);
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            EXPECT_NE(pictures[i], pictures[j]) << i << " " << j;
+        }
+    }
+}
+
+TEST_F(RenderPictureTest, HounsfieldPresetOfOtherUnitsIsSaid) {
+    const Ran ran = run(render(path("a.png"), {"--preset", "ct-bone"}));
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_THAT(ran.err, HasSubstr("--preset ct-bone is in Hounsfield units"));
+}
+
+TEST_F(RenderPictureTest, LightingIsChosen) {
+    EXPECT_EQ(picture({"--preset", "mr"}).rgba, picture({"--preset", "mr", "--lighting", "soft"}).rgba);
+    EXPECT_NE(picture({"--preset", "mr", "--lighting", "eye"}).rgba, picture({"--preset", "mr"}).rgba);
+    EXPECT_NE(picture({"--preset", "mr", "--lighting", "eye"}).rgba,
+              picture({"--preset", "mr", "--lighting", "none"}).rgba);
+}
+
+TEST_F(RenderPictureTest, AnnotatedFrom320) {
+    const auto written = [&](const char* size, const Arguments& more) {
+        Arguments all{"render", "--volume", "builtin:head:32", "--opacity",  "0:0",
+                      "--size", size,       "--output",        path("a.png")};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_EQ(run(all).status, 0);
+        const PngPicture seen = readPng(path("a.png"));
+        return static_cast<std::size_t>(seen.width * seen.height) - pixelsOf(seen, {0, 0, 0});
+    };
+    EXPECT_EQ(written("319x400", {}), 0U);
+    EXPECT_GT(written("320x320", {}), 500U);
+    EXPECT_EQ(written("320x320", {"--no-annotate"}), 0U);
+    EXPECT_GT(written("319x400", {"--annotate"}), 500U);
+    EXPECT_GT(written("640x640", {"--title", "a"}), 2000U);
+    // No picture is too small to ask.
+    for (const char* size : {"1x1", "7x300", "300x7", "40x40", "100x100"}) {
+        written(size, {"--annotate"});
+    }
+    // On light ground what is written is dark.
+    const std::size_t onLight = written("320x320", {"--background", "ffffff"});
+    EXPECT_GT(onLight, 320U * 320U - 2000);
+    std::size_t dark = 0;
+    const PngPicture light = readPng(path("a.png"));
+    for (int i = 0; i < 320 * 320; ++i) {
+        dark += pixel(light, i % 320, i / 320)[1] < 60 ? 1U : 0U;
+    }
+    EXPECT_GT(dark, 100U);
+}
+
+/// Slices need no device.
+class RenderSliceTest : public CliTest {
+  protected:
+    PngPicture slice(const Arguments& more) {
+        EXPECT_EQ(output(render(path("a.png"), more)), "");
+        return readPng(path("a.png"));
+    }
+    static bool isGray(const PngPicture& picture) {
+        for (int i = 0; i < picture.width * picture.height; ++i) {
+            const auto [r, g, b] = pixel(picture, i % picture.width, i / picture.width);
+            if (r != g || g != b) {
+                return false;
+            }
+        }
+        return true;
+    }
+    /// The middle of what is green, left to right and top to bottom.
+    static std::pair<double, double> middleOfGreen(const PngPicture& picture) {
+        double x = 0;
+        double y = 0;
+        double count = 0;
+        for (int i = 0; i < picture.width * picture.height; ++i) {
+            const auto [r, g, b] = pixel(picture, i % picture.width, i / picture.width);
+            if (g > 2 * r && g > 2 * b) {
+                x += i % picture.width;
+                y += i / picture.width;
+                ++count;
+            }
+        }
+        EXPECT_GT(count, 0) << "nothing is green";
+        return {x / count, y / count};
+    }
+};
+
+TEST_F(RenderSliceTest, GrayPlanesOfTheVolume) {
+    for (const char* name : {"axial", "coronal:10", "sagittal", "view:5"}) {
+        const PngPicture gray = slice({"--slice", name});
+        EXPECT_TRUE(isGray(gray)) << name;
+        EXPECT_GT(pixelsOf(gray, {0, 0, 0}), 300U) << name;
+        EXPECT_LT(pixelsOf(gray, {0, 0, 0}), 2900U) << name;
+    }
+    EXPECT_EQ(slice({"--slice", "view:-20", "--view", "front"}).rgba, slice({"--slice", "coronal:20"}).rgba);
+    EXPECT_NE(slice({"--slice", "axial:0"}).rgba, slice({"--slice", "axial:30"}).rgba);
+    EXPECT_EQ(pixelsOf(slice({"--slice", "axial", "--window", "-2:-1"}), {255, 255, 255}) > 0, true);
+}
+
+TEST_F(RenderSliceTest, ValuesAreTheVolumes) {
+    // Values rise along x, from 0 to 100, 40 mm in 4 voxels; the window is 0 to 100.
+    writeText(path("v.mhd"), "ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementSpacing = 10 10 10\n"
+                             "Offset = -15 -15 -15\nElementType = MET_UCHAR\nElementDataFile = v.raw\n");
+    std::string voxels;
+    for (int i = 0; i < 64; ++i) {
+        voxels += static_cast<char>(20 + 20 * (i % 4));
+    }
+    writeText(path("v.raw"), voxels);
+    output({"render", "--volume", path("v.mhd"), "--slice", "axial:0", "--window", "0:100", "--size", "102x102",
+            "--output", path("a.png")});
+    const PngPicture seen = readPng(path("a.png"));
+    // 0.4 mm a pixel, the middle of the picture at x = 0: the value is 50 + 2 x.
+    for (const int x : {20, 35, 51, 70, 80}) {
+        const double mm = (x + 0.5 - 51) * 0.4 * 1.02 * 100 / 102;
+        EXPECT_NEAR(pixel(seen, x, 51)[0], 2.55 * (50 + 2 * mm), 3) << x;
+    }
+}
+
+TEST_F(RenderSliceTest, SidesAreWhereRadiologistsHaveThem) {
+    // A pyramid at the patient's left, front and top.
+    writeText(path("p.obj"), "v 20 -60 20\nv 60 -60 20\nv 60 -20 20\nv 20 -20 20\nv 40 -40 60\n"
+                             "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 2 3\nf 1 3 4\n");
+    const auto at = [&](const char* name) {
+        return middleOfGreen(slice({"--slice", name, "--mesh", path("p.obj"), "--mesh-colour", "00ff00"}));
+    };
+    // Seen from the feet, the face above: the left is at the right. No place given: through the mesh.
+    EXPECT_GT(at("axial").first, 32);
+    EXPECT_LT(at("axial").second, 24);
+    EXPECT_GT(at("coronal").first, 32);
+    EXPECT_LT(at("coronal").second, 24);
+    EXPECT_LT(at("sagittal").first, 32);
+    EXPECT_LT(at("sagittal").second, 24);
+}
+
+TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {
+    // Half in the head, half in the air before it.
+    writeText(path("plate.obj"), "v -30 -40 -20\nv 30 -40 -20\nv 30 -150 20\nv -30 -150 20\nf 1 2 3\nf 1 3 4\n");
+    const Arguments pair{"--slice",       "axial:0", "--mesh",    path("plate.obj"),
+                         "--mesh-colour", "00ff00",  "--opacity", "50:0,200:1"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = pair;
+        all.insert(all.end(), more.begin(), more.end());
+        return slice(all);
+    };
+    const auto red = [](int r, int g, int b) { return r > 2 * g && r > 2 * b; };
+    const auto green = [](int r, int g, int b) { return g > 2 * r && g > 2 * b; };
+    const auto blue = [](int r, int g, int b) { return 2 * b > 3 * r && 2 * b > 3 * g; };
+    EXPECT_EQ(pixelsThat(with({}), red), 0U);
+    EXPECT_GT(pixelsThat(with({}), green), 10U);
+    writeText(path("slant.txt"), "1 0 0 0  0 0 -1 -60  0 1 0 60  0 0 0 1\n");
+    const Arguments slanted{"--poses", path("slant.txt"), "--show"};
+    const auto shown = [&](const char* what) {
+        Arguments all = slanted;
+        all.emplace_back(what);
+        return with(all);
+    };
+    EXPECT_EQ(pixelsThat(shown("contacts"), blue), 0U);
+    EXPECT_GT(pixelsThat(shown("discarded"), blue) + pixelsThat(shown("discarded"), red), 5U);
+    EXPECT_EQ(pixelsThat(shown("discarded"), green), 0U);
+    EXPECT_GT(pixelsThat(shown("triangles"), red) + pixelsThat(shown("triangles"), green), 2U);
+}
+
+TEST_F(RenderSliceTest, WhatCannotBe) {
+    const std::string png = path("a.png");
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial:500"})),
+                AllOf(HasSubstr("--slice axial:500 is outside of the volume"), HasSubstr("to"), HasSubstr("mm")));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "view:-400"})), HasSubstr("outside of the volume"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "oblique"})), HasSubstr("axial, coronal, sagittal or view"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial:top"})), HasSubstr("no number of millimetres"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--view", "left"})), HasSubstr("leave out --view"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--clip", "left"})), HasSubstr("excludes"));
+    EXPECT_THAT(refused(2, render(png, {"--window", "0:1"})), HasSubstr("--window requires --slice"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--window", "3:1"})), HasSubstr("LO below HI"));
+    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:16", "--slice", "axial", "--size", "100000x10",
+                            "--output", png}),
+                HasSubstr("beyond"));
+    EXPECT_EQ(filesInFolder(), 0U);
+}
+
 TEST_F(RenderPictureTest, SizeBeyondTheDevice) {
     EXPECT_THAT(refused(2, render(path("a.png"), {"--size", "1000000x10"})), HasSubstr("--size"));
     EXPECT_EQ(filesInFolder(), 0U);
@@ -221,6 +485,24 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--pose", "1"})), HasSubstr("--mesh is missing"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "1"})),
                 HasSubstr("numbered from 0 to 0"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "3-1"})), HasSubstr("'3-1' is not"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--mesh-colour", "ff0000", "--mesh-colour",
+                                        "00ff00"})),
+                HasSubstr("--mesh-colour is given 2 times, --mesh 1 times"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "inside"})), HasSubstr("'inside' is neither SIDE[:MM]"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "0,0,0,5"})), HasSubstr("a normal of zero"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "1,0,5"})), HasSubstr("neither"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "left:x"})), HasSubstr("no number of millimetres"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "left:-500"})),
+                AllOf(HasSubstr("--clip left:-500 takes all of the volume away"), HasSubstr("mm")));
+    Arguments seven;
+    for (int i = 0; i < 7; ++i) {
+        seven.insert(seven.end(), {"--clip", "left"});
+    }
+    EXPECT_THAT(refused(2, render(png, seven)), HasSubstr("--clip is given 7 times, the most is 6"));
+    EXPECT_THAT(refused(2, render(png, {"--clip-mesh"})), HasSubstr("--clip-mesh requires --clip"));
+    EXPECT_THAT(refused(2, render(png, {"--lighting", "dim"})), HasSubstr("'dim' is not known"));
+    EXPECT_THAT(refused(2, render(png, {"--annotate", "--no-annotate"})), HasSubstr("excludes"));
     EXPECT_THAT(refused(2, render(png, {"--show", "contacts"})), HasSubstr("--show requires --mesh"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "all"})),
                 HasSubstr("'all' is not known"));

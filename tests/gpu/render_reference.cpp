@@ -56,29 +56,117 @@ class Caster {
         Colour sum{};
         double seen = 1;
         const double step = scene_.function.step;
-        // From where the box of the volume can be, whatever its shape.
-        const auto [from, to] = boxPart(near, direction);
-        for (double at = std::max(from, 0.0); at < std::min(to, end); at += step) {
-            const double part = std::min(step, std::min(to, end) - at);
-            add(near + (at + part / 2) * direction, direction, part, sum, seen);
+        const Part part = seenPart(near, direction);
+        bool cut = scene_.lighting.faces;
+        for (double at = part.from; at < std::min(part.to, end); at += step) {
+            const double piece = std::min(step, std::min(part.to, end) - at);
+            const double behind = at + piece / 2 - part.from;
+            const double face = cut ? std::clamp(2 - behind / faceDepth(), 0.0, 1.0) : 0;
+            cut = add(near + (at + piece / 2) * direction, direction, piece, {part.normal, face}, sum, seen) && cut;
         }
         const Colour& behind = mesh < length ? scene_.meshColour : scene_.background;
         return sum + seen * behind;
     }
 
   private:
-    [[nodiscard]] std::pair<double, double> boxPart(const Vec3& near, const Vec3& direction) const {
-        const Vec3 a = transformPoint(texture_from_world_, near);
-        const Vec3 way = transformPoint(texture_from_world_, near + direction) - a;
-        double from = -std::numeric_limits<double>::infinity();
-        double to = -from;
+    /// From where to where a ray is in what is seen, and the normal of where it comes in.
+    struct Part {
+        double from;
+        double to;
+        Vec3 normal;
+    };
+    struct Face {
+        Vec3 normal;
+        double share;
+    };
+
+    /// Half spaces, normal . p <= offset: six of the box, which may lean, and the clipping planes.
+    [[nodiscard]] std::vector<ClipPlane> halfSpaces() const {
+        std::vector<ClipPlane> all = scene_.clipPlanes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double first = -a[axis] / way[axis];
-            const double last = (1 - a[axis]) / way[axis];
-            from = std::max(from, std::min(first, last));
-            to = std::min(to, std::max(first, last));
+            const Vec3 row{texture_from_world_[axis], texture_from_world_[4 + axis], texture_from_world_[8 + axis]};
+            const double bias = texture_from_world_[12 + axis];
+            all.push_back({row, 1 - bias});
+            all.push_back({-1.0 * row, bias});
         }
-        return {from, to};
+        return all;
+    }
+
+    [[nodiscard]] Part seenPart(const Vec3& near, const Vec3& direction) const {
+        Part part{0, std::numeric_limits<double>::infinity(), direction};
+        for (const ClipPlane& plane : halfSpaces()) {
+            const double slope = dot(plane.normal, direction);
+            const double at = (plane.offset - dot(plane.normal, near)) / slope;
+            if (slope > 0) {
+                part.to = std::min(part.to, at);
+            } else if (at > part.from) {
+                part.from = at;
+                part.normal = (1 / size(plane.normal)) * plane.normal;
+            }
+        }
+        return part;
+    }
+
+    [[nodiscard]] double faceDepth() const {
+        const Vec3& spacing = scene_.volume->grid.spacing;
+        return 2 * std::max({spacing[0], spacing[1], spacing[2]});
+    }
+
+    [[nodiscard]] bool isThere(const Vec3& world) const {
+        for (const ClipPlane& plane : halfSpaces()) {
+            if (dot(plane.normal, world) > plane.offset) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Of one millimetre.
+    [[nodiscard]] double extinction(double s) const {
+        return -std::log1p(-std::min(lookUp(opacity_, s), 0.999)) / scene_.function.opacityUnit;
+    }
+
+    /// The mean light that comes from a quarter, half, three quarters and all of the reach along the normal.
+    [[nodiscard]] double openness(const Vec3& world, const Vec3& normal) const {
+        constexpr int kLooks = 4;
+        const double part = scene_.lighting.reach / kLooks;
+        double depth = 0;
+        double sum = 0;
+        for (int i = 1; i <= kLooks; ++i) {
+            const Vec3 place = world + (i * part) * normal;
+            if (isThere(place)) {
+                depth += part * extinction(scalar(transformPoint(texture_from_world_, place)));
+            }
+            sum += std::exp(-depth);
+        }
+        return sum / kLooks;
+    }
+
+    /// Light on a surface with a normal of unit length, either way: what it makes of a colour, and what it adds.
+    struct Light {
+        double share;
+        double glint;
+    };
+    [[nodiscard]] Light lightOn(Vec3 normal, const Vec3& direction) const {
+        const Lighting& light = scene_.lighting;
+        if (dot(normal, direction) > 0) {
+            normal = -1.0 * normal;
+        }
+        const Vec3 right = alongPicture({-1, 0, 0}, {1, 0, 0});
+        const Vec3 up = alongPicture({0, 1, 0}, {0, -1, 0});
+        const Vec3 forward = alongPicture({0, 0, 0}, {0, 0, 1});
+        Vec3 side = light.sideFrom[0] * right + light.sideFrom[1] * up - light.sideFrom[2] * forward;
+        side = (1 / size(side)) * side;
+        const double facing = -dot(normal, direction);
+        const double bySide = std::max(dot(normal, side), 0.0);
+        const Vec3 half = side - direction;
+        const double glint = std::max(dot(normal, half) / size(half), 0.0);
+        return {light.ambient + light.diffuse * facing + light.side * bySide,
+                light.specular * (std::pow(facing, light.shininess) + light.side * std::pow(glint, light.shininess))};
+    }
+    [[nodiscard]] Vec3 alongPicture(const Vec3& from, const Vec3& to) const {
+        const Vec3 way = transformPoint(world_from_clip_, to) - transformPoint(world_from_clip_, from);
+        return (1 / size(way)) * way;
     }
 
     [[nodiscard]] double voxel(const std::array<int, 3>& at) const {
@@ -141,35 +229,45 @@ class Caster {
         return sum;
     }
 
-    void add(const Vec3& world, const Vec3& direction, double part, Colour& sum, double& seen) const {
+    /// Whether there is anything to be seen.
+    bool add(const Vec3& world, const Vec3& direction, double part, const Face& face, Colour& sum, double& seen) const {
         const Vec3 texture = transformPoint(texture_from_world_, world);
         const double s = scalar(texture);
         const double opacity = std::min(lookUp(opacity_, s), 0.999);
         const double alpha = 1 - std::pow(1 - opacity, part / scene_.function.opacityUnit);
         if (alpha <= 0) {
-            return;
+            return false;
         }
-        const Lighting& light = scene_.lighting;
-        double facing = 0;
-        if (light.volume) {
+        Light light{1, 0};
+        if (scene_.lighting.volume) {
             const Vec3 slope = gradient(texture);
-            facing = std::abs(dot(slope, direction)) / size(slope);
+            const bool isFlat = size(slope) < 1e-9;
+            const Vec3 normal = isFlat ? direction : (1 / size(slope)) * slope;
+            light = lightOn(normal, direction);
+            const double open = isFlat ? 1 : openness(world, dot(normal, direction) > 0 ? -1.0 * normal : normal);
+            const double left = 1 - scene_.lighting.occlusion * (1 - open);
+            const Lighting& lights = scene_.lighting;
+            const double facing = std::abs(dot(face.normal, direction));
+            const Light onFace{std::min(lights.ambient + (lights.diffuse + lights.side) * facing, 1.0), 0};
+            light = {(1 - face.share) * left * light.share + face.share * onFace.share,
+                     (1 - face.share) * left * light.glint + face.share * onFace.glint};
         }
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            double colour = lookUp(colour_[channel], s);
-            if (light.volume) {
-                colour = colour * (light.ambient + light.diffuse * facing) +
-                         light.specular * std::pow(facing, light.shininess);
-            }
-            sum[channel] += seen * alpha * colour;
+            sum[channel] += seen * alpha * (lookUp(colour_[channel], s) * light.share + light.glint);
         }
         seen *= 1 - alpha;
+        return true;
     }
 
     [[nodiscard]] Vec3 vertex(std::size_t corner) const {
         const std::size_t at = std::size_t{3} * scene_.mesh->indices[corner];
         const std::vector<float>& p = scene_.mesh->positions;
         return transformPoint(scene_.world_from_object, {p[at], p[at + 1], p[at + 2]});
+    }
+
+    [[nodiscard]] bool isClipped(const Vec3& world) const {
+        return std::ranges::any_of(scene_.clipPlanes,
+                                   [&](const ClipPlane& plane) { return dot(plane.normal, world) > plane.offset; });
     }
 
     /// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
@@ -189,7 +287,8 @@ class Caster {
             const double s = dot(t, p) / determinant;
             const double r = dot(direction, q) / determinant;
             const double distance = dot(v, q) / determinant;
-            if (s >= 0 && r >= 0 && s + r <= 1 && distance >= 0) {
+            const bool away = scene_.clippedMesh && isClipped(origin + distance * direction);
+            if (s >= 0 && r >= 0 && s + r <= 1 && distance >= 0 && !away) {
                 nearest = std::min(nearest, distance);
             }
         }

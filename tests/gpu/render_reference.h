@@ -16,6 +16,8 @@ struct ReferenceScene {
     Colour meshColour{};
     Mat4 clip_from_world{}; ///< the near plane at depth 0, the far plane not at infinity
     Colour background{};
+    std::vector<ClipPlane> clipPlanes;
+    bool clippedMesh = false;
     Lighting lighting{.volume = false, .mesh = false}; ///< the mesh is never lit
 };
 

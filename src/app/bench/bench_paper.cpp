@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
 #include "app/options/lab_run.h"
-#include "app/render/colours.h"
+#include "app/render/presets.h"
 #include "app/render/view.h"
 #include "lab/paper_output.h"
 #include "lab/report.h"
@@ -33,7 +33,9 @@ Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
     settings.camera = [](const Grid& grid, const Box& also, const VkExtent2D& size) {
         return viewFrom({}, grid, also, size.width, size.height);
     };
-    settings.worldBox = worldBox;
+    settings.worldBox = [](const Box& object, const Mat4& world_from_object) {
+        return worldBox(object, world_from_object);
+    };
     settings.colours = plainColours();
     if (const Result<void> usable =
             checkReportPaths(options.output.path, options.report,

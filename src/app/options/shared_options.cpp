@@ -77,17 +77,11 @@ bool isResolution(double voxels) {
 }
 
 ValueRange parseDomain(const char* option, const std::string& text) {
-    const std::size_t colon = text.find(':');
-    if (colon != std::string::npos) {
-        const auto lo = parseNumber<double>(std::string_view(text).substr(0, colon));
-        const auto hi = parseNumber<double>(std::string_view(text).substr(colon + 1));
-        if (lo && hi && std::isfinite(*lo) && std::isfinite(*hi) && *lo < *hi) {
-            const ValueRange domain{*lo, *hi};
-            if (const Result<void> checked = checkDomain(domain, "the domain"); !checked.ok()) {
-                refuse(option, checked.error().text);
-            }
-            return domain;
+    if (const std::optional<ValueRange> domain = parseRange(text)) {
+        if (const Result<void> checked = checkDomain(*domain, "the domain"); !checked.ok()) {
+            refuse(option, checked.error().text);
         }
+        return *domain;
     }
     refuse(option, quote(text) + " is not LO:HI, two numbers with LO below HI");
 }
@@ -202,20 +196,58 @@ void addDegrees(CLI::App& parser, const char* option, std::optional<double>& val
     addParsed(parser, option, parse, help, "DEGREES", "");
 }
 
+std::optional<std::array<double, 3>> parseColour(const std::string& text) {
+    constexpr int kHexadecimal = 16;
+    std::array<double, 3> colour{};
+    for (std::size_t channel = 0; channel < colour.size(); ++channel) {
+        const char* digits = text.data() + 2 * channel;
+        unsigned value = 0;
+        if (text.size() != 2 * colour.size() ||
+            std::from_chars(digits, digits + 2, value, kHexadecimal).ptr != digits + 2) {
+            return std::nullopt;
+        }
+        colour[channel] = value / 255.0;
+    }
+    return colour;
+}
+
+std::optional<double> parseFinite(std::string_view text) {
+    const auto number = parseNumber<double>(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<ValueRange> parseRange(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto lo = parseFinite(text.substr(0, colon));
+    const auto hi = parseFinite(text.substr(colon + 1));
+    return lo && hi && *lo < *hi ? std::optional<ValueRange>({*lo, *hi}) : std::nullopt;
+}
+
 void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help) {
     const auto parse = [option, &colour](const std::string& text) {
-        constexpr int kHexadecimal = 16;
-        for (std::size_t channel = 0; channel < colour.size(); ++channel) {
-            const char* digits = text.data() + 2 * channel;
-            unsigned value = 0;
-            if (text.size() != 2 * colour.size() ||
-                std::from_chars(digits, digits + 2, value, kHexadecimal).ptr != digits + 2) {
-                refuse(option, quote(text) + " is not a colour RRGGBB, six hexadecimal digits");
-            }
-            colour[channel] = value / 255.0;
+        const auto parsed = parseColour(text);
+        if (!parsed) {
+            refuse(option, quote(text) + " is not a colour RRGGBB, six hexadecimal digits");
         }
+        colour = *parsed;
     };
     addParsed(parser, option, parse, help, "RRGGBB", "");
+}
+
+void addTexts(CLI::App& parser, const char* option,
+              const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
+              const char* type) {
+    const auto parse = [option, use](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+            if (const std::optional<std::string> wrong = use(text)) {
+                refuse(option, quote(text) + " " + *wrong);
+            }
+        }
+    };
+    parser.add_option_function<std::vector<std::string>>(option, parse, help)->type_name(type)->allow_extra_args(false);
 }
 
 void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,

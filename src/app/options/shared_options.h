@@ -15,6 +15,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -93,6 +94,17 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
 /// One of `names`, as an option.
 void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
              const std::string& help);
+/// An option whose texts, of which there may be several, `use` takes one after the other, in their order; it says what
+/// is wrong with one that it cannot use.
+void addTexts(CLI::App& parser, const char* option,
+              const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
+              const char* type);
+/// A colour RRGGBB, each channel then from 0 to 1; nothing where the text is none.
+[[nodiscard]] std::optional<std::array<double, 3>> parseColour(const std::string& text);
+/// All of a text as a finite number; nothing where it is none.
+[[nodiscard]] std::optional<double> parseFinite(std::string_view text);
+/// LO:HI, two finite numbers with LO below HI.
+[[nodiscard]] std::optional<ValueRange> parseRange(std::string_view text);
 /// --size, 512x512 unless given.
 void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help);
 void addViewOptions(CLI::App& parser, ViewOptions& options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/show.h"
+#include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "core/text.h"
 #include "voxtact/cpu.h"
@@ -16,65 +17,75 @@ namespace {
 constexpr double kContactsThrough = 0.8;
 constexpr double kDiscardedThrough = 1;
 
-Result<void> noteWhereNothingIsOpaque(const ShownPair& pair) {
-    const Result<std::vector<float>> table = sampleTable(pair.transferFunction);
+Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const Session& session, const Renderer& renderer,
+                             ShowObjects& objects) {
+    const Result<std::vector<std::vector<std::uint32_t>>> touching = touchingTriangles(pairs, progress);
+    if (!touching.ok()) {
+        return touching.error();
+    }
+    for (std::size_t i = 0; i < touching->size(); ++i) {
+        const MeshData& mesh = pairs.meshes[i / pairs.poses.size()];
+        Result<PaintedTriangles> triangles =
+            PaintedTriangles::upload(renderer, session.device.queueAccess(),
+                                     static_cast<std::uint32_t>(mesh.indices.size() / 3), (*touching)[i]);
+        if (!triangles.ok()) {
+            return triangles.error();
+        }
+        objects.triangles.push_back(std::move(*triangles));
+    }
+    return {};
+}
+
+} // namespace
+
+Result<void> noteWhereNothingIsOpaque(const TransferFunctionDesc& transferFunction, double threshold) {
+    const Result<std::vector<float>> table = sampleTable(transferFunction);
     if (!table.ok()) {
         return table.error();
     }
-    if (*std::ranges::max_element(*table) < static_cast<float>(pair.threshold)) {
-        printNote("no opacity of the transfer function reaches the threshold " + number(pair.threshold) +
+    if (*std::ranges::max_element(*table) < static_cast<float>(threshold)) {
+        printNote("no opacity of the transfer function reaches the threshold " + number(threshold) +
                   ": nothing touches");
     }
     return {};
 }
 
-/// Those that touch for certain.
-Result<std::vector<std::uint32_t>> certifiedTriangles(const ShownPair& pair) {
-    const Result<cpu::Volume> volume = cpu::Volume::create(pair.volume.view());
+Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress) {
+    const Result<cpu::Volume> volume = cpu::Volume::create(pairs.volume.view());
     if (!volume.ok()) {
         return volume.error();
     }
-    const Result<cpu::TransferFunction> function = cpu::TransferFunction::create(pair.transferFunction);
+    const Result<cpu::TransferFunction> function = cpu::TransferFunction::create(pairs.transferFunction);
     if (!function.ok()) {
         return function.error();
-    }
-    const Result<cpu::Mesh> mesh = cpu::Mesh::create(pair.mesh.view());
-    if (!mesh.ok()) {
-        return mesh.error();
     }
     Result<cpu::Detector> detector =
         cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.triangles = true}});
     if (!detector.ok()) {
         return detector.error();
     }
-    const cpu::BatchItem item{&*mesh, &*volume, &*function, {&pair.world_from_object, 1}};
-    const Result<BatchAnswer> answer = detector->detect({{&item, 1}, {}, pair.threshold});
-    if (!answer.ok()) {
-        return answer.error();
+    Progress shown(progress, "triangles that touch", pairs.meshes.size() * pairs.poses.size());
+    std::vector<std::vector<std::uint32_t>> touching;
+    for (const MeshData& data : pairs.meshes) {
+        const Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        for (const Mat4& pose : pairs.poses) {
+            const cpu::BatchItem item{&*mesh, &*volume, &*function, {&pose, 1}};
+            const Result<BatchAnswer> answer = detector->detect({{&item, 1}, {}, pairs.threshold});
+            if (!answer.ok()) {
+                return answer.error();
+            }
+            std::vector<std::uint32_t>& triangles = touching.emplace_back();
+            for (const TouchedTriangle& touched : answer->triangles) {
+                triangles.push_back(touched.triangle);
+            }
+            shown.update(touching.size());
+        }
     }
-    std::vector<std::uint32_t> triangles;
-    for (const TouchedTriangle& touched : answer->triangles) {
-        triangles.push_back(touched.triangle);
-    }
-    return triangles;
+    return touching;
 }
-
-Result<void> uploadTriangles(const ShownPair& pair, const Session& session, const Renderer& renderer,
-                             ShowObjects& objects) {
-    const Result<std::vector<std::uint32_t>> touched = certifiedTriangles(pair);
-    if (!touched.ok()) {
-        return touched.error();
-    }
-    Result<PaintedTriangles> triangles = PaintedTriangles::upload(
-        renderer, session.device.queueAccess(), static_cast<std::uint32_t>(pair.mesh.indices.size() / 3), *touched);
-    if (!triangles.ok()) {
-        return triangles.error();
-    }
-    objects.triangles = std::move(*triangles);
-    return {};
-}
-
-} // namespace
 
 void addShowOptions(CLI::App& parser, ShowOptions& options) {
     addName(
@@ -91,23 +102,23 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
     parser.get_option("--threshold")->needs("--show");
 }
 
-Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPair& pair, const Session& session,
-                                    const Renderer& renderer) {
+Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs, bool progress,
+                                    const Session& session, const Renderer& renderer) {
     ShowObjects objects;
     if (options.what.empty()) {
         return objects;
     }
-    if (Result<void> noted = noteWhereNothingIsOpaque(pair); !noted.ok()) {
+    if (Result<void> noted = noteWhereNothingIsOpaque(pairs.transferFunction, pairs.threshold); !noted.ok()) {
         return noted.error();
     }
     if (options.what == "triangles") {
-        if (Result<void> done = uploadTriangles(pair, session, renderer, objects); !done.ok()) {
+        if (Result<void> done = uploadTriangles(pairs, progress, session, renderer, objects); !done.ok()) {
             return done.error();
         }
         return objects;
     }
     Result<TransferFunction> function =
-        TransferFunction::upload(session.context, session.device.queueAccess(), pair.transferFunction);
+        TransferFunction::upload(session.context, session.device.queueAccess(), pairs.transferFunction);
     if (!function.ok()) {
         return function.error();
     }
@@ -115,12 +126,12 @@ Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPair&
     return objects;
 }
 
-MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold) {
+MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold, std::size_t number) {
     MeshPaint paint;
     paint.threshold = threshold;
-    if (objects.triangles) {
+    if (!objects.triangles.empty()) {
         paint.what = Paint::Triangles;
-        paint.triangles = &*objects.triangles;
+        paint.triangles = &objects.triangles[number];
     } else if (objects.transferFunction) {
         paint.what = options.what == "discarded" ? Paint::Discarded : Paint::Contacts;
         paint.transferFunction = &*objects.transferFunction;

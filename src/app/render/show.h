@@ -6,7 +6,9 @@
 #include "voxtact/render.h"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -23,25 +25,33 @@ struct ShowOptions {
 /// --show and --through, and that they and --threshold need what they are about. After those options.
 void addShowOptions(CLI::App& parser, ShowOptions& options);
 
-/// The pair that is shown, as a detector has it.
-struct ShownPair {
+/// What is shown, as a detector has it: every mesh at every pose.
+struct ShownPairs {
     const VolumeData& volume;
-    const MeshData& mesh;
+    std::span<const MeshData> meshes;
+    std::span<const Mat4> poses;
     TransferFunctionDesc transferFunction;
-    double threshold;
-    Mat4 world_from_object;
+    double threshold = kDefaultThreshold;
 };
 
-/// What a MeshPaint refers to. Must outlive the picture.
+/// The triangles that touch for certain, by the projection conservative on the host: of each mesh at each pose, mesh by
+/// mesh. Where nothing can touch, a note says so.
+[[nodiscard]] Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress);
+/// Says where nothing can touch.
+[[nodiscard]] Result<void> noteWhereNothingIsOpaque(const TransferFunctionDesc& transferFunction, double threshold);
+
+/// What MeshPaints refer to. Must outlive the picture.
 struct ShowObjects {
     std::optional<TransferFunction> transferFunction{};
-    std::optional<PaintedTriangles> triangles{};
+    std::vector<PaintedTriangles> triangles{}; ///< of each mesh at each pose, mesh by mesh
 };
 
-/// Decides, for the triangles by the certified projection on the host, and uploads. Says where nothing can touch.
-[[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPair& pair,
+/// Decides, and uploads.
+[[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs, bool progress,
                                                   const Session& session, const Renderer& renderer);
 
-[[nodiscard]] MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold);
+/// Of a mesh at a pose, by its number among all.
+[[nodiscard]] MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold,
+                                std::size_t number);
 
 } // namespace voxtact::app

@@ -34,7 +34,13 @@ Box boxOf(const Box& box, const Mat4& matrix) {
     return out;
 }
 
-/// Rows: to the right, down and forward.
+} // namespace
+
+Vec3 towardsEye(const Direction& direction) {
+    const Mat4 rows = eyeFromWorld(direction);
+    return {-rows[2], -rows[6], -rows[10]};
+}
+
 Mat4 eyeFromWorld(const Direction& direction) {
     const double azimuth = direction.azimuth * std::numbers::pi / 180;
     const double elevation = direction.elevation * std::numbers::pi / 180;
@@ -51,8 +57,6 @@ Mat4 eyeFromWorld(const Direction& direction) {
     }
     return out;
 }
-
-} // namespace
 
 std::optional<Direction> directionNamed(const std::string& name) {
     struct Named {
@@ -71,6 +75,12 @@ std::optional<Direction> directionNamed(const std::string& name) {
 
 Mat4 viewFrom(const Direction& direction, const Grid& grid, const std::optional<Box>& also, std::uint32_t width,
               std::uint32_t height) {
+    return viewFrom(direction, grid, also, width, height,
+                    {0, 0, static_cast<double>(width), static_cast<double>(height)});
+}
+
+Mat4 viewFrom(const Direction& direction, const Grid& grid, const std::optional<Box>& also, std::uint32_t width,
+              std::uint32_t height, const ViewFrame& frame) {
     const Mat4 eye_from_world = eyeFromWorld(direction);
     const Box volume = boxOf({{0, 0, 0}, {1, 1, 1}}, multiply(eye_from_world, worldFromTexture(grid)));
     double nearest = volume.lo[2];
@@ -84,18 +94,31 @@ Mat4 viewFrom(const Direction& direction, const Grid& grid, const std::optional<
     const double y = (volume.lo[1] + volume.hi[1]) / 2;
     const double z = (nearest + farthest) / 2;
     // Millimetres of a pixel: enough for the tighter side.
-    const double pixel =
-        kMargin * std::max((volume.hi[0] - volume.lo[0]) / width, (volume.hi[1] - volume.lo[1]) / height);
+    const double pixel = kMargin * std::max((volume.hi[0] - volume.lo[0]) / (frame.right - frame.left),
+                                            (volume.hi[1] - volume.lo[1]) / (frame.bottom - frame.top));
     const double depth = kMargin * (farthest - nearest);
     Mat4 clip_from_eye{};
     clip_from_eye[0] = 2 / (pixel * width);
     clip_from_eye[5] = 2 / (pixel * height);
     clip_from_eye[10] = 1 / depth;
-    clip_from_eye[12] = -x * clip_from_eye[0];
-    clip_from_eye[13] = -y * clip_from_eye[5];
+    clip_from_eye[12] = (frame.left + frame.right) / width - 1 - x * clip_from_eye[0];
+    clip_from_eye[13] = (frame.top + frame.bottom) / height - 1 - y * clip_from_eye[5];
     clip_from_eye[14] = 0.5 - z * clip_from_eye[10];
     clip_from_eye[15] = 1;
     return multiply(clip_from_eye, eye_from_world);
+}
+
+Box around(const Box& a, const Box& b) {
+    Box out = a;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
+        out.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
+    }
+    return out;
+}
+
+Box worldBox(const Grid& grid) {
+    return boxOf({{0, 0, 0}, {1, 1, 1}}, worldFromTexture(grid));
 }
 
 Box worldBox(const Box& object, const Mat4& world_from_object) {

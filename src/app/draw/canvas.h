@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+/// Drawing on a finished picture: soft edges, colours and opacities from 0 to 1, pixels from the uppermost left corner.
+namespace voxtact::app {
+
+struct Point {
+    double x = 0;
+    double y = 0;
+};
+
+struct Box2 {
+    double left = 0;
+    double top = 0;
+    double right = 0;
+    double bottom = 0;
+    [[nodiscard]] double width() const { return right - left; }
+    [[nodiscard]] double height() const { return bottom - top; }
+};
+
+/// How much of each pixel of a rectangle something covers.
+struct Mask {
+    int left = 0;
+    int top = 0;
+    int width = 0;
+    int height = 0;
+    std::vector<float> cover; ///< row by row, 0..1
+};
+
+class Canvas {
+  public:
+    /// Draws on these pixels, four bytes each.
+    Canvas(std::span<std::uint8_t> rgba, std::uint32_t width, std::uint32_t height);
+
+    [[nodiscard]] double width() const { return width_; }
+    [[nodiscard]] double height() const { return height_; }
+
+    void fill(const Box2& box, const Colour& colour, double opacity = 1);
+    /// A convex polygon.
+    void fill(std::span<const Point> corners, const Colour& colour, double opacity = 1);
+    void line(const Point& from, const Point& to, double thickness, const Colour& colour, double opacity = 1);
+    /// A disc round a point.
+    void dot(const Point& middle, double across, const Colour& colour, double opacity = 1);
+    void outline(const Box2& box, double thickness, const Colour& colour, double opacity = 1);
+    void blend(const Mask& mask, const Colour& colour, double opacity = 1);
+    /// The mean of how bright a part of the picture is, 0..1; outside of the picture nothing is counted.
+    [[nodiscard]] double brightness(const Box2& box) const;
+
+  private:
+    void blendPixel(int x, int y, const Colour& colour, double opacity);
+
+    std::span<std::uint8_t> rgba_;
+    int width_;
+    int height_;
+};
+
+} // namespace voxtact::app

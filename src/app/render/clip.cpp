@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/clip.h"
+
+#include "app/options/shared_options.h"
+#include "app/output/outcome.h"
+#include "app/output/standard_streams.h"
+#include "app/render/orientation.h"
+#include "core/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxtact::app {
+
+namespace {
+
+struct Side {
+    const char* name;
+    std::size_t axis;
+    bool negative; ///< the side of the smaller coordinates is taken away
+};
+constexpr Side kSides[] = {{"left", 0, false}, {"right", 0, true}, {"back", 1, false},
+                           {"front", 1, true}, {"top", 2, false},  {"bottom", 2, true}};
+constexpr const char* kNear = "near";
+
+const Side* sideNamed(const std::string& name) {
+    const auto* found = std::ranges::find_if(kSides, [&](const Side& side) { return name == side.name; });
+    return found != std::end(kSides) ? found : nullptr;
+}
+
+/// Four numbers with commas between them.
+std::optional<ClipPlane> parsePlane(std::string_view text) {
+    std::vector<double> numbers;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        const auto number = parseFinite(text.substr(0, comma));
+        if (!number) {
+            return std::nullopt;
+        }
+        numbers.push_back(*number);
+        if (comma == std::string_view::npos) {
+            break;
+        }
+        text.remove_prefix(comma + 1);
+    }
+    constexpr std::size_t kNumbers = 4;
+    return numbers.size() == kNumbers ? std::optional<ClipPlane>({{numbers[0], numbers[1], numbers[2]}, numbers[3]})
+                                      : std::nullopt;
+}
+
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+ClipPlane planeOf(const ClipOption& clip, const Grid& grid, const Vec3& towardsEye) {
+    if (clip.side.empty()) {
+        return clip.plane;
+    }
+    const Vec3 middle = transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5});
+    if (clip.side == kNear) {
+        return {towardsEye, dot(towardsEye, middle) + clip.at.value_or(0)};
+    }
+    const Side& side = *sideNamed(clip.side);
+    ClipPlane plane;
+    const double sign = side.negative ? -1 : 1;
+    plane.normal[side.axis] = sign;
+    plane.offset = sign * clip.at.value_or(middle[side.axis]);
+    return plane;
+}
+
+/// How far the volume's corners are along a normal.
+ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
+    const Mat4 world_from_texture = worldFromTexture(grid);
+    ValueRange reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const double along = dot(
+            normal, transformPoint(world_from_texture, {(corner & 1U) != 0 ? 1.0 : 0.0, (corner & 2U) != 0 ? 1.0 : 0.0,
+                                                        (corner & 4U) != 0 ? 1.0 : 0.0}));
+        reach = {std::min(reach.lo, along), std::max(reach.hi, along)};
+    }
+    return reach;
+}
+
+/// Where the volume is along a clip's own measure, in words.
+std::string whereItIs(const ClipOption& clip, const Grid& grid, const ValueRange& reach, const Vec3& towardsEye) {
+    const auto from = [](double lo, double hi) {
+        return "from " + number(std::round(10 * lo) / 10) + " to " + number(std::round(10 * hi) / 10) + " mm";
+    };
+    if (clip.side.empty()) {
+        return "the volume's offsets along that normal are " + from(reach.lo, reach.hi);
+    }
+    if (clip.side == kNear) {
+        const double middle = dot(towardsEye, transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5}));
+        return "the volume is " + from(reach.lo - middle, reach.hi - middle) + " towards the eye";
+    }
+    const bool negative = sideNamed(clip.side)->negative;
+    return "the volume is there " + (negative ? from(-reach.hi, -reach.lo) : from(reach.lo, reach.hi));
+}
+
+} // namespace
+
+std::optional<std::string> parseClip(const std::string& text, ClipOption& clip) {
+    clip = {};
+    clip.text = text;
+    if (const auto plane = parsePlane(text)) {
+        if (plane->normal == Vec3{0, 0, 0}) {
+            return "has a normal of zero: it is no plane";
+        }
+        clip.plane = *plane;
+        return std::nullopt;
+    }
+    const std::size_t colon = text.find(':');
+    clip.side = text.substr(0, colon);
+    if (clip.side != kNear && sideNamed(clip.side) == nullptr) {
+        return "is neither SIDE[:MM], with left, right, front, back, top, bottom or near, nor NX,NY,NZ,D";
+    }
+    if (colon != std::string::npos) {
+        clip.at = parseFinite(std::string_view(text).substr(colon + 1));
+        if (!clip.at) {
+            return "has no number of millimetres behind its colon";
+        }
+    }
+    return std::nullopt;
+}
+
+Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, const Grid& grid,
+                                          const Mat4& clip_from_world) {
+    const std::optional<ScreenAxes> axes = screenAxes(clip_from_world);
+    const Vec3 towardsEye = axes ? axes->towardsEye : Vec3{0, 0, 1};
+    std::vector<ClipPlane> planes;
+    for (const ClipOption& clip : clips) {
+        const ClipPlane plane = planeOf(clip, grid, towardsEye);
+        const ValueRange reach = reachAlong(plane.normal, grid);
+        if (plane.offset <= reach.lo) {
+            return badArgument("--clip " + clip.text +
+                               " takes all of the volume away: " + whereItIs(clip, grid, reach, towardsEye));
+        }
+        if (plane.offset >= reach.hi) {
+            printNote("--clip " + clip.text +
+                      " takes nothing of the volume away: " + whereItIs(clip, grid, reach, towardsEye));
+        }
+        planes.push_back(plane);
+    }
+    return planes;
+}
+
+} // namespace voxtact::app

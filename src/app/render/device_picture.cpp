@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/device_picture.h"
+
+#include "app/detect/detect_run.h"
+#include "app/output/progress.h"
+#include "app/output/standard_streams.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::app {
+
+namespace {
+
+/// Everything on the device, in the order in which it must end.
+struct RenderObjects {
+    BlockingRenderer renderer;
+    Volume volume;
+    RenderBricks bricks;
+    RenderTransferFunction function;
+    std::vector<Mesh> meshes{};
+    std::vector<MeshNormals> normals{};
+    ShowObjects show{};
+};
+
+Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inputs, const Session& session,
+                          RenderObjects& objects) {
+    const QueueAccess queue = session.device.queueAccess();
+    const Renderer& renderer = objects.renderer.renderer();
+    for (const MeshData& data : inputs.meshes) {
+        Result<Mesh> mesh = Mesh::upload(session.context, queue, data.view());
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        objects.meshes.push_back(std::move(*mesh));
+        Result<MeshNormals> normals = MeshNormals::upload(renderer, queue, data.view());
+        if (!normals.ok()) {
+            return normals.error();
+        }
+        objects.normals.push_back(std::move(*normals));
+    }
+    const ShownPairs pairs{inputs.volume, inputs.meshes, inputs.poses, inputs.transferFunction(options),
+                           options.transferFunction.threshold};
+    Result<ShowObjects> show = makeShowObjects(options.show, pairs, options.progress, session, renderer);
+    if (!show.ok()) {
+        return show.error();
+    }
+    objects.show = std::move(*show);
+    return {};
+}
+
+Result<RenderObjects> uploadObjects(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
+    const QueueAccess queue = session.device.queueAccess();
+    Result<BlockingRenderer> renderer = BlockingRenderer::create(session.context, queue);
+    if (!renderer.ok()) {
+        return renderer.error();
+    }
+    RenderTransferFunctionDesc desc;
+    desc.opacity = inputs.transferFunction(options);
+    desc.colours = inputs.colours;
+    desc.step = *std::ranges::min_element(inputs.volume.grid.spacing) / 2;
+    Result<RenderTransferFunction> function = RenderTransferFunction::upload(renderer->renderer(), queue, desc);
+    if (!function.ok()) {
+        return function.error();
+    }
+    Result<Volume> volume = Volume::upload(session.context, queue, inputs.volume.view(), {.bricks = true});
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    Result<RenderBricks> bricks = RenderBricks::create(renderer->renderer(), *volume);
+    if (!bricks.ok()) {
+        return bricks.error();
+    }
+    RenderObjects objects{std::move(*renderer), std::move(*volume), std::move(*bricks), std::move(*function)};
+    if (Result<void> uploaded = uploadMeshes(options, inputs, session, objects); !uploaded.ok()) {
+        return uploaded.error();
+    }
+    return objects;
+}
+
+Lighting lightingOf(const std::string& name, const Grid& grid) {
+    Lighting lighting;
+    lighting.volume = lighting.mesh = name != "none";
+    if (name == "soft") {
+        lighting.ambient = 0.3;
+        lighting.diffuse = 0.45;
+        lighting.side = 0.5;
+        lighting.specular = 0.16;
+        lighting.occlusion = 0.55;
+        // What shuts in is a part of the whole: millimetres of a head are too much for a tooth.
+        constexpr double kReach = 0.025; // of the diagonal
+        double diagonal = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            diagonal += std::pow(grid.spacing[axis] * grid.size[axis], 2);
+        }
+        lighting.reach = kReach * std::sqrt(diagonal);
+    }
+    return lighting;
+}
+
+std::vector<SceneMesh> sceneMeshes(const RenderOptions& options, const RenderInputs& inputs,
+                                   const RenderObjects& objects) {
+    std::vector<SceneMesh> meshes;
+    for (std::size_t mesh = 0; mesh < inputs.meshes.size(); ++mesh) {
+        for (const Mat4& pose : inputs.poses) {
+            SceneMesh one;
+            one.mesh = &objects.meshes[mesh];
+            one.normals = &objects.normals[mesh];
+            one.world_from_object = pose;
+            one.meshColour = meshColour(options, mesh);
+            one.paint = paintOf(options.show, objects.show, options.transferFunction.threshold, meshes.size());
+            one.clipped = options.clipMesh;
+            meshes.push_back(one);
+        }
+    }
+    return meshes;
+}
+
+} // namespace
+
+Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
+    if (Result<void> viewport = checkViewport(options.view.size, session.context.maxViewport(), "the device");
+        !viewport.ok()) {
+        return viewport.error();
+    }
+    Result<RenderObjects> objects = uploadObjects(options, inputs, session);
+    if (!objects.ok()) {
+        return objects.error();
+    }
+    if (!objects->function.visible()) {
+        printNote("the transfer function has no opacity above 0: the volume is not to be seen");
+    }
+    const std::vector<SceneMesh> meshes = sceneMeshes(options, inputs, *objects);
+    Scene scene;
+    scene.volume = &objects->volume;
+    scene.transferFunction = &objects->function;
+    scene.bricks = &objects->bricks;
+    scene.others = meshes;
+    scene.clipPlanes = inputs.clips;
+    scene.lighting = lightingOf(options.lighting, inputs.volume.grid);
+    scene.clip_from_world = inputs.clip_from_world;
+    scene.background = options.background;
+    Progress progress(options.progress, "rows of the picture", options.view.size.height);
+    return objects->renderer.render(scene, options.view.size,
+                                    [&](std::uint32_t rows, std::uint32_t) { progress.update(rows); });
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/open_session.h"
+#include "app/render/inputs.h"
+
+namespace voxtact::app {
+
+/// The volume and the meshes in it, by ray casting on the device.
+[[nodiscard]] Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs,
+                                       const Session& session);
+
+} // namespace voxtact::app

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/inputs.h"
+
+#include "app/options/inputs.h"
+#include "app/output/standard_streams.h"
+#include "app/render/presets.h"
+#include "core/text.h"
+#include "voxtact/io.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace voxtact::app {
+
+namespace {
+
+Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
+    if (options.meshes.sources.empty()) {
+        return {};
+    }
+    const Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);
+    if (!poses.ok()) {
+        return poses.error();
+    }
+    Result<std::vector<std::uint32_t>> numbers = chosenPoses(options.poses, poses->size());
+    if (!numbers.ok()) {
+        return numbers.error();
+    }
+    inputs.numbers = std::move(*numbers);
+    for (const std::uint32_t number : inputs.numbers) {
+        inputs.poses.push_back((*poses)[number]);
+    }
+    for (const std::string& source : options.meshes.sources) {
+        const Result<MeshData> mesh = loadMesh(source, options.meshes);
+        if (!mesh.ok()) {
+            return mesh.error();
+        }
+        const Result<MeshFacts> facts = checkMesh(mesh->view());
+        if (!facts.ok()) {
+            return facts.error();
+        }
+        Result<MeshData> creased = splitAtCreases(mesh->view());
+        if (!creased.ok()) {
+            return creased.error();
+        }
+        inputs.bounds.push_back(facts->bounds);
+        inputs.meshes.push_back(std::move(*creased));
+    }
+    return {};
+}
+
+Result<void> readVolume(const RenderOptions& options, RenderInputs& inputs) {
+    Result<VolumeData> volume = loadVolume(options.volumes.front());
+    if (!volume.ok()) {
+        return volume.error();
+    }
+    inputs.volume = std::move(*volume);
+    const Result<ValueRange> values = checkVolume(inputs.volume.view());
+    if (!values.ok()) {
+        return values.error();
+    }
+    inputs.values = *values;
+    return {};
+}
+
+/// Round all meshes at all poses.
+std::optional<Box> boxOfMeshes(const RenderInputs& inputs) {
+    std::optional<Box> all;
+    for (const Box& bounds : inputs.bounds) {
+        for (const Mat4& pose : inputs.poses) {
+            const Box box = worldBox(bounds, pose);
+            all = all ? around(*all, box) : box;
+        }
+    }
+    return all;
+}
+
+Result<void> setCamera(const RenderOptions& options, RenderInputs& inputs) {
+    const VkExtent2D& size = options.view.size;
+    if (isAnnotated(options)) {
+        const bool swatches = !options.meshes.sources.empty();
+        inputs.room = roomFor(size.width, size.height, swatches, true);
+    }
+    if (!options.view.camera.empty()) {
+        const Result<Mat4> camera = io::readCamera(options.view.camera);
+        if (!camera.ok()) {
+            return camera.error();
+        }
+        inputs.clip_from_world = *camera;
+        return {};
+    }
+    const ViewFrame all{0, 0, static_cast<double>(size.width), static_cast<double>(size.height)};
+    const Box2 room = inputs.room ? inputs.room->frame : Box2{};
+    const ViewFrame frame = inputs.room ? ViewFrame{room.left, room.top, room.right, room.bottom} : all;
+    const Direction direction = inputs.slice ? inputs.slice->direction : directionOf(options);
+    inputs.clip_from_world =
+        viewFrom(direction, inputs.volume.grid, boxOfMeshes(inputs), size.width, size.height, frame);
+    return {};
+}
+
+Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
+    if (options.slice) {
+        std::optional<Box> first;
+        if (!inputs.bounds.empty()) {
+            // The part of it that is in the volume, if there is one.
+            const Box mesh = worldBox(inputs.bounds.front(), inputs.poses.front());
+            const Box volume = worldBox(inputs.volume.grid);
+            first = mesh;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                first->lo[axis] = std::clamp(mesh.lo[axis], volume.lo[axis], volume.hi[axis]);
+                first->hi[axis] = std::clamp(mesh.hi[axis], volume.lo[axis], volume.hi[axis]);
+            }
+        }
+        const Result<SlicePlane> plane = slicePlane(*options.slice, directionOf(options), inputs.volume.grid, first);
+        if (!plane.ok()) {
+            return plane.error();
+        }
+        inputs.slice = *plane;
+    }
+    if (Result<void> set = setCamera(options, inputs); !set.ok()) {
+        return set;
+    }
+    Result<std::vector<ClipPlane>> planes = clipPlanes(options.clips, inputs.volume.grid, inputs.clip_from_world);
+    if (!planes.ok()) {
+        return planes.error();
+    }
+    inputs.clips = std::move(*planes);
+    return {};
+}
+
+/// Air is at -1000: where nothing is below -200 the numbers are others.
+void noteOtherUnits(const RenderOptions& options, const ValueRange& values) {
+    constexpr double kLeast = -200;
+    if (!options.preset.empty() && isHounsfield(options.preset) && values.lo > kLeast) {
+        printNote("--preset " + options.preset +
+                  " is in Hounsfield units, in which air is -1000; the volume's values, " + number(values.lo) + " to " +
+                  number(values.hi) + ", are others: --opacity and --transfer-function say what is seen");
+    }
+}
+
+Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
+    Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
+    if (!points.ok()) {
+        return points.error();
+    }
+    inputs.domain = tableDomain(options.transferFunction, inputs.volume.type, inputs.values);
+    inputs.opacity = std::move(*points);
+    if (!options.transferFunction.path.empty()) {
+        Result<std::vector<ColourPoint>> colours = io::readColours(options.transferFunction.path);
+        if (!colours.ok()) {
+            return colours.error();
+        }
+        inputs.colours = std::move(*colours);
+    }
+    noteOtherUnits(options, inputs.values);
+    Look look = options.preset.empty() ? Look{defaultRamp(inputs.domain), plainColours()}
+                                       : lookNamed(options.preset, inputs.values);
+    inputs.colours = inputs.colours.empty() ? std::move(look.colours) : inputs.colours;
+    inputs.opacity = inputs.opacity.empty() ? std::move(look.opacity) : inputs.opacity;
+    return {};
+}
+
+} // namespace
+
+Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
+    RenderInputs inputs;
+    for (const auto read : {readMeshes, readVolume, setCuts, setLook}) {
+        if (Result<void> done = read(options, inputs); !done.ok()) {
+            return done.error();
+        }
+    }
+    return inputs;
+}
+
+Colour meshColour(const RenderOptions& options, std::size_t mesh) {
+    if (mesh < options.meshColours.size()) {
+        return options.meshColours[mesh];
+    }
+    // Apart from each other, from tissue, and from the colours of contacts.
+    const Colour colours[] = {SceneMesh{}.meshColour, {0.30, 0.70, 0.88}, {0.98, 0.80, 0.28},
+                              {0.46, 0.78, 0.42},     {0.74, 0.58, 0.90}, {0.20, 0.62, 0.60}};
+    return colours[mesh % std::size(colours)];
+}
+
+} // namespace voxtact::app
