@@ -3,11 +3,11 @@
 
 namespace voxtact::app {
 
-std::string judgeEngine(std::span<const EngineAnswer> certified, std::span<const EngineAnswer> answers, BenchRow& row) {
+std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const PairAnswer> answers, BenchRow& row) {
     std::string disagreement;
     for (std::size_t i = 0; i < certified.size(); ++i) {
-        const EngineAnswer& truth = certified[i];
-        const EngineAnswer& answer = answers[i];
+        const PairAnswer& truth = certified[i];
+        const PairAnswer& answer = answers[i];
         const bool none = !truth.hit && !truth.possible;
         row.contacts += truth.hit ? 1 : 0;
         row.untouched += none ? 1 : 0;

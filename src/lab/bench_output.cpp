@@ -52,21 +52,15 @@ io::NamedCells cellsOf(const BenchRow& row) {
 constexpr std::array kNotInText{"triangles",           "pairs",      "samples",        "pairs_per_cpu_s_min",
                                 "pairs_per_cpu_s_max", "wall_ratio", "wall_ratio_min", "wall_ratio_max"};
 
-io::Table tableOf(const BenchResult& result, io::Format format) {
-    io::Table table;
-    std::vector<std::size_t> shown;
-    const io::NamedCells all = cellsOf(result.rows.front());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (format != io::Format::Text || std::ranges::find(kNotInText, all[i].first) == kNotInText.end()) {
-            table.columns.push_back(all[i].first);
-            shown.push_back(i);
+io::Table benchTable(const BenchResult& result, io::Format format) {
+    return tableOf(rowsOf(result.rows, [format](const BenchRow& row) {
+        io::NamedCells cells = cellsOf(row);
+        if (format == io::Format::Text) {
+            std::erase_if(
+                cells, [](const auto& cell) { return std::ranges::find(kNotInText, cell.first) != kNotInText.end(); });
         }
-    }
-    table.rows = result.rows.size();
-    table.cell = [rows = &result.rows, shown](std::size_t row, std::size_t column) {
-        return cellsOf((*rows)[row])[shown[column]].second;
-    };
-    return table;
+        return cells;
+    }));
 }
 
 std::string shortText(double value) {
@@ -102,7 +96,7 @@ Json benchJson(const BenchSettings& settings, const BenchResult& result) {
                      {"seed", settings.seed}};
     json["summary"] = sentences(result);
     json["repetitions"] = settings.repetitions;
-    json["rows"] = io::rowsJson(tableOf(result, io::Format::Json));
+    json["rows"] = io::rowsJson(benchTable(result, io::Format::Json));
     json["notes"] = allNotes(result.machine, result.notes);
     return json;
 }
@@ -114,7 +108,7 @@ void writeBench(std::ostream& out, io::Format format, const BenchSettings& setti
         out << benchJson(settings, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
         return;
     }
-    io::writeTable(out, format, tableOf(result, format));
+    io::writeTable(out, format, benchTable(result, format));
     out << "# volume " << result.volume
         << (settings.mode == BenchMode::Outputs ? ", ratios of projections to the view by the same method, of outputs "
                                                   "to the bare count, round by round\n"

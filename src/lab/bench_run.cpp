@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/bench_run.h"
 
-#include "lab/opaque_cells.h"
 #include "lab/random_poses.h"
 
 #include <algorithm>
@@ -14,7 +13,6 @@ namespace voxtact::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Engines = std::vector<std::unique_ptr<Engine>>;
 
 constexpr std::array<const char*, 2> kMeshes{"builtin:scalpel:3068", "builtin:ellipsoid:49998"};
 constexpr std::size_t kCounting = 1; ///< the engine that the others are held against: it knows what is possible
@@ -26,6 +24,7 @@ constexpr std::size_t kFewestPoses = 8;
 /// A set of poses with its engines, ready to be timed.
 struct Case {
     const Engines* engines = nullptr;
+    Work work;
     std::vector<Mat4> poses;
     std::vector<std::size_t> passes; ///< of a sample, by engine
     std::vector<std::size_t> some;   ///< poses of a pass, by engine
@@ -37,10 +36,10 @@ struct Times {
     double cpu = 0;
 };
 
-template <class Work> Result<Times> timed(Work&& work) {
+template <class Job> Result<Times> timed(Job&& job) {
     const std::clock_t cpu = std::clock();
     const auto wall = Clock::now();
-    if (Result<void> done = work(); !done.ok()) {
+    if (Result<void> done = job(); !done.ok()) {
         return done.error();
     }
     // A tick at least, so that no rate is infinite.
@@ -48,47 +47,21 @@ template <class Work> Result<Times> timed(Work&& work) {
                  static_cast<double>(std::max<std::clock_t>(std::clock() - cpu, 1)) / CLOCKS_PER_SEC};
 }
 
-/// The octree, or a note that says why there is none.
-void addFcl(BenchVolume& volume, BenchResult& result) {
-    const Result<OpaqueCells> cells =
-        opaqueCells(volume.data.view(), {volume.points, volume.domain, volume.tableSize}, volume.threshold);
-    if (fclVersion().empty() || !cells.ok()) {
-        result.notes.push_back("FCL: " + (cells.ok() ? "not built in" : cells.error().text));
-        return;
-    }
-    Vec3 origin{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        origin[axis] = cells->size[axis] / 2 * cells->side;
-    }
-    std::string why;
-    volume.fcl = makeFclVolume(
-        {cells->size, cells->side, &cells->opaque, multiply(cells->world_from_cells, translation(origin))}, why);
-    if (volume.fcl == nullptr) {
-        result.notes.push_back("FCL: " + why);
-        return;
-    }
-    result.notes.push_back(fclVersion() + ": BVHModel of OBBRSS against an octree of opaque voxels" +
-                           (cells->resampled ? ", which are no cubes: cells of the smallest spacing, each with the "
-                                               "value of the voxel at its centre"
-                                             : ""));
-}
-
-Result<std::vector<Mat4>> makePoses(const std::string& kind, const BenchSettings& settings, const BenchVolume& volume,
-                                    const BenchMesh& mesh, Engine& yesNo) {
-    const Grid& grid = volume.data.grid;
+Result<std::vector<Mat4>> makePoses(const std::string& kind, const BenchSettings& settings, const Work& work,
+                                    Engine& yesNo) {
+    const Grid& grid = work.volume->data.grid;
+    const MeshView mesh = work.mesh->data.view();
     if (kind == "large") {
-        return randomPoses(grid, mesh.data.view(), settings.poses, settings.seed);
+        return randomPoses(grid, mesh, settings.poses, settings.seed);
     }
-    return onsetPoses(grid, mesh.data.view(), settings.poses, settings.seed,
-                      [&yesNo](const Mat4& pose) -> Result<bool> {
-                          const Result<std::vector<EngineAnswer>> answer = yesNo.run({&pose, 1});
-                          return answer.ok() ? Result<bool>(answer->front().hit) : Result<bool>(answer.error());
-                      });
+    return onsetPoses(grid, mesh, settings.poses, settings.seed, [&](const Mat4& pose) -> Result<bool> {
+        const Result<Pass> pass = yesNo.run(work.at({&pose, 1}), {});
+        return pass.ok() ? Result<bool>(pass->pairs.front().hit) : Result<bool>(pass.error());
+    });
 }
 
 /// Says where an engine does not count as the one that it must count as.
-std::string compareCounts(std::span<const EngineAnswer> bare, std::span<const EngineAnswer> answers,
-                          const BenchRow& row) {
+std::string compareCounts(std::span<const PairAnswer> bare, std::span<const PairAnswer> answers, const BenchRow& row) {
     for (std::size_t i = 0; i < bare.size(); ++i) {
         if (bare[i].count != answers[i].count) {
             return row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name + " " +
@@ -100,40 +73,32 @@ std::string compareCounts(std::span<const EngineAnswer> bare, std::span<const En
 }
 
 /// Runs every engine once: its answers are judged, and say how long a sample is.
-Result<void> verifyCase(Case& one, const BenchMesh& mesh, const std::string& kind, BenchResult& result) {
-    std::vector<EngineAnswer> certified;
-    Result<Times> first = timed([&]() -> Result<void> {
-        Result<std::vector<EngineAnswer>> answers = (*one.engines)[kCounting]->run(one.poses);
-        if (!answers.ok()) {
-            return answers.error();
-        }
-        certified = std::move(*answers);
-        return {};
-    });
-    if (!first.ok()) {
-        return first.error();
+Result<void> verifyCase(Case& one, const std::string& kind, BenchResult& result) {
+    const Result<Pass> certified = (*one.engines)[kCounting]->run(one.work, {});
+    if (!certified.ok()) {
+        return certified.error();
     }
     one.firstRow = result.rows.size();
-    std::vector<std::vector<EngineAnswer>> all;
+    std::vector<std::vector<PairAnswer>> all;
     for (const std::unique_ptr<Engine>& engine : *one.engines) {
-        std::vector<EngineAnswer> answers;
+        std::vector<PairAnswer> answers;
         const Result<Times> took = timed([&]() -> Result<void> {
-            Result<std::vector<EngineAnswer>> run = engine->run(one.poses);
-            if (!run.ok()) {
-                return run.error();
+            Result<Pass> pass = engine->run(one.work, {});
+            if (!pass.ok()) {
+                return pass.error();
             }
-            answers = std::move(*run);
+            answers = std::move(pass->pairs);
             return {};
         });
         if (!took.ok()) {
             return took.error();
         }
-        BenchRow row{.mesh = mesh.name,
-                     .triangles = static_cast<std::uint32_t>(mesh.data.indices.size() / 3),
+        BenchRow row{.mesh = one.work.mesh->name,
+                     .triangles = one.work.mesh->triangles(),
                      .poses = kind,
                      .engine = engine->facts(),
                      .pairs = one.poses.size()};
-        std::string disagreement = judgeEngine(certified, answers, row);
+        std::string disagreement = judgeEngine(certified->pairs, answers, row);
         if (disagreement.empty() && row.engine.sameCounts) {
             disagreement = compareCounts(all[row.engine.ratioTo], answers, row);
         }
@@ -155,7 +120,7 @@ Result<void> timeRound(const Case& one, BenchResult& result) {
         const auto poses = std::span(one.poses).first(one.some[i]);
         const Result<Times> took = timed([&]() -> Result<void> {
             for (std::size_t pass = 0; pass < one.passes[i]; ++pass) {
-                if (Result<std::vector<EngineAnswer>> run = (*one.engines)[i]->run(poses); !run.ok()) {
+                if (const Result<Pass> run = (*one.engines)[i]->run(one.work.at(poses), {}); !run.ok()) {
                     return run.error();
                 }
             }
@@ -182,26 +147,24 @@ std::span<const char* const> kindsOf(BenchMode mode) {
 }
 
 /// The sets of poses of a mesh: verified, then timed.
-Result<void> benchMesh(const BenchSettings& settings, const BenchVolume& volume, BenchMesh& mesh,
-                       const Session* session, const std::function<void()>& step, BenchResult& result) {
-    if (session != nullptr) {
-        if (Result<void> uploaded = uploadMesh(*session, mesh); !uploaded.ok()) {
-            return uploaded;
-        }
+Result<void> benchMesh(const BenchSettings& settings, const VolumePart& volume, MeshPart& mesh, const Session* session,
+                       const std::function<void()>& step, BenchResult& result) {
+    if (Result<void> ready = makeReady(session, mesh); !ready.ok()) {
+        return ready;
     }
-    const bool outputs = settings.mode == BenchMode::Outputs;
-    const Result<Engines> engines =
-        outputs ? makeOutputEngines(volume, mesh, session) : makeEngines(volume, mesh, session);
+    const Result<Engines> engines = makeBenchEngines(settings.mode, volume, mesh, session);
     if (!engines.ok()) {
         return engines.error();
     }
+    const Work work{volume, mesh, {}, {framingCamera(volume.data.grid, 512, 512), 512, 512}};
     for (const char* kind : kindsOf(settings.mode)) {
-        Result<std::vector<Mat4>> poses = makePoses(kind, settings, volume, mesh, *engines->front());
+        Result<std::vector<Mat4>> poses = makePoses(kind, settings, work, *engines->front());
         if (!poses.ok()) {
             return poses.error();
         }
-        Case one{.engines = &*engines, .poses = std::move(*poses), .passes = {}, .some = {}};
-        if (Result<void> verified = verifyCase(one, mesh, kind, result); !verified.ok()) {
+        Case one{.engines = &*engines, .work = {}, .poses = std::move(*poses), .passes = {}, .some = {}};
+        one.work = work.at(one.poses);
+        if (Result<void> verified = verifyCase(one, kind, result); !verified.ok()) {
             return verified;
         }
         for (std::uint32_t round = 0; round < settings.repetitions && result.disagreement.empty(); ++round) {
@@ -241,21 +204,21 @@ std::vector<std::string> defaultMeshes(BenchMode mode) {
     return {kMeshes.begin(), kMeshes.begin() + (mode == BenchMode::Outputs ? 1 : kMeshes.size())};
 }
 
-Result<void> bench(const BenchSettings& settings, const Session* session, BenchVolume& volume,
-                   std::vector<BenchMesh> meshes, const Steps& steps, BenchResult& result) {
+Result<void> bench(const BenchSettings& settings, const Session* session, VolumePart& volume,
+                   std::vector<MeshPart> meshes, const Steps& steps, BenchResult& result) {
     if (settings.mode == BenchMode::Outputs) {
         volume.labels = octants(volume.data.grid);
     }
     if (session != nullptr) {
-        if (Result<void> uploaded = uploadVolume(*session, volume); !uploaded.ok()) {
+        if (Result<void> uploaded = upload(*session, {.bricks = true}, volume); !uploaded.ok()) {
             return uploaded;
         }
     }
     if (settings.mode == BenchMode::Certified) {
-        addFcl(volume, result);
+        result.notes.push_back(makeOctree(volume));
     }
     steps.begin(kindsOf(settings.mode).size() * settings.repetitions * meshes.size());
-    for (BenchMesh& mesh : meshes) {
+    for (MeshPart& mesh : meshes) {
         if (Result<void> done = benchMesh(settings, volume, mesh, session, steps.step, result); !done.ok()) {
             return done;
         }

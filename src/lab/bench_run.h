@@ -2,7 +2,8 @@
 #pragma once
 
 #include "io/text/table.h"
-#include "lab/bench_engines.h"
+#include "lab/engine.h"
+#include "lab/machine.h"
 
 #include <iosfwd>
 
@@ -54,13 +55,19 @@ struct BenchResult {
 };
 
 /// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.
-[[nodiscard]] std::string judgeEngine(std::span<const EngineAnswer> certified, std::span<const EngineAnswer> answers,
+[[nodiscard]] std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const PairAnswer> answers,
                                       BenchRow& row);
 
-/// Engines side by side on each of the meshes, checked and timed. `session` may be null: no engines of a device. It
-/// must outlive the volume. `result` has the machine.
-[[nodiscard]] Result<void> bench(const BenchSettings& settings, const Session* session, BenchVolume& volume,
-                                 std::vector<BenchMesh> meshes, const Steps& steps, BenchResult& result);
+/// The engines of a mode for this volume and mesh, which must be ready and outlive them. For certified the first is the
+/// host's yes or no on one thread, the second the host's count; for outputs the first is the host's count in the view,
+/// the second the host's in the projection conservative. `session` may be null: no engines of a device.
+[[nodiscard]] Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
+                                               const Session* session);
+
+/// Engines side by side on each of the meshes, checked and timed, in the view. The volume and the meshes are made
+/// ready; `session` may be null, and must outlive the parts. `result` has the machine.
+[[nodiscard]] Result<void> bench(const BenchSettings& settings, const Session* session, VolumePart& volume,
+                                 std::vector<MeshPart> meshes, const Steps& steps, BenchResult& result);
 
 void writeBench(std::ostream& out, io::Format format, const BenchSettings& settings, const BenchResult& result);
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "io/text/table.h"
-#include "lab/compare_scene.h"
+#include "lab/compare_settings.h"
+#include "lab/machine.h"
+#include "lab/scene.h"
 
 #include <functional>
 #include <iosfwd>
@@ -43,9 +45,9 @@ struct LocalizeResult {
     std::uint32_t triangles = 0; ///< of the mesh
 };
 
-/// Every way on every pose of `data`, in `settings.repeats` rounds as far as they fit in `settings.timeLimit`, and what
-/// follows from what they found. `step` is called for each pose of a round. `result` has the machine.
-[[nodiscard]] Result<void> localize(const Session& session, const CompareSettings& settings, const CompareData& data,
+/// Every way on every pose of the scene, in `settings.repeats` rounds as far as they fit in `settings.timeLimit`, and
+/// what follows from what they found. `step` is called for each pose of a round. `result` has the machine.
+[[nodiscard]] Result<void> localize(const Session& session, const CompareSettings& settings, const Scene& scene,
                                     LocalizeResult& result, const std::function<void()>& step);
 
 /// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
@@ -53,6 +55,6 @@ void judgeLocalize(LocalizeResult& result);
 /// On which pose and how the ways of the view disagree; empty where they agree.
 [[nodiscard]] std::string disagreementOf(const LocalizeResult& result);
 
-void writeLocalize(std::ostream& out, io::Format format, const CompareData& data, const LocalizeResult& result);
+void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result);
 
 } // namespace voxtact::app

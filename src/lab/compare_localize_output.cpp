@@ -15,60 +15,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> kColumns{"way",         "poses",       "triangles",    "missed",  "missed_percent",
-                                        "false",       "queries",     "boxes",        "samples", "wall_ms_median",
-                                        "wall_ms_p10", "wall_ms_p90", "gpu_ms_median"};
-
 /// Of the certified triangles.
 double percentMissed(const LocalizeWay& way, const LocalizeResult& result) {
     const std::uint64_t certified = result.ways.back().triangles;
     return certified == 0 ? 0 : 100.0 * static_cast<double>(way.missed) / static_cast<double>(certified);
 }
 
-io::Cell cellOf(const LocalizeWay& way, const LocalizeResult& result, std::size_t column) {
-    const auto spread = [](const std::vector<double>& samples, double Spread::*part) {
-        return samples.empty() ? io::Cell() : io::Cell(rounded(spreadOf(samples).*part));
-    };
-    const auto maybe = [](const std::optional<std::uint64_t>& value) { return value ? io::Cell(*value) : io::Cell(); };
-    if (!way.unchecked.empty() && column > 0) {
-        return {};
-    }
-    switch (column) {
-    case 0:
-        return way.name;
-    case 1:
-        return std::uint64_t{way.found.size()};
-    case 2:
-        return way.triangles;
-    case 3:
-        return way.missed;
-    case 4:
-        return rounded(percentMissed(way, result));
-    case 5:
-        return way.wrong;
-    case 6:
-        return maybe(way.queries);
-    case 7:
-        return maybe(way.boxes);
-    case 8:
-        return std::uint64_t{way.wall.size()};
-    case 9:
-        return spread(way.wall, &Spread::median);
-    case 10:
-        return spread(way.wall, &Spread::p10);
-    case 11:
-        return spread(way.wall, &Spread::p90);
-    default:
-        return spread(way.gpu, &Spread::median);
-    }
-}
-
-io::Table tableOf(const LocalizeResult& result) {
-    io::Table table;
-    table.columns = kColumns;
-    table.rows = result.ways.size();
-    table.cell = [&result](std::size_t row, std::size_t column) { return cellOf(result.ways[row], result, column); };
-    return table;
+io::Table waysTable(const LocalizeResult& result) {
+    return tableOf(rowsOf(result.ways, [&](const LocalizeWay& way) {
+        io::NamedCells cells{{"way", way.name},
+                             {"poses", std::uint64_t{way.found.size()}},
+                             {"triangles", way.triangles},
+                             {"missed", way.missed},
+                             {"missed_percent", rounded(percentMissed(way, result))},
+                             {"false", way.wrong},
+                             {"queries", cellOf(way.queries)},
+                             {"boxes", cellOf(way.boxes)},
+                             {"samples", std::uint64_t{way.wall.size()}},
+                             {"wall_ms_median", cellOf(way.wall, &Spread::median)},
+                             {"wall_ms_p10", cellOf(way.wall, &Spread::p10)},
+                             {"wall_ms_p90", cellOf(way.wall, &Spread::p90)},
+                             {"gpu_ms_median", cellOf(way.gpu, &Spread::median)}};
+        for (std::size_t i = 1; !way.unchecked.empty() && i < cells.size(); ++i) {
+            cells[i].second = {};
+        }
+        return cells;
+    }));
 }
 
 std::vector<std::string> sentences(const LocalizeResult& result) {
@@ -90,14 +62,14 @@ std::vector<std::string> sentences(const LocalizeResult& result) {
     return out;
 }
 
-Json localizeJson(const CompareData& data, const LocalizeResult& result) {
+Json localizeJson(const Scene& scene, const LocalizeResult& result) {
     Json json = provenanceJson(result.machine);
     json["machine"] = machineJson(result.machine);
-    json["scene"] = sceneJson(data);
+    json["scene"] = sceneJson(scene);
     json["summary"] = sentences(result);
     json["agrees"] = !result.failedPose.has_value();
     json["poses"] = result.poseNumbers;
-    json["ways"] = io::rowsJson(tableOf(result));
+    json["ways"] = io::rowsJson(waysTable(result));
     json["not_certified"] = Json::array();
     for (const WrongTriangle& wrong : result.wrong) {
         json["not_certified"].push_back({{"pose", wrong.pose},
@@ -111,12 +83,12 @@ Json localizeJson(const CompareData& data, const LocalizeResult& result) {
 
 } // namespace
 
-void writeLocalize(std::ostream& out, io::Format format, const CompareData& data, const LocalizeResult& result) {
+void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result) {
     if (format == io::Format::Json) {
-        out << localizeJson(data, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+        out << localizeJson(scene, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
         return;
     }
-    io::writeTable(out, format, tableOf(result));
+    io::writeTable(out, format, waysTable(result));
     for (const std::string& sentence : sentences(result)) {
         out << "# " << sentence << '\n';
     }

@@ -70,58 +70,26 @@ Json oracleJson(const CompareResult& result) {
     return json;
 }
 
-io::Cell cellOf(const Series& series, std::size_t column) {
-    const auto spread = [](const std::vector<double>& samples, double Spread::*part) {
-        return samples.empty() ? io::Cell() : io::Cell(rounded(spreadOf(samples).*part));
-    };
-    const auto maybe = [](const std::optional<double>& value) {
-        return value ? io::Cell(rounded(*value)) : io::Cell();
-    };
-    switch (column) {
-    case 0:
-        return std::string(toString(series.sweep));
-    case 1:
-        return series.method;
-    case 2:
-        return std::string(toString(series.mode));
-    case 3:
-        return std::uint64_t{series.batch};
-    case 4:
-        return std::uint64_t{series.width};
-    case 5:
-        return std::uint64_t{series.height};
-    case 6:
-        return std::uint64_t{series.triangles};
-    case 7:
-        return maybe(series.fragments);
-    case 8:
-        return std::uint64_t{series.wall.size()};
-    case 9:
-        return spread(series.wall, &Spread::median);
-    case 10:
-        return spread(series.wall, &Spread::p10);
-    case 11:
-        return spread(series.wall, &Spread::p90);
-    case 12:
-        return spread(series.gpu, &Spread::median);
-    case 13:
-        return rounded(series.pairsPerSecond());
-    case 14:
-        return maybe(series.fragmentsPerSecond());
-    default:
-        return sizeText(series.voxels);
-    }
+io::NamedCells cellsOf(const Series& series) {
+    return {{"sweep", std::string(toString(series.sweep))},
+            {"method", series.method},
+            {"mode", std::string(toString(series.mode))},
+            {"batch", std::uint64_t{series.batch}},
+            {"width", std::uint64_t{series.width}},
+            {"height", std::uint64_t{series.height}},
+            {"triangles", std::uint64_t{series.triangles}},
+            {"fragments", cellOf(series.fragments)},
+            {"samples", std::uint64_t{series.wall.size()}},
+            {"wall_ms_median", cellOf(series.wall, &Spread::median)},
+            {"wall_ms_p10", cellOf(series.wall, &Spread::p10)},
+            {"wall_ms_p90", cellOf(series.wall, &Spread::p90)},
+            {"gpu_ms_median", cellOf(series.gpu, &Spread::median)},
+            {"pairs_per_s", rounded(series.pairsPerSecond())},
+            {"fragments_per_s", cellOf(series.fragmentsPerSecond())},
+            {"voxels", sizeText(series.voxels)}};
 }
 
 } // namespace
-
-double rounded(double value) {
-    if (value == 0 || !std::isfinite(value)) {
-        return 0;
-    }
-    const double parts = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
-    return std::round(value * parts) / parts;
-}
 
 Json spreadJson(const std::vector<double>& samples) {
     if (samples.empty()) {
@@ -156,14 +124,7 @@ Json seriesJson(const Series& series, const Machine& machine) {
 }
 
 io::Table seriesTable(const std::vector<Series>& series) {
-    io::Table table;
-    table.columns = {"sweep",       "method",      "mode",          "batch",       "width",
-                     "height",      "triangles",   "fragments",     "samples",     "wall_ms_median",
-                     "wall_ms_p10", "wall_ms_p90", "gpu_ms_median", "pairs_per_s", "fragments_per_s",
-                     "voxels"};
-    table.rows = series.size();
-    table.cell = [&series](std::size_t row, std::size_t column) { return cellOf(series[row], column); };
-    return table;
+    return tableOf(rowsOf(series, cellsOf), cellsOf({}));
 }
 
 Json machineJson(const Machine& machine) {
@@ -185,17 +146,17 @@ Json provenanceJson(const Machine& machine) {
             {"command", machine.provenance.command}};
 }
 
-Json sceneJson(const CompareData& data) {
-    return {{"volume", data.volumeName},
-            {"voxels", data.volume.grid.size},
-            {"voxel_type", toString(data.volume.type)},
-            {"mesh", data.meshName},
-            {"triangles", data.mesh.indices.size() / 3},
-            {"poses", data.poses.size()},
-            {"poses_from", data.posesFrom},
-            {"width", data.view.width},
-            {"height", data.view.height},
-            {"threshold", data.threshold}};
+Json sceneJson(const Scene& scene) {
+    return {{"volume", scene.volume->name},
+            {"voxels", scene.volume->data.grid.size},
+            {"voxel_type", toString(scene.volume->data.type)},
+            {"mesh", scene.mesh->name},
+            {"triangles", scene.mesh->triangles()},
+            {"poses", scene.poses.size()},
+            {"poses_from", scene.posesFrom},
+            {"width", scene.view.width},
+            {"height", scene.view.height},
+            {"threshold", scene.volume->threshold}};
 }
 
 std::vector<std::string> allNotes(const Machine& machine, const std::vector<std::string>& more) {
@@ -219,10 +180,10 @@ void writeMachine(std::ostream& out, const Machine& machine, const std::vector<s
     }
 }
 
-Json compareJson(const CompareData& data, const CompareResult& result) {
+Json compareJson(const Scene& scene, const CompareResult& result) {
     Json json = provenanceJson(result.machine);
     json["machine"] = machineJson(result.machine);
-    json["scene"] = sceneJson(data);
+    json["scene"] = sceneJson(scene);
     json["summary"] = summarize(result);
     json["agrees"] = result.firstFailure() == nullptr;
     json["methods"] = Json::array();
@@ -251,9 +212,9 @@ Json compareJson(const CompareData& data, const CompareResult& result) {
     return json;
 }
 
-void writeCompare(std::ostream& out, io::Format format, const CompareData& data, const CompareResult& result) {
+void writeCompare(std::ostream& out, io::Format format, const Scene& scene, const CompareResult& result) {
     if (format == io::Format::Json) {
-        out << compareJson(data, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+        out << compareJson(scene, result).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
         return;
     }
     io::writeTable(out, format, seriesTable(result.series));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/text/table.h"
-#include "lab/compare_result.h"
+#include "lab/columns.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,16 +9,14 @@
 
 namespace voxtact::app {
 
-/// Six significant digits: more would be noise.
-[[nodiscard]] double rounded(double value);
 [[nodiscard]] nlohmann::ordered_json machineJson(const Machine& machine);
 /// The members that every output begins with.
 [[nodiscard]] nlohmann::ordered_json provenanceJson(const Machine& machine);
-[[nodiscard]] nlohmann::ordered_json sceneJson(const CompareData& data);
+[[nodiscard]] nlohmann::ordered_json sceneJson(const Scene& scene);
 /// Of one thing in ms; null where there are no samples.
 [[nodiscard]] nlohmann::ordered_json spreadJson(const std::vector<double>& samples);
 [[nodiscard]] nlohmann::ordered_json seriesJson(const Series& series, const Machine& machine);
-/// One row a series. The series must outlive the table.
+/// One row a series.
 [[nodiscard]] io::Table seriesTable(const std::vector<Series>& series);
 /// Those of the machine, then these.
 [[nodiscard]] std::vector<std::string> allNotes(const Machine& machine, const std::vector<std::string>& more);
@@ -30,9 +27,9 @@ void writeMachine(std::ostream& out, const Machine& machine, const std::vector<s
 [[nodiscard]] std::vector<std::string> summarize(const CompareResult& result);
 
 /// The whole result as one object.
-[[nodiscard]] nlohmann::ordered_json compareJson(const CompareData& data, const CompareResult& result);
+[[nodiscard]] nlohmann::ordered_json compareJson(const Scene& scene, const CompareResult& result);
 
 /// One row a series for CSV and text.
-void writeCompare(std::ostream& out, io::Format format, const CompareData& data, const CompareResult& result);
+void writeCompare(std::ostream& out, io::Format format, const Scene& scene, const CompareResult& result);
 
 } // namespace voxtact::app

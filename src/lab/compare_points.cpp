@@ -16,15 +16,15 @@ constexpr double kSamplesInShare = 3;
 constexpr double kLongestSample = 0.25;
 
 Result<void> takeSample(Point& point) {
-    const Result<MethodRunner::Pass> pass = point.runner->run(point.work, point.perSubmission, point.frames);
+    const Result<Pass> pass = point.engine->run(point.work, point.feeding);
     if (!pass.ok()) {
         return pass.error();
     }
     const auto pairs = static_cast<double>(point.work.poses.size());
-    if (point.runner->method() != CountingMethod::QueryAny) {
+    if (point.engine->name() != toString(CountingMethod::QueryAny)) {
         point.series.fragments =
-            std::accumulate(pass->counts.begin(), pass->counts.end(), 0.0,
-                            [](double sum, std::uint64_t count) { return sum + static_cast<double>(count); }) /
+            std::accumulate(pass->pairs.begin(), pass->pairs.end(), 0.0,
+                            [](double sum, const PairAnswer& pair) { return sum + static_cast<double>(pair.count); }) /
             pairs;
     }
     point.spent += pass->wallMilliseconds;
@@ -42,11 +42,10 @@ Result<bool> warmUp(Point& point, double share, double most) {
     Work some = point.work;
     some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
     // The first pass may make pipelines: only the second one says how long a batch takes.
-    if (const Result<MethodRunner::Pass> first = point.runner->run(some, point.perSubmission, point.frames);
-        !first.ok()) {
+    if (const Result<Pass> first = point.engine->run(some, point.feeding); !first.ok()) {
         return first.error();
     }
-    const Result<MethodRunner::Pass> pass = point.runner->run(some, point.perSubmission, point.frames);
+    const Result<Pass> pass = point.engine->run(some, point.feeding);
     if (!pass.ok()) {
         return pass.error();
     }
@@ -84,35 +83,34 @@ void shareFragments(std::vector<Point>& points) {
 
 } // namespace
 
-Point makePoint(Sweep sweep, MethodRunner& runner, const Work& work, Mode mode, std::uint32_t batch) {
-    Point point{.runner = &runner, .work = work, .perSubmission = 1, .frames = 1, .series = {}};
-    point.perSubmission = mode == Mode::Sync ? 1 : batch;
-    point.frames = mode == Mode::Sync ? 1 : kFramesInFlight;
+Point makePoint(Sweep sweep, Engine& engine, const Work& work, Mode mode, std::uint32_t batch) {
+    Point point{.engine = &engine, .work = work, .series = {}};
+    point.feeding = mode == Mode::Sync ? Feeding{1, 1} : Feeding{batch, kFramesInFlight};
     point.series = {.sweep = sweep,
-                    .method = runner.name(),
+                    .method = engine.name(),
                     .mode = mode,
                     .batch = batch,
                     .width = work.view.width,
                     .height = work.view.height,
-                    .triangles = static_cast<std::uint32_t>(work.subject->data.indices.size() / 3),
+                    .triangles = work.mesh->triangles(),
                     .pairs = static_cast<std::uint32_t>(work.poses.size()),
                     .fragments = std::nullopt,
                     .wall = {},
                     .gpu = {},
-                    .voxels = runner.voxels()};
+                    .voxels = work.volume->data.grid.size};
     return point;
 }
 
-void addPoints(Sweep sweep, const Runners& runners, const Work& work, std::vector<Point>& points) {
+void addPoints(Sweep sweep, const Engines& engines, const Work& work, std::vector<Point>& points) {
     const auto pairs = static_cast<std::uint32_t>(work.poses.size());
-    for (const std::unique_ptr<MethodRunner>& runner : runners) {
-        points.push_back(makePoint(sweep, *runner, work, Mode::Pipelined, pairs));
+    for (const std::unique_ptr<Engine>& engine : engines) {
+        points.push_back(makePoint(sweep, *engine, work, Mode::Pipelined, pairs));
     }
 }
 
-Result<void> verifyPoint(const Runners& runners, const Work& work, std::span<const std::uint32_t> poses,
+Result<void> verifyPoint(const Engines& engines, const Work& work, std::span<const std::uint32_t> poses,
                          const std::string& where, Sweep sweep, CompareResult& result) {
-    const Result<std::vector<NamedCounts>> counts = countAll(runners, work);
+    const Result<std::vector<NamedCounts>> counts = countAll(engines, work);
     if (!counts.ok()) {
         return counts.error();
     }

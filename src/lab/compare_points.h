@@ -7,21 +7,20 @@ namespace voxtact::app {
 
 /// A measurement that is repeated: what, by whom, and where its samples go.
 struct Point {
-    MethodRunner* runner = nullptr;
+    Engine* engine = nullptr;
     Work work;
-    std::uint32_t perSubmission = 1;
-    std::uint32_t frames = 1;
+    Feeding feeding{};
     Series series;
     double spent = 0; ///< ms
     bool finished = false;
 };
 
-[[nodiscard]] Point makePoint(Sweep sweep, MethodRunner& runner, const Work& work, Mode mode, std::uint32_t batch);
-/// A point a runner: all the pairs in one submission.
-void addPoints(Sweep sweep, const Runners& runners, const Work& work, std::vector<Point>& points);
+[[nodiscard]] Point makePoint(Sweep sweep, Engine& engine, const Work& work, Mode mode, std::uint32_t batch);
+/// A point an engine: all the pairs in one submission.
+void addPoints(Sweep sweep, const Engines& engines, const Work& work, std::vector<Point>& points);
 
 /// The counts of a point agree before it is timed: adds the verdicts that failed. `where` says which point it is.
-[[nodiscard]] Result<void> verifyPoint(const Runners& runners, const Work& work, std::span<const std::uint32_t> poses,
+[[nodiscard]] Result<void> verifyPoint(const Engines& engines, const Work& work, std::span<const std::uint32_t> poses,
                                        const std::string& where, Sweep sweep, CompareResult& result);
 
 /// The warm-up, then rounds. Each point has its share of the time and takes samples as long as they fit, one at least.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace voxtact::app {
 
@@ -58,6 +59,36 @@ std::optional<double> Series::fragmentsPerSecond() const {
 
 std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
     return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
+}
+
+Result<Engines> makeMethodEngines(const Session& session, const CompareSettings& settings, CompareResult& result) {
+    Engines engines;
+    std::map<CountingMethod, std::string> reasons;
+    const std::vector<CountingMethod> available = availableMethods(
+        session, [&](CountingMethod method, const std::string& reason) { reasons.emplace(method, reason); });
+    for (const CountingMethod method : countingMethods()) {
+        if (!settings.wants(method)) {
+            continue;
+        }
+        const auto reason = reasons.find(method);
+        const bool there = reason == reasons.end();
+        result.methods.push_back({toString(method), there, there ? "" : reason->second, toString(defaultFilter(method)),
+                                  exactness(method) == Exactness::Exact});
+        if (!there) {
+            result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + reason->second);
+            continue;
+        }
+        MadeEngine engine = makeMethodEngine(session, method);
+        if (!engine.ok()) {
+            return engine.error();
+        }
+        engines.push_back(std::move(*engine));
+    }
+    if (engines.empty()) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
+    }
+    return engines;
 }
 
 const Verdict* CompareResult::firstFailure() const {

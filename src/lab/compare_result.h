@@ -2,7 +2,9 @@
 #pragma once
 
 #include "lab/compare_agreement.h"
-#include "lab/compare_scene.h"
+#include "lab/compare_settings.h"
+#include "lab/engine.h"
+#include "lab/machine.h"
 
 #include <optional>
 
@@ -81,9 +83,9 @@ struct CompareResult {
     [[nodiscard]] const Verdict* firstFailure() const;
 };
 
-/// A runner for each method that is wanted and can be had; the others are told in `result`. Unsupported where there is
-/// none. What they are given must outlive them.
-[[nodiscard]] Result<Runners> makeRunners(const Session& session, const CompareSettings& settings,
-                                          const Surroundings& surroundings, double threshold, CompareResult& result);
+/// An engine for each method that is wanted and can be had; the others are told in `result`. Unsupported where there is
+/// none.
+[[nodiscard]] Result<Engines> makeMethodEngines(const Session& session, const CompareSettings& settings,
+                                                CompareResult& result);
 
 } // namespace voxtact::app

@@ -9,47 +9,23 @@ namespace voxtact::app {
 
 namespace {
 
-struct Bench {
-    const CompareSettings& settings;
-    const CompareData& data;
-    const Session& session;
-    const Surroundings& surroundings;
-    const Subject& subject;
-    Runners runners;
-    const std::function<void()>& step;
-};
-
-Result<void> verify(Bench& bench, CompareResult& result) {
-    const Work work{&bench.subject, bench.data.poses, bench.data.view};
-    Result<std::vector<NamedCounts>> counts = countAll(bench.runners, work);
-    if (!counts.ok()) {
-        return counts.error();
-    }
-    result.counts = std::move(*counts);
-    result.verdicts = judgeCounts(result.counts, bench.data.poseNumbers);
-    bench.step();
-    return checkFragments(bench.session, bench.settings, bench.data, bench.surroundings, bench.subject, result,
-                          bench.step);
-}
-
-Result<void> timeSweep(Bench& bench, Sweep sweep, CompareResult& result) {
+Result<void> timeSweep(const Session& session, const CompareSettings& settings, const Scene& scene,
+                       const Engines& engines, Sweep sweep, CompareResult& result, const std::function<void()>& step) {
     switch (sweep) {
     case Sweep::Batch:
-        return timeBatches(bench.settings, bench.runners, {&bench.subject, bench.data.poses, bench.data.view}, result,
-                           bench.step);
+        return timeBatches(settings, engines, Work(scene), result, step);
     case Sweep::Triangles:
-        return timeTriangles(bench.session, bench.settings, bench.data, bench.runners, result, bench.step);
+        return timeTriangles(session, settings, scene, engines, result, step);
     case Sweep::Fragments:
-        return timeFragments(bench.session, bench.settings, bench.data, bench.subject, bench.runners, result,
-                             bench.step);
+        return timeFragments(session, settings, scene, engines, result, step);
     case Sweep::Voxels:
-        return timeVoxels(bench.session, bench.settings, bench.data, bench.subject, bench.runners, result, bench.step);
+        return timeVoxels(session, settings, scene, engines, result, step);
     }
     return {};
 }
 
 /// The oracle's time is that of its checks: one thread, one pose after the other.
-void addOracleSeries(const CompareData& data, CompareResult& result) {
+void addOracleSeries(const Scene& scene, CompareResult& result) {
     if (!result.oracleMilliseconds) {
         return;
     }
@@ -62,55 +38,60 @@ void addOracleSeries(const CompareData& data, CompareResult& result) {
                              .method = "oracle",
                              .mode = Mode::Sync,
                              .batch = 1,
-                             .width = data.view.width,
-                             .height = data.view.height,
+                             .width = scene.view.width,
+                             .height = scene.view.height,
                              .triangles = result.triangles,
                              .pairs = poses,
                              .fragments = fragments / poses,
                              .wall = {*result.oracleMilliseconds},
                              .gpu = {},
-                             .voxels = data.volume.grid.size});
+                             .voxels = scene.volume->data.grid.size});
 }
 
 } // namespace
 
-Result<void> compare(const CompareSettings& settings, const CompareData& data, const Session& session,
-                     const Steps& steps, CompareResult& result) {
-    if (Result<void> fits = checkViewport(session, {data.view.width, data.view.height}); !fits.ok()) {
+Result<void> compare(const CompareSettings& settings, const Scene& scene, const Session& session, const Steps& steps,
+                     CompareResult& result) {
+    if (Result<void> fits = checkViewport(session, {scene.view.width, scene.view.height}); !fits.ok()) {
         return fits;
     }
-    result.poseNumbers = data.poseNumbers;
-    result.triangles = static_cast<std::uint32_t>(data.mesh.indices.size() / 3);
-    const Result<Surroundings> surroundings = makeSurroundings(session, data.volume.view(), data.transferFunction());
-    if (!surroundings.ok()) {
-        return surroundings.error();
+    result.poseNumbers = scene.poseNumbers;
+    result.triangles = scene.mesh->triangles();
+    if (Result<void> ready = makeReady(session, {}, *scene.volume); !ready.ok()) {
+        return ready;
     }
-    const Result<Subject> subject = makeSubject(session, data.mesh);
-    if (!subject.ok()) {
-        return subject.error();
+    if (Result<void> ready = makeReady(&session, *scene.mesh); !ready.ok()) {
+        return ready;
     }
-    Result<Runners> runners = makeRunners(session, settings, *surroundings, data.threshold, result);
-    if (!runners.ok()) {
-        return runners.error();
+    const Result<Engines> engines = makeMethodEngines(session, settings, result);
+    if (!engines.ok()) {
+        return engines.error();
     }
-    std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, data.poses.size());
+    std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, scene.poses.size());
     for (const Sweep sweep : settings.sweeps) {
         total += stepsOf(sweep, settings.repeats);
     }
     steps.begin(total);
-    Bench bench{settings, data, session, *surroundings, *subject, std::move(*runners), steps.step};
-    if (Result<void> verified = verify(bench, result); !verified.ok()) {
-        return verified;
+    Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(scene));
+    if (!counts.ok()) {
+        return counts.error();
+    }
+    result.counts = std::move(*counts);
+    result.verdicts = judgeCounts(result.counts, scene.poseNumbers);
+    steps.step();
+    if (Result<void> checked = checkFragments(session, settings, scene, result, steps.step); !checked.ok()) {
+        return checked;
     }
     for (const Sweep sweep : settings.sweeps) {
         if (result.firstFailure() != nullptr && !settings.keepGoing) {
             break;
         }
-        if (Result<void> timed = timeSweep(bench, sweep, result); !timed.ok()) {
+        if (Result<void> timed = timeSweep(session, settings, scene, *engines, sweep, result, steps.step);
+            !timed.ok()) {
             return timed;
         }
         if (sweep == Sweep::Batch) {
-            addOracleSeries(data, result);
+            addOracleSeries(scene, result);
         }
     }
     return {};

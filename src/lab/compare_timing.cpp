@@ -54,57 +54,61 @@ std::string resized(const std::string& source, std::uint32_t size) {
     return source.substr(0, source.find(':', std::string_view("builtin:").size())) + ":" + std::to_string(size);
 }
 
-/// One volume of the sweep of voxels. The runners end before what they count in.
-struct SizedVolume {
-    Surroundings surroundings;
-    Runners runners;
-};
-
-/// The volume of so many voxels a side with the methods of `like`; nothing, and a note, where it cannot be had.
-Result<std::unique_ptr<SizedVolume>> sizedVolume(const Session& session, const CompareSettings& settings,
-                                                 const CompareData& data, const Runners& like, std::uint32_t side,
-                                                 CompareResult& result) {
-    const std::string source = resized(data.volumeName, side);
-    const Result<VolumeData> volume = settings.load.volume(source);
-    if (!volume.ok()) {
-        result.notes.push_back("no point of " + source + ": " + volume.error().text);
-        return std::unique_ptr<SizedVolume>();
+/// The volume of so many voxels a side, ready; null, and a note, where it cannot be had.
+Result<std::shared_ptr<VolumePart>> sizedVolume(const Session& session, const CompareSettings& settings,
+                                                const VolumePart& like, std::uint32_t side, CompareResult& result) {
+    const auto sized = std::make_shared<VolumePart>();
+    sized->name = resized(like.name, side);
+    sized->points = like.points;
+    sized->domain = like.domain;
+    sized->tableSize = like.tableSize;
+    sized->threshold = like.threshold;
+    Result<VolumeData> data = settings.load.volume(sized->name);
+    if (!data.ok()) {
+        result.notes.push_back("no point of " + sized->name + ": " + data.error().text);
+        return std::shared_ptr<VolumePart>();
     }
-    Result<Surroundings> surroundings = makeSurroundings(session, volume->view(), data.transferFunction());
-    if (!surroundings.ok()) {
-        const Error& why = surroundings.error();
+    sized->data = std::move(*data);
+    if (Result<void> ready = makeReady(session, {}, *sized); !ready.ok()) {
+        const Error& why = ready.error();
         if (why.code != ErrorCode::LimitExceeded && why.code != ErrorCode::OutOfMemory) {
             return why;
         }
-        result.notes.push_back("no point of " + source + ": " + why.text);
-        return std::unique_ptr<SizedVolume>();
+        result.notes.push_back("no point of " + sized->name + ": " + why.text);
+        return std::shared_ptr<VolumePart>();
     }
-    auto sized = std::make_unique<SizedVolume>(SizedVolume{std::move(*surroundings), {}});
-    for (const std::unique_ptr<MethodRunner>& runner : like) {
-        Result<std::unique_ptr<MethodRunner>> made =
-            makeRunner(session, sized->surroundings, runner->method(), data.threshold);
-        if (!made.ok()) {
-            return made.error();
-        }
-        sized->runners.push_back(std::move(*made));
-    }
+    // In both engines by now, and as many bytes as either.
+    sized->data.voxels = {};
     return sized;
 }
 
-/// The poses of the sweeps of triangles, fragments and voxels, and their numbers.
-struct SweepPoses {
-    std::vector<Mat4> poses;
-    std::vector<std::uint32_t> numbers;
-};
+/// Of the sweeps of triangles, fragments and voxels: what they time once it was verified.
+class SweptPoints {
+  public:
+    SweptPoints(Sweep sweep, const Engines& engines, const Scene& scene, CompareResult& result)
+        : sweep_(sweep), engines_(engines), some_(scene.withPoses(kSweepPairs)), result_(result) {}
 
-SweepPoses sweepPoses(const CompareData& data) {
-    SweepPoses out;
-    for (const std::uint32_t index : spreadEvenly(kSweepPairs, static_cast<std::uint32_t>(data.poses.size()))) {
-        out.poses.push_back(data.poses[index]);
-        out.numbers.push_back(data.poseNumbers[index]);
+    /// Of the poses that are swept; what it is given must outlive it.
+    Result<void> add(const VolumePart& volume, const MeshPart& mesh, const View& view, const std::string& where) {
+        const Work work{volume, mesh, some_.poses, view};
+        if (Result<void> verified = verifyPoint(engines_, work, some_.poseNumbers, where, sweep_, result_);
+            !verified.ok()) {
+            return verified;
+        }
+        addPoints(sweep_, engines_, work, points_);
+        return {};
     }
-    return out;
-}
+    Result<void> measure(const CompareSettings& settings, const std::function<void()>& step) {
+        return measureVerified(points_, settings, result_, step);
+    }
+
+  private:
+    Sweep sweep_;
+    const Engines& engines_;
+    Scene some_;
+    CompareResult& result_;
+    std::vector<Point> points_;
+};
 
 } // namespace
 
@@ -113,7 +117,7 @@ std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept {
     return std::uint64_t{repeats} + 1 + (sweep == Sweep::Voxels ? kQuarters.size() : 0);
 }
 
-Result<void> timeBatches(const CompareSettings& settings, const Runners& runners, const Work& work,
+Result<void> timeBatches(const CompareSettings& settings, const Engines& engines, const Work& work,
                          CompareResult& result, const std::function<void()>& step) {
     std::array<std::vector<Mat4>, kBatches.size()> poses;
     const std::vector<Mat4> one = cycled(work.poses, work.poses.size());
@@ -122,18 +126,17 @@ Result<void> timeBatches(const CompareSettings& settings, const Runners& runners
         const std::size_t batches =
             (std::max<std::size_t>(work.poses.size(), kBatches[i]) + kBatches[i] - 1) / kBatches[i];
         poses[i] = cycled(work.poses, batches * kBatches[i]);
-        for (const std::unique_ptr<MethodRunner>& runner : runners) {
-            const Work cut{work.subject, poses[i], work.view};
-            points.push_back(makePoint(Sweep::Batch, *runner, cut, Mode::Pipelined, kBatches[i]));
+        for (const std::unique_ptr<Engine>& engine : engines) {
+            points.push_back(makePoint(Sweep::Batch, *engine, work.at(poses[i]), Mode::Pipelined, kBatches[i]));
         }
     }
-    for (const std::unique_ptr<MethodRunner>& runner : runners) {
-        points.push_back(makePoint(Sweep::Batch, *runner, {work.subject, one, work.view}, Mode::Sync, 1));
+    for (const std::unique_ptr<Engine>& engine : engines) {
+        points.push_back(makePoint(Sweep::Batch, *engine, work.at(one), Mode::Sync, 1));
     }
     if (Result<void> done = measure(points, settings, result, step); !done.ok()) {
         return done;
     }
-    for (std::size_t i = points.size() - runners.size(), end = points.size(); i < end; ++i) {
+    for (std::size_t i = points.size() - engines.size(), end = points.size(); i < end; ++i) {
         for (std::size_t batch = 1; batch < kBatches.size(); ++batch) {
             Point copy = points[i];
             copy.series = scaled(points[i].series, kBatches[batch]);
@@ -144,78 +147,64 @@ Result<void> timeBatches(const CompareSettings& settings, const Runners& runners
     return {};
 }
 
-Result<void> timeTriangles(const Session& session, const CompareSettings& settings, const CompareData& data,
-                           const Runners& runners, CompareResult& result, const std::function<void()>& step) {
-    const std::string& source = data.meshName;
-    if (!source.starts_with("builtin:")) {
+Result<void> timeTriangles(const Session& session, const CompareSettings& settings, const Scene& scene,
+                           const Engines& engines, CompareResult& result, const std::function<void()>& step) {
+    if (!scene.mesh->name.starts_with("builtin:")) {
         result.notes.push_back("no sweep of triangles: the mesh is not a builtin one, which can be had in any size");
         return {};
     }
-    const auto [poses, numbers] = sweepPoses(data);
-    std::vector<std::unique_ptr<Subject>> subjects;
-    std::vector<Point> points;
+    std::vector<std::unique_ptr<MeshPart>> meshes;
+    SweptPoints points(Sweep::Triangles, engines, scene, result);
     for (const std::uint32_t triangles : kTriangles) {
-        Result<MeshData> mesh = settings.load.mesh(resized(source, triangles));
-        if (!mesh.ok()) {
-            result.notes.push_back("no point of " + std::to_string(triangles) + " triangles: " + mesh.error().text);
+        Result<MeshData> data = settings.load.mesh(resized(scene.mesh->name, triangles));
+        if (!data.ok()) {
+            result.notes.push_back("no point of " + std::to_string(triangles) + " triangles: " + data.error().text);
             continue;
         }
-        Result<Subject> subject = makeSubject(session, std::move(*mesh));
-        if (!subject.ok()) {
-            return subject.error();
+        MeshPart& mesh = *meshes.emplace_back(std::make_unique<MeshPart>());
+        mesh.data = std::move(*data);
+        if (Result<void> ready = makeReady(&session, mesh); !ready.ok()) {
+            return ready;
         }
-        subjects.push_back(std::make_unique<Subject>(std::move(*subject)));
-        const Work work{subjects.back().get(), poses, data.view};
         const std::string where = std::to_string(triangles) + " triangles";
-        if (Result<void> verified = verifyPoint(runners, work, numbers, where, Sweep::Triangles, result);
-            !verified.ok()) {
-            return verified;
+        if (Result<void> added = points.add(*scene.volume, mesh, scene.view, where); !added.ok()) {
+            return added;
         }
-        addPoints(Sweep::Triangles, runners, work, points);
     }
-    return measureVerified(points, settings, result, step);
+    return points.measure(settings, step);
 }
 
-Result<void> timeFragments(const Session& session, const CompareSettings& settings, const CompareData& data,
-                           const Subject& subject, const Runners& runners, CompareResult& result,
-                           const std::function<void()>& step) {
+Result<void> timeFragments(const Session& session, const CompareSettings& settings, const Scene& scene,
+                           const Engines& engines, CompareResult& result, const std::function<void()>& step) {
     const VkExtent2D most = session.context.maxViewport();
-    const auto [poses, numbers] = sweepPoses(data);
-    std::vector<Point> points;
+    SweptPoints points(Sweep::Fragments, engines, scene, result);
     for (const std::uint32_t side : kSides) {
-        // The same camera on more pixels; a viewport that is not square keeps its shape.
-        View view = data.view;
+        View view = scene.view;
         view.width = side;
-        view.height = std::max(1U, static_cast<std::uint32_t>(
-                                       std::lround(static_cast<double>(side) * data.view.height / data.view.width)));
+        view.height = static_cast<std::uint32_t>(
+            std::max(1L, std::lround(static_cast<double>(side) * scene.view.height / scene.view.width)));
         if (view.width > most.width || view.height > most.height || view.height > cpu::kMaxViewport) {
             continue;
         }
-        const Work work{&subject, poses, view};
         const std::string where = "--size " + std::to_string(view.width) + "x" + std::to_string(view.height);
-        if (Result<void> verified = verifyPoint(runners, work, numbers, where, Sweep::Fragments, result);
-            !verified.ok()) {
-            return verified;
+        if (Result<void> added = points.add(*scene.volume, *scene.mesh, view, where); !added.ok()) {
+            return added;
         }
-        addPoints(Sweep::Fragments, runners, work, points);
     }
-    return measureVerified(points, settings, result, step);
+    return points.measure(settings, step);
 }
 
-Result<void> timeVoxels(const Session& session, const CompareSettings& settings, const CompareData& data,
-                        const Subject& subject, const Runners& runners, CompareResult& result,
-                        const std::function<void()>& step) {
-    if (!data.volumeName.starts_with("builtin:")) {
+Result<void> timeVoxels(const Session& session, const CompareSettings& settings, const Scene& scene,
+                        const Engines& engines, CompareResult& result, const std::function<void()>& step) {
+    if (!scene.volume->name.starts_with("builtin:")) {
         result.notes.push_back("no sweep of voxels: the volume is not a builtin one, which can be had in any size");
         return {};
     }
-    const auto [poses, numbers] = sweepPoses(data);
-    const Work work{&subject, poses, data.view};
-    std::vector<std::unique_ptr<SizedVolume>> volumes;
-    std::vector<Point> points;
+    std::vector<std::shared_ptr<VolumePart>> volumes;
+    SweptPoints points(Sweep::Voxels, engines, scene, result);
     for (const std::uint32_t quarters : kQuarters) {
-        const std::uint32_t side = data.volume.grid.size[0] * quarters / 4;
-        Result<std::unique_ptr<SizedVolume>> sized = sizedVolume(session, settings, data, runners, side, result);
+        const std::uint32_t side = scene.volume->data.grid.size[0] * quarters / 4;
+        Result<std::shared_ptr<VolumePart>> sized = sizedVolume(session, settings, *scene.volume, side, result);
         if (!sized.ok()) {
             return sized.error();
         }
@@ -223,14 +212,13 @@ Result<void> timeVoxels(const Session& session, const CompareSettings& settings,
         if (*sized == nullptr) {
             continue;
         }
-        const Runners& here = volumes.emplace_back(std::move(*sized))->runners;
-        const std::string where = sizeText(here.front()->voxels()) + " voxels";
-        if (Result<void> verified = verifyPoint(here, work, numbers, where, Sweep::Voxels, result); !verified.ok()) {
-            return verified;
+        const VolumePart& volume = *volumes.emplace_back(std::move(*sized));
+        const std::string where = sizeText(volume.data.grid.size) + " voxels";
+        if (Result<void> added = points.add(volume, *scene.mesh, scene.view, where); !added.ok()) {
+            return added;
         }
-        addPoints(Sweep::Voxels, here, work, points);
     }
-    return measureVerified(points, settings, result, step);
+    return points.measure(settings, step);
 }
 
 } // namespace voxtact::app

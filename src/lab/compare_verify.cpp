@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_verify.h"
 
+#include "lab/stopwatch.h"
 #include "lab/trace.h"
 #include "oracle/oracle.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <iterator>
 
 namespace voxtact::app {
@@ -50,10 +50,7 @@ Verdict notChecked(std::string rule, std::string why, bool required) {
 /// What checks one pose after the other.
 class FragmentChecker {
   public:
-    FragmentChecker(FragmentTrace trace, const CompareData& data, const Surroundings& surroundings,
-                    const Subject& subject, bool eightBit)
-        : trace_(std::move(trace)), data_(data), surroundings_(surroundings), subject_(subject),
-          threshold_(data.threshold), desc_(data.transferFunction()) {
+    FragmentChecker(FragmentTrace trace, const Scene& scene, bool eightBit) : trace_(std::move(trace)), scene_(scene) {
         tolerance_.value = eightBit ? cpu::kEightBitFilterError : 0;
     }
 
@@ -65,11 +62,7 @@ class FragmentChecker {
                          const std::vector<cpu::OracleFragment>& device, FragmentCheck& check) const;
 
     FragmentTrace trace_;
-    const CompareData& data_;
-    const Surroundings& surroundings_;
-    const Subject& subject_;
-    double threshold_;
-    TransferFunctionDesc desc_;
+    const Scene& scene_;
     cpu::Tolerance tolerance_;
     double oracleMilliseconds_ = 0;
 };
@@ -103,16 +96,19 @@ Result<void> FragmentChecker::explain(const cpu::OraclePair& pair, const std::ve
 }
 
 Result<FragmentCheck> FragmentChecker::check(std::uint32_t index) {
-    const Mat4& pose = data_.poses[index];
-    const BatchItem item{&subject_.device, &surroundings_.volume, &surroundings_.transferFunction, {&pose, 1}};
-    const Result<std::vector<shader::TracedFragment>> traced = trace_.survivors({{&item, 1}, data_.view, threshold_});
+    const Mat4& pose = scene_.poses[index];
+    const VolumePart& volume = *scene_.volume;
+    const BatchItem item{&*scene_.mesh->device, &*volume.device, &*volume.deviceFunction, {&pose, 1}};
+    const Result<std::vector<shader::TracedFragment>> traced =
+        trace_.survivors({{&item, 1}, scene_.view, volume.threshold});
     if (!traced.ok()) {
         return traced.error();
     }
-    const cpu::OraclePair pair{subject_.data.view(), data_.volume.view(), desc_, data_.view, pose, threshold_};
-    const auto begun = std::chrono::steady_clock::now();
+    const cpu::OraclePair pair{
+        scene_.mesh->data.view(), volume.data.view(), volume.transferFunction(), scene_.view, pose, volume.threshold};
+    const Stopwatch watch;
     const Result<std::vector<cpu::OracleFragment>> oracle = cpu::oracleSurvivors(pair);
-    oracleMilliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+    oracleMilliseconds_ += watch.milliseconds();
     if (!oracle.ok()) {
         return oracle.error();
     }
@@ -125,7 +121,7 @@ Result<FragmentCheck> FragmentChecker::check(std::uint32_t index) {
     std::vector<cpu::OracleFragment> apart;
     std::set_symmetric_difference(device.begin(), device.end(), oracle->begin(), oracle->end(),
                                   std::back_inserter(apart));
-    FragmentCheck check{.pose = data_.poseNumbers[index],
+    FragmentCheck check{.pose = scene_.poseNumbers[index],
                         .onDevice = device.size(),
                         .byOracle = oracle->size(),
                         .counted = std::nullopt,
@@ -155,15 +151,15 @@ void judgeOracle(const std::vector<std::uint32_t>& sample, CompareResult& result
 
 } // namespace
 
-Result<std::vector<NamedCounts>> countAll(const Runners& runners, const Work& work) {
+Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work) {
     std::vector<NamedCounts> all;
     const auto batch = static_cast<std::uint32_t>(std::min<std::size_t>(kCountBatch, work.poses.size()));
-    for (const std::unique_ptr<MethodRunner>& runner : runners) {
-        Result<MethodRunner::Pass> pass = runner->run(work, batch, 1);
+    for (const std::unique_ptr<Engine>& engine : engines) {
+        const Result<Pass> pass = engine->run(work, {batch, 1});
         if (!pass.ok()) {
             return pass.error();
         }
-        all.push_back({runner->name(), std::move(pass->counts)});
+        all.push_back({engine->name(), pass->counts()});
     }
     return all;
 }
@@ -186,9 +182,8 @@ std::vector<Verdict> judgeCounts(const std::vector<NamedCounts>& counts, std::sp
     return verdicts;
 }
 
-Result<void> checkFragments(const Session& session, const CompareSettings& settings, const CompareData& data,
-                            const Surroundings& surroundings, const Subject& subject, CompareResult& result,
-                            const std::function<void()>& step) {
+Result<void> checkFragments(const Session& session, const CompareSettings& settings, const Scene& scene,
+                            CompareResult& result, const std::function<void()>& step) {
     constexpr const char* kRule = "device's rasteriser and oracle, fragment by fragment";
     if (settings.oraclePoses == 0) {
         result.verdicts.push_back(notChecked(kRule, "--oracle 0", true));
@@ -203,10 +198,10 @@ Result<void> checkFragments(const Session& session, const CompareSettings& setti
         result.verdicts.push_back(notChecked(kRule, trace.error().text, true));
         return {};
     }
-    FragmentChecker checker(std::move(*trace), data, surroundings, subject, result.machine.eightBitFilter);
+    FragmentChecker checker(std::move(*trace), scene, result.machine.eightBitFilter);
     const std::vector<NamedCounts> raster = rasterGroup(result.counts);
     const std::vector<std::uint32_t> sample =
-        spreadEvenly(settings.oraclePoses, static_cast<std::uint32_t>(data.poses.size()));
+        spreadEvenly(settings.oraclePoses, static_cast<std::uint32_t>(scene.poses.size()));
     for (const std::uint32_t index : sample) {
         Result<FragmentCheck> check = checker.check(index);
         if (!check.ok()) {

@@ -42,7 +42,7 @@ Result<void> measurePaper(const PaperSettings& settings, const Session& session,
     if (!inputs.ok()) {
         return inputs.error();
     }
-    result.machine = describeMachine(session, inputs->front().data.volume.type, result.machine.provenance);
+    result.machine = describeMachine(session, inputs->front().scene.volume->data.type, result.machine.provenance);
     result.width = settings.size.width;
     result.height = settings.size.height;
     addNotes(settings, result);
@@ -54,7 +54,7 @@ Result<void> measurePaper(const PaperSettings& settings, const Session& session,
         }
     }
     return settings.noSweeps ? Result<void>()
-                             : runPaperSweeps(session, settings, inputs->front().data, result, steps.step);
+                             : runPaperSweeps(session, settings, inputs->front().scene, result, steps.step);
 }
 
 } // namespace voxtact::app

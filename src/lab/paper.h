@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/compare_scene.h"
+#include "lab/compare_settings.h"
+#include "lab/machine.h"
 #include "lab/paper_result.h"
 #include "voxtact/render.h"
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_frames.h"
 
+#include "lab/engine.h"
 #include "lab/frame_target.h"
+#include "lab/stopwatch.h"
 #include "voxtact/render.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 namespace voxtact::app {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// What a picture needs beside what the detection has.
 struct PictureParts {
@@ -23,30 +22,30 @@ struct PictureParts {
     RenderTargets targets;
 };
 
-Result<PictureParts> makePicture(const Session& session, const CompareData& data, const Surroundings& surroundings,
-                                 const Subject& subject, const std::vector<ColourPoint>& colours) {
+Result<PictureParts> makePicture(const Session& session, const Scene& scene, const std::vector<ColourPoint>& colours) {
+    const VolumePart& volume = *scene.volume;
     const QueueAccess queue = session.device.queueAccess();
     Result<Renderer> renderer = Renderer::create(session.context);
     if (!renderer.ok()) {
         return renderer.error();
     }
     RenderTransferFunctionDesc desc;
-    desc.opacity = {data.points, data.domain};
+    desc.opacity = {volume.points, volume.domain};
     desc.colours = colours;
-    desc.step = *std::ranges::min_element(data.volume.grid.spacing) / 2;
+    desc.step = *std::ranges::min_element(volume.data.grid.spacing) / 2;
     Result<RenderTransferFunction> function = RenderTransferFunction::upload(*renderer, queue, desc);
     if (!function.ok()) {
         return function.error();
     }
-    Result<RenderBricks> bricks = RenderBricks::create(*renderer, surroundings.volume);
+    Result<RenderBricks> bricks = RenderBricks::create(*renderer, *volume.device);
     if (!bricks.ok()) {
         return bricks.error();
     }
-    Result<MeshNormals> normals = MeshNormals::upload(*renderer, queue, subject.data.view());
+    Result<MeshNormals> normals = MeshNormals::upload(*renderer, queue, scene.mesh->data.view());
     if (!normals.ok()) {
         return normals.error();
     }
-    Result<RenderTargets> targets = RenderTargets::create(*renderer, {data.view.width, data.view.height});
+    Result<RenderTargets> targets = RenderTargets::create(*renderer, {scene.view.width, scene.view.height});
     if (!targets.ok()) {
         return targets.error();
     }
@@ -65,13 +64,11 @@ Result<Results> makeResults(const Session& session) {
 
 struct FrameLoop::State {
     const Session& session;
-    const CompareData& data;
-    const Surroundings& surroundings;
-    const Subject& subject;
+    const Scene& scene;
     PictureParts picture;
     Results results;
     std::map<CountingMethod, Detector> detectors{};
-    std::optional<cpu::Detector> host{};
+    std::unique_ptr<Engine> host{};
     FrameTarget target; ///< ends first, and waits then
 
     Result<void> record(FramePart part, CountingMethod method, const Mat4& pose);
@@ -82,27 +79,27 @@ struct FrameLoop::State {
 };
 
 Result<void> FrameLoop::State::cmdPicture(VkCommandBuffer commands, const Mat4& pose) {
-    Scene scene;
-    scene.volume = &surroundings.volume;
-    scene.transferFunction = &picture.function;
-    scene.bricks = &picture.bricks;
-    scene.mesh = &subject.device;
-    scene.normals = &picture.normals;
-    scene.world_from_object = pose;
-    scene.clip_from_world = data.view.clip_from_world;
+    voxtact::Scene drawn;
+    drawn.volume = &*scene.volume->device;
+    drawn.transferFunction = &picture.function;
+    drawn.bricks = &picture.bricks;
+    drawn.mesh = &*scene.mesh->device;
+    drawn.normals = &picture.normals;
+    drawn.world_from_object = pose;
+    drawn.clip_from_world = scene.view.clip_from_world;
     Target where;
     where.view = target.view();
     where.extent = picture.targets.extent();
     where.targets = &picture.targets;
     where.timestamps = target.timestamps();
     where.firstTimestamp = kPictureBegins;
-    return picture.renderer.cmdRender(commands, scene, where);
+    return picture.renderer.cmdRender(commands, drawn, where);
 }
 
 Result<void> FrameLoop::State::cmdDetect(VkCommandBuffer commands, CountingMethod method, const Mat4& pose) {
-    const BatchItem item{&subject.device, &surroundings.volume, &surroundings.transferFunction, {&pose, 1}};
+    const BatchItem item{&*scene.mesh->device, &*scene.volume->device, &*scene.volume->deviceFunction, {&pose, 1}};
     Result<void> recorded =
-        detectors.at(method).cmdDetect(commands, {{&item, 1}, data.view, kDefaultThreshold}, results);
+        detectors.at(method).cmdDetect(commands, {{&item, 1}, scene.view, kDefaultThreshold}, results);
     return recorded.ok() ? results.cmdReadBack(commands) : recorded;
 }
 
@@ -125,12 +122,8 @@ Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, con
 }
 
 Result<std::uint64_t> FrameLoop::State::detectOnHost(const Mat4& pose) {
-    const cpu::BatchItem item{&subject.host, &surroundings.hostVolume, &surroundings.hostTransferFunction, {&pose, 1}};
-    const Result<BatchAnswer> answer = host->detect({{&item, 1}, data.view, kDefaultThreshold});
-    if (!answer.ok()) {
-        return answer.error();
-    }
-    return answer->pairs.front().count;
+    const Result<Pass> pass = host->run(Work(scene).at({&pose, 1}), {});
+    return pass.ok() ? Result<std::uint64_t>(pass->pairs.front().count) : pass.error();
 }
 
 Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSample& sample) {
@@ -173,9 +166,9 @@ FrameLoop::FrameLoop(FrameLoop&&) noexcept = default;
 FrameLoop& FrameLoop::operator=(FrameLoop&&) noexcept = default;
 FrameLoop::~FrameLoop() = default;
 
-Result<FrameLoop> FrameLoop::create(const Session& session, const CompareData& data, const Surroundings& surroundings,
-                                    const Subject& subject, const std::vector<ColourPoint>& colours) {
-    Result<PictureParts> picture = makePicture(session, data, surroundings, subject, colours);
+Result<FrameLoop> FrameLoop::create(const Session& session, const Scene& scene,
+                                    const std::vector<ColourPoint>& colours) {
+    Result<PictureParts> picture = makePicture(session, scene, colours);
     if (!picture.ok()) {
         return picture.error();
     }
@@ -184,14 +177,12 @@ Result<FrameLoop> FrameLoop::create(const Session& session, const CompareData& d
         return results.error();
     }
     Result<FrameTarget> target =
-        FrameTarget::create(session, RendererDesc{}.colorFormat, {data.view.width, data.view.height});
+        FrameTarget::create(session, RendererDesc{}.colorFormat, {scene.view.width, scene.view.height});
     if (!target.ok()) {
         return target.error();
     }
     return FrameLoop(std::unique_ptr<State>(new State{.session = session,
-                                                      .data = data,
-                                                      .surroundings = surroundings,
-                                                      .subject = subject,
+                                                      .scene = scene,
                                                       .picture = std::move(*picture),
                                                       .results = std::move(*results),
                                                       .target = std::move(*target)}));
@@ -199,11 +190,11 @@ Result<FrameLoop> FrameLoop::create(const Session& session, const CompareData& d
 
 Result<void> FrameLoop::add(CountingMethod method) {
     if (method == CountingMethod::Cpu) {
-        Result<cpu::Detector> host = cpu::Detector::create();
+        MadeEngine host = makeHostEngine();
         if (!host.ok()) {
             return host.error();
         }
-        state_->host.emplace(std::move(*host));
+        state_->host = std::move(*host);
         return {};
     }
     Result<Detector> detector =
@@ -225,7 +216,7 @@ Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const 
         }
     }
     FrameSample sample;
-    const auto begun = Clock::now();
+    const Stopwatch watch;
     if (submits) {
         if (Result<void> submitted = state_->target.submit(); !submitted.ok()) {
             return submitted.error();
@@ -243,7 +234,7 @@ Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const 
             return waited.error();
         }
     }
-    sample.wall = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    sample.wall = watch.milliseconds();
     if (onDevice) {
         const Result<std::span<const PairResult>> read = state_->results.read();
         if (!read.ok()) {

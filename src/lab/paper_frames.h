@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/compare_scene.h"
+#include "lab/scene.h"
 #include "voxtact/render.h"
 
 #include <memory>
@@ -31,9 +31,8 @@ struct FrameSample {
 /// Thread-safety: none; one thread at a time.
 class FrameLoop {
   public:
-    /// `surroundings` must have a volume with bricks. `colours` are the picture's. What it is given must outlive it.
-    [[nodiscard]] static Result<FrameLoop> create(const Session& session, const CompareData& data,
-                                                  const Surroundings& surroundings, const Subject& subject,
+    /// The parts must be ready, the volume with bricks. `colours` are the picture's. What it is given must outlive it.
+    [[nodiscard]] static Result<FrameLoop> create(const Session& session, const Scene& scene,
                                                   const std::vector<ColourPoint>& colours);
     FrameLoop(FrameLoop&&) noexcept;
     FrameLoop& operator=(FrameLoop&&) noexcept;

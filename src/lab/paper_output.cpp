@@ -24,25 +24,6 @@ constexpr NamedClock kClocks[] = {
     {"gpu", "By GPU timestamps", &PaperRow::gpu},
     {"wall", "By wall clock, from the submission to the end of the wait", &PaperRow::wall}};
 
-/// The rows must have the same columns.
-io::Table tableOf(std::vector<io::NamedCells> rows) {
-    io::Table table;
-    for (const auto& [name, cell] : rows.empty() ? io::NamedCells() : rows.front()) {
-        table.columns.push_back(name);
-    }
-    table.rows = rows.size();
-    table.cell = [rows = std::move(rows)](std::size_t row, std::size_t column) { return rows[row][column].second; };
-    return table;
-}
-
-io::Cell part(const std::vector<double>& samples, double Spread::*what) {
-    return samples.empty() ? io::Cell() : io::Cell(rounded(spreadOf(samples).*what));
-}
-
-io::Cell maybe(const std::optional<std::uint64_t>& value) {
-    return value ? io::Cell(*value) : io::Cell();
-}
-
 /// A row of CSV.
 io::NamedCells fullCells(const PaperRow& row, const NamedClock& clock, const PaperResult& result) {
     const PaperScene& scene = result.scenes[row.scene];
@@ -57,19 +38,19 @@ io::NamedCells fullCells(const PaperRow& row, const NamedClock& clock, const Pap
                          {"survivors", rounded(row.survivors)},
                          {"hits", std::uint64_t{row.hits}},
                          {"samples", std::uint64_t{row.wall.rendering.size()}},
-                         {"mesh_ms", part(columns.mesh, &Spread::median)},
-                         {"volume_ms", part(columns.volume, &Spread::median)}};
+                         {"mesh_ms", cellOf(columns.mesh, &Spread::median)},
+                         {"volume_ms", cellOf(columns.volume, &Spread::median)}};
     const std::pair<std::string, const std::vector<double>*> times[] = {
         {"collision_ms", &columns.collision}, {"rendering_ms", &columns.rendering}, {"total_ms", &columns.total}};
     for (const auto& [name, samples] : times) {
-        cells.emplace_back(name, part(*samples, &Spread::median));
-        cells.emplace_back(name + "_p10", part(*samples, &Spread::p10));
-        cells.emplace_back(name + "_p90", part(*samples, &Spread::p90));
+        cells.emplace_back(name, cellOf(*samples, &Spread::median));
+        cells.emplace_back(name + "_p10", cellOf(*samples, &Spread::p10));
+        cells.emplace_back(name + "_p90", cellOf(*samples, &Spread::p90));
     }
     const std::vector<double> overhead = overheadPercent(columns);
     const std::optional<MedianInterval> interval = medianInterval(overhead, kConfidence);
-    cells.emplace_back("collision_percent", part(collisionPercent(columns), &Spread::median));
-    cells.emplace_back("overhead_percent", part(overhead, &Spread::median));
+    cells.emplace_back("collision_percent", cellOf(collisionPercent(columns), &Spread::median));
+    cells.emplace_back("overhead_percent", cellOf(overhead, &Spread::median));
     cells.emplace_back("overhead_low", interval ? io::Cell(rounded(interval->low)) : io::Cell());
     cells.emplace_back("overhead_high", interval ? io::Cell(rounded(interval->high)) : io::Cell());
     cells.emplace_back("confidence", interval ? io::Cell(rounded(interval->confidence)) : io::Cell());
@@ -130,22 +111,25 @@ io::NamedCells wayCells(const LocalizeWay& way) {
     const bool found = way.unchecked.empty();
     const auto ifFound = [found](std::uint64_t value) { return found ? io::Cell(value) : io::Cell(); };
     return {{"way", way.name},
-            {"queries", maybe(way.queries)},
+            {"queries", cellOf(way.queries)},
             {"found", ifFound(way.triangles)},
             {"missed", ifFound(way.missed)},
             {"wrong", ifFound(way.wrong)},
             {"samples", std::uint64_t{way.wall.size()}},
-            {"wall_ms_median", part(way.wall, &Spread::median)},
-            {"wall_ms_p10", part(way.wall, &Spread::p10)},
-            {"wall_ms_p90", part(way.wall, &Spread::p90)},
-            {"gpu_ms_median", part(way.gpu, &Spread::median)},
+            {"wall_ms_median", cellOf(way.wall, &Spread::median)},
+            {"wall_ms_p10", cellOf(way.wall, &Spread::p10)},
+            {"wall_ms_p90", cellOf(way.wall, &Spread::p90)},
+            {"gpu_ms_median", cellOf(way.gpu, &Spread::median)},
             {"unchecked", way.unchecked}};
 }
 
 io::NamedCells integrationCells(const IntegrationPoint& point) {
-    return {{"entries", std::uint64_t{point.entries}},           {"samples", std::uint64_t{point.wall.size()}},
-            {"gpu_ms_median", part(point.gpu, &Spread::median)}, {"wall_ms_median", part(point.wall, &Spread::median)},
-            {"wall_ms_p10", part(point.wall, &Spread::p10)},     {"wall_ms_p90", part(point.wall, &Spread::p90)}};
+    return {{"entries", std::uint64_t{point.entries}},
+            {"samples", std::uint64_t{point.wall.size()}},
+            {"gpu_ms_median", cellOf(point.gpu, &Spread::median)},
+            {"wall_ms_median", cellOf(point.wall, &Spread::median)},
+            {"wall_ms_p10", cellOf(point.wall, &Spread::p10)},
+            {"wall_ms_p90", cellOf(point.wall, &Spread::p90)}};
 }
 
 io::NamedCells publishedCells(const published::Row& row) {
@@ -163,12 +147,6 @@ struct Section {
     std::string title;
     io::Table table;
 };
-
-template <class Things, class CellsOf> std::vector<io::NamedCells> rowsOf(const Things& things, CellsOf cellsOf) {
-    std::vector<io::NamedCells> rows;
-    std::ranges::transform(things, std::back_inserter(rows), cellsOf);
-    return rows;
-}
 
 /// The tables like the paper's.
 std::vector<Section> paperSections(const PaperResult& result) {

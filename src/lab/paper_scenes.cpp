@@ -3,6 +3,7 @@
 
 #include "core/text.h"
 #include "lab/compare_result.h"
+#include "lab/engine.h"
 #include "lab/opaque_cells.h"
 #include "lab/random_poses.h"
 
@@ -52,15 +53,8 @@ constexpr std::uint32_t kTries = 64;
 constexpr double kBeyond = 0.11;
 
 struct LoadedVolume {
-    std::string name;
-    VolumeData data;
-    std::vector<ControlPoint> points;
-    double share = 0;
-};
-
-struct LoadedMesh {
-    std::string name;
-    MeshData data;
+    std::shared_ptr<VolumePart> part = std::make_shared<VolumePart>();
+    double share = 0; ///< of the voxels that are opaque
 };
 
 /// The file of a volume or mesh, if --data has it.
@@ -117,7 +111,7 @@ Result<double> opaqueShare(const Histogram& histogram, std::span<const ControlPo
 
 /// A file's own ramp; a builtin's begins where the share is nearest to that of the file.
 Result<void> placeRamp(const PaperVolume& volume, bool builtin, LoadedVolume& loaded) {
-    const Histogram histogram = histogramOf(loaded.data);
+    const Histogram histogram = histogramOf(loaded.part->data);
     const double first = builtin ? 0 : volume.rampBegin;
     const double last = builtin ? 255 - volume.rampWidth : volume.rampBegin;
     double nearest = 2;
@@ -129,7 +123,7 @@ Result<void> placeRamp(const PaperVolume& volume, bool builtin, LoadedVolume& lo
         }
         if (std::abs(*share - volume.share) < nearest) {
             nearest = std::abs(*share - volume.share);
-            loaded.points = std::move(points);
+            loaded.part->points = std::move(points);
             loaded.share = *share;
         }
     }
@@ -149,14 +143,17 @@ Result<LoadedVolume> loadPaperVolume(const PaperSettings& settings, const PaperV
                      "'" + source + "' has " + sizeText(data->grid.size) + " voxels of " + toString(data->type) +
                          "; the paper's scenes need " + sizeText(volume.voxels) + " of uint8"};
     }
-    LoadedVolume loaded{file ? file->filename().string() : source, std::move(*data), {}};
+    LoadedVolume loaded;
+    loaded.part->name = file ? file->filename().string() : source;
+    loaded.part->data = std::move(*data);
+    loaded.part->domain = TransferFunctionDesc{}.domain;
     if (Result<void> placed = placeRamp(volume, !file, loaded); !placed.ok()) {
         return placed.error();
     }
     return loaded;
 }
 
-Result<LoadedMesh> loadPaperMesh(const PaperSettings& settings, const PaperMesh& mesh) {
+Result<std::shared_ptr<MeshPart>> loadPaperMesh(const PaperSettings& settings, const PaperMesh& mesh) {
     const std::optional<fs::path> file = fileOf(settings, mesh.file);
     const std::string source = file ? file->string() : mesh.builtin;
     Result<MeshData> data = settings.load.mesh(source);
@@ -168,7 +165,8 @@ Result<LoadedMesh> loadPaperMesh(const PaperSettings& settings, const PaperMesh&
                      "'" + source + "' has " + std::to_string(data->indices.size() / 3) +
                          " triangles; the paper's scenes need " + std::to_string(mesh.triangles)};
     }
-    return LoadedMesh{file ? file->filename().string() : source, std::move(*data)};
+    return std::make_shared<MeshPart>(
+        MeshPart{.name = file ? file->filename().string() : source, .data = std::move(*data)});
 }
 
 /// From the front; deep enough for the mesh at every pose that can be.
@@ -189,34 +187,6 @@ Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const Mes
     return View{settings.camera(grid, box, settings.size), settings.size.width, settings.size.height};
 }
 
-/// A scene on the host.
-struct HostScene {
-    cpu::Volume volume;
-    cpu::TransferFunction function;
-    cpu::Mesh mesh;
-    cpu::Detector yesNo;
-};
-
-Result<HostScene> makeHostScene(const CompareData& data) {
-    Result<cpu::Volume> volume = cpu::Volume::create(data.volume.view());
-    if (!volume.ok()) {
-        return volume.error();
-    }
-    Result<cpu::TransferFunction> function = cpu::TransferFunction::create({data.points, data.domain});
-    if (!function.ok()) {
-        return function.error();
-    }
-    Result<cpu::Mesh> mesh = cpu::Mesh::create(data.mesh.view());
-    if (!mesh.ok()) {
-        return mesh.error();
-    }
-    Result<cpu::Detector> yesNo = cpu::Detector::create({.stopAtFirst = true});
-    if (!yesNo.ok()) {
-        return yesNo.error();
-    }
-    return HostScene{std::move(*volume), std::move(*function), std::move(*mesh), std::move(*yesNo)};
-}
-
 std::string opacityText(const std::vector<ControlPoint>& points) {
     std::string text;
     for (const ControlPoint& point : points) {
@@ -226,30 +196,27 @@ std::string opacityText(const std::vector<ControlPoint>& points) {
 }
 
 Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, const LoadedVolume& volume,
-                             const LoadedMesh& mesh) {
+                             const std::shared_ptr<MeshPart>& mesh) {
+    const VolumePart& part = *volume.part;
     PaperInput input;
-    input.data.volumeName = volume.name;
-    input.data.meshName = mesh.name;
-    input.data.volume = volume.data;
-    input.data.mesh = mesh.data;
-    input.data.points = volume.points;
-    input.data.domain = TransferFunctionDesc{}.domain;
-    input.scene = {.name = std::move(name),
-                   .volume = volume.name,
-                   .mesh = mesh.name,
-                   .voxels = volume.data.grid.size,
-                   .voxelType = toString(volume.data.type),
-                   .triangles = static_cast<std::uint32_t>(mesh.data.indices.size() / 3),
+    input.scene.volume = volume.part;
+    input.scene.mesh = mesh;
+    input.facts = {.name = std::move(name),
+                   .volume = part.name,
+                   .mesh = mesh->name,
+                   .voxels = part.data.grid.size,
+                   .voxelType = toString(part.data.type),
+                   .triangles = mesh->triangles(),
                    .opaqueShare = volume.share,
-                   .opacity = opacityText(volume.points),
+                   .opacity = opacityText(part.points),
                    .poses = settings.poses,
-                   .step = *std::ranges::min_element(volume.data.grid.spacing) / 2};
-    Result<View> view = cameraOf(settings, input.data.volume.grid, input.data.mesh);
+                   .step = *std::ranges::min_element(part.data.grid.spacing) / 2};
+    Result<View> view = cameraOf(settings, part.data.grid, mesh->data);
     if (!view.ok()) {
         return view.error();
     }
-    input.data.view = *view;
-    if (Result<void> chosen = chooseTouching(settings.poses, settings.seed, input.scene.name, input.data);
+    input.scene.view = *view;
+    if (Result<void> chosen = chooseTouching(settings.poses, settings.seed, input.facts.name, input.scene);
         !chosen.ok()) {
         return chosen.error();
     }
@@ -258,35 +225,40 @@ Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, co
 
 } // namespace
 
-Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::string& name, CompareData& data) {
-    data.poses.clear();
-    data.poseNumbers.clear();
-    Result<HostScene> host = makeHostScene(data);
-    if (!host.ok()) {
-        return host.error();
+Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::string& name, Scene& scene) {
+    scene.poses.clear();
+    scene.poseNumbers.clear();
+    if (Result<void> made = makeHost(*scene.volume); !made.ok()) {
+        return made;
+    }
+    if (Result<void> ready = makeReady(nullptr, *scene.mesh); !ready.ok()) {
+        return ready;
+    }
+    const MadeEngine yesNo = makeHostEngine({.stopAtFirst = true});
+    if (!yesNo.ok()) {
+        return yesNo.error();
     }
     const std::uint64_t most = std::min<std::uint64_t>(std::uint64_t{kTries} * count, UINT32_MAX);
     std::uint64_t end = count;
-    for (std::uint64_t tried = 0; data.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
+    for (std::uint64_t tried = 0; scene.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
         if (tried == most) {
             return Error{ErrorCode::InvalidArgument, 0,
                          "--poses: of " + std::to_string(tried) + " random poses of " + name + " only " +
-                             std::to_string(data.poses.size()) + " touch in a view of " +
-                             std::to_string(data.view.width) + "x" + std::to_string(data.view.height) +
+                             std::to_string(scene.poses.size()) + " touch in a view of " +
+                             std::to_string(scene.view.width) + "x" + std::to_string(scene.view.height) +
                              " pixels (--size)"};
         }
         const std::vector<Mat4> all =
-            randomPoses(data.volume.grid, data.mesh.view(), static_cast<std::uint32_t>(end), seed);
+            randomPoses(scene.volume->data.grid, scene.mesh->data.view(), static_cast<std::uint32_t>(end), seed);
         const std::span<const Mat4> fresh = std::span(all).subspan(tried);
-        const cpu::BatchItem item{&host->mesh, &host->volume, &host->function, fresh};
-        const Result<BatchAnswer> answer = host->yesNo.detect({{&item, 1}, data.view, kDefaultThreshold});
-        if (!answer.ok()) {
-            return answer.error();
+        const Result<Pass> pass = (*yesNo)->run(Work(scene).at(fresh), {});
+        if (!pass.ok()) {
+            return pass.error();
         }
-        for (const PairAnswer& pair : answer->pairs) {
-            if (pair.hit && data.poses.size() < count) {
-                data.poseNumbers.push_back(static_cast<std::uint32_t>(data.poses.size()));
-                data.poses.push_back(fresh[pair.pose]);
+        for (std::size_t i = 0; i < fresh.size() && scene.poses.size() < count; ++i) {
+            if (pass->pairs[i].hit) {
+                scene.poseNumbers.push_back(static_cast<std::uint32_t>(scene.poses.size()));
+                scene.poses.push_back(fresh[i]);
             }
         }
     }
@@ -297,9 +269,9 @@ Result<std::vector<PaperInput>> loadPaperScenes(const PaperSettings& settings) {
     if (Result<void> there = checkData(settings); !there.ok()) {
         return there.error();
     }
-    std::vector<LoadedMesh> meshes;
+    std::vector<std::shared_ptr<MeshPart>> meshes;
     for (const PaperMesh& mesh : kMeshes) {
-        Result<LoadedMesh> loaded = loadPaperMesh(settings, mesh);
+        Result<std::shared_ptr<MeshPart>> loaded = loadPaperMesh(settings, mesh);
         if (!loaded.ok()) {
             return loaded.error();
         }

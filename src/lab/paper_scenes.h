@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lab/compare_scene.h"
 #include "lab/paper.h"
 #include "lab/paper_result.h"
+#include "lab/scene.h"
 
 namespace voxtact::app {
 
 /// One of the paper's scenes, in host memory.
 struct PaperInput {
-    PaperScene scene;
-    CompareData data;
+    PaperScene facts;
+    Scene scene;
 };
 
-/// Replaces the poses of `data` by the first `count` random ones that touch, as the host counts in its view. `name` is
-/// for the error where there are too few.
+/// Replaces the poses of the scene by the first `count` random ones that touch, as the host counts in its view. `name`
+/// is for the error where there are too few.
 [[nodiscard]] Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::string& name,
-                                          CompareData& data);
+                                          Scene& scene);
 
 /// v1s1, v1s2, v2s1, v2s2: each with poses of which all touch, as the host counts, and the camera of both picture and
 /// detection.

@@ -12,7 +12,6 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kMesh = "builtin:scalpel";
 /// Of the sweep of voxels, and its voxels a side: half to twice as many are 128 to 512.
 constexpr const char* kVolume = "builtin:head";
 constexpr std::uint32_t kVoxels = 256;
@@ -32,91 +31,64 @@ CompareSettings settingsFor(const PaperSettings& settings) {
 }
 
 /// The builtin head with the mesh and the viewport of the scene.
-Result<CompareData> headOf(const PaperSettings& settings, const CompareData& v1s1) {
-    CompareData data;
-    data.volumeName = std::string(kVolume) + ":" + std::to_string(kVoxels / settings.scale);
-    data.meshName = kMesh;
-    Result<VolumeData> volume = settings.load.volume(data.volumeName);
-    if (!volume.ok()) {
-        return volume.error();
+Result<Scene> headOf(const PaperSettings& settings, const Scene& v1s1) {
+    Scene head{std::make_shared<VolumePart>(), v1s1.mesh, {}, {}, {}, v1s1.view};
+    VolumePart& volume = *head.volume;
+    volume.name = std::string(kVolume) + ":" + std::to_string(kVoxels / settings.scale);
+    volume.points = {kOpacity.begin(), kOpacity.end()};
+    volume.domain = kDomain;
+    Result<VolumeData> data = settings.load.volume(volume.name);
+    if (!data.ok()) {
+        return data.error();
     }
-    Result<MeshData> mesh = settings.load.mesh(data.meshName);
-    if (!mesh.ok()) {
-        return mesh.error();
-    }
-    data.volume = std::move(*volume);
-    data.mesh = std::move(*mesh);
-    data.points = {kOpacity.begin(), kOpacity.end()};
-    data.domain = kDomain;
-    data.view = {framingCamera(data.volume.grid, v1s1.view.width, v1s1.view.height), v1s1.view.width, v1s1.view.height};
+    volume.data = std::move(*data);
+    head.view.clip_from_world = framingCamera(volume.data.grid, head.view.width, head.view.height);
     const auto poses = static_cast<std::uint32_t>(v1s1.poses.size());
-    if (Result<void> chosen = chooseTouching(poses, settings.seed, kVolume, data); !chosen.ok()) {
+    if (Result<void> chosen = chooseTouching(poses, settings.seed, kVolume, head); !chosen.ok()) {
         return chosen.error();
     }
-    return data;
+    return head;
 }
 
-/// What is timed, and on what.
-struct Swept {
-    const Session& session;
-    const PaperSettings& paper;
-    const CompareSettings& settings;
-    const CompareData& data;
-    const Subject& subject;
-    const Runners& runners;
-    const std::function<void()>& step;
-};
-
-/// Counts every pose, and where the methods agree times them.
-Result<void> timeScene(const Swept& swept, CompareResult& result) {
-    const Work work{&swept.subject, swept.data.poses, swept.data.view};
-    Result<std::vector<NamedCounts>> counts = countAll(swept.runners, work);
+/// Counts every pose, and where the methods agree times them; as `voxtact compare` does.
+Result<void> timeAll(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
+                     const Scene& v1s1, CompareResult& result, const std::function<void()>& step) {
+    const Result<Engines> engines = makeMethodEngines(session, settings, result);
+    if (!engines.ok()) {
+        return engines.error();
+    }
+    const Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(v1s1));
     if (!counts.ok()) {
         return counts.error();
     }
-    result.verdicts = judgeCounts(*counts, swept.data.poseNumbers);
-    swept.step();
+    result.verdicts = judgeCounts(*counts, v1s1.poseNumbers);
+    step();
     if (result.firstFailure() != nullptr) {
         return {};
     }
-    if (Result<void> done = timeBatches(swept.settings, swept.runners, work, result, swept.step); !done.ok()) {
+    if (Result<void> done = timeBatches(settings, *engines, Work(v1s1), result, step); !done.ok()) {
         return done;
     }
-    if (Result<void> done = timeTriangles(swept.session, swept.settings, swept.data, swept.runners, result, swept.step);
-        !done.ok() || result.firstFailure() != nullptr) {
-        return done;
+    for (const auto sweepOne : {timeTriangles, timeFragments}) {
+        if (Result<void> done = sweepOne(session, settings, v1s1, *engines, result, step);
+            !done.ok() || result.firstFailure() != nullptr) {
+            return done;
+        }
     }
-    return timeFragments(swept.session, swept.settings, swept.data, swept.subject, swept.runners, result, swept.step);
+    const Result<Scene> head = headOf(paper, v1s1);
+    return head.ok() ? timeVoxels(session, settings, *head, *engines, result, step) : head.error();
 }
 
-Result<void> timeAll(const Swept& swept, CompareResult& result) {
-    if (Result<void> done = timeScene(swept, result); !done.ok() || result.firstFailure() != nullptr) {
-        return done;
-    }
-    const Result<CompareData> head = headOf(swept.paper, swept.data);
-    if (!head.ok()) {
-        return head.error();
-    }
-    return timeVoxels(swept.session, swept.settings, *head, swept.subject, swept.runners, result, swept.step);
-}
-
-/// The sweeps, as `voxtact compare` makes them.
 Result<void> sweep(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
-                   const CompareData& v1s1, PaperResult& result, const std::function<void()>& step) {
-    const Result<Surroundings> surroundings = makeSurroundings(session, v1s1.volume.view(), v1s1.transferFunction());
-    if (!surroundings.ok()) {
-        return surroundings.error();
+                   const Scene& v1s1, PaperResult& result, const std::function<void()>& step) {
+    if (Result<void> ready = makeReady(session, {}, *v1s1.volume); !ready.ok()) {
+        return ready;
     }
-    const Result<Subject> subject = makeSubject(session, v1s1.mesh);
-    if (!subject.ok()) {
-        return subject.error();
+    if (Result<void> ready = makeReady(&session, *v1s1.mesh); !ready.ok()) {
+        return ready;
     }
     CompareResult compared;
-    const Result<Runners> runners = makeRunners(session, settings, *surroundings, v1s1.threshold, compared);
-    if (!runners.ok()) {
-        return runners.error();
-    }
-    if (Result<void> done = timeAll({session, paper, settings, v1s1, *subject, *runners, step}, compared); !done.ok()) {
+    if (Result<void> done = timeAll(session, paper, settings, v1s1, compared, step); !done.ok()) {
         return done;
     }
     if (const Verdict* failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
@@ -129,18 +101,11 @@ Result<void> sweep(const Session& session, const PaperSettings& paper, const Com
 }
 
 /// Which triangles touch, on a few poses.
-Result<void> findPolygons(const Session& session, const CompareSettings& settings, const CompareData& v1s1,
+Result<void> findPolygons(const Session& session, const CompareSettings& settings, const Scene& v1s1,
                           PaperResult& result, const std::function<void()>& step) {
-    CompareData few = v1s1;
-    few.poses.clear();
-    few.poseNumbers.clear();
-    for (const std::uint32_t index : spreadEvenly(kPolygonPoses, static_cast<std::uint32_t>(v1s1.poses.size()))) {
-        few.poses.push_back(v1s1.poses[index]);
-        few.poseNumbers.push_back(v1s1.poseNumbers[index]);
-    }
     LocalizeResult found;
     found.machine = result.machine;
-    if (Result<void> done = localize(session, settings, few, found, step); !done.ok()) {
+    if (Result<void> done = localize(session, settings, v1s1.withPoses(kPolygonPoses), found, step); !done.ok()) {
         return done;
     }
     if (result.disagreement.empty()) {
@@ -164,7 +129,7 @@ std::uint64_t paperSweepSteps(const PaperSettings& settings) {
     return steps + poses * settings.repetitions + settings.repetitions + 1;
 }
 
-Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, const CompareData& v1s1,
+Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, const Scene& v1s1,
                             PaperResult& result, const std::function<void()>& step) {
     const CompareSettings how = settingsFor(settings);
     if (Result<void> done = sweep(session, settings, how, v1s1, result, step);

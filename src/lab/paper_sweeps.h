@@ -16,8 +16,7 @@ namespace voxtact::app {
 /// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
 /// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
 /// fills `disagreement`, unless there is one already, and goes no further.
-[[nodiscard]] Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings,
-                                          const CompareData& v1s1, PaperResult& result,
-                                          const std::function<void()>& step);
+[[nodiscard]] Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, const Scene& v1s1,
+                                          PaperResult& result, const std::function<void()>& step);
 
 } // namespace voxtact::app

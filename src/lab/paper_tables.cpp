@@ -18,8 +18,6 @@ constexpr std::array<FramePart, 2> kParts{FramePart::Detection, FramePart::Both}
 /// A scene on the device and the host, with what was verified of it.
 struct PaperWork {
     const PaperInput& input;
-    const Surroundings& surroundings;
-    const Subject& subject;
     std::vector<CountingMethod> methods{};
     std::vector<NamedCounts> counts{}; ///< by method, in their order
     std::size_t firstRow = 0;          ///< theirs follow each other
@@ -31,44 +29,25 @@ void addNote(std::string note, PaperResult& result) {
     }
 }
 
-/// Those that can be had; the others are told once.
-std::vector<CountingMethod> methodsOf(const Session& session, PaperResult& result) {
-    std::vector<CountingMethod> methods;
-    const auto supports = session.context.methods();
-    for (const CountingMethod method : countingMethods()) {
-        const auto support = std::ranges::find(supports, method, &MethodSupport::method);
-        const bool known = method == CountingMethod::Cpu || support != supports.end();
-        if (method == CountingMethod::Cpu || (known && support->available)) {
-            methods.push_back(method);
-        } else {
-            addNote(std::string("no ") + toString(method) +
-                        " on this device: " + (known ? support->reason : "this version has it not"),
-                    result);
-        }
-    }
-    return methods;
-}
-
 /// Counts every pose by every method. The first broken rule is the result's.
 Result<void> verify(const Session& session, PaperWork& work, PaperResult& result) {
-    Runners runners;
+    Engines engines;
     for (const CountingMethod method : work.methods) {
-        Result<std::unique_ptr<MethodRunner>> runner =
-            makeRunner(session, work.surroundings, method, kDefaultThreshold);
-        if (!runner.ok()) {
-            return runner.error();
+        MadeEngine engine = makeMethodEngine(session, method);
+        if (!engine.ok()) {
+            return engine.error();
         }
-        runners.push_back(std::move(*runner));
+        engines.push_back(std::move(*engine));
     }
-    const CompareData& data = work.input.data;
-    Result<std::vector<NamedCounts>> counts = countAll(runners, {&work.subject, data.poses, data.view});
+    const Scene& scene = work.input.scene;
+    Result<std::vector<NamedCounts>> counts = countAll(engines, Work(scene));
     if (!counts.ok()) {
         return counts.error();
     }
     work.counts = std::move(*counts);
-    for (const Verdict& verdict : judgeCounts(work.counts, data.poseNumbers)) {
+    for (const Verdict& verdict : judgeCounts(work.counts, scene.poseNumbers)) {
         if (verdict.failed() && result.disagreement.empty()) {
-            result.disagreement = work.input.scene.name + ", " + verdict.rule + ": pose " +
+            result.disagreement = work.input.facts.name + ", " + verdict.rule + ": pose " +
                                   std::to_string(verdict.first->pose) + ": " + verdict.first->text;
         }
     }
@@ -85,7 +64,7 @@ void addRows(PaperWork& work, PaperResult& result) {
                                .survivors = sum / static_cast<double>(counts.counts.size()),
                                .hits = static_cast<std::uint32_t>(hits)});
     }
-    result.scenes.push_back(work.input.scene);
+    result.scenes.push_back(work.input.facts);
 }
 
 void add(const std::optional<double>& time, std::vector<double>& samples) {
@@ -119,12 +98,12 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
     const std::uint64_t verified = work.counts[method].counts[pose];
     for (std::size_t i = 0; i < kParts.size(); ++i) {
         const FramePart part = kParts.at(backwards ? kParts.size() - 1 - i : i);
-        const Result<FrameSample> sample = frames.run(part, work.methods[method], work.input.data.poses[pose]);
+        const Result<FrameSample> sample = frames.run(part, work.methods[method], work.input.scene.poses[pose]);
         if (!sample.ok()) {
             return sample.error();
         }
         if (sample->count.value_or(verified) != verified && result.disagreement.empty()) {
-            result.disagreement = work.input.scene.name + ", pose " + std::to_string(pose) + ": " +
+            result.disagreement = work.input.facts.name + ", pose " + std::to_string(pose) + ": " +
                                   work.counts[method].method + (part == FramePart::Both ? " in a frame" : " alone") +
                                   " counts " + std::to_string(*sample->count) + ", before it was " +
                                   std::to_string(verified);
@@ -139,7 +118,7 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
 /// A frame without detection. It is the same by every method, so that a round takes one for all of them.
 Result<void> takeRendering(FrameLoop& frames, const PaperWork& work, std::size_t pose, bool kept, PaperResult& result) {
     const Result<FrameSample> sample =
-        frames.run(FramePart::Rendering, work.methods.front(), work.input.data.poses[pose]);
+        frames.run(FramePart::Rendering, work.methods.front(), work.input.scene.poses[pose]);
     if (!sample.ok()) {
         return sample.error();
     }
@@ -152,7 +131,7 @@ Result<void> takeRendering(FrameLoop& frames, const PaperWork& work, std::size_t
 /// Every method in turn, and in their middle the frame that they are held against. `round` counts from 1; in round 0 no
 /// time is kept.
 Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t round, PaperResult& result) {
-    const std::size_t poses = work.input.data.poses.size();
+    const std::size_t poses = work.input.scene.poses.size();
     const std::size_t pose = (round + poses - 1) % poses;
     // A pose that comes again, after an even number of rounds too, is taken the other way round.
     const bool backwards = (round + (round + poses - 1) / poses) % 2 == 0;
@@ -173,8 +152,7 @@ Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t r
 
 Result<void> timeFrames(const Session& session, const PaperSettings& settings, const PaperWork& work,
                         PaperResult& result, const std::function<void()>& step) {
-    Result<FrameLoop> frames =
-        FrameLoop::create(session, work.input.data, work.surroundings, work.subject, settings.colours);
+    Result<FrameLoop> frames = FrameLoop::create(session, work.input.scene, settings.colours);
     if (!frames.ok()) {
         return frames.error();
     }
@@ -196,17 +174,16 @@ Result<void> timeFrames(const Session& session, const PaperSettings& settings, c
 
 Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, const PaperInput& input,
                                PaperResult& result, const std::function<void()>& step) {
-    const Result<Surroundings> surroundings =
-        makeSurroundings(session, input.data.volume.view(), input.data.transferFunction(), {.bricks = true});
-    if (!surroundings.ok()) {
-        return surroundings.error();
+    if (Result<void> ready = makeReady(session, {.bricks = true}, *input.scene.volume); !ready.ok()) {
+        return ready;
     }
-    const Result<Subject> subject = makeSubject(session, input.data.mesh);
-    if (!subject.ok()) {
-        return subject.error();
+    if (Result<void> ready = makeReady(&session, *input.scene.mesh); !ready.ok()) {
+        return ready;
     }
-    PaperWork work{.input = input, .surroundings = *surroundings, .subject = *subject};
-    work.methods = methodsOf(session, result);
+    PaperWork work{.input = input};
+    work.methods = availableMethods(session, [&](CountingMethod method, const std::string& reason) {
+        addNote(std::string("no ") + toString(method) + " on this device: " + reason, result);
+    });
     if (Result<void> verified = verify(session, work, result); !verified.ok()) {
         return verified;
     }

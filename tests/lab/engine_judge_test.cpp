@@ -9,7 +9,6 @@ namespace voxtact::test {
 namespace {
 
 using app::BenchRow;
-using app::EngineAnswer;
 using app::LocalizeResult;
 using app::LocalizeWay;
 
@@ -55,9 +54,15 @@ TEST(LocalizeJudgeTest, AnotherTriangleOrCountIsADisagreement) {
     EXPECT_EQ(other.failure, "triangle 3: polygon 1, leaf 2 fragments");
 }
 
+PairAnswer answer(bool hit, bool possible, std::uint64_t count) {
+    return {.hit = hit, .possible = possible, .count = count};
+}
+
 TEST(EngineJudgeTest, MissedAndFalseAreCounted) {
-    const std::vector<EngineAnswer> certified{{true, false, 3}, {true, false, 1}, {false, true, 0}, {false, false, 0}};
-    const std::vector<EngineAnswer> answers{{true, false, 1}, {false, false, 0}, {true, false, 1}, {true, false, 1}};
+    const std::vector<PairAnswer> certified{answer(true, false, 3), answer(true, false, 1), answer(false, true, 0),
+                                            answer(false, false, 0)};
+    const std::vector<PairAnswer> answers{answer(true, false, 1), answer(false, false, 0), answer(true, false, 1),
+                                          answer(true, false, 1)};
     BenchRow row{.engine = {.name = "other", .question = "yes/no"}};
     EXPECT_EQ(judgeEngine(certified, answers, row), "") << "it need not agree";
     EXPECT_EQ(row.contacts, 2U);
@@ -67,15 +72,17 @@ TEST(EngineJudgeTest, MissedAndFalseAreCounted) {
 }
 
 TEST(EngineJudgeTest, CertifiedEnginesMustAgree) {
-    const std::vector<EngineAnswer> certified{{true, false, 3}, {false, true, 0}};
+    const std::vector<PairAnswer> certified{answer(true, false, 3), answer(false, true, 0)};
     BenchRow counting{
         .mesh = "m", .poses = "onset", .engine = {.name = "compute", .question = "count", .certified = true}};
     EXPECT_EQ(judgeEngine(certified, certified, counting), "");
-    EXPECT_EQ(judgeEngine(certified, std::vector<EngineAnswer>{{true, false, 2}, {false, true, 0}}, counting),
+    EXPECT_EQ(judgeEngine(certified, std::vector<PairAnswer>{answer(true, false, 2), answer(false, true, 0)}, counting),
               "m, poses onset, pose 0: compute count says 2, it must be 3");
     BenchRow yesNo{.mesh = "m", .poses = "onset", .engine = {.name = "cpu", .question = "yes/no", .certified = true}};
-    EXPECT_EQ(judgeEngine(certified, std::vector<EngineAnswer>{{true, false, 1}, {false, true, 0}}, yesNo), "");
-    EXPECT_NE(judgeEngine(certified, std::vector<EngineAnswer>{{true, false, 1}, {false, false, 0}}, yesNo), "");
+    EXPECT_EQ(judgeEngine(certified, std::vector<PairAnswer>{answer(true, false, 1), answer(false, true, 0)}, yesNo),
+              "");
+    EXPECT_NE(judgeEngine(certified, std::vector<PairAnswer>{answer(true, false, 1), answer(false, false, 0)}, yesNo),
+              "");
 }
 
 } // namespace

@@ -7,7 +7,7 @@ namespace voxtact::app {
 
 namespace {
 
-Result<BenchVolume> loadBenchVolume(const BenchOptions& options, const std::string& source) {
+Result<VolumePart> loadBenchVolume(const BenchOptions& options, const std::string& source) {
     Result<VolumeData> data = loadVolume(source);
     if (!data.ok()) {
         return data.error();
@@ -24,53 +24,28 @@ Result<BenchVolume> loadBenchVolume(const BenchOptions& options, const std::stri
     if (!points.ok()) {
         return points.error();
     }
-    const ValueRange domain = tableDomain(wanted, data->type, *range);
-    std::vector<ControlPoint> ramp = points->empty() ? defaultRamp(domain) : std::move(*points);
-    Result<cpu::Volume> host = cpu::Volume::create(data->view());
-    if (!host.ok()) {
-        return host.error();
+    VolumePart volume;
+    volume.name = source;
+    volume.domain = tableDomain(wanted, data->type, *range);
+    volume.points = points->empty() ? defaultRamp(volume.domain) : std::move(*points);
+    volume.tableSize = wanted.tableSize;
+    volume.threshold = wanted.threshold;
+    volume.data = std::move(*data);
+    if (Result<void> made = makeHost(volume); !made.ok()) {
+        return made.error();
     }
-    Result<cpu::TransferFunction> function = cpu::TransferFunction::create({ramp, domain, wanted.tableSize});
-    if (!function.ok()) {
-        return function.error();
-    }
-    const View view{framingCamera(data->grid, 512, 512), 512, 512};
-    return BenchVolume{.data = std::move(*data),
-                       .points = std::move(ramp),
-                       .domain = domain,
-                       .tableSize = wanted.tableSize,
-                       .threshold = wanted.threshold,
-                       .view = view,
-                       .host = std::move(*host),
-                       .hostFunction = std::move(*function),
-                       .device = std::nullopt,
-                       .deviceFunction = std::nullopt,
-                       .fcl = nullptr,
-                       .labels = {},
-                       .deviceLabels = std::nullopt};
+    return volume;
 }
 
-Result<BenchMesh> loadBenchMesh(const BenchOptions& options, const std::string& source) {
-    Result<MeshData> data = loadMesh(source, options.meshes);
-    if (!data.ok()) {
-        return data.error();
-    }
-    Result<cpu::Mesh> host = cpu::Mesh::create(data->view());
-    if (!host.ok()) {
-        return host.error();
-    }
-    return BenchMesh{source, std::move(*data), std::move(*host), std::nullopt};
-}
-
-Result<std::vector<BenchMesh>> loadBenchMeshes(const BenchOptions& options) {
-    std::vector<BenchMesh> meshes;
+Result<std::vector<MeshPart>> loadBenchMeshes(const BenchOptions& options) {
+    std::vector<MeshPart> meshes;
     for (const std::string& source :
          options.meshes.sources.empty() ? defaultMeshes(options.settings.mode) : options.meshes.sources) {
-        Result<BenchMesh> mesh = loadBenchMesh(options, source);
+        Result<MeshData> mesh = loadMesh(source, options.meshes);
         if (!mesh.ok()) {
             return mesh.error();
         }
-        meshes.push_back(std::move(*mesh));
+        meshes.push_back({.name = source, .data = std::move(*mesh)});
     }
     return meshes;
 }
@@ -110,7 +85,7 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
         }
         const Session* session = opened->has_value() ? &**opened : nullptr;
         // What is on the device must end before the session.
-        Result<BenchVolume> volume = loadBenchVolume(options, result.volume);
+        Result<VolumePart> volume = loadBenchVolume(options, result.volume);
         if (!volume.ok()) {
             return volume.error();
         }
@@ -119,7 +94,7 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
         const Provenance provenance = provenanceOf(parser);
         result.machine =
             session == nullptr ? describeHost(provenance) : describeMachine(*session, volume->data.type, provenance);
-        Result<std::vector<BenchMesh>> meshes = loadBenchMeshes(options);
+        Result<std::vector<MeshPart>> meshes = loadBenchMeshes(options);
         if (!meshes.ok()) {
             return meshes.error();
         }

@@ -39,15 +39,15 @@ Examples:
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --report report.html
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --localize)";
 
-Result<void> writeOutputs(const CompareOptions& options, const CompareData& data, const CompareResult& result) {
+Result<void> writeOutputs(const CompareOptions& options, const Scene& scene, const CompareResult& result) {
     std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
-                                          writeCompare(out, options.output.format(), data, result);
+                                          writeCompare(out, options.output.format(), scene, result);
                                           return {};
                                       }}};
     if (!options.report.empty()) {
         deliveries.push_back({options.report, [&](std::ostream& out) {
                                   return writeReport(out, ReportKind::Compare, summarize(result),
-                                                     compareJson(data, result));
+                                                     compareJson(scene, result));
                               }});
     }
     return deliverAll(std::move(deliveries));
@@ -81,24 +81,28 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    const Result<CompareData> data = readCompareData(options);
-    if (!data.ok()) {
-        return data.error();
+    std::optional<Session> session; // ends after what the scene has on it
+    const Result<Scene> scene = readScene(options);
+    if (!scene.ok()) {
+        return scene.error();
     }
     CompareResult result;
     std::shared_ptr<const ValidationMessages> messages;
     {
-        const Result<Session> session = openSession(options.device);
-        if (!session.ok()) {
-            return session.error();
+        Result<Session> opened = openSession(options.device);
+        if (!opened.ok()) {
+            return opened.error();
         }
+        session.emplace(std::move(*opened));
         messages = session->instance.messages();
-        result.machine = describeMachine(*session, data->volume.type, provenanceOf(parser));
+        result.machine = describeMachine(*session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
-        if (const Result<void> done = compare(options.settings, *data, *session, shown.steps(), result); !done.ok()) {
+        if (const Result<void> done = compare(options.settings, *scene, *session, shown.steps(), result); !done.ok()) {
             return done.error();
         }
     }
+    scene->leaveDevice();
+    session.reset();
     if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
         return invalid;
     }
@@ -106,7 +110,7 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     if (outcome.status != kExitDone && !options.settings.keepGoing) {
         return outcome;
     }
-    const Result<void> written = writeOutputs(options, *data, result);
+    const Result<void> written = writeOutputs(options, *scene, result);
     return written.ok() ? outcome : Outcome(written.error());
 }
 

@@ -9,37 +9,37 @@ namespace voxtact::app {
 
 namespace {
 
-Result<void> choosePoses(const CompareOptions& options, CompareData& data) {
+Result<void> choosePoses(const CompareOptions& options, Scene& scene) {
     if (options.view.poses.empty()) {
-        data.poses = randomPoses(data.volume.grid, data.mesh.view(), options.count, options.seed);
-        data.posesFrom = "random, seed " + std::to_string(options.seed);
+        scene.poses = randomPoses(scene.volume->data.grid, scene.mesh->data.view(), options.count, options.seed);
+        scene.posesFrom = "random, seed " + std::to_string(options.seed);
     } else {
         Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);
         if (!poses.ok()) {
             return poses.error();
         }
-        data.poses = std::move(*poses);
-        data.posesFrom = options.view.poses.string();
+        scene.poses = std::move(*poses);
+        scene.posesFrom = options.view.poses.string();
     }
-    for (std::uint32_t i = 0; i < data.poses.size(); ++i) {
-        data.poseNumbers.push_back(i);
+    for (std::uint32_t i = 0; i < scene.poses.size(); ++i) {
+        scene.poseNumbers.push_back(i);
     }
     if (!options.onlyPose) {
         return {};
     }
     const std::uint32_t only = *options.onlyPose;
-    if (only >= data.poses.size()) {
+    if (only >= scene.poses.size()) {
         return badArgument("--only-pose: there is no pose " + std::to_string(only) + ", the last is " +
-                           std::to_string(data.poses.size() - 1));
+                           std::to_string(scene.poses.size() - 1));
     }
-    data.poses = {data.poses[only]};
-    data.poseNumbers = {only};
+    scene.poses = {scene.poses[only]};
+    scene.poseNumbers = {only};
     return {};
 }
 
-Result<void> chooseCamera(const CompareOptions& options, CompareData& data) {
+Result<void> chooseCamera(const CompareOptions& options, Scene& scene) {
     const VkExtent2D size = options.view.size;
-    data.view = {framingCamera(data.volume.grid, size.width, size.height), size.width, size.height};
+    scene.view = {framingCamera(scene.volume->data.grid, size.width, size.height), size.width, size.height};
     if (options.view.camera.empty()) {
         return {};
     }
@@ -47,17 +47,18 @@ Result<void> chooseCamera(const CompareOptions& options, CompareData& data) {
     if (!camera.ok()) {
         return camera.error();
     }
-    data.view.clip_from_world = *camera;
+    scene.view.clip_from_world = *camera;
     return {};
 }
 
 } // namespace
 
-Result<CompareData> readCompareData(const CompareOptions& options) {
+Result<Scene> readScene(const CompareOptions& options) {
     if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
         return badArgument("one --volume and one --mesh are needed, not several");
     }
-    CompareData data;
+    Scene scene{std::make_shared<VolumePart>(), std::make_shared<MeshPart>(), {}, {}, {}, {}};
+    VolumePart& part = *scene.volume;
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
     if (!points.ok()) {
         return points.error();
@@ -74,21 +75,21 @@ Result<CompareData> readCompareData(const CompareOptions& options) {
     if (!mesh.ok()) {
         return mesh.error();
     }
-    data.domain = tableDomain(options.transferFunction, volume->type, *range);
-    data.points = points->empty() ? defaultRamp(data.domain) : std::move(*points);
-    data.tableSize = options.transferFunction.tableSize;
-    data.threshold = options.transferFunction.threshold;
-    data.volumeName = options.volumes.front();
-    data.meshName = options.meshes.sources.front();
-    data.volume = std::move(*volume);
-    data.mesh = std::move(*mesh);
-    if (Result<void> camera = chooseCamera(options, data); !camera.ok()) {
+    part.domain = tableDomain(options.transferFunction, volume->type, *range);
+    part.points = points->empty() ? defaultRamp(part.domain) : std::move(*points);
+    part.tableSize = options.transferFunction.tableSize;
+    part.threshold = options.transferFunction.threshold;
+    part.name = options.volumes.front();
+    part.data = std::move(*volume);
+    scene.mesh->name = options.meshes.sources.front();
+    scene.mesh->data = std::move(*mesh);
+    if (Result<void> camera = chooseCamera(options, scene); !camera.ok()) {
         return camera.error();
     }
-    if (Result<void> poses = choosePoses(options, data); !poses.ok()) {
+    if (Result<void> poses = choosePoses(options, scene); !poses.ok()) {
         return poses.error();
     }
-    return data;
+    return scene;
 }
 
 } // namespace voxtact::app

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "app/compare/compare_options.h"
-#include "lab/compare_scene.h"
+#include "lab/scene.h"
 
 namespace voxtact::app {
 
 /// What the options name.
-[[nodiscard]] Result<CompareData> readCompareData(const CompareOptions& options);
+[[nodiscard]] Result<Scene> readScene(const CompareOptions& options);
 
 /// `voxtact compare --localize`.
 [[nodiscard]] Outcome runLocalize(const CompareOptions& given, const CLI::App& parser);

@@ -42,27 +42,31 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    const Result<CompareData> data = readCompareData(options);
-    if (!data.ok()) {
-        return data.error();
+    std::optional<Session> session; // ends after what the scene has on it
+    const Result<Scene> scene = readScene(options);
+    if (!scene.ok()) {
+        return scene.error();
     }
     LocalizeResult result;
     std::shared_ptr<const ValidationMessages> messages;
     {
-        const Result<Session> session = openSession(options.device);
-        if (!session.ok()) {
-            return session.error();
+        Result<Session> opened = openSession(options.device);
+        if (!opened.ok()) {
+            return opened.error();
         }
+        session.emplace(std::move(*opened));
         messages = session->instance.messages();
-        result.machine = describeMachine(*session, data->volume.type, provenanceOf(parser));
+        result.machine = describeMachine(*session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
         const Steps steps = shown.steps();
-        steps.begin(std::uint64_t{options.settings.repeats} * data->poses.size());
-        const Result<void> done = localize(*session, options.settings, *data, result, steps.step);
+        steps.begin(std::uint64_t{options.settings.repeats} * scene->poses.size());
+        const Result<void> done = localize(*session, options.settings, *scene, result, steps.step);
         if (!done.ok()) {
             return done.error();
         }
     }
+    scene->leaveDevice();
+    session.reset();
     if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
         return invalid;
     }
@@ -71,7 +75,7 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
         return outcome;
     }
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
-        writeLocalize(out, options.output.format(), *data, result);
+        writeLocalize(out, options.output.format(), *scene, result);
         return {};
     });
     return written.ok() ? outcome : Outcome(written.error());

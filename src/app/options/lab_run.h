@@ -4,7 +4,8 @@
 #include "app/options/open_session.h"
 #include "app/options/output_paths.h"
 #include "app/output/progress.h"
-#include "lab/compare_scene.h"
+#include "lab/compare_settings.h"
+#include "lab/machine.h"
 
 /// What the commands that measure hand to the lab.
 namespace voxtact::app {

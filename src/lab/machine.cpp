@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/compare_scene.h"
+#include "lab/machine.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -46,17 +46,6 @@ bool isHopper(const std::string& name) {
 
 } // namespace
 
-Result<void> checkViewport(const Session& session, const VkExtent2D& size) {
-    const VkExtent2D most = session.context.maxViewport();
-    if (size.width <= most.width && size.height <= most.height &&
-        std::max(size.width, size.height) <= cpu::kMaxViewport) {
-        return {};
-    }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 "--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) + " is beyond what '" +
-                     session.device.physical().name + "' can do"};
-}
-
 Machine describeHost(const Provenance& provenance) {
     Machine machine;
     machine.provenance = provenance;
@@ -93,44 +82,6 @@ Machine describeMachine(const Session& session, ScalarType type, const Provenanc
         machine.notes.emplace_back("the queue has no timestamps: there is no GPU time");
     }
     return machine;
-}
-
-Result<Subject> makeSubject(const Session& session, MeshData data) {
-    Result<Mesh> device = Mesh::upload(session.context, session.device.queueAccess(), data.view(),
-                                       {.name = data.name.c_str(), .clusters = true});
-    if (!device.ok()) {
-        return device.error();
-    }
-    Result<cpu::Mesh> host = cpu::Mesh::create(data.view());
-    if (!host.ok()) {
-        return host.error();
-    }
-    return Subject{std::move(data), std::move(*device), std::move(*host)};
-}
-
-Result<Surroundings> makeSurroundings(const Session& session, const VolumeView& volume,
-                                      const TransferFunctionDesc& transferFunction,
-                                      const VolumeOptions& volumeOptions) {
-    const QueueAccess queue = session.device.queueAccess();
-    Result<Volume> onDevice = Volume::upload(session.context, queue, volume, volumeOptions);
-    if (!onDevice.ok()) {
-        return onDevice.error();
-    }
-    Result<TransferFunction> table = TransferFunction::upload(session.context, queue, transferFunction);
-    if (!table.ok()) {
-        return table.error().code == ErrorCode::LimitExceeded
-                   ? Error{ErrorCode::InvalidArgument, 0, "--tf-size: " + table.error().text}
-                   : table.error();
-    }
-    Result<cpu::Volume> hostVolume = cpu::Volume::create(volume);
-    if (!hostVolume.ok()) {
-        return hostVolume.error();
-    }
-    Result<cpu::TransferFunction> hostTable = cpu::TransferFunction::create(transferFunction);
-    if (!hostTable.ok()) {
-        return hostTable.error();
-    }
-    return Surroundings{std::move(*onDevice), std::move(*table), std::move(*hostVolume), std::move(*hostTable)};
 }
 
 } // namespace voxtact::app
