@@ -30,11 +30,11 @@ bool isThere(vec3 coordinate) {
     return there;
 }
 
-/// How open it is over a surface: 1 where nothing is within reach along the normal, which leads outside. The mean of
-/// what comes through from each of the looks.
-float opennessAt(vec3 coordinate, vec3 normal) {
+/// How open it is over a surface: 1 where nothing is within reach along a way outside. The mean of what comes through from
+/// each of the looks.
+float opennessAt(vec3 coordinate, vec3 outside) {
     const float part = picture.reach / float(OCCLUSION_LOOKS);
-    const vec3 way = part * ROWS3(picture.texture_from_world, vec4(normal, 0.0));
+    const vec3 way = part * ROWS3(picture.texture_from_world, vec4(outside, 0.0));
     float through = 1.0;
     float sum = 0.0;
     for (int i = 1; i <= OCCLUSION_LOOKS; ++i) {
@@ -62,7 +62,9 @@ vec3 shadedInside(vec4 segment, vec3 coordinate, vec3 away) {
     if (picture.occlusion <= 0.0) {
         return light;
     }
-    const float openness = opennessAt(coordinate, dot(normal, away) > 0.0 ? -normal : normal);
+    // Half-way to the eye: within matter a gradient may point anywhere.
+    const vec3 outside = normalize((dot(normal, away) > 0.0 ? -normal : normal) - away);
+    const float openness = opennessAt(coordinate, outside);
     return light * (1.0 - picture.occlusion * (1.0 - openness));
 }
 

@@ -65,8 +65,8 @@ struct Lighting {
     /// What a second light adds where a surface faces it; its glint is this part of `specular`.
     double side = 0;
     Vec3 sideFrom{-0.55, 0.6, 0.6}; ///< where it is: to the picture's right, up, and towards the eye; of any length
-    /// 0..1: how dark a place of the volume is that is shut in. What is between it and `reach` mm, along its normal,
-    /// shuts in; faces of a cut are open.
+    /// 0..1: how dark a place of the volume is that is shut in. What is between it and `reach` mm, half-way
+    /// between its normal and the way to the eye, shuts in; faces of a cut are open.
     double occlusion = 0;
     double reach = 8;
     /// Where the border of the volume, a clipping plane or the near plane cuts through what is visible: light falls on

@@ -126,7 +126,7 @@ class Caster {
         return -std::log1p(-std::min(lookUp(opacity_, s), 0.999)) / scene_.function.opacityUnit;
     }
 
-    /// The mean light that comes from a quarter, half, three quarters and all of the reach along the normal.
+    /// The mean light that comes from a quarter, half, three quarters and all of the reach along a way outside.
     [[nodiscard]] double openness(const Vec3& world, const Vec3& normal) const {
         constexpr int kLooks = 4;
         const double part = scene_.lighting.reach / kLooks;
@@ -140,6 +140,12 @@ class Caster {
             sum += std::exp(-depth);
         }
         return sum / kLooks;
+    }
+
+    /// Between a normal and the way to the eye.
+    static Vec3 halfWay(const Vec3& normal, const Vec3& direction) {
+        const Vec3 sum = normal - direction;
+        return (1 / size(sum)) * sum;
     }
 
     /// Light on a surface with a normal of unit length, either way: what it makes of a colour, and what it adds.
@@ -244,7 +250,8 @@ class Caster {
             const bool isFlat = size(slope) < 1e-9;
             const Vec3 normal = isFlat ? direction : (1 / size(slope)) * slope;
             light = lightOn(normal, direction);
-            const double open = isFlat ? 1 : openness(world, dot(normal, direction) > 0 ? -1.0 * normal : normal);
+            const double open =
+                isFlat ? 1 : openness(world, halfWay(dot(normal, direction) > 0 ? -1.0 * normal : normal, direction));
             const double left = 1 - scene_.lighting.occlusion * (1 - open);
             const Lighting& lights = scene_.lighting;
             const double facing = std::abs(dot(face.normal, direction));

@@ -31,7 +31,9 @@ bool isInside(std::span<const Point> corners, const Point& at) {
 double coverage(std::span<const Point> corners, int x, int y) {
     int inside = 0;
     for (int i = 0; i < kSamples * kSamples; ++i) {
-        const Point at{x + (i % kSamples + 0.5) / kSamples, y + (i / kSamples + 0.5) / kSamples};
+        const int column = i % kSamples;
+        const int row = i / kSamples;
+        const Point at{x + (column + 0.5) / kSamples, y + (row + 0.5) / kSamples};
         inside += isInside(corners, at) ? 1 : 0;
     }
     return static_cast<double>(inside) / (kSamples * kSamples);

@@ -68,8 +68,10 @@ void drawOnSide(Canvas& canvas, const char* letter, const Point& middle, const P
         for (int x = 0; x < out.width; ++x) {
             float sum = 0;
             for (int i = 0; i < kLooks * kLooks; ++i) {
-                const double dx = out.left + x + (i % kLooks + 0.5) / kLooks - middle.x;
-                const double dy = out.top + y + (i / kLooks + 0.5) / kLooks - middle.y;
+                const int lookX = i % kLooks;
+                const int lookY = i / kLooks;
+                const double dx = out.left + x + (lookX + 0.5) / kLooks - middle.x;
+                const double dy = out.top + y + (lookY + 0.5) / kLooks - middle.y;
                 const double a = (dx * up.y - dy * up.x) / determinant;
                 const double b = (right.x * dy - right.y * dx) / determinant;
                 // The base line of the mask is at 0, and its letter begins at 0.
