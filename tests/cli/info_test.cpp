@@ -41,6 +41,26 @@ class InfoTest : public CliTest {
     }
 };
 
+TEST_F(InfoTest, OneOfSeveralImages) {
+    const std::string file = path("several.nii");
+    writeNifti(file, {.sizes = {4, 2, 2, 2, 3, 1, 1, 1}, .bytes = 24});
+    std::string text = readText(file);
+    for (std::size_t i = 0; i < 24; ++i) {
+        text[352 + i] = static_cast<char>(i);
+    }
+    writeText(file, text);
+    const Json row = rows({file + "#2"}).at(0);
+    EXPECT_EQ(row.at("value_min"), 16);
+    EXPECT_EQ(row.at("value_max"), 23);
+    EXPECT_THAT(refusal({"info", file}, kExitFailure), HasSubstr("(frame 0 to 2; to the program: PATH#0)"));
+    EXPECT_THAT(refusal({"info", file + "#3"}, kExitFailure), HasSubstr("it has no frame 3"));
+    EXPECT_THAT(refusal({"info", file + "#last"}, kExitFailure), HasSubstr("is not the number of an image in"));
+    EXPECT_THAT(refusal({"info", file + "#1", "--output", file}), HasSubstr("is not overwritten"));
+    // A name that is there as it stands.
+    std::filesystem::copy_file(counted({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}), path("a#1.nii"));
+    EXPECT_EQ(rows({path("a#1.nii")}).at(0).at("value_max"), 15);
+}
+
 TEST_F(InfoTest, AVolumeWhoseVoxelsAreKnown) {
     // x runs to the right at 1 mm, y to the front at 2 mm, z upwards at 3 mm.
     const std::string file = counted({1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30});

@@ -144,7 +144,7 @@ TEST_F(DicomRefusal, SeveralSeries) {
     expectRefused(readWith(1, other),
                   "the folder holds 2 DICOM series: 1.2.3.4 (CT, 'Thorax', 3 files), 5.5.5 (MR, 'T1?[31m ?"
                   "?', 1 file); "
-                  "choose one by its UID, or put it into a folder of its own",
+                  "name the one that is meant (to the program: FOLDER#UID)",
                   folder_.path());
     expectRefused(io::readVolume(folder_.path(), {.frame = {}, .series = "1.2.3"}),
                   "the folder holds no DICOM series 1.2.3; it holds 1.2.3.4 (CT, 'Thorax', 3 files), 5.5.5",

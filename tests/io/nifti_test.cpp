@@ -229,7 +229,7 @@ TEST(Nifti, FramesAreChosen) {
     NiftiFile file;
     file.sizes = {2, 1, 1, 3};
     file.voxels = "abcdef";
-    expectRefused(readFile(file), "it is 4D and holds 3 images; name the one that is meant (frame 0 to 2)");
+    expectRefused(readFile(file), "it is 4D and holds 3 images; name the one that is meant (frame 0 to 2;");
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
         const auto volume = readBytes(file.bytes(), {frame});
         ASSERT_TRUE(isOk(volume));

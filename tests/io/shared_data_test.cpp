@@ -202,7 +202,7 @@ TEST_F(SharedData, OddVolumes) {
     const std::map<std::string, std::string> reasons{
         {"5D_small.nii", "it is 5D"},
         {"5D_zeros.nii.gz", "it is 5D"},
-        {"example4d.nii.gz", "it is 4D and holds 2 images; name the one that is meant (frame 0 to 1)"},
+        {"example4d.nii.gz", "it is 4D and holds 2 images; name the one that is meant (frame 0 to 1;"},
         {"not-nifti.nii", "it is not a NIfTI file"},
         {"test.mgz", "its ending is none of"},
         {"truncated_bonsai.nii.gz", "cut off or damaged"}};

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/inputs.h"
 
+#include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
+#include "app/output/text_for_messages.h"
 #include "voxtact/builtin.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -32,12 +35,35 @@ void printNotes(const std::string& source, const std::vector<std::string>& notes
     }
 }
 
+/// Of a folder a series, of a file a frame.
+Result<VolumeData> readImage(const std::string& source) {
+    const NamedImage image = namedImage(source);
+    io::VolumeReadOptions options;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(image.path, ignored)) {
+        options.series = image.which;
+    } else if (!image.which.empty() || image.path != source) {
+        std::uint32_t frame = 0;
+        const char* const end = image.which.data() + image.which.size();
+        const auto [read, error] = std::from_chars(image.which.data(), end, frame);
+        if (error != std::errc() || read != end) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         forMessage(source) +
+                             ": there is no such file, and what follows '#' is not the number of an "
+                             "image in " +
+                             forMessage(image.path.string())};
+        }
+        options.frame = frame;
+    }
+    return io::readVolume(image.path, options);
+}
+
 } // namespace
 
 Result<VolumeData> loadVolume(const std::string& source) {
     const bool builtin = source.starts_with(kBuiltin);
     Result<VolumeData> volume =
-        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : io::readVolume(source);
+        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source);
     if (!volume.ok()) {
         return builtin ? badArgument("--volume " + source + ": " + volume.error().text) : fileFault(volume.error());
     }
@@ -97,7 +123,7 @@ std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
 }
 
 Result<LabelData> loadLabels(const std::filesystem::path& path) {
-    const Result<VolumeData> volume = io::readVolume(path);
+    const Result<VolumeData> volume = readImage(path.string());
     if (!volume.ok()) {
         return fileFault(volume.error());
     }

@@ -12,7 +12,7 @@
 /// What the options name, read into host memory. What a reader has to say goes to standard error as notes.
 namespace voxtact::app {
 
-/// A path, or `builtin:NAME`.
+/// A path, of a file or folder with several images one as namedImage() says, or `builtin:NAME`.
 [[nodiscard]] Result<VolumeData> loadVolume(const std::string& source);
 [[nodiscard]] Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options);
 
@@ -23,7 +23,7 @@ namespace voxtact::app {
 /// Opacity from 0 to 1 over the domain.
 [[nodiscard]] std::vector<ControlPoint> defaultRamp(const ValueRange& domain);
 
-/// A label map. No `builtin:`.
+/// A label map, named as a volume is. No `builtin:`.
 [[nodiscard]] Result<LabelData> loadLabels(const std::filesystem::path& path);
 /// Where the names of its labels are: `names`; where that is empty, the file beside it that is called like it without
 /// .gz, and with .txt.

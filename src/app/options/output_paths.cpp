@@ -154,9 +154,18 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
 
 } // namespace
 
+NamedImage namedImage(const std::string& source) {
+    std::error_code ignored;
+    const std::size_t mark = source.rfind('#');
+    if (mark == std::string::npos || fs::exists(source, ignored)) {
+        return {source, {}};
+    }
+    return {source.substr(0, mark), source.substr(mark + 1)};
+}
+
 void addInput(std::vector<NamedPath>& inputs, const char* option, const fs::path& path) {
     if (!path.empty() && path != "-" && !path.string().starts_with("builtin:")) {
-        inputs.push_back({option, path});
+        inputs.push_back({option, namedImage(path.string()).path});
     }
 }
 

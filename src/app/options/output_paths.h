@@ -16,7 +16,15 @@ struct NamedPath {
     std::filesystem::path path;
 };
 
-/// Adds a file or folder that is read; builtins, standard input and empty paths are none.
+/// A file or folder of volumes as the user names it: its path, and behind a '#' which of its images is meant (a frame,
+/// the UID of a series). A path that is there as it stands has no such part.
+struct NamedImage {
+    std::filesystem::path path;
+    std::string which; ///< empty: the only one
+};
+[[nodiscard]] NamedImage namedImage(const std::string& source);
+
+/// Adds a file or folder that is read, without what is behind a '#'; builtins, standard input and empty paths are none.
 void addInput(std::vector<NamedPath>& inputs, const char* option, const std::filesystem::path& path);
 /// The files and folders that the options read.
 [[nodiscard]] std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes);

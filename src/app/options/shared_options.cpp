@@ -138,7 +138,7 @@ void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
     parser
         .add_option("--volume", sources,
                     "NIfTI, NRRD, MetaImage, a DICOM folder, or builtin:NAME[:SIZE] with head, sphere, noise, ct, "
-                    "shells, vessels")
+                    "shells, vessels; PATH#N is image N of a 4D file, FOLDER#UID one of several series")
         ->type_name("PATH")
         ->check(refuseEmpty)
         ->allow_extra_args(false)

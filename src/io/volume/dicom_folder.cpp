@@ -135,11 +135,10 @@ Result<void> chooseSeries(const fs::path& folder, std::string_view wanted, std::
         series[std::string(file.set.text(dicom::kSeries))].push_back(&file);
     }
     if (wanted.empty()) {
-        return series.size() == 1
-                   ? Result<void>()
-                   : cannotRead(folder, "the folder holds " + std::to_string(series.size()) +
-                                            " DICOM series: " + listOf(series) +
-                                            "; choose one by its UID, or put it into a folder of its own");
+        return series.size() == 1 ? Result<void>()
+                                  : cannotRead(folder, "the folder holds " + std::to_string(series.size()) +
+                                                           " DICOM series: " + listOf(series) +
+                                                           "; name the one that is meant (to the program: FOLDER#UID)");
     }
     if (!series.contains(std::string(wanted))) {
         return cannotRead(folder,

@@ -84,7 +84,7 @@ Result<std::uint64_t> frameOf(const fs::path& path, std::uint64_t frames, const 
     if (!options.frame && frames > 1) {
         return cannotRead(path, "it is 4D and holds " + std::to_string(frames) +
                                     " images; name the one that is meant (frame 0 to " + std::to_string(frames - 1) +
-                                    ") or extract it");
+                                    "; to the program: PATH#0)");
     }
     const std::uint64_t frame = options.frame.value_or(0);
     if (frame >= frames) {
