@@ -77,8 +77,8 @@ bool planeMisses(Placed triangle, PrecisePlane plane, vec3 centre, float radius)
     return triangle.usable ? certifiedPlaneMisses(triangle.rounded, at, radius) : precisePlaneMisses(plane, at, radius);
 }
 
-/// Every parts-th of a triangle's bricks, from `part` on; the lanes share the cells of each.
-void decideTriangle(CertifiedPair transform, uint number, int part, int parts) {
+/// Every parts-th of a triangle's bricks, from `part` on, and every step-th of the cells of each, from `first` on.
+void decideTriangle(CertifiedPair transform, uint number, int part, int parts, int first, int step) {
     const TriangleVertices at = verticesOf(transform, number);
     const CertifiedBounds bounds = boundsOf(at);
     const Placed triangle =
@@ -105,13 +105,19 @@ void decideTriangle(CertifiedPair transform, uint number, int part, int parts) {
         }
         const CellBox inside = within(cells, brick);
         const int most = volumeOf(inside);
-        for (int place = int(gl_LocalInvocationIndex); place < most; place += VOXTACT_COMPUTE_GROUP) {
+        for (int place = first; place < most; place += step) {
             const ivec3 cell = placeIn(inside, place);
             if (single || !planeMisses(triangle, plane, vec3(cell) + 0.5, 0.5)) {
                 decideCell(triangle, cell, range);
             }
         }
     }
+}
+
+/// Whether the cells of a triangle of the mesh are shared by the lanes; false where it has none.
+bool isShared(CertifiedPair transform, uint number) {
+    const CellBox cells = cellsOf(boundsOf(verticesOf(transform, number)));
+    return !isEmpty(cells) && isLarge(cells);
 }
 
 void main() {
@@ -122,16 +128,28 @@ void main() {
     const CertifiedPair transform = transforms[pair];
     const uint groups = gl_NumWorkGroups.x;
     const uint group = gl_WorkGroupID.x;
+    const uint lane = gl_LocalInvocationIndex;
     const uint open = opens[constants.firstOpen + pair].count;
-    // The groups share the triangles of a list, or all of the mesh, and those that have the same triangle its bricks.
+    // The groups share the triangles of a list, and those that have the same triangle its bricks; or all of the mesh,
+    // each as many of it as there are lanes: first a lane its own unless it is large, then all lanes each large one.
     const bool listed = open <= VOXTACT_OPEN_TRIANGLES;
-    const uint first = listed ? group % open : group;
+    const uint first = listed ? group % open : group * VOXTACT_COMPUTE_GROUP;
+    const uint end = listed ? first + 1 : min(first + VOXTACT_COMPUTE_GROUP, constants.triangleCount);
     const uint part = listed ? group / open : 0;
     const uint parts = listed ? (groups - first + open - 1) / open : 1;
-    const uint end = listed ? first + 1 : constants.triangleCount;
-    for (uint at = first; at < end; at += groups) {
+    bool own = !listed;
+    uint at = own ? first + lane : first;
+    while (own || at < end) {
         const uint number = listed ? opens[constants.firstOpen + pair].triangles[at] : at;
-        decideTriangle(transform, number, int(part), int(parts));
+        if (at < end && !(own && isShared(transform, number))) {
+            decideTriangle(transform, number, int(part), int(parts), own ? 0 : int(lane),
+                           own ? 1 : VOXTACT_COMPUTE_GROUP);
+        }
+        at = own ? first : at + 1;
+        own = false;
+        while (at < end && !isShared(transform, at)) {
+            ++at;
+        }
     }
     const uint total = subgroupAdd(survivors);
     const bool some = subgroupOr(undecided || isCut() ? 1u : 0u) != 0;
