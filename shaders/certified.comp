@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative`: a work group decides the fragments of VOXTACT_COMPUTE_GROUP triangles of a pair, of a
 // cluster where the mesh has them. What is skipped (clusters, triangles, bricks) provably has no opaque point. A
-// triangle with few cells is one lane's; one with many is queued and shared by the whole group.
+// triangle with few cells is one lane's; one with many is queued and shared by the whole group. Triangles that are
+// undecided in some cell, and those with very many cells, are listed for certified_again.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -14,105 +15,14 @@
 #include "voxtact/pair_result.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
-layout(constant_id = VOXTACT_CONSTANT_STOP_AT_FIRST) const bool kStopAtFirst = false;
-
-layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
-layout(set = VOXTACT_SET_VOLUME, binding = VOXTACT_BINDING_BRICKS, std430) readonly buffer Bricks {
-    vec4 bricks[]; // lo, hi, wideLo, wideHi
-};
-layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
-layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = VOXTACT_BINDING_EXTREMES, std430) readonly buffer Extremes {
-    float extremes[];
-};
-layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) readonly buffer Transforms {
-    CertifiedPair transforms[];
-};
-layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffer Results { PairResult results[]; };
-layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) readonly buffer Vertices { float vertices[]; };
-layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
-layout(push_constant) uniform Item { CertifiedConstants constants; };
-
-// One addition a subgroup: a carry that is not needed costs nothing.
-const bool kCarry = true;
-
-#include "stored.glsl"
-#include "certified.h"
-#include "count.glsl"
-#include "mesh.glsl"
-#ifdef OUTPUTS
-#include "survives.glsl"
-#include "outputs.glsl"
-#endif
-
-const int kMostCellsOfALane = 27;
-const int kBrickSide = 1 << VOXTACT_BRICK_SHIFT;
-
-/// A box of cells, both ends inclusive, numbered from -1; or of bricks, from 0.
-struct CellBox {
-    ivec3 lo;
-    ivec3 hi;
-};
+#include "certified_scene.glsl"
 
 shared uint queue[VOXTACT_COMPUTE_GROUP];
 shared uint queued;
+shared uint queueOpen[VOXTACT_COMPUTE_GROUP / 32]; // a bit for each in the queue: it is listed
 shared uint wanted;
 
-uint pair;
-uint survivors = 0;
-bool undecided = false;
-
-OpacityTable opacities() {
-    return OpacityTable(constants.item.tableSize, constants.item.tableLevels, constants.item.threshold);
-}
-
-CellBox cellsOf(CertifiedBounds bounds) {
-    return CellBox(ivec3(bounds.firstX, bounds.firstY, bounds.firstZ), ivec3(bounds.lastX, bounds.lastY, bounds.lastZ));
-}
-
-bool isEmpty(CellBox box) {
-    return any(lessThan(box.hi, box.lo));
-}
-
-CellBox bricksOf(CellBox cells) {
-    return CellBox((cells.lo + 1) >> VOXTACT_BRICK_SHIFT, (cells.hi + 1) >> VOXTACT_BRICK_SHIFT);
-}
-
-int volumeOf(CellBox box) {
-    const ivec3 size = box.hi - box.lo + 1;
-    return size.x * size.y * size.z;
-}
-
-ivec3 placeIn(CellBox box, int number) {
-    const ivec3 size = box.hi - box.lo + 1;
-    const int row = number / size.x;
-    return box.lo + ivec3(number % size.x, row % size.y, row / size.y);
-}
-
-vec4 brickAt(ivec3 brick) {
-    const ivec3 count = (ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) >> VOXTACT_BRICK_SHIFT) + 1;
-    return bricks[brick.x + count.x * (brick.y + count.y * brick.z)];
-}
-
-bool brickMayBeOpaque(vec4 range) {
-    return certifiedRangeMayBeOpaque(opacities(), constants.item, range.x, range.y);
-}
-
-CertifiedVertex certifiedVertexOf(CertifiedPair transform, uint corner) {
-    const vec3 position = positionOf(constants.mesh, corner);
-    return certifiedVertex(transform, position.x, position.y, position.z);
-}
-
-float storedAt(ivec3 voxel) {
-    const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
-    return storedVoxel(clamp(voxel, ivec3(0), last), constants.item.storedUnit);
-}
-
-CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
-    return CertifiedCorners(storedAt(cell), storedAt(cell + ivec3(1, 0, 0)), storedAt(cell + ivec3(0, 1, 0)),
-                            storedAt(cell + ivec3(1, 1, 0)), storedAt(cell + ivec3(0, 0, 1)),
-                            storedAt(cell + ivec3(1, 0, 1)), storedAt(cell + ivec3(0, 1, 1)),
-                            storedAt(cell + ivec3(1, 1, 1)), range.z, range.w);
-}
+bool open = false; // the triangle at hand is undecided in some cell
 
 /// `number` is that of the triangle.
 void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single) {
@@ -125,24 +35,25 @@ void decideCell(uint number, CertifiedTriangle triangle, ivec3 cell, vec4 range,
     if (!certifiedCellMayBeOpaque(opacities(), known)) {
         return;
     }
+    VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
+    const int count = certifiedBegin(opacities(), triangle, known, cell.x, cell.y, cell.z, polygon);
     CertifiedWitness witness;
-    const int verdict =
-        certifiedFragment(opacities(), constants.item, triangle, known, cell.x, cell.y, cell.z, witness);
-    if (verdict == CERTIFIED_CERTAIN) {
+    const int verdict = certifiedSettle(opacities(), constants.item.resolution, known, polygon, count, witness);
+    if (verdict == CERTIFIED_CERTAIN && !isCut()) {
         ++survivors;
 #ifdef OUTPUTS
-        const CertifiedProof proof =
-            certifiedProof(opacities(), constants.item, corners, witness, cell.x, cell.y, cell.z);
-        emitSurvivor(pair, number, contactVector(proof.texture.x, proof.texture.y, proof.texture.z),
-                     contactSample(proof.stored, proof.opacity));
+        emitWitness(number, corners, witness, cell);
 #endif
     } else if (verdict == CERTIFIED_UNDECIDED) {
-        undecided = true;
+        open = true;
     }
 }
 
 /// Every step-th of a triangle's cells in each brick, from `first` on.
-void decideCells(uint number, CertifiedTriangle triangle, CertifiedBounds bounds, int first, int step) {
+void decideTriangle(CertifiedPair transform, uint number, int first, int step) {
+    const TriangleVertices at = verticesOf(transform, number);
+    const CertifiedBounds bounds = boundsOf(at);
+    const CertifiedTriangle triangle = triangleOf(at, bounds.delta);
     const CellBox cells = cellsOf(bounds);
     const CellBox box = bricksOf(cells);
     const bool single = cells.lo == cells.hi;
@@ -154,40 +65,36 @@ void decideCells(uint number, CertifiedTriangle triangle, CertifiedBounds bounds
             continue;
         }
         if (!bounds.usable) {
-            undecided = true;
+            open = true;
             return;
         }
-        const ivec3 corner = (brick << VOXTACT_BRICK_SHIFT) - 1;
-        const vec3 centre = vec3(corner) + float(kBrickSide / 2);
+        const vec3 centre = brickCentre(brick);
         if (count > 1 &&
             certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), float(kBrickSide / 2))) {
             continue;
         }
-        const CellBox within = CellBox(max(cells.lo, corner), min(cells.hi, corner + kBrickSide - 1));
-        const int most = volumeOf(within);
+        const CellBox inside = within(cells, brick);
+        const int most = volumeOf(inside);
         for (int cell = first; cell < most; cell += step) {
-            decideCell(number, triangle, placeIn(within, cell), range, single);
+            decideCell(number, triangle, placeIn(inside, cell), range, single);
         }
     }
 }
 
-void decideTriangle(CertifiedPair transform, uint triangle, int first, int step) {
-    const CertifiedVertex a = certifiedVertexOf(transform, 3 * triangle);
-    const CertifiedVertex b = certifiedVertexOf(transform, 3 * triangle + 1);
-    const CertifiedVertex c = certifiedVertexOf(transform, 3 * triangle + 2);
-    const CertifiedBounds bounds = certifiedBounds(constants.item, a, b, c);
-    const CellBox cells = cellsOf(bounds);
-    if (isEmpty(cells)) {
-        return;
+/// Lists a triangle of the pair for the second pass, which has for each pair as many work groups as it has such triangles, and
+/// more where a triangle is large.
+void addOpen(uint number, bool large) {
+    const uint before = atomicAdd(opens[constants.firstOpen + pair].count, 1u);
+    const bool listed = before < VOXTACT_OPEN_TRIANGLES;
+    if (listed) {
+        opens[constants.firstOpen + pair].triangles[before] = number;
     }
-    // Also where the number of cells overflows.
-    const ivec3 sides = cells.hi - cells.lo + 1;
-    const bool few = all(lessThanEqual(sides, ivec3(kMostCellsOfALane))) && volumeOf(cells) <= kMostCellsOfALane;
-    if (step == 1 && !few) {
-        queue[atomicAdd(queued, 1u)] = triangle;
-        return;
+    const uint first = constants.firstOpen + constants.firstPair;
+    if (before == 0) {
+        opens[first + atomicAdd(opens[first].groupsY, 1u)].pair = pair;
     }
-    decideCells(triangle, certifiedTriangle(a.point, b.point, c.point, bounds.delta), bounds, first, step);
+    atomicMax(opens[first].groupsX, listed ? max(before + 1, large ? VOXTACT_OPEN_GROUPS : 1u) : gl_NumWorkGroups.x);
+    atomicMax(opens[first].groupsZ, 1u);
 }
 
 /// Whether the group's cluster may touch a brick that may have an opaque point: asked by all lanes together.
@@ -217,6 +124,8 @@ void main() {
     const uint lane = gl_LocalInvocationIndex;
     if (lane == 0) {
         queued = 0;
+        queueOpen[0] = 0;
+        queueOpen[1] = 0;
         wanted = kStopAtFirst && results[pair].countLow > 0 ? 2u : 0u;
     }
     barrier();
@@ -225,27 +134,49 @@ void main() {
     }
     const CertifiedPair transform = transforms[pair];
     uint triangle = group * VOXTACT_COMPUTE_GROUP + lane;
-    const bool within = triangle < constants.triangleCount;
+    const bool inMesh = triangle < constants.triangleCount;
     if (constants.clusterCount > 0) {
         if (!clusterMayTouch(transform, group)) {
             return;
         }
-        triangle = within ? indices[constants.clusterWord + 6 * constants.clusterCount + triangle] : 0;
+        triangle = inMesh ? indices[constants.clusterWord + 6 * constants.clusterCount + triangle] : 0;
     }
-    if (within) {
-        decideTriangle(transform, triangle, 0, 1);
+    bool few = false;
+    if (inMesh) {
+        const CellBox cells = cellsOf(boundsOf(verticesOf(transform, triangle)));
+        const bool large = !isEmpty(cells) && isLarge(cells);
+        few = !isEmpty(cells) && !large;
+        if (large && isHuge(cells)) {
+            addOpen(triangle, true);
+        } else if (large) {
+            queue[atomicAdd(queued, 1u)] = triangle;
+        }
     }
     barrier();
-    for (uint i = 0; i < queued; ++i) {
-        decideTriangle(transform, queue[i], int(lane), VOXTACT_COMPUTE_GROUP);
+    // The lane's own triangle, then those in the queue. One call: what it stands for is most of the program, and
+    // compilers take longer than twice as long for two.
+    const uint turns = queued + 1;
+    for (uint turn = 0; turn < turns; ++turn) {
+        const bool own = turn == 0;
+        const uint number = own ? triangle : queue[turn - 1];
+        open = false;
+        if (!own || few) {
+            decideTriangle(transform, number, own ? 0 : int(lane), own ? 1 : VOXTACT_COMPUTE_GROUP);
+        }
+        if (open) {
+            const uint bit = 1u << ((turn - 1) & 31);
+            if (own || (atomicOr(queueOpen[(turn - 1) >> 5], bit) & bit) == 0) {
+                addOpen(number, !own);
+            }
+        }
     }
     const uint total = subgroupAdd(survivors);
-    const bool open = subgroupOr(undecided ? 1u : 0u) != 0;
+    const bool cut = subgroupOr(isCut() ? 1u : 0u) != 0;
     if (subgroupElect()) {
         if (total > 0) {
             addSurvivors(pair, total);
         }
-        if (open) {
+        if (cut) {
             atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
         }
     }

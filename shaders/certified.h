@@ -8,13 +8,15 @@
 #ifndef VOXTACT_CERTIFIED_H
 #define VOXTACT_CERTIFIED_H
 
-#include "certified_cell.h"
+#include "certified_precise.h"
 
 #define CERTIFIED_NONE 0      // the triangle has no opaque point in the cell
 #define CERTIFIED_CERTAIN 1   // it has one
 #define CERTIFIED_UNDECIDED 2 // neither could be shown
 /// Bisecting the longest edge halves all of them within three steps: enough for a resolution of 2^-12.
 #define CERTIFIED_STACK 48
+/// Voxels: what is placed precisely is divided as far.
+#define CERTIFIED_FINE_RESOLUTION 0.0009765625f
 /// Pieces of a fragment that are looked at before it is left undecided.
 #define CERTIFIED_MAX_PIECES 2048
 
@@ -244,21 +246,17 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
         if (!mayBeOpaque(table, lo, hi)) {
             continue;
         }
-        if (certifiedPointProves(table, cell, piece.a, range.atA)) {
-            witness = certifiedWitnessAt(piece.a, range.atA);
-            return CERTIFIED_CERTAIN;
+        const VoxelPoint points[3] = {piece.a, piece.b, piece.c};
+        const float entries[3] = {range.atA, range.atB, range.atC};
+        for (int i = 0; i < 3; ++i) {
+            if (certifiedPointProves(table, cell, points[i], entries[i])) {
+                witness = certifiedWitnessAt(points[i], entries[i]);
+                return CERTIFIED_CERTAIN;
+            }
         }
-        if (certifiedPointProves(table, cell, piece.b, range.atB)) {
-            witness = certifiedWitnessAt(piece.b, range.atB);
-            return CERTIFIED_CERTAIN;
+        for (int i = 0; i < 3; ++i) {
+            certifiedSample(cell, points[i], entries[i], samples);
         }
-        if (certifiedPointProves(table, cell, piece.c, range.atC)) {
-            witness = certifiedWitnessAt(piece.c, range.atC);
-            return CERTIFIED_CERTAIN;
-        }
-        certifiedSample(cell, piece.a, range.atA, samples);
-        certifiedSample(cell, piece.b, range.atB, samples);
-        certifiedSample(cell, piece.c, range.atC, samples);
         if (certifiedCrossingProves(table, samples, cell.margin)) {
             witness = certifiedWitnessBetween(table, cell, samples);
             return CERTIFIED_CERTAIN;
@@ -355,7 +353,7 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
     certifiedPart(a.z, b.z, c.z, triangle.delta, cell.lo.z, cell.hi.z, lo.z, hi.z);
     float least = 0.0f;
     float greatest = 0.0f;
-    for (int side = 0; side < 2; ++side) {
+    ROLLED for (int side = 0; side < 2; ++side) {
         const float x = side == 0 ? lo.x : hi.x;
         const float v00 = exactLerp(cell.x000, cell.x100, x);
         const float v10 = exactLerp(cell.x010, cell.x110, x);
@@ -377,30 +375,57 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
     return certifiedMayBeOpaque(table, least, greatest, cell.pointError);
 }
 
-/// A fragment's verdict. Expects a cell that may have an opaque point. `witness` is set where it is certain.
-EXACT int certifiedFragment(OpacityTable table, CertifiedItem item, CertifiedTriangle triangle, CertifiedCell cell,
-                            int x, int y, int z, OUT(CertifiedWitness) witness) {
+/// What certifiedBegin() and certifiedBeginAgain() return beside a polygon's corners.
+#define CERTIFIED_NO_POLYGON -1
+
+/// The polygon of a fragment. None where it has no opaque point. Expects a cell that may have one.
+EXACT int certifiedBegin(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell, int x, int y, int z,
+                         ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     const VoxelPoint origin = voxelPoint(float(x), float(y), float(z));
-    witness = certifiedWitnessAt(voxelPoint(0.0f, 0.0f, 0.0f), 0.0f);
-    const bool full = certifiedCellAllOpaque(table, cell);
-    if (!full && !certifiedPartMayBeOpaque(table, triangle, cell, origin)) {
-        return CERTIFIED_NONE;
+    if (!certifiedCellAllOpaque(table, cell) && !certifiedPartMayBeOpaque(table, triangle, cell, origin)) {
+        return 0;
     }
-    VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
-    const int count = certifiedClip(triangle, cell, origin, polygon);
+    return certifiedClip(triangle, cell, origin, polygon);
+}
+
+/// The same of a precise triangle, in the cell of preciseCell(), or of what is certainly in the domain, `within`, in
+/// that of preciseWithin(). CERTIFIED_NO_POLYGON where nothing can be said.
+EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int x, int y, int z, bool within,
+                              ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+    if (!preciseKnown(triangle)) {
+        return CERTIFIED_NO_POLYGON;
+    }
+    if (triangle.outside) {
+        return 0;
+    }
+    return preciseClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), within, polygon);
+}
+
+/// The resolution for precise triangles: what few fragments are left may take longer.
+EXACT float certifiedFinest(CertifiedItem item) {
+    return certifiedMin(item.resolution, CERTIFIED_FINE_RESOLUTION);
+}
+
+/// A fragment's verdict, from its polygon. `witness` is set where it is certain.
+EXACT int certifiedSettle(OpacityTable table, float resolution, CertifiedCell cell,
+                          ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count, OUT(CertifiedWitness) witness) {
+    witness = certifiedWitnessAt(voxelPoint(0.0f, 0.0f, 0.0f), 0.0f);
     if (count == 0) {
         return CERTIFIED_NONE;
     }
+    if (count == CERTIFIED_NO_POLYGON) {
+        return CERTIFIED_UNDECIDED;
+    }
     VoxelPoint within;
-    if (full && certifiedSafeCorner(cell, polygon, count, within)) {
+    if (certifiedCellAllOpaque(table, cell) && certifiedSafeCorner(cell, polygon, count, within)) {
         witness = certifiedWitnessAt(within, certifiedInterpolate(cell, within.x, within.y, within.z));
         return CERTIFIED_CERTAIN;
     }
-    return certifiedDecide(table, cell, item.resolution, polygon, count, witness);
+    return certifiedDecide(table, cell, resolution, polygon, count, witness);
 }
 
 /// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a
-/// delta that is not less than the triangle's: certifiedFragment() then finds the same.
+/// delta that is not less than the triangle's: certifiedSettle() then finds the same.
 EXACT bool certifiedVertexProves(OpacityTable table, CertifiedCell cell, VoxelPoint vertex, int x, int y, int z) {
     const VoxelPoint at = voxelDifference(vertex, voxelPoint(float(x), float(y), float(z)));
     return certifiedPointProves(table, cell, at, certifiedInterpolate(cell, at.x, at.y, at.z));

@@ -129,11 +129,14 @@ EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell, VoxelPoi
     corners[1] = voxelDifference(triangle.corner1, origin);
     corners[2] = voxelDifference(triangle.corner2, origin);
     int count = 3;
-    for (int axis = 0; axis < 3; ++axis) {
+    // Below and above along each axis. One call for all, as everywhere where a function is long: compilers of shaders
+    // copy it wherever it is called.
+    for (int side = 0; side < 6; ++side) {
+        const int axis = side >> 1;
+        const bool above = (side & 1) == 0;
         PRECISE float lo = voxelAlong(cell.lo, axis) - triangle.delta;
         PRECISE float hi = voxelAlong(cell.hi, axis) + triangle.delta;
-        count = certifiedClipPlane(corners, count, axis, lo, true);
-        count = certifiedClipPlane(corners, count, axis, hi, false);
+        count = certifiedClipPlane(corners, count, axis, above ? lo : hi, above);
     }
     for (int i = 0; i < count; ++i) {
         corners[i] = voxelPoint(certifiedClamp(corners[i].x, cell.lo.x, cell.hi.x),

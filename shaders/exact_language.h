@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The words of the headers that are one text for GLSL and C++. Each includes this twice, before its functions and after
-// them: the second time the words are taken away again, so that nobody else meets them.
+// them: the second time the words are taken away again, so that nobody else meets them. ROLLED loops stay loops in a
+// shader that defines SMALL_PROGRAM, which is to compile soon rather than to run fast.
 #ifndef EXACT
 
 #ifdef __cplusplus
@@ -10,6 +11,7 @@
 #define INOUT(type) type&
 #define ARRAY(type, name, count) type(&name)[count]
 #define INT64 std::int64_t
+#define ROLLED
 #else
 #define EXACT
 #define PRECISE precise
@@ -17,6 +19,11 @@
 #define INOUT(type) inout type
 #define ARRAY(type, name, count) inout type name[count]
 #define INT64 int64_t
+#ifdef SMALL_PROGRAM
+#define ROLLED [[dont_unroll]]
+#else
+#define ROLLED
+#endif
 #endif
 
 #else
@@ -27,5 +34,6 @@
 #undef INOUT
 #undef ARRAY
 #undef INT64
+#undef ROLLED
 
 #endif

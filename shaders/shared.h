@@ -79,10 +79,13 @@ struct TracedFragment {
 
 /// What the projection `conservative` needs of one pair; element `pair` of a std430 buffer.
 struct CertifiedPair {
-    vec4 reference;               // a point of object space near the volume; w is 0
+    vec4 reference;               // a point of object space near the volume; w: see `place`
     vec4 voxel_from_reference[3]; // rows: voxel space from object space less the reference. Voxel i's centre is at i
     vec4 error;                   // of a transformed vertex, (x, y, z) from the reference, in voxels along each axis:
                                   // error * (|x|, |y|, |z|, 1)
+    vec4 place[9]; // rows: from object space to `scale` of CertifiedItem times the place along an axis, from the near
+                   // face of the domain; of each the sum of three, [axis], [3 + axis] and [6 + axis]. It is off by at
+                   // most reference.w of what `error` says
 };
 
 /// What it needs of one batch item. The entry coordinate of a stored value (see opacity_ranges.h) is
@@ -99,6 +102,7 @@ struct CertifiedItem {
     int sizeX; // voxels
     int sizeY;
     int sizeZ;
+    float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there
 };
 
 /// Push constants of the projection `conservative`.
@@ -110,6 +114,23 @@ struct CertifiedConstants {
     uint clusterCount; // 0: the mesh has none on the device
     uint clusterWord;  // of the words of the index buffer, where the clusters are: of each the box, lo and hi; and then
                        // the triangles, cluster by cluster, VOXTACT_COMPUTE_GROUP in each but the last
+    uint firstOpen;    // number of the CertifiedOpen of pair 0 in the buffer of the transforms
+};
+
+/// Triangles of a pair that that the projection `conservative` lists for its second pass.
+#define VOXTACT_OPEN_TRIANGLES 59
+/// Work groups of a pair that has large ones.
+#define VOXTACT_OPEN_GROUPS 64
+
+/// What the first pass of the projection `conservative` leaves to the second; element `firstOpen + pair` of a std430
+/// buffer, zero before.
+struct CertifiedOpen {
+    uint count;   // of all triangles that are undecided in some cell, be they listed or not
+    uint pair;    // of a dispatch that begins at pair p, element p + i: the i-th pair that has some
+    uint groupsX; // element p: VkDispatchIndirectCommand of the second pass
+    uint groupsY;
+    uint groupsZ;
+    uint triangles[VOXTACT_OPEN_TRIANGLES]; // the first of them
 };
 
 // Descriptor sets.
@@ -156,9 +177,10 @@ static_assert(sizeof(MeshConstants) == 16 && sizeof(DominantGrid) == 16);
 static_assert(sizeof(ItemConstants) <= VOXTACT_OFFSET_DOMINANT);
 static_assert(VOXTACT_OFFSET_DOMINANT + sizeof(DominantConstants) <= 128, "Vulkan's least maxPushConstantsSize");
 static_assert(sizeof(ComputeConstants) == 76);
-static_assert(sizeof(CertifiedPair) == 80);
-static_assert(sizeof(CertifiedItem) == 44);
-static_assert(sizeof(CertifiedConstants) == 76);
+static_assert(sizeof(CertifiedPair) == 224);
+static_assert(sizeof(CertifiedItem) == 80);
+static_assert(sizeof(CertifiedConstants) == 116);
+static_assert(sizeof(CertifiedOpen) == 256 && offsetof(CertifiedOpen, groupsX) == 8);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif

@@ -3,8 +3,12 @@
 #include "core/certified_constants.h"
 #include "detect/batch.h"
 #include "detect/outputs.h"
+#include "detect/recording.h"
+#include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
+#include "voxtact_shaders/certified_again_comp.h"
+#include "voxtact_shaders/certified_again_outputs_comp.h"
 #include "voxtact_shaders/certified_comp.h"
 #include "voxtact_shaders/certified_outputs_comp.h"
 
@@ -12,19 +16,33 @@
 
 namespace voxtact {
 
-Result<ConservativePass> ConservativePass::create(ContextImpl& context, const DetectorDesc& desc) {
-    ConservativePass pass(context, desc);
+namespace {
+
+Result<Owned<VkPipeline>> makePass(ContextImpl& context, const DetectorDesc& desc, std::span<const std::uint32_t> plain,
+                                   std::span<const std::uint32_t> withOutputs, const char* name) {
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
                                         {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)}};
-    Result<Owned<VkPipeline>> pipeline =
-        desc.outputs.any() ? makeComputePipeline(context, spirv::certified_outputs_comp, constants,
-                                                 context.computeOutputLayout, "compute conservative outputs")
-                           : makeComputePipeline(context, spirv::certified_comp, std::span(constants).first(1),
-                                                 context.computeLayout, "compute conservative");
-    if (!pipeline.ok()) {
-        return pipeline.error();
+    return desc.outputs.any()
+               ? makeComputePipeline(context, withOutputs, constants, context.computeOutputLayout, name)
+               : makeComputePipeline(context, plain, std::span(constants).first(1), context.computeLayout, name);
+}
+
+} // namespace
+
+Result<ConservativePass> ConservativePass::create(ContextImpl& context, const DetectorDesc& desc) {
+    ConservativePass pass(context, desc);
+    Result<Owned<VkPipeline>> first =
+        makePass(context, desc, spirv::certified_comp, spirv::certified_outputs_comp, "compute conservative");
+    if (!first.ok()) {
+        return first.error();
     }
-    pass.pipeline_ = std::move(*pipeline);
+    Result<Owned<VkPipeline>> again = makePass(context, desc, spirv::certified_again_comp,
+                                               spirv::certified_again_outputs_comp, "compute conservative again");
+    if (!again.ok()) {
+        return again.error();
+    }
+    pass.first_ = std::move(*first);
+    pass.again_ = std::move(*again);
     return pass;
 }
 
@@ -72,19 +90,48 @@ shader::CertifiedConstants ConservativePass::constantsOf(const Batch& batch, con
     return constants;
 }
 
-void ConservativePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item,
-                                  std::uint32_t firstPair, const ResultsImpl& results) const {
+template <class Dispatch>
+void ConservativePass::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
+                                   VkPipeline pipeline, const Dispatch& dispatch) const {
     const DeviceFunctions& vk = context_->vk;
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
-    shader::CertifiedConstants constants = constantsOf(batch, item);
-    const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
     const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
-    for (std::uint32_t done = 0; done < pairs; done += std::min(atOnce, pairs - done)) {
-        constants.firstPair = firstPair + done;
-        vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
-        vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, pairs - done), 1);
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    std::uint32_t firstPair = 0;
+    for (const BatchItem& item : batch.items) {
+        const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
+        const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
+        shader::CertifiedConstants constants = constantsOf(batch, item);
+        constants.firstOpen = firstOpen(results.pairs);
+        for (std::uint32_t done = 0; done < pairs; done += std::min(atOnce, pairs - done)) {
+            constants.firstPair = firstPair + done;
+            vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
+            dispatch(item, constants.firstPair, std::min(atOnce, pairs - done));
+        }
+        firstPair += pairs;
     }
+}
+
+void ConservativePass::recordFirst(VkCommandBuffer commandBuffer, const Batch& batch,
+                                   const ResultsImpl& results) const {
+    recordItems(commandBuffer, batch, results, first_.get(),
+                [&](const BatchItem& item, std::uint32_t /*firstPair*/, std::uint32_t pairs) {
+                    context_->vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), pairs, 1);
+                });
+}
+
+void ConservativePass::recordAgain(VkCommandBuffer commandBuffer, const Batch& batch,
+                                   const ResultsImpl& results) const {
+    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+    recordItems(commandBuffer, batch, results, again_.get(),
+                [&](const BatchItem& /*item*/, std::uint32_t firstPair, std::uint32_t /*pairs*/) {
+                    const VkDeviceSize at = VkDeviceSize{firstOpen(results.pairs)} + firstPair;
+                    context_->vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(),
+                                                     at * sizeof(shader::CertifiedOpen) +
+                                                         offsetof(shader::CertifiedOpen, groupsX));
+                });
 }
 
 } // namespace voxtact

@@ -8,8 +8,8 @@
 
 namespace voxtact {
 
-/// The pass of the projection `conservative`: a work group for every VOXTACT_COMPUTE_GROUP triangles of a pair, a
-/// cluster where the mesh has them.
+/// The passes of the projection `conservative`: the first has a work group for every VOXTACT_COMPUTE_GROUP triangles of
+/// a pair, a cluster where the mesh has them; the second goes through the triangles that the first left open.
 class ConservativePass {
   public:
     [[nodiscard]] static Result<ConservativePass> create(ContextImpl& context, const DetectorDesc& desc);
@@ -23,23 +23,25 @@ class ConservativePass {
     template <class BoundaryOf>
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
                 const BoundaryOf& /*boundaryOf*/) const {
-        std::uint32_t firstPair = 0;
-        for (const BatchItem& item : batch.items) {
-            recordItem(commandBuffer, batch, item, firstPair, results);
-            firstPair += static_cast<std::uint32_t>(item.world_from_object.size());
-        }
+        recordFirst(commandBuffer, batch, results);
+        recordAgain(commandBuffer, batch, results);
     }
 
   private:
     ConservativePass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
-    void recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, std::uint32_t firstPair,
-                    const ResultsImpl& results) const;
+    void recordFirst(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
+    void recordAgain(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
+    /// Binds a pass for each item, and has `dispatch` called for each range of its pairs that one dispatch may have.
+    template <class Dispatch>
+    void recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results, VkPipeline pipeline,
+                     const Dispatch& dispatch) const;
     [[nodiscard]] shader::CertifiedConstants constantsOf(const Batch& batch, const BatchItem& item) const;
 
     ContextImpl* context_;
     DetectorDesc desc_;
-    Owned<VkPipeline> pipeline_;
+    Owned<VkPipeline> first_;
+    Owned<VkPipeline> again_;
 };
 
 } // namespace voxtact

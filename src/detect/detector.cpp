@@ -191,11 +191,12 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                          "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
                              std::to_string(slot.maxPairs)};
         }
-        if (const std::uint64_t views = std::uint64_t{*pairs} * viewsPerPair(live(impl_).desc.projection);
-            views > slot.maxTransforms) {
+        if (const std::uint64_t transforms = std::uint64_t{*pairs} * transformsPerPair(live(impl_).desc.projection);
+            transforms > slot.maxTransforms) {
             return Error{ErrorCode::LimitExceeded, 0,
-                         "the batch has " + std::to_string(views) + " views, the Results have room for " +
-                             std::to_string(slot.maxTransforms) + " within the device's maxStorageBufferRange"};
+                         "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
+                             std::to_string(slot.maxTransforms / (transforms / *pairs)) + " by the projection " +
+                             toString(live(impl_).desc.projection) + " within the device's maxStorageBufferRange"};
         }
         if (Result<void> outputs = checkOutputs(context, batch, live(impl_).desc.outputs, slot); !outputs.ok()) {
             return outputs;

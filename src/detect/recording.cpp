@@ -12,6 +12,10 @@ namespace voxtact {
 
 namespace {
 
+static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::CertifiedOpen) &&
+                  2 * sizeof(shader::CertifiedOpen) <= kMostTransformsPerPair * sizeof(shader::PairTransform),
+              "they share a buffer");
+
 constexpr VkPipelineStageFlags2 kShaders = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
                                            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -39,7 +43,6 @@ void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer,
 /// The same for the projection conservative.
 void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                           const ResultsImpl& results) {
-    static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::PairTransform), "they share a buffer");
     BufferUpdate<shader::CertifiedPair> update(context, commandBuffer, results.transforms.get());
     for (const BatchItem& item : batch.items) {
         const VolumeImpl& volume = item.volume->impl();
@@ -48,6 +51,9 @@ void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuf
         }
     }
     update.finish();
+    constexpr VkDeviceSize kBytes = sizeof(shader::CertifiedOpen);
+    context.vk.CmdFillBuffer(commandBuffer, results.transforms.get(), firstOpen(results.pairs) * kBytes,
+                             results.pairs * kBytes, 0);
 }
 
 /// Results with a count of zero that say which pair they are.
@@ -77,6 +83,15 @@ void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, c
 }
 
 } // namespace
+
+std::uint32_t firstOpen(std::uint32_t pairs) noexcept {
+    constexpr std::uint64_t kBytes = sizeof(shader::CertifiedOpen);
+    return static_cast<std::uint32_t>((pairs * std::uint64_t{sizeof(shader::CertifiedPair)} + kBytes - 1) / kBytes);
+}
+
+std::uint32_t transformsPerPair(Projection projection) noexcept {
+    return projection == Projection::Conservative ? kMostTransformsPerPair : viewsPerPair(projection);
+}
 
 void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                     const ResultsImpl& results, const DetectorDesc& desc) {

@@ -6,6 +6,13 @@
 
 namespace voxtact {
 
+/// What the projection conservative has in the buffer of the transforms: a CertifiedPair for each pair, and behind them
+/// a CertifiedOpen for each, from this number on.
+[[nodiscard]] std::uint32_t firstOpen(std::uint32_t pairs) noexcept;
+/// PairTransforms whose room a pair takes there: the most with conservative.
+inline constexpr std::uint32_t kMostTransformsPerPair = 5;
+[[nodiscard]] std::uint32_t transformsPerPair(Projection projection) noexcept;
+
 /// What every pass needs before it: the transforms of a checked batch, and results of zero that say which pair they
 /// are. Waits for whatever still uses an earlier batch of the same Results. Leaves them ready for shaders, and the
 /// queries reset where the method counts by query.

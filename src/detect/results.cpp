@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "detect/recording.h"
 #include "detect/results_impl.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -31,11 +32,12 @@ Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type,
         context, handle, [](ContextImpl& c, VkQueryPool pool) { c.vk.DestroyQueryPool(c.device, pool, c.allocator); });
 }
 
-/// Two a pair, for the projection two-view, as far as the device has room for them.
+/// For any projection, as far as the device has room for them.
 std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
     const VkDeviceSize bytes = std::min<VkDeviceSize>(context.limits.maxStorageBufferRange, context.maxAllocation);
     const VkDeviceSize room = std::min<VkDeviceSize>(bytes / sizeof(shader::PairTransform), UINT32_MAX);
-    return static_cast<std::uint32_t>(std::max<VkDeviceSize>(std::min<VkDeviceSize>(2ULL * maxPairs, room), maxPairs));
+    return static_cast<std::uint32_t>(std::max<VkDeviceSize>(
+        std::min<VkDeviceSize>(VkDeviceSize{kMostTransformsPerPair} * maxPairs, room), maxPairs));
 }
 
 Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
@@ -75,8 +77,8 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     };
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
-        {out.transforms, VkDeviceSize{out.maxTransforms} * sizeof(shader::PairTransform), kTo, MemoryUse::Device,
-         "pair transforms"},
+        {out.transforms, VkDeviceSize{out.maxTransforms} * sizeof(shader::PairTransform),
+         kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, MemoryUse::Device, "pair transforms"},
         {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
         {out.readBack, resultBytes + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
          "pair results on the host"},

@@ -32,6 +32,7 @@ namespace voxtact {
     X(CmdCopyImageToBuffer)                                                                                            \
     X(CmdCopyQueryPoolResults)                                                                                         \
     X(CmdDispatch)                                                                                                     \
+    X(CmdDispatchIndirect)                                                                                             \
     X(CmdDraw)                                                                                                         \
     X(CmdDrawIndexed)                                                                                                  \
     X(CmdEndQuery)                                                                                                     \

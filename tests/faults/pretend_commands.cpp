@@ -255,5 +255,19 @@ void VKAPI_CALL CmdDispatch(VkCommandBuffer handle, std::uint32_t x, std::uint32
                [bound = buffer->bound, numbers = std::array{x, y, z}] { pretend().dispatch(bound, numbers); });
     }
 }
+void VKAPI_CALL CmdDispatchIndirect(VkCommandBuffer handle, VkBuffer from, VkDeviceSize offset) {
+    if (const PretendCommandBuffer* buffer = recording(handle)) {
+        std::vector<Id> uses = usesOf(buffer->bound, VK_PIPELINE_BIND_POINT_COMPUTE);
+        uses.push_back(bitsOf(from));
+        record(handle, std::move(uses), [bound = buffer->bound, from, offset] {
+            std::array<std::uint32_t, 3> numbers{};
+            copy(pretend().bufferBytes(bitsOf(from), offset, sizeof numbers),
+                 std::as_writable_bytes(std::span(numbers)));
+            if (std::ranges::count(numbers, 0U) == 0) {
+                pretend().dispatch(bound, numbers);
+            }
+        });
+    }
+}
 
 } // namespace voxtact::test::pretended

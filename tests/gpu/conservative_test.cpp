@@ -244,6 +244,94 @@ TEST_F(ConservativeTest, WhatDependsOnDenormalsIsPossible) {
     }
 }
 
+/// Triangles that single precision cannot decide: in faces of the domain,
+/// with an edge or a corner in one, and of so many voxels that the first pass decides no cell of them.
+MeshData openTriangles(const Grid& grid, std::uint32_t copies) {
+    const double near = grid.origin[0] - grid.spacing[0] / 2;
+    const double far = near + grid.size[0] * grid.spacing[0];
+    const auto in = [&](double x0, double x1, double x2) {
+        return std::array<Vec3, 3>{Vec3{x0, grid.origin[1], grid.origin[2]},
+                                   Vec3{x1, grid.origin[1] + 2, grid.origin[2]},
+                                   Vec3{x2, grid.origin[1], grid.origin[2] + 2}};
+    };
+    const auto huge = [&](double side) {
+        const Vec3 at = {grid.origin[0] + 1, grid.origin[1] + 1, grid.origin[2] + 1};
+        return std::array<Vec3, 3>{Vec3{at[0] + side, at[1] - side, at[2]}, Vec3{at[0], at[1] + side, at[2] - side},
+                                   Vec3{at[0] - side, at[1], at[2] + side}};
+    };
+    MeshData mesh;
+    for (std::uint32_t copy = 0; copy < copies; ++copy) {
+        for (const std::array<Vec3, 3>& triangle :
+             {in(near, near, near), in(far, far, far), in(near - 2, near, near), in(near - 2, near - 1, near),
+              in(near - 2, near - 1, near - 0.125), huge(1e5), huge(1e7)}) {
+            for (const Vec3& corner : triangle) {
+                mesh.indices.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
+                for (const double coordinate : corner) {
+                    mesh.positions.push_back(static_cast<float>(coordinate));
+                }
+            }
+        }
+    }
+    return mesh;
+}
+
+/// The last copies have more open triangles than a pair's list holds.
+TEST_F(ConservativeTest, WhatIsOpenIsDecidedAgainAsOnTheHost) {
+    Grid grid;
+    grid.size = {5, 6, 7};
+    grid.spacing = {0.75, 1, 3};
+    grid.origin = {0.5, -8, 1024};
+    const VolumeData image = makeBytes(grid, [](auto x, auto...) { return x < 3 ? 255 : 100; });
+    const std::vector<Mat4> poses{identity(), translation({0, 0, 1e4}), translation({0.25, 0, 0})};
+    for (const std::uint32_t copies : {1U, 40U}) {
+        const MeshData mesh = openTriangles(grid, copies);
+        const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+        const Sides sides(context(), queue(), image.view(), {points, {0, 255}, kDefaultTableSize}, mesh.view(), true);
+        const BatchItem item = sides.item(poses);
+        const cpu::BatchItem hostItem = sides.hostItem(poses);
+        constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
+        for (const bool stopAtFirst : {false, true}) {
+            DetectorDesc desc = kDevice;
+            desc.stopAtFirst = stopAtFirst;
+            desc.outputs = stopAtFirst ? Outputs{} : kOutputs;
+            cpu::Detector host = take(cpu::Detector::create(
+                {.stopAtFirst = stopAtFirst, .projection = Projection::Conservative, .outputs = desc.outputs}));
+            const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, 0.5}));
+            const BatchAnswer onHost = take(host.detect({{&hostItem, 1}, {}, 0.5}));
+            for (std::size_t i = 0; i < poses.size(); ++i) {
+                expectSame(onDevice.pairs[i], onHost.pairs[i],
+                           std::to_string(copies) + " copies, pose " + std::to_string(i));
+            }
+            EXPECT_TRUE(onDevice.pairs[0].hit);
+            if (!stopAtFirst) {
+                expectSameOutputs(onDevice, onHost);
+                std::uint64_t ofHuge = 0; // which only the second pass can have found
+                for (const TouchedTriangle& triangle : onDevice.triangles) {
+                    ofHuge += triangle.pair == 0 && triangle.triangle % 7 >= 5 ? triangle.count : 0;
+                }
+                EXPECT_GT(ofHuge, std::uint64_t{copies});
+            }
+        }
+    }
+}
+
+/// Some 100,000 cells a triangle: more loops than llvmpipe runs in one invocation (docs/facts.md).
+TEST_F(ConservativeTest, APlateThroughALargeVolumeIsTheHosts) {
+    const VolumeData sphere = take(makeBuiltinVolume("sphere:256"));
+    MeshData plate;
+    plate.positions = {-120, -120, 3.3F, 120, -120, 3.7F, 120, 120, 3.9F, -120, 120, 3.5F};
+    plate.indices = {0, 1, 2, 0, 2, 3};
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const Sides sides(context(), queue(), sphere.view(), {points, {0, 255}, kDefaultTableSize}, plate.view(), true);
+    const Mat4 pose = identity();
+    const BatchItem item = sides.item({&pose, 1});
+    const cpu::BatchItem hostItem = sides.hostItem({&pose, 1});
+    const BatchAnswer onDevice = take(detector(kDevice).detect({{&item, 1}, {}, 0.05}));
+    const BatchAnswer onHost = take(hostDetector().detect({{&hostItem, 1}, {}, 0.05}));
+    expectSame(onDevice.pairs[0], onHost.pairs[0], "a plate");
+    EXPECT_GT(onHost.pairs[0].count, 30000U);
+}
+
 /// What one batch leaves in the buffers is not the next one's answer: the same Results hold pairs that are undecided,
 /// then pairs far outside, then both.
 TEST_F(ConservativeTest, FarPosesAreNoneWhateverTheBuffersHeld) {

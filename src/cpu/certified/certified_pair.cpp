@@ -42,6 +42,7 @@ template <class Kept> class Decider {
     CertifiedTally run() {
         if (job_.stopAtFirst) {
             probeAndDecide();
+            decideOpen();
         } else {
             descend([this](std::uint32_t run) {
                 decideRun(run);
@@ -52,6 +53,15 @@ template <class Kept> class Decider {
     }
 
   private:
+    struct Triangle {
+        std::uint32_t number = 0;
+        std::array<std::size_t, 3> vertices{}; ///< in the mesh's arrays
+    };
+    struct Open {
+        Triangle triangle;
+        CellBox cells;
+    };
+
     [[nodiscard]] bool done() const { return job_.stopAtFirst && tally_.certain > 0; }
 
     template <class Visit> void descend(const Visit& visit) {
@@ -148,7 +158,10 @@ template <class Kept> class Decider {
             if (mesh.numbers[at] == kNoTriangle) {
                 return;
             }
-            number_ = mesh.numbers[at];
+            const std::size_t firstVertex = mesh.clusters[transformed_].firstVertex;
+            triangle_ = {
+                mesh.numbers[at],
+                {firstVertex + mesh.corner0[at], firstVertex + mesh.corner1[at], firstVertex + mesh.corner2[at]}};
             decideTriangle(vertices_.at(mesh.corner0[at]), vertices_.at(mesh.corner1[at]),
                            vertices_.at(mesh.corner2[at]));
         }
@@ -178,23 +191,131 @@ template <class Kept> class Decider {
         if (several && !job_.occupancy.mayBeOpaque(bricks)) {
             return;
         }
+        if (!bounds.usable) {
+            open(cells);
+            return;
+        }
         const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
+        visitBricks(bricks, [&](const std::array<std::int32_t, 3>& brick) {
+            decideBrick(Rounded{*this, triangle}, cells, brick, several);
+        });
+    }
+
+    /// Those that may have an opaque point, until it is done.
+    template <class Visit> void visitBricks(const BrickBox& bricks, const Visit& visit) const {
         for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
             for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {
                 for (std::int32_t x = bricks.lo[0]; x <= bricks.hi[0] && !done(); ++x) {
                     if (job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber({x, y, z}))) {
-                        if (!bounds.usable) {
-                            tally_.undecided = true;
-                            return;
-                        }
-                        decideBrick(triangle, cells, {x, y, z}, several);
+                        visit(std::array<std::int32_t, 3>{x, y, z});
                     }
                 }
             }
         }
     }
 
-    void decideBrick(const CertifiedTriangle& triangle, const CellBox& cells, const std::array<std::int32_t, 3>& brick,
+    /// A triangle as it is first placed, in single precision.
+    struct Rounded {
+        Decider& decider;
+        const CertifiedTriangle& triangle;
+
+        [[nodiscard]] bool planeMisses(const VoxelPoint& centre, float radius) const {
+            return shader::certifiedPlaneMisses(triangle, centre, radius);
+        }
+        void decideCell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) const {
+            decider.decideCell(triangle, x, y, z, known);
+        }
+    };
+
+    /// A triangle whose first place is too uncertain for any cell of it, placed precisely.
+    struct Precise {
+        Decider& decider;
+        shader::PrecisePlane plane;
+
+        [[nodiscard]] bool planeMisses(const VoxelPoint& centre, float radius) const {
+            return shader::precisePlaneMisses(plane, centre, radius);
+        }
+        void decideCell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) const {
+            decider.decideAgain(x, y, z, known);
+        }
+    };
+
+    /// The triangle at hand is undecided in some of these cells: it is placed again, unless a certain fragment that is
+    /// found meanwhile makes that needless.
+    void open(const CellBox& cells) {
+        constexpr std::size_t kMostOpen = 65536;
+        if (job_.stopAtFirst && open_.size() < kMostOpen) {
+            open_.push_back({triangle_, cells});
+        } else {
+            decideAgain(cells);
+        }
+    }
+
+    void decideOpen() {
+        for (std::size_t i = 0; i < open_.size() && !done(); ++i) {
+            triangle_ = open_[i].triangle;
+            decideAgain(open_[i].cells);
+        }
+    }
+
+    void decideAgain(const CellBox& cells) {
+        const auto vertex = [&](std::size_t i) {
+            const std::size_t at = triangle_.vertices[i];
+            return VoxelPoint{job_.mesh.x[at], job_.mesh.y[at], job_.mesh.z[at]};
+        };
+        if (preciseOf_ != triangle_.number) {
+            precise_ = shader::preciseTriangle(job_.transform, item_, vertex(0), vertex(1), vertex(2));
+            preciseOf_ = triangle_.number;
+        }
+        const bool isKnown = shader::preciseKnown(precise_);
+        if (isKnown && precise_.outside) {
+            return;
+        }
+        const BrickBox bricks = cells.bricks();
+        const Precise triangle{*this, cells.single() ? shader::PrecisePlane{} : shader::precisePlane(item_, precise_)};
+        visitBricks(bricks, [&](const std::array<std::int32_t, 3>& brick) {
+            if (isKnown) {
+                decideBrick(triangle, cells, brick, bricks.lo != bricks.hi);
+            } else {
+                tally_.undecided = true;
+            }
+        });
+    }
+
+    void decideAgain(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) {
+        const shader::CertifiedCorners corners = cornersOf(x, y, z, known);
+        shader::CertifiedCell cell = shader::preciseCell(item_, precise_, corners, x, y, z);
+        shader::CertifiedWitness witness{};
+        int verdict = settleAgain(cell, x, y, z, false, witness);
+        if (verdict == CERTIFIED_UNDECIDED && shader::preciseCrosses(cell)) {
+            cell = shader::preciseWithin(cell);
+            const bool certain = settleAgain(cell, x, y, z, true, witness) == CERTIFIED_CERTAIN;
+            verdict = certain ? CERTIFIED_CERTAIN : CERTIFIED_UNDECIDED;
+        }
+        if (verdict == CERTIFIED_CERTAIN) {
+            addCertain(corners, witness, x, y, z);
+        } else if (verdict == CERTIFIED_UNDECIDED) {
+            tally_.undecided = true;
+        }
+    }
+
+    int settleAgain(const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y, std::int32_t z, bool within,
+                    shader::CertifiedWitness& witness) const {
+        VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
+        const int count = shader::certifiedBeginAgain(precise_, cell, x, y, z, within, polygon);
+        return shader::certifiedSettle(table_, shader::certifiedFinest(item_), cell, polygon, count, witness);
+    }
+
+    void addCertain(const shader::CertifiedCorners& corners, const shader::CertifiedWitness& witness, std::int32_t x,
+                    std::int32_t y, std::int32_t z) {
+        ++tally_.certain;
+        if (sink_) {
+            sink_(triangle_.number, shader::certifiedProof(table_, item_, corners, witness, x, y, z));
+        }
+    }
+
+    template <class Placed>
+    void decideBrick(const Placed& triangle, const CellBox& cells, const std::array<std::int32_t, 3>& brick,
                      bool several) {
         constexpr float kRadius = 0.5F * kBrickSide;
         const CellBox within = cells.within(brick);
@@ -206,7 +327,7 @@ template <class Kept> class Decider {
             const VoxelPoint centre{static_cast<float>((brick[0] << kBrickShift) - 1) + kRadius,
                                     static_cast<float>((brick[1] << kBrickShift) - 1) + kRadius,
                                     static_cast<float>((brick[2] << kBrickShift) - 1) + kRadius};
-            if (shader::certifiedPlaneMisses(triangle, centre, kRadius)) {
+            if (triangle.planeMisses(centre, kRadius)) {
                 return;
             }
         }
@@ -214,7 +335,8 @@ template <class Kept> class Decider {
     }
 
     /// `within` is numbered within the brick.
-    void decideCells(const CertifiedTriangle& triangle, const CellBox& within, const BrickCells& known,
+    template <class Placed>
+    void decideCells(const Placed& triangle, const CellBox& within, const BrickCells& known,
                      const std::array<std::int32_t, 3>& brick, bool single) {
         const auto cell = [&](std::int32_t number, std::size_t axis) {
             return (brick[axis] << kBrickShift) - 1 + number;
@@ -226,8 +348,8 @@ template <class Kept> class Decider {
                     const VoxelPoint centre{static_cast<float>(cell(x, 0)) + 0.5F,
                                             static_cast<float>(cell(y, 1)) + 0.5F,
                                             static_cast<float>(cell(z, 2)) + 0.5F};
-                    if (single || !shader::certifiedPlaneMisses(triangle, centre, 0.5F)) {
-                        decideCell(triangle, cell(x, 0), cell(y, 1), cell(z, 2), known);
+                    if (single || !triangle.planeMisses(centre, 0.5F)) {
+                        triangle.decideCell(cell(x, 0), cell(y, 1), cell(z, 2), known);
                         if (done()) {
                             return;
                         }
@@ -256,17 +378,16 @@ template <class Kept> class Decider {
 
     void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
                     const BrickCells& known) {
-        shader::CertifiedWitness witness{};
         const shader::CertifiedCorners corners = cornersOf(x, y, z, known);
         const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
-        const int verdict = shader::certifiedFragment(table_, item_, triangle, cell, x, y, z, witness);
+        VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
+        const int count = shader::certifiedBegin(table_, triangle, cell, x, y, z, polygon);
+        shader::CertifiedWitness witness{};
+        const int verdict = shader::certifiedSettle(table_, item_.resolution, cell, polygon, count, witness);
         if (verdict == CERTIFIED_CERTAIN) {
-            ++tally_.certain;
-            if (sink_) {
-                sink_(number_, shader::certifiedProof(table_, item_, corners, witness, x, y, z));
-            }
+            addCertain(corners, witness, x, y, z);
         } else if (verdict == CERTIFIED_UNDECIDED) {
-            tally_.undecided = true;
+            open({{x, y, z}, {x, y, z}});
         }
     }
 
@@ -276,8 +397,11 @@ template <class Kept> class Decider {
     shader::CertifiedItem item_;
     shader::OpacityTable table_;
     CertifiedTally tally_;
-    std::uint32_t number_ = 0; ///< of the triangle at hand
-    Vertices vertices_;        ///< of cluster `transformed_`
+    Triangle triangle_;                 ///< at hand
+    shader::PreciseTriangle precise_{}; ///< of number `preciseOf_`
+    std::uint32_t preciseOf_ = kNoTriangle;
+    std::vector<Open> open_;
+    Vertices vertices_; ///< of cluster `transformed_`
     std::uint32_t transformed_ = 0xffffffffU;
     std::array<bool, kMostVertices> probed_{}; ///< of the same cluster
     shader::CertifiedBounds delta_{};          ///< of the box that was looked at last; not less than its triangles'

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// What both passes of the projection `conservative` read, and how they find a triangle's cells. Expects
+// VOXTACT_COMPUTE_GROUP lanes, and shared.h before it.
+#ifndef VOXTACT_CERTIFIED_SCENE_GLSL
+#define VOXTACT_CERTIFIED_SCENE_GLSL
+
+layout(constant_id = VOXTACT_CONSTANT_STOP_AT_FIRST) const bool kStopAtFirst = false;
+
+layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
+layout(set = VOXTACT_SET_VOLUME, binding = VOXTACT_BINDING_BRICKS, std430) readonly buffer Bricks {
+    vec4 bricks[]; // lo, hi, wideLo, wideHi
+};
+layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
+layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = VOXTACT_BINDING_EXTREMES, std430) readonly buffer Extremes {
+    float extremes[];
+};
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) readonly buffer Transforms {
+    CertifiedPair transforms[];
+};
+// Behind the transforms, in the same buffer.
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Opens { CertifiedOpen opens[]; };
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffer Results { PairResult results[]; };
+layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) readonly buffer Vertices { float vertices[]; };
+layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
+layout(push_constant) uniform Item { CertifiedConstants constants; };
+
+// One addition a subgroup: a carry that is not needed costs nothing.
+const bool kCarry = true;
+
+#include "stored.glsl"
+#include "certified.h"
+#include "count.glsl"
+#include "mesh.glsl"
+#ifdef OUTPUTS
+#include "survives.glsl"
+#include "outputs.glsl"
+#endif
+
+/// A triangle of no more cells is one lane's, one of more is shared by a work group.
+const int kMostCellsOfALane = 27;
+const int kBrickSide = 1 << VOXTACT_BRICK_SHIFT;
+
+/// A box of cells, both ends inclusive, numbered from -1; or of bricks, from 0.
+struct CellBox {
+    ivec3 lo;
+    ivec3 hi;
+};
+
+uint pair;
+uint survivors = 0;
+
+OpacityTable opacities() {
+    return OpacityTable(constants.item.tableSize, constants.item.tableLevels, constants.item.threshold);
+}
+
+CellBox cellsOf(CertifiedBounds bounds) {
+    return CellBox(ivec3(bounds.firstX, bounds.firstY, bounds.firstZ), ivec3(bounds.lastX, bounds.lastY, bounds.lastZ));
+}
+
+bool isEmpty(CellBox box) {
+    return any(lessThan(box.hi, box.lo));
+}
+
+CellBox bricksOf(CellBox cells) {
+    return CellBox((cells.lo + 1) >> VOXTACT_BRICK_SHIFT, (cells.hi + 1) >> VOXTACT_BRICK_SHIFT);
+}
+
+int volumeOf(CellBox box) {
+    const ivec3 size = box.hi - box.lo + 1;
+    return size.x * size.y * size.z;
+}
+
+ivec3 placeIn(CellBox box, int number) {
+    const ivec3 size = box.hi - box.lo + 1;
+    const int row = number / size.x;
+    return box.lo + ivec3(number % size.x, row % size.y, row / size.y);
+}
+
+vec4 brickAt(ivec3 brick) {
+    const ivec3 count = (ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) >> VOXTACT_BRICK_SHIFT) + 1;
+    return bricks[brick.x + count.x * (brick.y + count.y * brick.z)];
+}
+
+bool brickMayBeOpaque(vec4 range) {
+    return certifiedRangeMayBeOpaque(opacities(), constants.item, range.x, range.y);
+}
+
+float storedAt(ivec3 voxel) {
+    const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
+    return storedVoxel(clamp(voxel, ivec3(0), last), constants.item.storedUnit);
+}
+
+#include "exact_language.h"
+
+CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
+    float stored[8];
+    ROLLED for (int i = 0; i < 8; ++i) {
+        stored[i] = storedAt(cell + ivec3(i & 1, (i >> 1) & 1, i >> 2));
+    }
+    return CertifiedCorners(stored[0], stored[1], stored[2], stored[3], stored[4], stored[5], stored[6], stored[7],
+                            range.z, range.w);
+}
+
+#include "exact_language.h"
+
+/// The vertices of a triangle, in object space and in voxel space.
+struct TriangleVertices {
+    VoxelPoint object[3];
+    CertifiedVertex voxel[3];
+};
+
+#include "exact_language.h"
+
+TriangleVertices verticesOf(CertifiedPair transform, uint triangle) {
+    TriangleVertices at;
+    ROLLED for (uint i = 0; i < 3; ++i) {
+        const vec3 position = positionOf(constants.mesh, 3 * triangle + i);
+        at.object[i] = voxelPoint(position.x, position.y, position.z);
+        at.voxel[i] = certifiedVertex(transform, position.x, position.y, position.z);
+    }
+    return at;
+}
+
+#include "exact_language.h"
+
+CertifiedTriangle triangleOf(TriangleVertices at, float delta) {
+    return certifiedTriangle(at.voxel[0].point, at.voxel[1].point, at.voxel[2].point, delta);
+}
+
+CertifiedBounds boundsOf(TriangleVertices at) {
+    return certifiedBounds(constants.item, at.voxel[0], at.voxel[1], at.voxel[2]);
+}
+
+/// Also where the number of cells overflows.
+bool isLarge(CellBox cells) {
+    const ivec3 sides = cells.hi - cells.lo + 1;
+    return any(greaterThan(sides, ivec3(kMostCellsOfALane))) || volumeOf(cells) > kMostCellsOfALane;
+}
+
+/// A triangle of so many bricks is left to the second pass, whose work groups share them: the first does not decide it.
+bool isHuge(CellBox cells) {
+    const int kMostBricks = 64;
+    return volumeOf(bricksOf(cells)) > kMostBricks;
+}
+
+vec3 brickCentre(ivec3 brick) {
+    return vec3((brick << VOXTACT_BRICK_SHIFT) - 1) + float(kBrickSide / 2);
+}
+
+CellBox within(CellBox cells, ivec3 brick) {
+    const ivec3 corner = (brick << VOXTACT_BRICK_SHIFT) - 1;
+    return CellBox(max(cells.lo, corner), min(cells.hi, corner + kBrickSide - 1));
+}
+
+/// Whether loops were left before their end: llvmpipe leaves every loop of an invocation after its first round once all
+/// of them together have had 65,535 rounds (seen in Mesa 22.3). Nothing that was found after that is known. The bound
+/// is 2, which compilers cannot know.
+bool isCut() {
+    uint rounds = 0;
+    while (rounds < 2u + (uint(constants.item.tableSize) >> 30)) {
+        ++rounds;
+    }
+    return rounds < 2u;
+}
+
+#ifdef OUTPUTS
+/// `number` is that of the triangle.
+void emitWitness(uint number, CertifiedCorners corners, CertifiedWitness witness, ivec3 cell) {
+    const CertifiedProof proof =
+        certifiedProof(opacities(), constants.item, corners, witness, cell.x, cell.y, cell.z);
+    emitSurvivor(pair, number, contactVector(proof.texture.x, proof.texture.y, proof.texture.z),
+                 contactSample(proof.stored, proof.opacity));
+}
+#endif
+
+#endif
