@@ -42,7 +42,7 @@ struct VolumeReadOptions {
 /// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
 /// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files
 /// (checksums of compressed data are verified), voxels as text or spread over several files, and DICOM folders with
-/// several series unless one is chosen, fewer than 2 slices, missing slices or uneven gaps, and slices sheared by a tilted gantry.
+/// several series unless one is chosen, fewer than 2 slices, missing slices, uneven gaps, and a tilted gantry.
 /// Memory is bounded by what the file holds, whatever its header claims; compressed, deflate packs up to 1032 bytes
 /// into one.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path,
