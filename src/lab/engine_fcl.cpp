@@ -44,7 +44,8 @@ std::string makeOctree(VolumePart& volume) {
     }
     Vec3 origin{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        origin[axis] = cells->size[axis] / 2 * cells->side;
+        const auto before = cells->size[axis] / 2; // whole cells: the octree's origin is between two of them
+        origin[axis] = before * cells->side;
     }
     std::string why;
     volume.fcl = makeFclVolume(
