@@ -89,6 +89,26 @@ TEST(Precise, ATriangleThatMeetsAFaceInACornerIsThatCorner) {
     }
 }
 
+TEST(Precise, WhatTheNumbersOfThePairAreOffByIsKnown) {
+    CertifiedPair pair{};
+    CertifiedItem item{};
+    item.sizeX = item.sizeY = item.sizeZ = 10;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        pair.place[axis][axis] = 1;
+        item.scale[axis] = 1;
+        pair.error[axis] = 1;
+    }
+    const VoxelPoint at = voxelPoint(0.005F, 3, 4);
+    const PreciseVertex exact = preciseVertex(pair, item, at);
+    EXPECT_EQ(exact.error, 0);
+    EXPECT_EQ(exact.inside, 63) << "of all six faces";
+    EXPECT_EQ(exact.point.y.high, 2.5F) << "the first voxel's centre is half a voxel from the face";
+    pair.reference[3] = 1e-3F;
+    const PreciseVertex off = preciseVertex(pair, item, at);
+    EXPECT_GE(off.error, 7e-3F) << "a thousandth of 0.005 + 3 + 4";
+    EXPECT_EQ(off.inside, 62) << "0.005 from the near face of x";
+}
+
 TEST(Precise, WithinTheDomainIsWithinByTwiceTheError) {
     constexpr float kError = 1.0F / 1024;
     PreciseTriangle triangle{};
