@@ -25,7 +25,7 @@ struct VolumeReadOptions {
     std::optional<std::uint32_t> frame;
     /// SeriesInstanceUID of the series of a DICOM folder. A folder that holds several is refused without it. Empty: the
     /// only one.
-    std::string series{}; // with an initialiser, so that {.frame = 3} is no warning
+    std::string series{}; // the initialiser lets {.frame = 3} compile without a warning
 };
 
 /// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,
