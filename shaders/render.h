@@ -82,6 +82,8 @@ struct PreintegrateConstants {
 #define PICTURE_BINDING_CONSTANTS 0
 #define PICTURE_BINDING_MESH_COLOUR 1
 #define PICTURE_BINDING_MESH_DISTANCE 2
+// Specialization constants of the volume pass.
+#define PICTURE_CONSTANT_OCCLUSION 0
 // Lanes along each side of a work group of the table's pass.
 #define PREINTEGRATE_SIDE 8
 // The distance where there is no mesh.

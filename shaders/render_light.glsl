@@ -3,6 +3,9 @@
 #ifndef VOXTACT_RENDER_LIGHT_GLSL
 #define VOXTACT_RENDER_LIGHT_GLSL
 
+// A constant and not a switch: llvmpipe goes through both sides of a branch, at each step of each ray.
+layout(constant_id = PICTURE_CONSTANT_OCCLUSION) const bool kOcclusion = true;
+
 // Looks along the normal, to `reach`.
 #define OCCLUSION_LOOKS 4
 
@@ -59,7 +62,7 @@ vec3 shadedInside(vec4 segment, vec3 coordinate, vec3 away) {
     }
     const vec3 normal = gradient / size;
     const vec3 light = lit(segment, normal, away);
-    if (picture.occlusion <= 0.0) {
+    if (!kOcclusion) {
         return light;
     }
     // Half-way to the eye: within matter a gradient may point anywhere.

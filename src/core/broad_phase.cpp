@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "voxtact/broad_phase.h"
 #include "core/guard.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -205,9 +206,7 @@ double leastOf(const Mat4& b_from_a, std::size_t row, const Box& box, double sig
 
 Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> boxes) {
     return guard([&]() -> Result<std::vector<BoxPair>> {
-        if (Result<void> count = checkCount(boxes.size()); !count.ok()) {
-            return count.error();
-        }
+        VOXTACT_TRY(checkCount(boxes.size()));
         const std::vector<Swept> order = sweepOrder(boxes, widestAxis({boxes}));
         Meeting meeting(order.size());
         std::vector<BoxPair> pairs;
@@ -225,9 +224,7 @@ Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> boxes) {
 Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> left, std::span<const Box> right) {
     return guard([&]() -> Result<std::vector<BoxPair>> {
         for (const std::size_t boxes : {left.size(), right.size()}) {
-            if (Result<void> count = checkCount(boxes); !count.ok()) {
-                return count.error();
-            }
+            VOXTACT_TRY(checkCount(boxes));
         }
         if (left.size() == 1 || right.size() == 1) {
             return pairsOfOne(left, right);

@@ -3,6 +3,7 @@
 #include "core/edit_rows.h"
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 
 #include <cmath>
 
@@ -42,13 +43,9 @@ Result<void> check(const Ball& ball, const Grid&) {
 
 Result<VoxelBox> voxelBounds(const VoxelRegion& region, const Grid& grid) {
     return guard([&]() -> Result<VoxelBox> {
-        if (Result<void> checked = checkGrid(grid); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(checkGrid(grid));
         Result<void> checked = std::visit([&](const auto& shape) { return check(shape, grid); }, region);
-        if (!checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(checked);
         return boundsOf(voxelRows(region, grid));
     });
 }

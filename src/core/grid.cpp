@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/glm_bridge.h"
 #include "core/text.h"
+#include "core/try.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -77,9 +78,7 @@ Mat4 worldFromTexture(const Grid& grid) noexcept {
 }
 
 Result<Mat4> textureFromWorld(const Grid& grid) {
-    if (Result<void> checked = checkGrid(grid); !checked.ok()) {
-        return checked.error();
-    }
+    VOXTACT_TRY(checkGrid(grid));
     return fromGlm(glm::inverse(worldFromIndexGlm(grid) * indexFromTextureGlm(grid)));
 }
 

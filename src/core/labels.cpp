@@ -3,6 +3,7 @@
 #include "core/guard.h"
 #include "core/label_lookup.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "core/voxel_visit.h"
 
 #include <algorithm>
@@ -75,9 +76,7 @@ template <class Scalar> Result<void> fill(const Scalar* voxels, Census& census, 
 Result<LabelData> makeLabels(const VolumeView& volume) {
     return guard([&]() -> Result<LabelData> {
         const Result<ValueRange> range = checkVolume(volume);
-        if (!range.ok()) {
-            return range.error();
-        }
+        VOXTACT_TRY(range);
         LabelData out;
         out.grid = volume.grid;
         Result<void> made = visitVoxels(volume, [&](const auto* voxels) -> Result<void> {
@@ -87,9 +86,7 @@ Result<LabelData> makeLabels(const VolumeView& volume) {
             Census census(*range);
             return fill(voxels, census, out);
         });
-        if (!made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(made);
         return out;
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "voxtact/data.h"
 
 #include <algorithm>
@@ -49,9 +50,7 @@ Result<void> checkArrays(const MeshView& mesh) {
 
 Result<MeshFacts> checkMesh(const MeshView& mesh) {
     return guard([&]() -> Result<MeshFacts> {
-        if (Result<void> arrays = checkArrays(mesh); !arrays.ok()) {
-            return arrays.error();
-        }
+        VOXTACT_TRY(checkArrays(mesh));
         MeshFacts facts;
         facts.vertices = static_cast<std::uint32_t>(mesh.positions.size() / 3);
         facts.triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);

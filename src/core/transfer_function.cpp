@@ -2,6 +2,7 @@
 #include "core/domain.h"
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "voxtact/data.h"
 
 #include <algorithm>
@@ -57,13 +58,9 @@ double opacityAt(std::span<const ControlPoint> points, double value) {
 
 Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<std::vector<float>> {
-        if (Result<void> points = checkPoints(desc.points); !points.ok()) {
-            return points.error();
-        }
+        VOXTACT_TRY(checkPoints(desc.points));
         const ValueRange& domain = desc.domain;
-        if (Result<void> checked = checkDomain(domain, "the transfer function's domain"); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(checkDomain(domain, "the transfer function's domain"));
         if (desc.tableSize < 2) {
             return refuse("the transfer function's table has " + std::to_string(desc.tableSize) +
                           " entries, it needs at least 2");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/enum_check.h"
 #include "core/guard.h"
+#include "core/try.h"
 #include "core/voxel_visit.h"
 
 #include <algorithm>
@@ -66,12 +67,8 @@ template <class Scalar> Result<ValueRange> rangeOf(const Grid& grid, const Scala
 
 Result<ValueRange> checkVolume(const VolumeView& volume) {
     return guard([&]() -> Result<ValueRange> {
-        if (Result<void> grid = checkGrid(volume.grid); !grid.ok()) {
-            return grid.error();
-        }
-        if (Result<void> type = checkScalarType(volume.type); !type.ok()) {
-            return type.error();
-        }
+        VOXTACT_TRY(checkGrid(volume.grid));
+        VOXTACT_TRY(checkScalarType(volume.type));
         const std::uint64_t expected = voxelCount(volume.grid) * bytesPerVoxel(volume.type);
         if (volume.voxels.size() != expected) {
             return Error{ErrorCode::InvalidArgument, 0,

@@ -2,6 +2,7 @@
 #include "cpu/batch_check.h"
 #include "core/projection.h"
 #include "core/text.h"
+#include "core/try.h"
 
 #include <limits>
 
@@ -63,19 +64,13 @@ Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch) {
         return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
     }
     if (usesView(desc.projection)) {
-        if (Result<void> view = checkView(batch.view); !view.ok()) {
-            return view.error();
-        }
+        VOXTACT_TRY(checkView(batch.view));
     }
     std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
-        if (Result<void> item = checkItem(batch.items[i], i); !item.ok()) {
-            return item.error();
-        }
+        VOXTACT_TRY(checkItem(batch.items[i], i));
         if (desc.projection == Projection::DominantAxis) {
-            if (Result<void> item = checkDominant(batch.items[i], i, desc.samplesPerVoxel); !item.ok()) {
-                return item.error();
-            }
+            VOXTACT_TRY(checkDominant(batch.items[i], i, desc.samplesPerVoxel));
         }
         pairs += batch.items[i].world_from_object.size();
     }

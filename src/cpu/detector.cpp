@@ -3,6 +3,7 @@
 #include "core/enum_check.h"
 #include "core/guard.h"
 #include "core/projection.h"
+#include "core/try.h"
 #include "cpu/batch_check.h"
 #include "cpu/certified/certified_run.h"
 #include "cpu/outputs.h"
@@ -51,12 +52,8 @@ Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
-        if (Result<void> checked = checkDesc(desc); !checked.ok()) {
-            return checked.error();
-        }
-        if (Result<void> outputs = checkOutputs(desc); !outputs.ok()) {
-            return outputs.error();
-        }
+        VOXTACT_TRY(checkDesc(desc));
+        VOXTACT_TRY(checkOutputs(desc));
         const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
         return Detector(std::make_unique<DetectorImpl>(desc, desc.threads == 0 ? processors : desc.threads));
     });
@@ -66,12 +63,8 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
     return guard([&]() -> Result<BatchAnswer> {
         const auto start = std::chrono::steady_clock::now();
         const Result<std::uint32_t> pairs = checkBatch(impl_->desc, batch);
-        if (!pairs.ok()) {
-            return pairs.error();
-        }
-        if (Result<void> labels = checkLabelMaps(batch, impl_->desc.outputs); !labels.ok()) {
-            return labels.error();
-        }
+        VOXTACT_TRY(pairs);
+        VOXTACT_TRY(checkLabelMaps(batch, impl_->desc.outputs));
         DetectorImpl& impl = *impl_;
         BatchAnswer answer = impl.desc.projection == Projection::Conservative
                                  ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)

@@ -2,6 +2,7 @@
 #include "detect/batch.h"
 #include "core/projection.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 
@@ -102,20 +103,14 @@ Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc&
         return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
     }
     if (usesView(desc.projection)) {
-        if (Result<void> view = checkView(context, batch.view); !view.ok()) {
-            return view.error();
-        }
+        VOXTACT_TRY(checkView(context, batch.view));
     }
     std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const std::string which = "batch item " + std::to_string(i);
-        if (Result<void> item = checkItem(context, batch.items[i], which); !item.ok()) {
-            return item.error();
-        }
+        VOXTACT_TRY(checkItem(context, batch.items[i], which));
         if (desc.projection == Projection::DominantAxis) {
-            if (Result<void> item = checkDominant(context, desc, batch.items[i], which); !item.ok()) {
-                return item.error();
-            }
+            VOXTACT_TRY(checkDominant(context, desc, batch.items[i], which));
         }
         pairs += batch.items[i].world_from_object.size();
     }

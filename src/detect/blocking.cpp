@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
@@ -70,13 +71,9 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
                                                   const QueueAccess& queue, std::uint32_t mostContacts) {
     return guard([&]() -> Result<BlockingDetector> {
         Result<Detector> detector = Detector::create(context, desc);
-        if (!detector.ok()) {
-            return detector.error();
-        }
+        VOXTACT_TRY(detector);
         Result<Submitter> submitter = Submitter::create(context.impl(), queue);
-        if (!submitter.ok()) {
-            return submitter.error();
-        }
+        VOXTACT_TRY(submitter);
         ResultsDesc resultsDesc;
         resultsDesc.timestamps = context.impl().timestampBits(queue.family) > 0;
         resultsDesc.queueFamily = queue.family;
@@ -94,40 +91,24 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         State& s = live(state_);
         // First of all: a submission whose wait failed may still be using the Results.
         const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
-        if (!commandBuffer.ok()) {
-            return commandBuffer.error();
-        }
+        VOXTACT_TRY(commandBuffer);
         if (const std::optional<ResultsDesc> wanted = largerFor(batch, s.resultsDesc, s.results)) {
             Result<Results> larger = Results::create(s.context, *wanted);
-            if (!larger.ok()) {
-                return larger.error();
-            }
+            VOXTACT_TRY(larger);
             s.results = std::move(*larger);
             s.resultsDesc = *wanted;
         }
-        if (Result<void> recorded = s.detector.cmdDetect(*commandBuffer, batch, *s.results); !recorded.ok()) {
-            return recorded.error();
-        }
-        if (Result<void> recorded = s.results->cmdReadBack(*commandBuffer); !recorded.ok()) {
-            return recorded.error();
-        }
-        if (Result<void> done = s.submitter.submitAndWait(); !done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(s.detector.cmdDetect(*commandBuffer, batch, *s.results));
+        VOXTACT_TRY(s.results->cmdReadBack(*commandBuffer));
+        VOXTACT_TRY(s.submitter.submitAndWait());
         const Result<std::span<const PairResult>> results = s.results->read();
-        if (!results.ok()) {
-            return results.error();
-        }
+        VOXTACT_TRY(results);
         BatchAnswer answer;
         answer.pairs = unpackAll(*results);
-        if (Result<void> outputs = s.results->readOutputs(answer); !outputs.ok()) {
-            return outputs.error();
-        }
+        VOXTACT_TRY(s.results->readOutputs(answer));
         if (s.resultsDesc.timestamps) {
             const Result<double> milliseconds = s.results->gpuMilliseconds();
-            if (!milliseconds.ok()) {
-                return milliseconds.error();
-            }
+            VOXTACT_TRY(milliseconds);
             answer.gpuMilliseconds = *milliseconds;
         }
         answer.wallMilliseconds =

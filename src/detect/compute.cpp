@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/compute.h"
 #include "core/projection.h"
+#include "core/try.h"
 #include "detect/batch.h"
 #include "detect/outputs.h"
 #include "exact.h"
@@ -27,9 +28,7 @@ Result<ComputePass> ComputePass::create(ContextImpl& context, const DetectorDesc
                                                  context.computeOutputLayout, (name + " outputs").c_str())
                            : makeComputePipeline(context, spirv::compute_comp, std::span(constants).first(3),
                                                  context.computeLayout, name.c_str());
-    if (!pipeline.ok()) {
-        return pipeline.error();
-    }
+    VOXTACT_TRY(pipeline);
     pass.pipeline_ = std::move(*pipeline);
     return pass;
 }

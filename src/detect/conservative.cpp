@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/conservative.h"
 #include "core/certified_constants.h"
+#include "core/try.h"
 #include "detect/batch.h"
 #include "detect/outputs.h"
 #include "detect/recording.h"
@@ -33,14 +34,10 @@ Result<ConservativePass> ConservativePass::create(ContextImpl& context, const De
     ConservativePass pass(context, desc);
     Result<Owned<VkPipeline>> first =
         makePass(context, desc, spirv::certified_comp, spirv::certified_outputs_comp, "compute conservative");
-    if (!first.ok()) {
-        return first.error();
-    }
+    VOXTACT_TRY(first);
     Result<Owned<VkPipeline>> again = makePass(context, desc, spirv::certified_again_comp,
                                                spirv::certified_again_outputs_comp, "compute conservative again");
-    if (!again.ok()) {
-        return again.error();
-    }
+    VOXTACT_TRY(again);
     pass.first_ = std::move(*first);
     pass.again_ = std::move(*again);
     return pass;

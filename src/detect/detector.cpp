@@ -5,6 +5,7 @@
 #include "core/live.h"
 #include "core/opaque_ranges.h"
 #include "core/projection.h"
+#include "core/try.h"
 #include "detect/batch.h"
 #include "detect/compute.h"
 #include "detect/conservative.h"
@@ -133,9 +134,7 @@ Result<void> checkPass(const AnyPass& any, const Batch& batch) {
 
 template <class Pass>
 Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const DetectorDesc& desc, Result<Pass> pass) {
-    if (!pass.ok()) {
-        return pass.error();
-    }
+    VOXTACT_TRY(pass);
     return std::make_unique<DetectorImpl>(DetectorImpl{.context = context, .desc = desc, .pass = std::move(*pass)});
 }
 
@@ -149,25 +148,15 @@ Detector::~Detector() = default;
 Result<Detector> Detector::create(const Context& context, const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> method = checkMethod(context, desc.method); !method.ok()) {
-            return method.error();
-        }
-        if (Result<void> checked = checkDesc(c, desc); !checked.ok()) {
-            return checked.error();
-        }
-        if (Result<void> outputs = checkOutputs(c, desc); !outputs.ok()) {
-            return outputs.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkMethod(context, desc.method));
+        VOXTACT_TRY(checkDesc(c, desc));
+        VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =
             desc.projection == Projection::Conservative ? withPass(c, desc, ConservativePass::create(c, desc))
             : desc.method == CountingMethod::Compute    ? withPass(c, desc, ComputePass::create(c, desc))
                                                         : withPass(c, desc, ViewPass::create(c, desc));
-        if (!impl.ok()) {
-            return impl.error();
-        }
+        VOXTACT_TRY(impl);
         return Detector(std::move(*impl));
     });
 }
@@ -183,9 +172,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
             return Error{ErrorCode::InvalidArgument, 0, "the Results belong to another Context"};
         }
         const Result<std::uint32_t> pairs = checkBatch(context, live(impl_).desc, batch);
-        if (!pairs.ok()) {
-            return pairs.error();
-        }
+        VOXTACT_TRY(pairs);
         if (*pairs > slot.maxPairs) {
             return Error{ErrorCode::InvalidArgument, 0,
                          "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +

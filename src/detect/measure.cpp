@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/enum_check.h"
 #include "core/guard.h"
+#include "core/try.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>
@@ -24,18 +25,12 @@ struct DeviceScene {
 
 Result<DeviceScene> uploadScene(const Context& context, const QueueAccess& queue, const MeasureScene& scene) {
     Result<Volume> volume = Volume::upload(context, queue, scene.volume.view(), {.name = "measured volume"});
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     Result<Mesh> mesh = Mesh::upload(context, queue, scene.mesh.view(), {.name = "measured mesh"});
-    if (!mesh.ok()) {
-        return mesh.error();
-    }
+    VOXTACT_TRY(mesh);
     Result<TransferFunction> function = TransferFunction::upload(
         context, queue, {.points = scene.points, .domain = scene.domain}, "measured transfer function");
-    if (!function.ok()) {
-        return function.error();
-    }
+    VOXTACT_TRY(function);
     return DeviceScene{std::move(*volume), std::move(*mesh), std::move(*function)};
 }
 
@@ -51,17 +46,13 @@ Result<double> pairsPerSecond(BlockingDetector& detector, const MeasureScene& sc
                    std::span(scene.world_from_object).first(1)};
     const Batch batch{{&item, 1}, scene.view, scene.threshold};
     // One pair to begin with: drivers put off some of the compiling until a pipeline is used.
-    if (const Result<BatchAnswer> first = detector.detect(batch); !first.ok()) {
-        return first.error();
-    }
+    VOXTACT_TRY(detector.detect(batch));
     item.world_from_object = scene.world_from_object;
     const auto begun = Clock::now();
     std::vector<double> seconds;
     for (std::uint32_t i = 0; i < std::max(repetitions, 1U) && (i == 0 || Clock::now() - begun < kBudget); ++i) {
         const Result<BatchAnswer> answer = detector.detect(batch);
-        if (!answer.ok()) {
-            return answer.error();
-        }
+        VOXTACT_TRY(answer);
         seconds.push_back(answer->wallMilliseconds / 1000);
     }
     return static_cast<double>(scene.world_from_object.size()) / std::max(median(std::move(seconds)), 1e-9);
@@ -71,9 +62,7 @@ Result<double> measure(const Context& context, const QueueAccess& queue, const M
                        const MeasureScene& scene, const DeviceScene& onDevice, CountingMethod method) {
     Result<BlockingDetector> detector = BlockingDetector::create(
         context, {.method = method, .filter = desc.filter.value_or(defaultFilter(method))}, queue);
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     return pairsPerSecond(*detector, scene, onDevice, desc.repetitions);
 }
 
@@ -83,13 +72,9 @@ Result<std::vector<MethodSpeed>> measureOn(const Context& context, const QueueAc
         return Error{ErrorCode::InvalidArgument, 0, "MeasureDesc::scene has no pose"};
     }
     Result<std::vector<SelfTestVerdict>> verdicts = selfTest(context, queue, desc.methods);
-    if (!verdicts.ok()) {
-        return verdicts.error();
-    }
+    VOXTACT_TRY(verdicts);
     const Result<DeviceScene> onDevice = uploadScene(context, queue, scene);
-    if (!onDevice.ok()) {
-        return onDevice.error();
-    }
+    VOXTACT_TRY(onDevice);
     std::vector<MethodSpeed> speeds;
     for (SelfTestVerdict& verdict : *verdicts) {
         MethodSpeed speed{std::move(verdict)};
@@ -114,9 +99,7 @@ Result<std::vector<MethodSpeed>> measureOn(const Context& context, const QueueAc
 Result<std::vector<MethodSpeed>> measureMethods(const Context& context, const QueueAccess& queue,
                                                 const MeasureDesc& desc) {
     return guard([&]() -> Result<std::vector<MethodSpeed>> {
-        if (Result<void> filter = checkFilter(desc.filter.value_or(Filter::Exact)); !filter.ok()) {
-            return filter.error();
-        }
+        VOXTACT_TRY(checkFilter(desc.filter.value_or(Filter::Exact)));
         if (desc.scene == nullptr) {
             return Error{ErrorCode::InvalidArgument, 0, "MeasureDesc::scene is null; makeMeasureScene() gives one"};
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/output_store.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/scene_impl.h"
@@ -54,22 +55,16 @@ Result<void> makeBuffers(ContextImpl& context, const ResultsDesc& desc, OutputSt
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Result<Buffer> pairs = makeBuffer(context, VkDeviceSize{desc.maxPairs} * sizeof(shader::OutputPair), kTo,
                                       MemoryUse::Device, "output pairs");
-    if (!pairs.ok()) {
-        return pairs.error();
-    }
+    VOXTACT_TRY(pairs);
     out.pairs = std::move(*pairs);
     Result<Buffer> words =
         makeBuffer(context, bytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "outputs");
-    if (!words.ok()) {
-        return words.error();
-    }
+    VOXTACT_TRY(words);
     out.words = std::move(*words);
     if (desc.readBack) {
         Result<Buffer> readBack =
             makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "outputs on the host");
-        if (!readBack.ok()) {
-            return readBack.error();
-        }
+        VOXTACT_TRY(readBack);
         out.readBack = std::move(*readBack);
     }
     return {};
@@ -79,14 +74,10 @@ Result<void> makeNoLabels(ContextImpl& context, OutputStore& out) {
     ImageDesc desc;
     desc.format = kLabelFormat;
     Result<Image> image = makeImage(context, desc, "the place of a label map", "no label map");
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     out.noLabels = std::move(*image);
     Result<DescriptorSet> set = makeLabelSet(context, out.noLabels.view.get(), "no label map");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     out.noLabelsSet = std::move(*set);
     return {};
 }
@@ -94,9 +85,7 @@ Result<void> makeNoLabels(ContextImpl& context, OutputStore& out) {
 Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer transforms, VkBuffer results) {
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.outputSetLayout, {&size, 1}, "pairs with outputs");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     out.descriptors = std::move(*set);
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, transforms);
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, results);
@@ -116,22 +105,14 @@ BufferRange rangeOf(const OutputStore& store, std::uint64_t first, std::uint64_t
 
 Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc, VkBuffer transforms,
                                                      VkBuffer results) {
-    if (Result<void> checked = checkRoom(context, desc); !checked.ok()) {
-        return checked.error();
-    }
+    VOXTACT_TRY(checkRoom(context, desc));
     auto out = std::make_unique<OutputStore>();
     out->maxPairs = desc.maxPairs;
     out->room = *desc.room;
     out->layout = layoutOf(*desc.room, desc.maxPairs);
-    if (Result<void> made = makeBuffers(context, desc, *out); !made.ok()) {
-        return made.error();
-    }
-    if (Result<void> made = makeNoLabels(context, *out); !made.ok()) {
-        return made.error();
-    }
-    if (Result<void> made = makeDescriptors(context, *out, transforms, results); !made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(makeBuffers(context, desc, *out));
+    VOXTACT_TRY(makeNoLabels(context, *out));
+    VOXTACT_TRY(makeDescriptors(context, *out, transforms, results));
     return out;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "voxtact/detector.h"
 
 namespace voxtact {
@@ -24,9 +25,7 @@ Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t fram
         ResultRing out;
         for (std::uint32_t i = 0; i < frames; ++i) {
             Result<Results> results = Results::create(context, desc);
-            if (!results.ok()) {
-                return results.error();
-            }
+            VOXTACT_TRY(results);
             out.slots_.push_back({std::move(*results)});
         }
         return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "detect/recording.h"
 #include "detect/results_impl.h"
 #include "gpu/barriers.h"
@@ -88,9 +89,7 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
             continue;
         }
         Result<Buffer> made = makeBuffer(out.context, each.size, each.usage, each.use, each.name);
-        if (!made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(made);
         each.buffer = std::move(*made);
     }
     if (!readBack) {
@@ -109,16 +108,12 @@ std::uint32_t copyOnHost(const ResultsImpl& results) {
 Result<void> makeQueries(ResultsImpl& out) {
     Result<Owned<VkQueryPool>> occlusion =
         makeQueryPool(out.context, VK_QUERY_TYPE_OCCLUSION, out.maxPairs, "occlusion queries");
-    if (!occlusion.ok()) {
-        return occlusion.error();
-    }
+    VOXTACT_TRY(occlusion);
     out.occlusion = std::move(*occlusion);
     if (out.timestampBits > 0) {
         Result<Owned<VkQueryPool>> timestamps =
             makeQueryPool(out.context, VK_QUERY_TYPE_TIMESTAMP, 2, "batch timestamps");
-        if (!timestamps.ok()) {
-            return timestamps.error();
-        }
+        VOXTACT_TRY(timestamps);
         out.timestamps = std::move(*timestamps);
     }
     return {};
@@ -128,9 +123,7 @@ Result<void> makeDescriptors(ResultsImpl& out) {
     ContextImpl& context = out.context;
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_PAIRS], {&size, 1}, "pairs");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     out.descriptors = std::move(*set);
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, out.transforms.get());
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, out.results.get());
@@ -173,29 +166,19 @@ Result<Results> Results::create(const Context& context, const ResultsDesc& desc)
 
 Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
     return guard([&]() -> Result<Results> {
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> checked = checkDesc(c, desc); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkDesc(c, desc));
         auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = c, .maxPairs = desc.maxPairs});
         impl->maxTransforms = transformsFor(c, desc.maxPairs);
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
-        if (Result<void> made = makeBuffers(*impl, desc.readBack); !made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(makeBuffers(*impl, desc.readBack));
         for (const auto make : {makeQueries, makeDescriptors}) {
-            if (Result<void> made = make(*impl); !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(make(*impl));
         }
         if (desc.room) {
             Result<std::unique_ptr<OutputStore>> outputs =
                 makeOutputStore(c, desc, impl->transforms.get(), impl->results.get());
-            if (!outputs.ok()) {
-                return outputs.error();
-            }
+            VOXTACT_TRY(outputs);
             impl->outputs = std::move(*outputs);
         }
         return Results(std::move(impl));
@@ -255,9 +238,7 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
 Result<std::span<const PairResult>> Results::read() {
     return guard([&]() -> Result<std::span<const PairResult>> {
         const ResultsImpl& r = live(impl_);
-        if (Result<void> readable = checkReadable(r); !readable.ok()) {
-            return readable.error();
-        }
+        VOXTACT_TRY(checkReadable(r));
         return std::span(static_cast<const PairResult*>(r.readBack.mapped), r.pairs);
     });
 }
@@ -286,9 +267,7 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
 Result<double> Results::gpuMilliseconds() {
     return guard([&]() -> Result<double> {
         const ResultsImpl& r = live(impl_);
-        if (Result<void> alive = r.context.alive(); !alive.ok()) {
-            return alive.error();
-        }
+        VOXTACT_TRY(r.context.alive());
         if (!r.timestamps) {
             return notReady("the Results were made without timestamps");
         }

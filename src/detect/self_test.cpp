@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>
@@ -64,19 +65,13 @@ struct SelfTestScene {
 Result<SelfTestScene> makeScene(const Context& context, const QueueAccess& queue) {
     constexpr std::array kRamp{ControlPoint{0, 0}, ControlPoint{255, 1}};
     Result<Mesh> square = makeSquare(context, queue);
-    if (!square.ok()) {
-        return square.error();
-    }
+    VOXTACT_TRY(square);
     Result<TransferFunction> ramp = TransferFunction::upload(context, queue, {.points = kRamp}, "self-test ramp");
-    if (!ramp.ok()) {
-        return ramp.error();
-    }
+    VOXTACT_TRY(ramp);
     SelfTestScene out{std::move(*square), std::move(*ramp), {}};
     for (const Scene& scene : kScenes) {
         Result<Volume> volume = makeVolume(context, queue, scene);
-        if (!volume.ok()) {
-            return volume.error();
-        }
+        VOXTACT_TRY(volume);
         out.volumes.push_back(std::move(*volume));
     }
     return out;
@@ -87,18 +82,14 @@ Result<SelfTestVerdict> judge(const Context& context, const QueueAccess& queue, 
     SelfTestVerdict verdict{method, true, true, {}};
     Result<BlockingDetector> detector =
         BlockingDetector::create(context, {.method = method, .filter = defaultFilter(method)}, queue);
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     const Mat4 pose = identity();
     std::vector<BatchItem> items;
     for (const Volume& volume : scene.volumes) {
         items.push_back({&scene.square, &volume, &scene.transferFunction, std::span(&pose, 1)});
     }
     const Result<BatchAnswer> answer = detector->detect({items, {squareCamera(), kSide, kSide}, 0.5});
-    if (!answer.ok()) {
-        return answer.error();
-    }
+    VOXTACT_TRY(answer);
     for (const PairAnswer& pair : answer->pairs) {
         const Scene& expected = kScenes[pair.item];
         const bool right =
@@ -119,9 +110,7 @@ Result<std::vector<SelfTestVerdict>> selfTest(const Context& context, const Queu
                                               std::span<const CountingMethod> methods) {
     return guard([&]() -> Result<std::vector<SelfTestVerdict>> {
         const Result<SelfTestScene> scene = makeScene(context, queue);
-        if (!scene.ok()) {
-            return scene.error();
-        }
+        VOXTACT_TRY(scene);
         std::vector<SelfTestVerdict> verdicts;
         for (const MethodSupport& support : context.methods()) {
             if (!methods.empty() && std::ranges::find(methods, support.method) == methods.end()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/view.h"
 #include "core/projection.h"
+#include "core/try.h"
 #include "detect/batch.h"
 #include "detect/counting.h"
 #include "detect/outputs.h"
@@ -62,9 +63,7 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
                 desc.vertexInput = false;
             }
             Result<Owned<VkPipeline>> pipeline = makeRasterPipeline(*context_, desc);
-            if (!pipeline.ok()) {
-                return pipeline.error();
-            }
+            VOXTACT_TRY(pipeline);
             pipelines_[rangeTest][carry] = std::move(*pipeline);
         }
     }
@@ -86,9 +85,7 @@ Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc
 Result<ViewPass> ViewPass::createTrace(ContextImpl& context, Filter filter, VkPipelineLayout layout) {
     // A method that draws an item as one: the list has no use for carries, so both variants are the same.
     ViewPass pass(context, {.method = CountingMethod::Atomic, .filter = filter});
-    if (Result<void> made = pass.makePipelines(spirv::view_trace_frag, layout, true, "trace"); !made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(pass.makePipelines(spirv::view_trace_frag, layout, true, "trace"));
     return pass;
 }
 

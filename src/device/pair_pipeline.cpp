@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/pair_pipeline.h"
+#include "core/try.h"
 
 #include "core/batch_cutter.h"
 #include "device/created.h"
@@ -91,9 +92,7 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
     flight.begun = Clock::now();
     flight.frame = frame++;
     const Result<Results*> slot = results.begin(flight.frame);
-    if (!slot.ok()) {
-        return slot.error();
-    }
+    VOXTACT_TRY(slot);
     flight.results = *slot;
 
     VkResult result = vk.vkResetCommandPool(device.handle(), flight.pool, 0);
@@ -143,18 +142,14 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
     }
     flight.pending = false;
     const Result<std::span<const PairResult>> read = results.read(flight.frame);
-    if (!read.ok()) {
-        return read.error();
-    }
+    VOXTACT_TRY(read);
     const std::chrono::duration<double, std::milli> wall = Clock::now() - flight.begun;
     const auto pairs = static_cast<double>(read->size());
     TimedAnswer timed;
     timed.wallMilliseconds = wall.count() / pairs;
     if (desc.timestamps) {
         const Result<double> gpu = flight.results->gpuMilliseconds();
-        if (!gpu.ok()) {
-            return gpu.error();
-        }
+        VOXTACT_TRY(gpu);
         timed.gpuMilliseconds = *gpu / pairs;
     }
     for (const PairResult& pair : *read) {
@@ -235,14 +230,10 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                               .queueFamily = device.queueAccess().family,
                               .room = how.room};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
-    if (!ring.ok()) {
-        return ring.error();
-    }
+    VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));
     for (Flight& flight : state->flights) {
-        if (const Result<void> made = state->makeFlight(flight); !made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(state->makeFlight(flight));
     }
     return PairPipeline(std::move(state));
 }

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "device/session.h"
+#include "core/try.h"
 
 namespace voxtact::app {
 
 Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevice& physical, PipelineStore store,
                               LogCallback log) {
     Result<VulkanDevice> device = VulkanDevice::create(instance, physical);
-    if (!device.ok()) {
-        return device.error();
-    }
+    VOXTACT_TRY(device);
     PipelineCache pipelines(*device, std::move(store));
     ContextDesc desc = device->contextDesc();
     desc.pipelineCache = pipelines.handle();
     desc.log = log;
     Result<Context> context = Context::create(desc);
-    if (!context.ok()) {
-        return context.error();
-    }
+    VOXTACT_TRY(context);
     return Session{instance, std::move(*device), std::move(pipelines), std::move(*context)};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/timed_commands.h"
+#include "core/try.h"
 
 #include "device/created.h"
 
@@ -112,9 +113,7 @@ TimedCommands::~TimedCommands() = default;
 
 Result<TimedCommands> TimedCommands::create(const Session& session, std::uint32_t stamps) {
     auto state = std::make_unique<State>(session, stamps);
-    if (Result<void> made = state->make(session); !made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(state->make(session));
     return TimedCommands(std::move(state));
 }
 

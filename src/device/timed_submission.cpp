@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/timed_submission.h"
+#include "core/try.h"
 
 #include <chrono>
 
@@ -13,9 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 Result<void> TimedSubmission::submit(const std::function<Result<void>(VkCommandBuffer)>& record) {
     const Result<VkCommandBuffer> begun = commands_.begin();
-    if (!begun.ok()) {
-        return begun.error();
-    }
+    VOXTACT_TRY(begun);
     commands_.cmdStamp(0);
     if (Result<void> recorded = record(*begun); !recorded.ok()) {
         return recorded;
@@ -32,9 +31,7 @@ Result<void> TimedSubmission::submit(const std::function<Result<void>(VkCommandB
 
 Result<TimedSubmission> TimedSubmission::create(const Session& session) {
     Result<TimedCommands> commands = TimedCommands::create(session, 2);
-    if (!commands.ok()) {
-        return commands.error();
-    }
+    VOXTACT_TRY(commands);
     return TimedSubmission(std::move(*commands));
 }
 
@@ -47,9 +44,7 @@ Result<TimedSubmission::Times> TimedSubmission::run(const std::function<Result<v
     Times times;
     times.wallMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
     const Result<std::optional<double>> gpu = commands_.between(0, 1);
-    if (!gpu.ok()) {
-        return gpu.error();
-    }
+    VOXTACT_TRY(gpu);
     times.gpuMilliseconds = *gpu;
     return times;
 }

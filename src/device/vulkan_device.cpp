@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_device.h"
+#include "core/try.h"
 
 #include "device/created.h"
 #include "device/enumerate.h"
@@ -66,9 +67,7 @@ Result<std::vector<const char*>> findExtensions(const InstanceFunctions& functio
         enumerate<VkExtensionProperties>("listing the device's extensions failed", [&](auto... arguments) {
             return functions.enumerateDeviceExtensionProperties(physical, nullptr, arguments...);
         });
-    if (!there.ok()) {
-        return there.error();
-    }
+    VOXTACT_TRY(there);
     std::vector<const char*> out;
     for (const char* wanted : optionalDeviceExtensions()) {
         if (std::ranges::any_of(*there, [wanted](const VkExtensionProperties& extension) {
@@ -243,9 +242,7 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     request.vulkan13.synchronization2 &= supported.vulkan13.synchronization2;
 
     Result<std::vector<const char*>> extensions = findExtensions(functions, physical.handle);
-    if (!extensions.ok()) {
-        return extensions.error();
-    }
+    VOXTACT_TRY(extensions);
     state->extensions = std::move(*extensions);
 
     const float priority = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_instance.h"
+#include "core/try.h"
 
 #include "device/enumerate.h"
 
@@ -37,9 +38,7 @@ Result<bool> hasLayer(const char* name) {
     const auto layers = enumerate<VkLayerProperties>("listing the Vulkan layers failed", [](auto... arguments) {
         return vkEnumerateInstanceLayerProperties(arguments...);
     });
-    if (!layers.ok()) {
-        return layers.error();
-    }
+    VOXTACT_TRY(layers);
     return std::ranges::any_of(
         *layers, [name](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
 }
@@ -49,9 +48,7 @@ Result<bool> hasExtension(const char* name) {
         enumerate<VkExtensionProperties>("listing the Vulkan extensions failed", [](auto... arguments) {
             return vkEnumerateInstanceExtensionProperties(nullptr, arguments...);
         });
-    if (!extensions.ok()) {
-        return extensions.error();
-    }
+    VOXTACT_TRY(extensions);
     return std::ranges::any_of(*extensions, [name](const VkExtensionProperties& extension) {
         return std::strcmp(extension.extensionName, name) == 0;
     });
@@ -108,9 +105,7 @@ Result<void> createInstance(const InstanceOptions& options, VulkanInstance::Stat
     application.apiVersion = VK_API_VERSION_1_3;
 
     const Result<bool> debugUtils = hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    if (!debugUtils.ok()) {
-        return debugUtils.error();
-    }
+    VOXTACT_TRY(debugUtils);
     if (*debugUtils) {
         state.extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
@@ -119,9 +114,7 @@ Result<void> createInstance(const InstanceOptions& options, VulkanInstance::Stat
     info.pApplicationInfo = &application;
     if (options.validate) {
         const Result<bool> layer = hasLayer(kValidationLayer);
-        if (!layer.ok()) {
-            return layer.error();
-        }
+        VOXTACT_TRY(layer);
         if (!*layer) {
             return Error{ErrorCode::Unsupported, 0,
                          std::string("the layer ") + kValidationLayer +
@@ -202,13 +195,9 @@ VulkanInstance::State::~State() {
 }
 
 Result<VulkanInstance> VulkanInstance::create(const InstanceOptions& options) {
-    if (const auto loaded = loadLoader(); !loaded) {
-        return loaded.error();
-    }
+    VOXTACT_TRY(loadLoader());
     auto state = std::make_shared<State>();
-    if (const auto created = createInstance(options, *state); !created) {
-        return created.error();
-    }
+    VOXTACT_TRY(createInstance(options, *state));
     state->functions = loadFunctions(state->instance);
     {
         // volkLoadDeviceTable() asks the global vkGetDeviceProcAddr, which is the loader's own for every instance.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/bricks.h"
 #include "core/bricks.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/pipeline.h"
@@ -25,9 +26,7 @@ Result<void> makePipeline(ContextImpl& context) {
     }
     Result<Owned<VkPipeline>> pipeline =
         makeComputePipeline(context, spirv::bricks_comp, {}, context.computeLayout, "bricks");
-    if (!pipeline.ok()) {
-        return pipeline.error();
-    }
+    VOXTACT_TRY(pipeline);
     context.brickPipeline = std::move(*pipeline);
     return {};
 }
@@ -59,9 +58,7 @@ Result<void> makeBricks(VolumeImpl& volume, const char* name) {
     Result<Buffer> buffer =
         makeBuffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                    MemoryUse::Device, (std::string(name) + " bricks").c_str());
-    if (!buffer.ok()) {
-        return buffer.error();
-    }
+    VOXTACT_TRY(buffer);
     volume.bricks = std::move(*buffer);
     return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
 #include "gpu/layouts.h"
@@ -263,9 +264,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
         readProperties(*impl);
         for (const auto make : {makeSampler, makeSetLayouts, makeLayouts, makeOutputLayouts}) {
-            if (Result<void> made = make(*impl); !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(make(*impl));
         }
         for (const std::string& line : report.missing) {
             impl->log(line);

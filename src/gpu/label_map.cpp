@@ -2,6 +2,7 @@
 #include "core/guard.h"
 #include "core/live.h"
 #include "core/output_pair.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/image_limits.h"
@@ -24,25 +25,19 @@ Result<void> fillMap(LabelMapImpl& map, const LabelData& data, const char* name)
     desc.format = kLabelFormat;
     desc.extent = extentOf(data.grid);
     Result<Image> image = makeImage(context, desc, "the label map", name);
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     map.image = std::move(*image);
     const VkDeviceSize bytes = data.indices.size() * sizeof data.indices[0];
     Result<Buffer> staging =
         makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "label map staging");
-    if (!staging.ok()) {
-        return staging.error();
-    }
+    VOXTACT_TRY(staging);
     map.staging = std::move(*staging);
     std::memcpy(map.staging.mapped, data.indices.data(), bytes);
     if (Result<void> flushed = flush(context, map.staging); !flushed.ok()) {
         return flushed;
     }
     Result<DescriptorSet> set = makeLabelSet(context, map.image.view.get(), name);
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     map.descriptors = std::move(*set);
     return {};
 }
@@ -66,22 +61,13 @@ LabelMap::~LabelMap() = default;
 Result<LabelMap> LabelMap::create(const Context& context, const LabelData& data, const char* name) {
     return guard([&]() -> Result<LabelMap> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> checked = checkLabels(data); !checked.ok()) {
-            return checked.error();
-        }
-        if (Result<void> limits = checkImageLimits(c, data.grid, kLabelFormat, ImageDesc{}.usage,
-                                                   sizeof data.indices[0], "the label map");
-            !limits.ok()) {
-            return limits.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkLabels(data));
+        VOXTACT_TRY(
+            checkImageLimits(c, data.grid, kLabelFormat, ImageDesc{}.usage, sizeof data.indices[0], "the label map"));
         auto impl = std::make_unique<LabelMapImpl>(LabelMapImpl{.context = c, .grid = data.grid});
         impl->values = std::make_shared<const std::vector<std::int32_t>>(data.values);
-        if (Result<void> filled = fillMap(*impl, data, name == nullptr ? "label map" : name); !filled.ok()) {
-            return filled.error();
-        }
+        VOXTACT_TRY(fillMap(*impl, data, name == nullptr ? "label map" : name));
         return LabelMap(std::move(impl));
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/memory.h"
+#include "core/try.h"
 #include "gpu/debug.h"
 
 #include <algorithm>
@@ -123,9 +124,7 @@ Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsage
         return Error{ErrorCode::Unsupported, 0, std::string("the device has no memory type for ") + name};
     }
     Result<Owned<VkDeviceMemory>> memory = allocate(context, needs, *type, name);
-    if (!memory.ok()) {
-        return memory.error();
-    }
+    VOXTACT_TRY(memory);
     out.memory = std::move(*memory);
     out.coherent = (context.memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
     if (const VkResult result = context.vk.BindBufferMemory(context.device, handle, out.memory.get(), 0);
@@ -133,9 +132,7 @@ Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsage
         return context.failure(result, "binding a buffer's memory");
     }
     if (use != MemoryUse::Device) {
-        if (Result<void> mapped = mapBuffer(context, out); !mapped.ok()) {
-            return mapped.error();
-        }
+        VOXTACT_TRY(mapBuffer(context, out));
     }
     nameObject(context, VK_OBJECT_TYPE_BUFFER, handle, name);
     nameObject(context, VK_OBJECT_TYPE_DEVICE_MEMORY, out.memory.get(), name);
@@ -148,9 +145,7 @@ Result<VkBuffer> emptyBuffer(ContextImpl& context) {
     if (!context.nothing.buffer) {
         Result<Buffer> made =
             makeBuffer(context, kBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::Device, "empty binding");
-        if (!made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(made);
         context.nothing = std::move(*made);
     }
     return context.nothing.get();
@@ -160,14 +155,10 @@ Result<void> makeStaged(ContextImpl& context, VkDeviceSize size, VkBufferUsageFl
                         Buffer& buffer, Buffer& staging) {
     Result<Buffer> onDevice =
         makeBuffer(context, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device, name);
-    if (!onDevice.ok()) {
-        return onDevice.error();
-    }
+    VOXTACT_TRY(onDevice);
     Result<Buffer> mapped = makeBuffer(context, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
                                        (std::string(name) + " staging").c_str());
-    if (!mapped.ok()) {
-        return mapped.error();
-    }
+    VOXTACT_TRY(mapped);
     buffer = std::move(*onDevice);
     staging = std::move(*mapped);
     return {};
@@ -207,18 +198,14 @@ Result<Image> makeImage(ContextImpl& context, const ImageDesc& desc, const char*
         return Error{ErrorCode::Unsupported, 0, std::string("the device has no memory type for ") + what};
     }
     Result<Owned<VkDeviceMemory>> memory = allocate(context, needs, *type, what);
-    if (!memory.ok()) {
-        return memory.error();
-    }
+    VOXTACT_TRY(memory);
     out.memory = std::move(*memory);
     if (const VkResult result = context.vk.BindImageMemory(context.device, handle, out.memory.get(), 0);
         result != VK_SUCCESS) {
         return context.failure(result, "binding an image's memory");
     }
     Result<Owned<VkImageView>> view = makeView(context, handle, desc);
-    if (!view.ok()) {
-        return view.error();
-    }
+    VOXTACT_TRY(view);
     out.view = std::move(*view);
     nameObject(context, VK_OBJECT_TYPE_IMAGE, handle, name);
     nameObject(context, VK_OBJECT_TYPE_IMAGE_VIEW, out.view.get(), name);

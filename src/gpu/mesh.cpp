@@ -2,6 +2,7 @@
 #include "core/clusters.h"
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
@@ -92,9 +93,7 @@ Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* nam
     }
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_MESH], {&size, 1}, name);
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     mesh.descriptors = std::move(*set);
     writeBuffer(context, mesh.descriptors.set, VOXTACT_BINDING_VERTICES, mesh.vertices, vertexEnd);
     writeBuffer(context, mesh.descriptors.set, VOXTACT_BINDING_INDICES,
@@ -147,23 +146,14 @@ Mesh::~Mesh() = default;
 Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const MeshOptions& options) {
     return guard([&]() -> Result<Mesh> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
+        VOXTACT_TRY(c.alive());
         const Result<MeshFacts> facts = checkMesh(data);
-        if (!facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(facts);
         auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = c});
         impl->triangleCount = facts->triangles;
         impl->facts = *facts;
-        if (Result<void> filled = fillBuffers(*impl, data, options, options.name == nullptr ? "mesh" : options.name);
-            !filled.ok()) {
-            return filled.error();
-        }
-        if (Result<void> described = describe(*impl, facts->vertices, "mesh"); !described.ok()) {
-            return described.error();
-        }
+        VOXTACT_TRY(fillBuffers(*impl, data, options, options.name == nullptr ? "mesh" : options.name));
+        VOXTACT_TRY(describe(*impl, facts->vertices, "mesh"));
         if (facts->degenerate > 0) {
             c.log("the mesh has " + std::to_string(facts->degenerate) + " degenerate triangles of " +
                   std::to_string(facts->triangles) + "; they give no fragment");
@@ -174,12 +164,8 @@ Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const Me
 
 Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
     return guard([&]() -> Result<Mesh> {
-        if (Result<void> alive = context.impl().alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> checked = checkWrapped(wrapped); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(context.impl().alive());
+        VOXTACT_TRY(checkWrapped(wrapped));
         auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = context.impl()});
         impl->uploaded = true;
         impl->vertices = wrapped.vertices;

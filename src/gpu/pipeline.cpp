@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/pipeline.h"
+#include "core/try.h"
 #include "gpu/debug.h"
 
 #include <array>
@@ -136,13 +137,9 @@ struct FixedState {
 
 Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc) {
     Result<Owned<VkShaderModule>> vertex = makeModule(context, desc.vertexSpirv);
-    if (!vertex.ok()) {
-        return vertex.error();
-    }
+    VOXTACT_TRY(vertex);
     Result<Owned<VkShaderModule>> fragment = makeModule(context, desc.fragmentSpirv);
-    if (!fragment.ok()) {
-        return fragment.error();
-    }
+    VOXTACT_TRY(fragment);
     const Specialization constants(desc.constants);
     VkPipelineShaderStageCreateInfo stages[] = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex->get()),
                                                 stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment->get())};
@@ -177,9 +174,7 @@ Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<co
                                               std::span<const ShaderConstant> constants, VkPipelineLayout layout,
                                               const char* name) {
     Result<Owned<VkShaderModule>> module = makeModule(context, spirv);
-    if (!module.ok()) {
-        return module.error();
-    }
+    VOXTACT_TRY(module);
     const Specialization specialization(constants);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/submit.h"
+#include "core/try.h"
 #include "gpu/debug.h"
 
 namespace voxtact {
@@ -12,18 +13,14 @@ constexpr int kLastTries = 8;
 } // namespace
 
 Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& queue, VkQueueFlags anyOf) {
-    if (Result<void> alive = context.alive(); !alive.ok()) {
-        return alive.error();
-    }
+    VOXTACT_TRY(context.alive());
     if (queue.queue == VK_NULL_HANDLE) {
         return Error{ErrorCode::InvalidArgument, 0, "QueueAccess::queue is null"};
     }
     if ((queue.lock == nullptr) != (queue.unlock == nullptr)) {
         return Error{ErrorCode::InvalidArgument, 0, "QueueAccess has only one of lock and unlock"};
     }
-    if (Result<void> family = context.checkFamily(queue.family, anyOf, "QueueAccess::family"); !family.ok()) {
-        return family.error();
-    }
+    VOXTACT_TRY(context.checkFamily(queue.family, anyOf, "QueueAccess::family"));
     Submitter out(context, queue);
     VkCommandPoolCreateInfo poolInfo{};
     poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -103,9 +100,7 @@ VkResult Submitter::settle() noexcept {
 }
 
 Result<VkCommandBuffer> Submitter::begin() {
-    if (Result<void> alive = context_->alive(); !alive.ok()) {
-        return alive.error();
-    }
+    VOXTACT_TRY(context_->alive());
     if (const VkResult result = settle(); result != VK_SUCCESS) {
         return context_->failure(result, "waiting for an earlier submission");
     }

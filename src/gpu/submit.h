@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/try.h"
 #include "gpu/memory.h"
 #include "voxtact/context.h"
 
@@ -50,13 +51,9 @@ class Submitter {
 template <class Object>
 [[nodiscard]] Result<void> uploadNow(ContextImpl& context, const QueueAccess& queue, Object& object) {
     Result<Submitter> submitter = Submitter::create(context, queue, VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT);
-    if (!submitter.ok()) {
-        return submitter.error();
-    }
+    VOXTACT_TRY(submitter);
     const Result<VkCommandBuffer> commandBuffer = submitter->begin();
-    if (!commandBuffer.ok()) {
-        return commandBuffer.error();
-    }
+    VOXTACT_TRY(commandBuffer);
     if (Result<void> recorded = object.cmdUpload(*commandBuffer); !recorded.ok()) {
         return recorded;
     }
@@ -71,9 +68,7 @@ template <class Object>
 template <class Object>
 [[nodiscard]] Result<Object> uploaded(ContextImpl& context, const QueueAccess& queue, Result<Object> created) {
     if (created.ok()) {
-        if (Result<void> done = uploadNow(context, queue, *created); !done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(uploadNow(context, queue, *created));
     }
     return created;
 }

@@ -3,6 +3,7 @@
 #include "core/guard.h"
 #include "core/live.h"
 #include "core/table_extremes.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/image_limits.h"
@@ -38,16 +39,12 @@ Result<void> describe(TransferFunctionImpl& function, VkImageView view, VkImageL
     ContextImpl& context = function.context;
     const Result<VkBuffer> extremes =
         function.hasExtremes() ? Result<VkBuffer>(function.extremes.get()) : emptyBuffer(context);
-    if (!extremes.ok()) {
-        return extremes.error();
-    }
+    VOXTACT_TRY(extremes);
     constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
     Result<DescriptorSet> set =
         makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], kSizes, name);
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     function.descriptors = std::move(*set);
     writeImage(context, function.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, view, layout);
     writeBuffer(context, function.descriptors.set, VOXTACT_BINDING_EXTREMES, *extremes);
@@ -66,9 +63,7 @@ Result<void> makeExtremes(TransferFunctionImpl& function, const TableExtremes& e
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
     Result<Buffer> buffer = makeBuffer(context, bytes, usage, use, name);
-    if (!buffer.ok()) {
-        return buffer.error();
-    }
+    VOXTACT_TRY(buffer);
     out = std::move(*buffer);
     if (out.mapped == nullptr) {
         return {};
@@ -85,9 +80,7 @@ Result<void> fillTable(TransferFunctionImpl& function, const char* name) {
     desc.format = kTableFormat;
     desc.extent = {static_cast<std::uint32_t>(function.table.size()), 1, 1};
     Result<Image> image = makeImage(context, desc, "the transfer function", name);
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     function.image = std::move(*image);
     const TableExtremes extremes(function.table);
     constexpr VkBufferUsageFlags kUsage =
@@ -143,55 +136,35 @@ Result<TransferFunction> TransferFunction::create(const Context& context, const 
                                                   const char* name) {
     return guard([&]() -> Result<TransferFunction> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> device = checkDevice(c, desc.tableSize); !device.ok()) {
-            return device.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkDevice(c, desc.tableSize));
         Result<std::vector<float>> table = sampleTable(desc);
-        if (!table.ok()) {
-            return table.error();
-        }
+        VOXTACT_TRY(table);
         auto impl = std::make_unique<TransferFunctionImpl>(
             TransferFunctionImpl{.context = c, .domain = desc.domain, .table = std::move(*table)});
-        if (Result<void> filled = fillTable(*impl, name == nullptr ? "transfer function" : name); !filled.ok()) {
-            return filled.error();
-        }
+        VOXTACT_TRY(fillTable(*impl, name == nullptr ? "transfer function" : name));
         return TransferFunction(std::move(impl));
     });
 }
 
 Result<TransferFunction> TransferFunction::wrap(const Context& context, const WrappedTransferFunction& wrapped) {
     return guard([&]() -> Result<TransferFunction> {
-        if (Result<void> alive = context.impl().alive(); !alive.ok()) {
-            return alive.error();
-        }
+        VOXTACT_TRY(context.impl().alive());
         if (wrapped.view == VK_NULL_HANDLE) {
             return Error{ErrorCode::InvalidArgument, 0, "WrappedTransferFunction::view is null"};
         }
-        if (Result<void> layout = checkSampledLayout(wrapped.layout, "WrappedTransferFunction::layout"); !layout.ok()) {
-            return layout.error();
-        }
-        if (Result<void> domain = checkDomain(wrapped.domain, "WrappedTransferFunction::domain"); !domain.ok()) {
-            return domain.error();
-        }
+        VOXTACT_TRY(checkSampledLayout(wrapped.layout, "WrappedTransferFunction::layout"));
+        VOXTACT_TRY(checkDomain(wrapped.domain, "WrappedTransferFunction::domain"));
         auto impl = std::make_unique<TransferFunctionImpl>(
             TransferFunctionImpl{.context = context.impl(),
                                  .domain = wrapped.domain,
                                  .table = std::vector<float>(wrapped.table.begin(), wrapped.table.end())});
         impl->uploaded = true;
         if (!impl->table.empty()) {
-            if (Result<void> made = makeExtremes(*impl, TableExtremes(impl->table), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                                 MemoryUse::Upload, "wrapped transfer function", impl->extremes);
-                !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(makeExtremes(*impl, TableExtremes(impl->table), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                     MemoryUse::Upload, "wrapped transfer function", impl->extremes));
         }
-        if (Result<void> described = describe(*impl, wrapped.view, wrapped.layout, "wrapped transfer function");
-            !described.ok()) {
-            return described.error();
-        }
+        VOXTACT_TRY(describe(*impl, wrapped.view, wrapped.layout, "wrapped transfer function"));
         return TransferFunction(std::move(impl));
     });
 }
@@ -228,9 +201,7 @@ Result<void> TransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, const Tr
             return recordable;
         }
         Result<std::vector<float>> table = sampleTable(desc);
-        if (!table.ok()) {
-            return table.error();
-        }
+        VOXTACT_TRY(table);
         const TableExtremes extremes(*table);
         const Label label(live(impl_).context, commandBuffer, "voxtact transfer function update");
         cmdBeginFilling(live(impl_), commandBuffer);

@@ -3,6 +3,7 @@
 #include "core/enum_check.h"
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"
@@ -89,9 +90,7 @@ Result<void> makeEditScratch(VolumeImpl& volume) {
     Result<Buffer> scratch = makeBuffer(volume.context, (slice + kWord - 1) / kWord * kWord,
                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                         MemoryUse::Device, "volume edits");
-    if (!scratch.ok()) {
-        return scratch.error();
-    }
+    VOXTACT_TRY(scratch);
     volume.editScratch = std::move(*scratch);
     return {};
 }
@@ -99,15 +98,11 @@ Result<void> makeEditScratch(VolumeImpl& volume) {
 Result<void> describe(VolumeImpl& volume, VkImageLayout layout, const char* name) {
     ContextImpl& context = volume.context;
     const Result<VkBuffer> bricks = volume.bricks.buffer ? Result<VkBuffer>(volume.bricks.get()) : emptyBuffer(context);
-    if (!bricks.ok()) {
-        return bricks.error();
-    }
+    VOXTACT_TRY(bricks);
     constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1},
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_VOLUME], kSizes, name);
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     volume.descriptors = std::move(*set);
     writeImage(context, volume.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, volume.view, layout);
     writeBuffer(context, volume.descriptors.set, VOXTACT_BINDING_BRICKS, *bricks);
@@ -126,16 +121,12 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const Volume
     desc.extent = extentOf(data.grid);
     desc.usage = usageOf(options);
     Result<Image> image = makeImage(context, desc, "the volume", name);
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     volume.image = std::move(*image);
     volume.view = volume.image.view.get();
     Result<Buffer> staging =
         makeBuffer(context, data.voxels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "volume staging");
-    if (!staging.ok()) {
-        return staging.error();
-    }
+    VOXTACT_TRY(staging);
     volume.staging = std::move(*staging);
     fillTexels(data.type, data.voxels, static_cast<std::byte*>(volume.staging.mapped));
     if (Result<void> flushed = flush(context, volume.staging); !flushed.ok()) {
@@ -186,38 +177,26 @@ Volume::~Volume() = default;
 Result<Volume> Volume::create(const Context& context, const VolumeView& data, const VolumeOptions& options) {
     return guard([&]() -> Result<Volume> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> type = checkScalarType(data.type); !type.ok()) {
-            return type.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkScalarType(data.type));
         const Result<Mat4> texture_from_world = textureFromWorld(data.grid);
-        if (!texture_from_world.ok()) {
-            return texture_from_world.error();
-        }
+        VOXTACT_TRY(texture_from_world);
         const VkFormat format = texelFormat(data.type).format;
-        if (Result<void> checked = checkFormat(c, format, toString(data.type)); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(checkFormat(c, format, toString(data.type)));
         if (Result<void> limits =
                 checkImageLimits(c, data.grid, format, usageOf(options), bytesPerVoxel(data.type), "the volume");
             !limits.ok()) {
             return limits.error();
         }
         const Result<ValueRange> range = checkVolume(data);
-        if (!range.ok()) {
-            return range.error();
-        }
+        VOXTACT_TRY(range);
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = data.grid});
         impl->texture_from_world = *texture_from_world;
         impl->type = data.type;
         impl->valueRange = *range;
         impl->boundary = boundaryRanges(data);
         const char* name = options.name == nullptr ? "volume" : options.name;
-        if (Result<void> filled = fillVolume(*impl, data, options, name); !filled.ok()) {
-            return filled.error();
-        }
+        VOXTACT_TRY(fillVolume(*impl, data, options, name));
         return Volume(std::move(impl));
     });
 }
@@ -225,15 +204,9 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
 Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped) {
     return guard([&]() -> Result<Volume> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> checked = checkWrapped(c, wrapped); !checked.ok()) {
-            return checked.error();
-        }
-        if (Result<void> format = checkFormat(c, wrapped.format, "the caller's"); !format.ok()) {
-            return format.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkWrapped(c, wrapped));
+        VOXTACT_TRY(checkFormat(c, wrapped.format, "the caller's"));
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = wrapped.grid});
         impl->texture_from_world = textureFromWorld(wrapped.grid).value();
         impl->format = wrapped.format;
@@ -246,13 +219,9 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
         impl->view = wrapped.view;
         impl->uploaded = true;
         if (wrapped.bricks) {
-            if (Result<void> made = makeBricks(*impl, "wrapped volume"); !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(makeBricks(*impl, "wrapped volume"));
         }
-        if (Result<void> described = describe(*impl, wrapped.layout, "wrapped volume"); !described.ok()) {
-            return described.error();
-        }
+        VOXTACT_TRY(describe(*impl, wrapped.layout, "wrapped volume"));
         return Volume(std::move(impl));
     });
 }
@@ -293,9 +262,7 @@ Result<void> Volume::cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelB
             return recordable;
         }
         const Result<VoxelBox> box = voxelBounds(changed, live(impl_).grid);
-        if (!box.ok()) {
-            return box.error();
-        }
+        VOXTACT_TRY(box);
         if (!isEmpty(*box)) {
             cmdBricks(live(impl_), commandBuffer, *box);
         }

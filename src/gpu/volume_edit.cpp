@@ -3,6 +3,7 @@
 #include "core/edit_rows.h"
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "core/voxel_value.h"
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
@@ -200,13 +201,9 @@ Result<void> Volume::cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& re
             return editable;
         }
         const Result<VoxelBox> bounds = voxelBounds(region, volume.grid);
-        if (!bounds.ok()) {
-            return bounds.error();
-        }
+        VOXTACT_TRY(bounds);
         const Result<VoxelBytes> voxel = voxelOf(volume.type, value);
-        if (!voxel.ok()) {
-            return voxel.error();
-        }
+        VOXTACT_TRY(voxel);
         if (isEmpty(*bounds)) {
             return {};
         }
@@ -229,13 +226,9 @@ Result<void> Volume::cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box
         if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
             return editable;
         }
-        if (const Result<VoxelBox> bounds = voxelBounds(box, volume.grid); !bounds.ok()) {
-            return bounds.error();
-        }
+        VOXTACT_TRY(voxelBounds(box, volume.grid));
         const Result<ValueRange> values = checkVoxels(volume.type, box, voxels);
-        if (!values.ok()) {
-            return values.error();
-        }
+        VOXTACT_TRY(values);
         if (isEmpty(box)) {
             return {};
         }
@@ -252,9 +245,7 @@ Result<void> Volume::cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box,
         if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
             return editable;
         }
-        if (const Result<VoxelBox> bounds = voxelBounds(box, volume.grid); !bounds.ok()) {
-            return bounds.error();
-        }
+        VOXTACT_TRY(voxelBounds(box, volume.grid));
         if (source == VK_NULL_HANDLE) {
             return refuse("the buffer to copy voxels from is null");
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/byte_reader.h"
+#include "core/try.h"
 
 #include "io/errors.h"
 
@@ -92,9 +93,7 @@ ByteReader::~ByteReader() = default;
 
 Result<ByteReader> ByteReader::ofFile(const std::filesystem::path& path) {
     const Result<std::uint64_t> size = readableFile(path);
-    if (!size.ok()) {
-        return size.error();
-    }
+    VOXTACT_TRY(size);
     auto stored = std::make_unique<Stored>();
     stored->file.open(path, std::ios::binary);
     stored->behind = *size;
@@ -168,9 +167,7 @@ Result<std::size_t> ByteReader::read(std::byte* to, std::size_t length) {
 Result<std::string> ByteReader::head(std::size_t length) {
     std::string text(length, '\0');
     const Result<std::size_t> got = read(reinterpret_cast<std::byte*>(text.data()), length);
-    if (!got.ok()) {
-        return got.error();
-    }
+    VOXTACT_TRY(got);
     text.resize(*got);
     return text;
 }
@@ -184,9 +181,7 @@ Result<std::uint64_t> ByteReader::skip(std::uint64_t length) {
     while (done < length) {
         const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(length - done, kChunk));
         const Result<std::size_t> got = read(ignored.data(), wanted);
-        if (!got.ok()) {
-            return got.error();
-        }
+        VOXTACT_TRY(got);
         done += *got;
         if (*got < wanted) {
             break;
@@ -235,9 +230,7 @@ Result<std::vector<std::byte>> ByteReader::take(std::uint64_t needed) {
         const auto step = static_cast<std::size_t>(std::min(needed - begin, kStep));
         bytes.resize(begin + step);
         const Result<std::size_t> got = read(bytes.data() + begin, step);
-        if (!got.ok()) {
-            return got.error();
-        }
+        VOXTACT_TRY(got);
         if (*got < step) {
             return truncated(begin + *got);
         }

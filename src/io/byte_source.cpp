@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/byte_source.h"
+#include "core/try.h"
 
 #include "io/byte_reader.h"
 
@@ -7,12 +8,8 @@ namespace voxtact::io {
 
 Result<std::string> contentHead(const std::filesystem::path& path, std::size_t length) {
     Result<ByteReader> reader = ByteReader::ofFile(path);
-    if (!reader.ok()) {
-        return reader.error();
-    }
-    if (Result<void> unpacked = reader->unpack(ByteReader::Packing::GzipOrPlain); !unpacked.ok()) {
-        return unpacked.error();
-    }
+    VOXTACT_TRY(reader);
+    VOXTACT_TRY(reader->unpack(ByteReader::Packing::GzipOrPlain));
     return reader->head(length);
 }
 

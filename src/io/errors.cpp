@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/errors.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -91,9 +92,7 @@ Result<std::uint64_t> readableFile(const std::filesystem::path& path) {
 
 Result<std::string> readWholeFile(const std::filesystem::path& path) {
     const Result<std::uint64_t> size = readableFile(path);
-    if (!size.ok()) {
-        return size.error();
-    }
+    VOXTACT_TRY(size);
     std::string content(*size, '\0');
     std::ifstream file(path, std::ios::binary);
     if (!file.read(content.data(), static_cast<std::streamsize>(content.size()))) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/file_buffer.h"
 #include "voxtact/io.h"
@@ -114,9 +115,7 @@ Result<OutputFile> OutputFile::create(const fs::path& path) {
             opened = state->buffer.openSpecial(path);
         } else {
             const Result<fs::path> target = targetOf(path);
-            if (!target.ok()) {
-                return target.error();
-            }
+            VOXTACT_TRY(target);
             state->target = *target;
             state->temporary.emplace(*target);
             opened = state->buffer.create(state->temporary->path());
@@ -161,9 +160,7 @@ Result<void> OutputFile::commit() {
 Result<void> writeFile(const fs::path& path, const std::function<Result<void>(std::ostream&)>& write) {
     return guard([&]() -> Result<void> {
         Result<OutputFile> file = OutputFile::create(path);
-        if (!file.ok()) {
-            return file.error();
-        }
+        VOXTACT_TRY(file);
         if (Result<void> written = write(file->stream()); !written.ok()) {
             // What the disk says is the reason for what a writer makes of a stream that failed.
             const Result<void> closed = file->stream() ? Result<void>() : file->close();

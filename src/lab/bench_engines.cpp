@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "lab/bench_run.h"
 
 #include <array>
@@ -9,9 +10,7 @@ namespace {
 
 /// Adds an engine, or says why it could not be made.
 Result<void> add(MadeEngine engine, Engines& engines, std::size_t ratioTo = 0, bool sameCounts = false) {
-    if (!engine.ok()) {
-        return engine.error();
-    }
+    VOXTACT_TRY(engine);
     (*engine)->holdAgainst(ratioTo, sameCounts);
     engines.push_back(std::move(*engine));
     return {};

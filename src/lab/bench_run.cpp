@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/bench_run.h"
+#include "core/try.h"
 
 #include "lab/random_poses.h"
 
@@ -39,9 +40,7 @@ struct Times {
 template <class Job> Result<Times> timed(Job&& job) {
     const std::clock_t cpu = std::clock();
     const auto wall = Clock::now();
-    if (Result<void> done = job(); !done.ok()) {
-        return done.error();
-    }
+    VOXTACT_TRY(job());
     // A tick at least, so that no rate is infinite.
     return Times{std::max(std::chrono::duration<double>(Clock::now() - wall).count(), 1e-9),
                  static_cast<double>(std::max<std::clock_t>(std::clock() - cpu, 1)) / CLOCKS_PER_SEC};
@@ -75,24 +74,18 @@ std::string compareCounts(std::span<const PairAnswer> bare, std::span<const Pair
 /// Runs every engine once: its answers are judged, and say how long a sample is.
 Result<void> verifyCase(Case& one, const std::string& kind, BenchResult& result) {
     const Result<Pass> certified = (*one.engines)[kCounting]->run(one.work, {});
-    if (!certified.ok()) {
-        return certified.error();
-    }
+    VOXTACT_TRY(certified);
     one.firstRow = result.rows.size();
     std::vector<std::vector<PairAnswer>> all;
     for (const std::unique_ptr<Engine>& engine : *one.engines) {
         std::vector<PairAnswer> answers;
         const Result<Times> took = timed([&]() -> Result<void> {
             Result<Pass> pass = engine->run(one.work, {});
-            if (!pass.ok()) {
-                return pass.error();
-            }
+            VOXTACT_TRY(pass);
             answers = std::move(pass->pairs);
             return {};
         });
-        if (!took.ok()) {
-            return took.error();
-        }
+        VOXTACT_TRY(took);
         BenchRow row{.mesh = one.work.mesh->name,
                      .triangles = one.work.mesh->triangles(),
                      .poses = kind,
@@ -120,15 +113,11 @@ Result<void> timeRound(const Case& one, BenchResult& result) {
         const auto poses = std::span(one.poses).first(one.some[i]);
         const Result<Times> took = timed([&]() -> Result<void> {
             for (std::size_t pass = 0; pass < one.passes[i]; ++pass) {
-                if (const Result<Pass> run = (*one.engines)[i]->run(one.work.at(poses), {}); !run.ok()) {
-                    return run.error();
-                }
+                VOXTACT_TRY((*one.engines)[i]->run(one.work.at(poses), {}));
             }
             return {};
         });
-        if (!took.ok()) {
-            return took.error();
-        }
+        VOXTACT_TRY(took);
         BenchRow& row = result.rows[one.firstRow + i];
         const auto pairs = static_cast<double>(poses.size() * one.passes[i]);
         row.wallRate.push_back(pairs / took->wall);
@@ -153,15 +142,11 @@ Result<void> benchMesh(const BenchSettings& settings, const VolumePart& volume, 
         return ready;
     }
     const Result<Engines> engines = makeBenchEngines(settings.mode, volume, mesh, session);
-    if (!engines.ok()) {
-        return engines.error();
-    }
+    VOXTACT_TRY(engines);
     const Work work{volume, mesh, {}, {framingCamera(volume.data.grid, 512, 512), 512, 512}};
     for (const char* kind : kindsOf(settings.mode)) {
         Result<std::vector<Mat4>> poses = makePoses(kind, settings, work, *engines->front());
-        if (!poses.ok()) {
-            return poses.error();
-        }
+        VOXTACT_TRY(poses);
         Case one{.engines = &*engines, .work = {}, .poses = std::move(*poses), .passes = {}, .some = {}};
         one.work = work.at(one.poses);
         if (Result<void> verified = verifyCase(one, kind, result); !verified.ok()) {

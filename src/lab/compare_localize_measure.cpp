@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "lab/compare_localize.h"
 
 #include "lab/engine.h"
@@ -49,13 +50,9 @@ Result<std::string> certifiedOf(Engine& certified, const Work& work, std::uint32
             whole.positions.data() + 3 * std::size_t{whole.indices[3 * std::size_t{triangle} + corner]};
         alone.data.positions.insert(alone.data.positions.end(), vertex, vertex + 3);
     }
-    if (Result<void> ready = makeReady(nullptr, alone); !ready.ok()) {
-        return ready.error();
-    }
+    VOXTACT_TRY(makeReady(nullptr, alone));
     const Result<Pass> pass = certified.run({*work.volume, alone, work.poses, work.view}, {});
-    if (!pass.ok()) {
-        return pass.error();
-    }
+    VOXTACT_TRY(pass);
     const PairAnswer& pair = pass->pairs.front();
     return std::string(pair.hit ? "certain" : pair.possible ? "possible" : "none");
 }
@@ -69,9 +66,7 @@ void addTo(std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>
 /// One way on one pose. What it found is kept once.
 Result<void> findOne(Engine& engine, const Work& work, bool keep, LocalizeWay& way) {
     Result<Pass> pass = engine.run(work, {});
-    if (!pass.ok()) {
-        return pass.error();
-    }
+    VOXTACT_TRY(pass);
     way.wall.push_back(pass->wallMilliseconds);
     if (pass->gpuMilliseconds) {
         way.gpu.push_back(*pass->gpuMilliseconds);
@@ -138,9 +133,7 @@ Result<void> listWrong(Engine& certified, const Scene& scene, LocalizeResult& re
                                     std::back_inserter(extra), before);
         for (const TouchedTriangle& triangle : extra) {
             Result<std::string> known = certifiedOf(certified, work.at(work.poses.subspan(pose, 1)), triangle.triangle);
-            if (!known.ok()) {
-                return known.error();
-            }
+            VOXTACT_TRY(known);
             result.wrong.push_back({scene.poseNumbers[pose], triangle.triangle, triangle.count, std::move(*known)});
         }
     }
@@ -163,9 +156,7 @@ Result<void> localize(const Session& session, const CompareSettings& settings, c
         return ready;
     }
     const Result<Engines> engines = makeWays(session, scene, result);
-    if (!engines.ok()) {
-        return engines.error();
-    }
+    VOXTACT_TRY(engines);
     if (Result<void> found = findAll(*engines, settings, scene, result, step); !found.ok()) {
         return found;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_points.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <numeric>
@@ -17,9 +18,7 @@ constexpr double kLongestSample = 0.25;
 
 Result<void> takeSample(Point& point) {
     const Result<Pass> pass = point.engine->run(point.work, point.feeding);
-    if (!pass.ok()) {
-        return pass.error();
-    }
+    VOXTACT_TRY(pass);
     const auto pairs = static_cast<double>(point.work.poses.size());
     if (point.engine->name() != toString(CountingMethod::QueryAny)) {
         point.series.fragments =
@@ -42,13 +41,9 @@ Result<bool> warmUp(Point& point, double share, double most) {
     Work some = point.work;
     some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
     // The first pass may make pipelines: only the second one says how long a batch takes.
-    if (const Result<Pass> first = point.engine->run(some, point.feeding); !first.ok()) {
-        return first.error();
-    }
+    VOXTACT_TRY(point.engine->run(some, point.feeding));
     const Result<Pass> pass = point.engine->run(some, point.feeding);
-    if (!pass.ok()) {
-        return pass.error();
-    }
+    VOXTACT_TRY(pass);
     const double aBatch = pass->wallMilliseconds / static_cast<double>(some.poses.size()) * point.series.batch;
     const std::size_t all = point.work.poses.size() / point.series.batch;
     const auto fitting = static_cast<std::size_t>(std::min(share / kSamplesInShare / aBatch, static_cast<double>(all)));
@@ -111,9 +106,7 @@ void addPoints(Sweep sweep, const Engines& engines, const Work& work, std::vecto
 Result<void> verifyPoint(const Engines& engines, const Work& work, std::span<const std::uint32_t> poses,
                          const std::string& where, Sweep sweep, CompareResult& result) {
     const Result<std::vector<NamedCounts>> counts = countAll(engines, work);
-    if (!counts.ok()) {
-        return counts.error();
-    }
+    VOXTACT_TRY(counts);
     for (Verdict& verdict : judgeCounts(*counts, poses)) {
         if (verdict.failed()) {
             verdict.rule += " (" + where + ")";
@@ -130,9 +123,7 @@ Result<void> measure(std::vector<Point>& points, const CompareSettings& settings
     const double share = limit / static_cast<double>(points.size());
     for (Point& point : points) {
         const Result<bool> fits = warmUp(point, share, limit * kLongestSample);
-        if (!fits.ok()) {
-            return fits.error();
-        }
+        VOXTACT_TRY(fits);
         point.finished = !*fits;
         if (point.finished) {
             result.notes.push_back(describe(point.series));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_result.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,9 +80,7 @@ Result<Engines> makeMethodEngines(const Session& session, const CompareSettings&
             continue;
         }
         MadeEngine engine = makeMethodEngine(session, method);
-        if (!engine.ok()) {
-            return engine.error();
-        }
+        VOXTACT_TRY(engine);
         engines.push_back(std::move(*engine));
     }
     if (engines.empty()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_run.h"
+#include "core/try.h"
 
 #include "lab/compare_timing.h"
 
@@ -64,18 +65,14 @@ Result<void> compare(const CompareSettings& settings, const Scene& scene, const 
         return ready;
     }
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
-    if (!engines.ok()) {
-        return engines.error();
-    }
+    VOXTACT_TRY(engines);
     std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, scene.poses.size());
     for (const Sweep sweep : settings.sweeps) {
         total += stepsOf(sweep, settings.repeats);
     }
     steps.begin(total);
     Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(scene));
-    if (!counts.ok()) {
-        return counts.error();
-    }
+    VOXTACT_TRY(counts);
     result.counts = std::move(*counts);
     result.verdicts = judgeCounts(result.counts, scene.poseNumbers);
     steps.step();

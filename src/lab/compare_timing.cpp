@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_timing.h"
+#include "core/try.h"
 
 #include "lab/compare_points.h"
 
@@ -205,9 +206,7 @@ Result<void> timeVoxels(const Session& session, const CompareSettings& settings,
     for (const std::uint32_t quarters : kQuarters) {
         const std::uint32_t side = scene.volume->data.grid.size[0] * quarters / 4;
         Result<std::shared_ptr<VolumePart>> sized = sizedVolume(session, settings, *scene.volume, side, result);
-        if (!sized.ok()) {
-            return sized.error();
-        }
+        VOXTACT_TRY(sized);
         step();
         if (*sized == nullptr) {
             continue;

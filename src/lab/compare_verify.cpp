@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_verify.h"
+#include "core/try.h"
 
 #include "lab/stopwatch.h"
 #include "lab/trace.h"
@@ -73,9 +74,7 @@ Result<void> FragmentChecker::explain(const cpu::OraclePair& pair, const std::ve
         return {};
     }
     const Result<std::vector<cpu::Evidence>> evidence = cpu::oracleEvidence(pair, fragments, tolerance_);
-    if (!evidence.ok()) {
-        return evidence.error();
-    }
+    VOXTACT_TRY(evidence);
     for (std::size_t i = 0; i < fragments.size(); ++i) {
         const cpu::OracleFragment& fragment = fragments[i];
         const cpu::Evidence& known = (*evidence)[i];
@@ -101,17 +100,13 @@ Result<FragmentCheck> FragmentChecker::check(std::uint32_t index) {
     const BatchItem item{&*scene_.mesh->device, &*volume.device, &*volume.deviceFunction, {&pose, 1}};
     const Result<std::vector<shader::TracedFragment>> traced =
         trace_.survivors({{&item, 1}, scene_.view, volume.threshold});
-    if (!traced.ok()) {
-        return traced.error();
-    }
+    VOXTACT_TRY(traced);
     const cpu::OraclePair pair{
         scene_.mesh->data.view(), volume.data.view(), volume.transferFunction(), scene_.view, pose, volume.threshold};
     const Stopwatch watch;
     const Result<std::vector<cpu::OracleFragment>> oracle = cpu::oracleSurvivors(pair);
     oracleMilliseconds_ += watch.milliseconds();
-    if (!oracle.ok()) {
-        return oracle.error();
-    }
+    VOXTACT_TRY(oracle);
     std::vector<cpu::OracleFragment> device;
     device.reserve(traced->size());
     for (const shader::TracedFragment& fragment : *traced) {
@@ -126,9 +121,7 @@ Result<FragmentCheck> FragmentChecker::check(std::uint32_t index) {
                         .byOracle = oracle->size(),
                         .counted = std::nullopt,
                         .differing = {}};
-    if (Result<void> explained = explain(pair, apart, device, check); !explained.ok()) {
-        return explained.error();
-    }
+    VOXTACT_TRY(explain(pair, apart, device, check));
     return check;
 }
 
@@ -156,9 +149,7 @@ Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& wo
     const auto batch = static_cast<std::uint32_t>(std::min<std::size_t>(kCountBatch, work.poses.size()));
     for (const std::unique_ptr<Engine>& engine : engines) {
         const Result<Pass> pass = engine->run(work, {batch, 1});
-        if (!pass.ok()) {
-            return pass.error();
-        }
+        VOXTACT_TRY(pass);
         all.push_back({engine->name(), pass->counts()});
     }
     return all;
@@ -204,9 +195,7 @@ Result<void> checkFragments(const Session& session, const CompareSettings& setti
         spreadEvenly(settings.oraclePoses, static_cast<std::uint32_t>(scene.poses.size()));
     for (const std::uint32_t index : sample) {
         Result<FragmentCheck> check = checker.check(index);
-        if (!check.ok()) {
-            return check.error();
-        }
+        VOXTACT_TRY(check);
         if (!raster.empty()) {
             check->counted = raster.front().counts[index];
         }

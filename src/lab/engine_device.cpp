@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "device/pair_pipeline.h"
 #include "lab/engine.h"
 #include "lab/stopwatch.h"
@@ -47,18 +48,14 @@ Result<PairPipeline*> DeviceEngine::pipeline(std::uint32_t batch, std::uint32_t 
     Result<PairPipeline> made =
         PairPipeline::create(session_.device, session_.context, detector_,
                              {.frames = frames, .pairsPerSubmission = batch, .timestamps = true});
-    if (!made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(made);
     return &pipelines_.emplace(key, std::move(*made)).first->second;
 }
 
 Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
     const auto all = static_cast<std::uint32_t>(work.poses.size());
     const Result<PairPipeline*> pipe = pipeline(feeding.batch == 0 ? all : feeding.batch, feeding.frames);
-    if (!pipe.ok()) {
-        return pipe.error();
-    }
+    VOXTACT_TRY(pipe);
     const BatchItem item = itemOf(work);
     Pass pass;
     pass.pairs.reserve(work.poses.size());
@@ -72,9 +69,7 @@ Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
                          timed = timed && answer.gpuMilliseconds.has_value();
                      }});
     pass.wallMilliseconds = watch.milliseconds();
-    if (!done.ok()) {
-        return done.error();
-    }
+    VOXTACT_TRY(done);
     if (timed) {
         pass.gpuMilliseconds = gpu;
     }
@@ -89,9 +84,7 @@ class BlockingEngine final : public Engine {
     Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
         const BatchItem item = itemOf(work);
         Result<BatchAnswer> answer = detector_.detect({{&item, 1}, work.view, work.volume->threshold});
-        if (!answer.ok()) {
-            return answer.error();
-        }
+        VOXTACT_TRY(answer);
         return Pass{.wallMilliseconds = answer->wallMilliseconds,
                     .pairs = std::move(answer->pairs),
                     .triangles = std::move(answer->triangles)};
@@ -105,17 +98,13 @@ class BlockingEngine final : public Engine {
 
 MadeEngine makeDeviceEngine(const Session& session, const DetectorDesc& desc) {
     Result<Detector> detector = Detector::create(session.context, desc);
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     return MadeEngine(std::make_unique<DeviceEngine>(session, std::move(*detector)));
 }
 
 MadeEngine makeBlockingEngine(const Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     return MadeEngine(std::make_unique<BlockingEngine>(std::move(*detector)));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "lab/engine.h"
 #include "lab/stopwatch.h"
 
@@ -29,9 +30,7 @@ Result<Pass> HostEngine::run(const Work& work, const Feeding& feeding) {
                                   work.poses.subspan(first, std::min(batch, work.poses.size() - first)),
                                   volume.labels.values.empty() ? nullptr : &volume.labels};
         Result<BatchAnswer> answer = detector_.detect({{&item, 1}, work.view, volume.threshold});
-        if (!answer.ok()) {
-            return answer.error();
-        }
+        VOXTACT_TRY(answer);
         pass.pairs.insert(pass.pairs.end(), answer->pairs.begin(), answer->pairs.end());
         pass.triangles.insert(pass.triangles.end(), answer->triangles.begin(), answer->triangles.end());
     }
@@ -43,9 +42,7 @@ Result<Pass> HostEngine::run(const Work& work, const Feeding& feeding) {
 
 MadeEngine makeHostEngine(const cpu::DetectorDesc& desc) {
     Result<cpu::Detector> detector = cpu::Detector::create(desc);
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     EngineFacts facts{.name = toString(CountingMethod::Cpu),
                       .projection = toString(desc.projection),
                       .question = questionOf(desc.stopAtFirst, desc.outputs),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "cpu/certified/brick_occupancy.h"
 #include "lab/engine.h"
 #include "lab/localize.h"
@@ -34,9 +35,7 @@ class PolygonEngine final : public Engine {
         const LocalizeAids aids{&parts_->tree, [this](const Box& box) { return parts_->bricks.mayBeOpaque(box); }};
         Result<LocalizedTriangles> answer =
             parts_->localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way_, aids);
-        if (!answer.ok()) {
-            return answer.error();
-        }
+        VOXTACT_TRY(answer);
         Pass pass{.wallMilliseconds = answer->wallMilliseconds, .triangles = std::move(answer->triangles)};
         pass.queries = answer->queries;
         if (way_ != Localization::Polygon) {
@@ -64,9 +63,7 @@ class FragmentEngine final : public Engine {
         const BatchItem item = itemOf(work);
         const Result<std::vector<shader::TracedFragment>> fragments =
             trace_.survivors({{&item, 1}, work.view, work.volume->threshold});
-        if (!fragments.ok()) {
-            return fragments.error();
-        }
+        VOXTACT_TRY(fragments);
         Pass pass;
         for (const shader::TracedFragment& fragment : *fragments) {
             if (pass.triangles.empty() || pass.triangles.back().triangle != fragment.triangle) {
@@ -87,9 +84,7 @@ class FragmentEngine final : public Engine {
 Result<Engines> makePolygonEngines(const Session& session, const VolumePart& volume, const MeshPart& mesh,
                                    double tolerance) {
     Result<Localizer> localizer = Localizer::create(session.context, Filter::Hardware, session.device.queueAccess());
-    if (!localizer.ok()) {
-        return localizer.error();
-    }
+    VOXTACT_TRY(localizer);
     const auto parts = std::make_shared<PolygonParts>(
         PolygonParts{std::move(*localizer), makeObbTree(mesh.data.view()),
                      cpu::BrickOccupancy(*volume.host, *volume.hostFunction, volume.threshold, tolerance),
@@ -104,9 +99,7 @@ Result<Engines> makePolygonEngines(const Session& session, const VolumePart& vol
 MadeEngine makeFragmentEngine(const Session& session) {
     Result<FragmentTrace> trace =
         FragmentTrace::create(session.context, Filter::Hardware, session.device.queueAccess());
-    if (!trace.ok()) {
-        return trace.error();
-    }
+    VOXTACT_TRY(trace);
     return MadeEngine(std::make_unique<FragmentEngine>(std::move(*trace)));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/frame_target.h"
+#include "core/try.h"
 
 #include "device/created.h"
 #include "device/timed_commands.h"
@@ -100,13 +101,9 @@ FrameTarget::~FrameTarget() = default;
 
 Result<FrameTarget> FrameTarget::create(const Session& session, VkFormat format, VkExtent2D extent) {
     Result<TimedCommands> commands = TimedCommands::create(session, kFrameStamps);
-    if (!commands.ok()) {
-        return commands.error();
-    }
+    VOXTACT_TRY(commands);
     auto state = std::make_unique<State>(session, std::move(*commands));
-    if (Result<void> made = state->makeImage(format, extent); !made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(state->makeImage(format, extent));
     return FrameTarget(std::move(state));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/host_speed.h"
+#include "core/try.h"
 
 #include "lab/compare_result.h"
 #include "lab/engine.h"
@@ -16,19 +17,13 @@ Result<double> medianSeconds(Engine& host, const MeasureScene& scene, std::uint3
     VolumePart volume{.name = {}, .data = scene.volume, .points = scene.points, .domain = scene.domain};
     volume.threshold = scene.threshold;
     MeshPart mesh{.name = {}, .data = scene.mesh};
-    if (Result<void> made = makeHost(volume); !made.ok()) {
-        return made.error();
-    }
-    if (Result<void> ready = makeReady(nullptr, mesh); !ready.ok()) {
-        return ready.error();
-    }
+    VOXTACT_TRY(makeHost(volume));
+    VOXTACT_TRY(makeReady(nullptr, mesh));
     std::vector<double> seconds;
     // The first one, which makes the threads and the table of opaque bricks, does not count.
     for (std::uint32_t i = 0; i <= std::max(repetitions, 1U); ++i) {
         const Result<Pass> pass = host.run({volume, mesh, scene.world_from_object, scene.view}, {});
-        if (!pass.ok()) {
-            return pass.error();
-        }
+        VOXTACT_TRY(pass);
         if (i > 0) {
             seconds.push_back(pass->wallMilliseconds / 1000);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/localize.h"
 #include "core/guard.h"
+#include "core/try.h"
 #include "detect/batch.h"
 #include "detect/recording.h"
 #include "detect/view.h"
@@ -140,9 +141,7 @@ Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& 
                                          std::span<const std::uint32_t> triangles, double& gpuMilliseconds) {
     ContextImpl& context = localizer.context;
     const Result<VkCommandBuffer> commandBuffer = localizer.submitter.begin();
-    if (!commandBuffer.ok()) {
-        return commandBuffer.error();
-    }
+    VOXTACT_TRY(commandBuffer);
     const auto queries = static_cast<std::uint32_t>(triangles.size());
     ResultsImpl& results = localizer.results->impl();
     results.pairs = 1;
@@ -154,9 +153,7 @@ Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& 
         localizer.pass->recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
         publishResults(context, *commandBuffer, results, kDesc);
     }
-    if (Result<void> done = localizer.submitter.submitAndWait(); !done.ok()) {
-        return done.error();
-    }
+    VOXTACT_TRY(localizer.submitter.submitAndWait());
     std::vector<std::uint64_t> counts(queries);
     const VkResult read = context.vk.GetQueryPoolResults(
         context.device, localizer.queries.get(), 0, queries, counts.size() * sizeof counts[0], counts.data(),
@@ -166,9 +163,7 @@ Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& 
     }
     if (results.timestamps) {
         const Result<double> time = localizer.results->gpuMilliseconds();
-        if (!time.ok()) {
-            return time.error();
-        }
+        VOXTACT_TRY(time);
         gpuMilliseconds += *time;
     }
     return counts;
@@ -183,9 +178,7 @@ Result<LocalizedTriangles> localize(LocalizerImpl& localizer, const Batch& batch
     for (std::size_t first = 0; first < all.size(); first += kQueries) {
         const auto some = std::span(all).subspan(first, std::min<std::size_t>(kQueries, all.size() - first));
         const Result<std::vector<std::uint64_t>> counts = count(localizer, batch, some, out.gpuMilliseconds);
-        if (!counts.ok()) {
-            return counts.error();
-        }
+        VOXTACT_TRY(counts);
         for (std::size_t i = 0; i < some.size(); ++i) {
             if ((*counts)[i] > 0) {
                 out.triangles.push_back({0, some[i], static_cast<std::uint32_t>((*counts)[i])});
@@ -223,27 +216,19 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
                          "counting the survivors of a triangle needs occlusionQueryPrecise to be enabled"};
         }
         Result<Submitter> submitter = Submitter::create(c, queue);
-        if (!submitter.ok()) {
-            return submitter.error();
-        }
+        VOXTACT_TRY(submitter);
         auto impl = std::make_unique<LocalizerImpl>(LocalizerImpl{.context = c, .submitter = std::move(*submitter)});
         Result<ViewPass> pass = ViewPass::create(c, {.method = CountingMethod::Query, .filter = filter});
-        if (!pass.ok()) {
-            return pass.error();
-        }
+        VOXTACT_TRY(pass);
         impl->pass.emplace(std::move(*pass));
         Result<Results> results = Results::create(context, {.maxPairs = 1,
                                                             .readBack = false,
                                                             .timestamps = c.timestampBits(queue.family) > 0,
                                                             .queueFamily = queue.family});
-        if (!results.ok()) {
-            return results.error();
-        }
+        VOXTACT_TRY(results);
         impl->results.emplace(std::move(*results));
         Result<Owned<VkQueryPool>> queries = makeQueries(c);
-        if (!queries.ok()) {
-            return queries.error();
-        }
+        VOXTACT_TRY(queries);
         impl->queries = std::move(*queries);
         return Localizer(std::move(impl));
     });
@@ -252,18 +237,14 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
 Result<LocalizedTriangles> Localizer::triangles(const Batch& batch, Localization way, const LocalizeAids& aids) {
     return guard([&]() -> Result<LocalizedTriangles> {
         const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
-        if (!pairs.ok()) {
-            return pairs.error();
-        }
+        VOXTACT_TRY(pairs);
         if (*pairs != 1) {
             return Error{ErrorCode::InvalidArgument, 0,
                          "triangles are found for one pair, the batch has " + std::to_string(*pairs)};
         }
         const BatchItem& item =
             *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });
-        if (Result<void> aided = checkAids(item, way, aids); !aided.ok()) {
-            return aided.error();
-        }
+        VOXTACT_TRY(checkAids(item, way, aids));
         return localize(*impl_, batch, item, way, aids);
     });
 }

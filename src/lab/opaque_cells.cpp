@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/opaque_cells.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,13 +98,9 @@ bool IsOpaque::operator()(double value) const {
 
 Result<OpaqueCells> opaqueCells(const VolumeView& volume, const TransferFunctionDesc& function, double threshold) {
     const Result<Axes> axes = axesOf(volume.grid);
-    if (!axes.ok()) {
-        return axes.error();
-    }
+    VOXTACT_TRY(axes);
     Result<std::vector<float>> table = sampleTable(function);
-    if (!table.ok()) {
-        return table.error();
-    }
+    VOXTACT_TRY(table);
     const IsOpaque isOpaque(std::move(*table), function.domain, threshold);
     const Vec3& spacing = volume.grid.spacing;
     OpaqueCells cells;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper.h"
+#include "core/try.h"
 
 #include "lab/compare_result.h"
 #include "lab/paper_output.h"
@@ -39,9 +40,7 @@ Result<void> measurePaper(const PaperSettings& settings, const Session& session,
         return fits;
     }
     const Result<std::vector<PaperInput>> inputs = loadPaperScenes(settings);
-    if (!inputs.ok()) {
-        return inputs.error();
-    }
+    VOXTACT_TRY(inputs);
     result.machine = describeMachine(session, inputs->front().scene.volume->data.type, result.machine.provenance);
     result.width = settings.size.width;
     result.height = settings.size.height;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_frames.h"
+#include "core/try.h"
 
 #include "lab/engine.h"
 #include "lab/frame_target.h"
@@ -26,29 +27,19 @@ Result<PictureParts> makePicture(const Session& session, const Scene& scene, con
     const VolumePart& volume = *scene.volume;
     const QueueAccess queue = session.device.queueAccess();
     Result<Renderer> renderer = Renderer::create(session.context);
-    if (!renderer.ok()) {
-        return renderer.error();
-    }
+    VOXTACT_TRY(renderer);
     RenderTransferFunctionDesc desc;
     desc.opacity = {volume.points, volume.domain};
     desc.colours = colours;
     desc.step = *std::ranges::min_element(volume.data.grid.spacing) / 2;
     Result<RenderTransferFunction> function = RenderTransferFunction::upload(*renderer, queue, desc);
-    if (!function.ok()) {
-        return function.error();
-    }
+    VOXTACT_TRY(function);
     Result<RenderBricks> bricks = RenderBricks::create(*renderer, *volume.device);
-    if (!bricks.ok()) {
-        return bricks.error();
-    }
+    VOXTACT_TRY(bricks);
     Result<MeshNormals> normals = MeshNormals::upload(*renderer, queue, scene.mesh->data.view());
-    if (!normals.ok()) {
-        return normals.error();
-    }
+    VOXTACT_TRY(normals);
     Result<RenderTargets> targets = RenderTargets::create(*renderer, {scene.view.width, scene.view.height});
-    if (!targets.ok()) {
-        return targets.error();
-    }
+    VOXTACT_TRY(targets);
     return PictureParts{std::move(*renderer), std::move(*function), std::move(*bricks), std::move(*normals),
                         std::move(*targets)};
 }
@@ -105,9 +96,7 @@ Result<void> FrameLoop::State::cmdDetect(VkCommandBuffer commands, CountingMetho
 
 Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, const Mat4& pose) {
     const Result<VkCommandBuffer> commands = target.begin();
-    if (!commands.ok()) {
-        return commands.error();
-    }
+    VOXTACT_TRY(commands);
     if (part != FramePart::Detection) {
         if (Result<void> recorded = cmdPicture(*commands, pose); !recorded.ok()) {
             return recorded;
@@ -146,16 +135,12 @@ Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSam
             continue;
         }
         const Result<std::optional<double>> time = target.between(reading.from, reading.to);
-        if (!time.ok()) {
-            return time.error();
-        }
+        VOXTACT_TRY(time);
         reading.time = *time;
     }
     if (part == FramePart::Detection) {
         const Result<double> time = results.gpuMilliseconds();
-        if (!time.ok()) {
-            return time.error();
-        }
+        VOXTACT_TRY(time);
         sample.detection = *time;
     }
     return {};
@@ -169,18 +154,12 @@ FrameLoop::~FrameLoop() = default;
 Result<FrameLoop> FrameLoop::create(const Session& session, const Scene& scene,
                                     const std::vector<ColourPoint>& colours) {
     Result<PictureParts> picture = makePicture(session, scene, colours);
-    if (!picture.ok()) {
-        return picture.error();
-    }
+    VOXTACT_TRY(picture);
     Result<Results> results = makeResults(session);
-    if (!results.ok()) {
-        return results.error();
-    }
+    VOXTACT_TRY(results);
     Result<FrameTarget> target =
         FrameTarget::create(session, RendererDesc{}.colorFormat, {scene.view.width, scene.view.height});
-    if (!target.ok()) {
-        return target.error();
-    }
+    VOXTACT_TRY(target);
     return FrameLoop(std::unique_ptr<State>(new State{.session = session,
                                                       .scene = scene,
                                                       .picture = std::move(*picture),
@@ -191,17 +170,13 @@ Result<FrameLoop> FrameLoop::create(const Session& session, const Scene& scene,
 Result<void> FrameLoop::add(CountingMethod method) {
     if (method == CountingMethod::Cpu) {
         MadeEngine host = makeHostEngine();
-        if (!host.ok()) {
-            return host.error();
-        }
+        VOXTACT_TRY(host);
         state_->host = std::move(*host);
         return {};
     }
     Result<Detector> detector =
         Detector::create(state_->session.context, {.method = method, .filter = defaultFilter(method)});
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     state_->detectors.emplace(method, std::move(*detector));
     return {};
 }
@@ -211,41 +186,29 @@ Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const 
     const bool onDevice = part != FramePart::Rendering && !onHost;
     const bool submits = part != FramePart::Detection || onDevice;
     if (submits) {
-        if (Result<void> recorded = state_->record(part, method, world_from_object); !recorded.ok()) {
-            return recorded.error();
-        }
+        VOXTACT_TRY(state_->record(part, method, world_from_object));
     }
     FrameSample sample;
     const Stopwatch watch;
     if (submits) {
-        if (Result<void> submitted = state_->target.submit(); !submitted.ok()) {
-            return submitted.error();
-        }
+        VOXTACT_TRY(state_->target.submit());
     }
     if (onHost) {
         const Result<std::uint64_t> count = state_->detectOnHost(world_from_object);
-        if (!count.ok()) {
-            return count.error();
-        }
+        VOXTACT_TRY(count);
         sample.count = *count;
     }
     if (submits) {
-        if (Result<void> waited = state_->target.wait(); !waited.ok()) {
-            return waited.error();
-        }
+        VOXTACT_TRY(state_->target.wait());
     }
     sample.wall = watch.milliseconds();
     if (onDevice) {
         const Result<std::span<const PairResult>> read = state_->results.read();
-        if (!read.ok()) {
-            return read.error();
-        }
+        VOXTACT_TRY(read);
         sample.count = unpack(read->front()).count;
     }
     if (submits) {
-        if (Result<void> timed = state_->readTimes(part, onDevice, sample); !timed.ok()) {
-            return timed.error();
-        }
+        VOXTACT_TRY(state_->readTimes(part, onDevice, sample));
     }
     return sample;
 }

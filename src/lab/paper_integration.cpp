@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_integration.h"
+#include "core/try.h"
 
 #include "device/timed_submission.h"
 #include "voxtact/render.h"
@@ -34,9 +35,7 @@ Result<std::vector<SizedTable>> makeTables(const Renderer& renderer) {
     std::vector<SizedTable> tables;
     for (const std::uint32_t entries : kEntries) {
         Result<RenderTransferFunction> made = RenderTransferFunction::create(renderer, functionOf(entries, 0));
-        if (!made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(made);
         tables.push_back({std::move(*made), {.entries = entries}});
     }
     return tables;
@@ -47,26 +46,18 @@ Result<std::vector<SizedTable>> makeTables(const Renderer& renderer) {
 Result<std::vector<IntegrationPoint>> timeIntegration(const Session& session, std::uint32_t repetitions,
                                                       const std::function<void()>& step) {
     const Result<Renderer> renderer = Renderer::create(session.context);
-    if (!renderer.ok()) {
-        return renderer.error();
-    }
+    VOXTACT_TRY(renderer);
     Result<std::vector<SizedTable>> tables = makeTables(*renderer);
-    if (!tables.ok()) {
-        return tables.error();
-    }
+    VOXTACT_TRY(tables);
     Result<TimedSubmission> submission = TimedSubmission::create(session);
-    if (!submission.ok()) {
-        return submission.error();
-    }
+    VOXTACT_TRY(submission);
     // Round 0 is the warm-up.
     for (std::size_t round = 0; round <= repetitions; ++round) {
         for (SizedTable& table : *tables) {
             const Result<TimedSubmission::Times> times = submission->run([&](VkCommandBuffer commands) {
                 return table.function.cmdUpdate(commands, functionOf(table.point.entries, round % 2));
             });
-            if (!times.ok()) {
-                return times.error();
-            }
+            VOXTACT_TRY(times);
             if (round == 0) {
                 continue;
             }

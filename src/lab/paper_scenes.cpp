@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_scenes.h"
+#include "core/try.h"
 
 #include "core/text.h"
 #include "lab/compare_result.h"
@@ -96,9 +97,7 @@ std::vector<ControlPoint> ramp(double begin, double width) {
 /// Of all voxels, those that are opaque.
 Result<double> opaqueShare(const Histogram& histogram, std::span<const ControlPoint> points) {
     Result<std::vector<float>> table = sampleTable({points});
-    if (!table.ok()) {
-        return table.error();
-    }
+    VOXTACT_TRY(table);
     const IsOpaque isOpaque(std::move(*table), TransferFunctionDesc{}.domain, kDefaultThreshold);
     std::uint64_t opaque = 0;
     std::uint64_t all = 0;
@@ -118,9 +117,7 @@ Result<void> placeRamp(const PaperVolume& volume, bool builtin, LoadedVolume& lo
     for (double begin = first; begin <= last; ++begin) {
         std::vector<ControlPoint> points = ramp(begin, volume.rampWidth);
         const Result<double> share = opaqueShare(histogram, points);
-        if (!share.ok()) {
-            return share.error();
-        }
+        VOXTACT_TRY(share);
         if (std::abs(*share - volume.share) < nearest) {
             nearest = std::abs(*share - volume.share);
             loaded.part->points = std::move(points);
@@ -135,9 +132,7 @@ Result<LoadedVolume> loadPaperVolume(const PaperSettings& settings, const PaperV
     const std::string source =
         file ? file->string() : volume.builtin + (":" + std::to_string(volume.voxels[0] / settings.scale));
     Result<VolumeData> data = settings.load.volume(source);
-    if (!data.ok()) {
-        return data.error();
-    }
+    VOXTACT_TRY(data);
     if (file && (data->grid.size != volume.voxels || data->type != ScalarType::UInt8)) {
         return Error{ErrorCode::Format, 0,
                      "'" + source + "' has " + sizeText(data->grid.size) + " voxels of " + toString(data->type) +
@@ -147,9 +142,7 @@ Result<LoadedVolume> loadPaperVolume(const PaperSettings& settings, const PaperV
     loaded.part->name = file ? file->filename().string() : source;
     loaded.part->data = std::move(*data);
     loaded.part->domain = TransferFunctionDesc{}.domain;
-    if (Result<void> placed = placeRamp(volume, !file, loaded); !placed.ok()) {
-        return placed.error();
-    }
+    VOXTACT_TRY(placeRamp(volume, !file, loaded));
     return loaded;
 }
 
@@ -157,9 +150,7 @@ Result<std::shared_ptr<MeshPart>> loadPaperMesh(const PaperSettings& settings, c
     const std::optional<fs::path> file = fileOf(settings, mesh.file);
     const std::string source = file ? file->string() : mesh.builtin;
     Result<MeshData> data = settings.load.mesh(source);
-    if (!data.ok()) {
-        return data.error();
-    }
+    VOXTACT_TRY(data);
     if (data->indices.size() != std::size_t{3} * mesh.triangles) {
         return Error{ErrorCode::Format, 0,
                      "'" + source + "' has " + std::to_string(data->indices.size() / 3) +
@@ -172,9 +163,7 @@ Result<std::shared_ptr<MeshPart>> loadPaperMesh(const PaperSettings& settings, c
 /// From the front; deep enough for the mesh at every pose that can be.
 Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const MeshData& mesh) {
     const Result<MeshFacts> facts = checkMesh(mesh.view());
-    if (!facts.ok()) {
-        return facts.error();
-    }
+    VOXTACT_TRY(facts);
     Box box = settings.worldBox({{-kBeyond, -kBeyond, -kBeyond}, {1 + kBeyond, 1 + kBeyond, 1 + kBeyond}},
                                 worldFromTexture(grid));
     const double longest =
@@ -212,14 +201,9 @@ Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, co
                    .poses = settings.poses,
                    .step = *std::ranges::min_element(part.data.grid.spacing) / 2};
     Result<View> view = cameraOf(settings, part.data.grid, mesh->data);
-    if (!view.ok()) {
-        return view.error();
-    }
+    VOXTACT_TRY(view);
     input.scene.view = *view;
-    if (Result<void> chosen = chooseTouching(settings.poses, settings.seed, input.facts.name, input.scene);
-        !chosen.ok()) {
-        return chosen.error();
-    }
+    VOXTACT_TRY(chooseTouching(settings.poses, settings.seed, input.facts.name, input.scene));
     return input;
 }
 
@@ -235,9 +219,7 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
         return ready;
     }
     const MadeEngine yesNo = makeHostEngine({.stopAtFirst = true});
-    if (!yesNo.ok()) {
-        return yesNo.error();
-    }
+    VOXTACT_TRY(yesNo);
     const std::uint64_t most = std::min<std::uint64_t>(std::uint64_t{kTries} * count, UINT32_MAX);
     std::uint64_t end = count;
     for (std::uint64_t tried = 0; scene.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
@@ -252,9 +234,7 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
             randomPoses(scene.volume->data.grid, scene.mesh->data.view(), static_cast<std::uint32_t>(end), seed);
         const std::span<const Mat4> fresh = std::span(all).subspan(tried);
         const Result<Pass> pass = (*yesNo)->run(Work(scene).at(fresh), {});
-        if (!pass.ok()) {
-            return pass.error();
-        }
+        VOXTACT_TRY(pass);
         for (std::size_t i = 0; i < fresh.size() && scene.poses.size() < count; ++i) {
             if (pass->pairs[i].hit) {
                 scene.poseNumbers.push_back(static_cast<std::uint32_t>(scene.poses.size()));
@@ -266,29 +246,21 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
 }
 
 Result<std::vector<PaperInput>> loadPaperScenes(const PaperSettings& settings) {
-    if (Result<void> there = checkData(settings); !there.ok()) {
-        return there.error();
-    }
+    VOXTACT_TRY(checkData(settings));
     std::vector<std::shared_ptr<MeshPart>> meshes;
     for (const PaperMesh& mesh : kMeshes) {
         Result<std::shared_ptr<MeshPart>> loaded = loadPaperMesh(settings, mesh);
-        if (!loaded.ok()) {
-            return loaded.error();
-        }
+        VOXTACT_TRY(loaded);
         meshes.push_back(std::move(*loaded));
     }
     std::vector<PaperInput> inputs;
     for (const PaperVolume& volume : kVolumes) {
         const Result<LoadedVolume> loaded = loadPaperVolume(settings, volume);
-        if (!loaded.ok()) {
-            return loaded.error();
-        }
+        VOXTACT_TRY(loaded);
         for (std::size_t i = 0; i < meshes.size(); ++i) {
             Result<PaperInput> input =
                 makeInput(settings, std::string(volume.name) + kMeshes[i].name, *loaded, meshes[i]);
-            if (!input.ok()) {
-                return input.error();
-            }
+            VOXTACT_TRY(input);
             inputs.push_back(std::move(*input));
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_sweeps.h"
+#include "core/try.h"
 
 #include "lab/compare_timing.h"
 #include "lab/paper_integration.h"
@@ -38,15 +39,11 @@ Result<Scene> headOf(const PaperSettings& settings, const Scene& v1s1) {
     volume.points = {kOpacity.begin(), kOpacity.end()};
     volume.domain = kDomain;
     Result<VolumeData> data = settings.load.volume(volume.name);
-    if (!data.ok()) {
-        return data.error();
-    }
+    VOXTACT_TRY(data);
     volume.data = std::move(*data);
     head.view.clip_from_world = framingCamera(volume.data.grid, head.view.width, head.view.height);
     const auto poses = static_cast<std::uint32_t>(v1s1.poses.size());
-    if (Result<void> chosen = chooseTouching(poses, settings.seed, kVolume, head); !chosen.ok()) {
-        return chosen.error();
-    }
+    VOXTACT_TRY(chooseTouching(poses, settings.seed, kVolume, head));
     return head;
 }
 
@@ -54,13 +51,9 @@ Result<Scene> headOf(const PaperSettings& settings, const Scene& v1s1) {
 Result<void> timeAll(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
                      const Scene& v1s1, CompareResult& result, const std::function<void()>& step) {
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
-    if (!engines.ok()) {
-        return engines.error();
-    }
+    VOXTACT_TRY(engines);
     const Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(v1s1));
-    if (!counts.ok()) {
-        return counts.error();
-    }
+    VOXTACT_TRY(counts);
     result.verdicts = judgeCounts(*counts, v1s1.poseNumbers);
     step();
     if (result.firstFailure() != nullptr) {
@@ -141,9 +134,7 @@ Result<void> runPaperSweeps(const Session& session, const PaperSettings& setting
         return done;
     }
     Result<std::vector<IntegrationPoint>> integration = timeIntegration(session, settings.repetitions, step);
-    if (!integration.ok()) {
-        return integration.error();
-    }
+    VOXTACT_TRY(integration);
     result.integration = std::move(*integration);
     return {};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_tables.h"
+#include "core/try.h"
 
 #include "lab/compare_verify.h"
 #include "lab/paper_frames.h"
@@ -34,16 +35,12 @@ Result<void> verify(const Session& session, PaperWork& work, PaperResult& result
     Engines engines;
     for (const CountingMethod method : work.methods) {
         MadeEngine engine = makeMethodEngine(session, method);
-        if (!engine.ok()) {
-            return engine.error();
-        }
+        VOXTACT_TRY(engine);
         engines.push_back(std::move(*engine));
     }
     const Scene& scene = work.input.scene;
     Result<std::vector<NamedCounts>> counts = countAll(engines, Work(scene));
-    if (!counts.ok()) {
-        return counts.error();
-    }
+    VOXTACT_TRY(counts);
     work.counts = std::move(*counts);
     for (const Verdict& verdict : judgeCounts(work.counts, scene.poseNumbers)) {
         if (verdict.failed() && result.disagreement.empty()) {
@@ -99,9 +96,7 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
     for (std::size_t i = 0; i < kParts.size(); ++i) {
         const FramePart part = kParts.at(backwards ? kParts.size() - 1 - i : i);
         const Result<FrameSample> sample = frames.run(part, work.methods[method], work.input.scene.poses[pose]);
-        if (!sample.ok()) {
-            return sample.error();
-        }
+        VOXTACT_TRY(sample);
         if (sample->count.value_or(verified) != verified && result.disagreement.empty()) {
             result.disagreement = work.input.facts.name + ", pose " + std::to_string(pose) + ": " +
                                   work.counts[method].method + (part == FramePart::Both ? " in a frame" : " alone") +
@@ -119,9 +114,7 @@ Result<void> takeFrames(FrameLoop& frames, const PaperWork& work, std::size_t me
 Result<void> takeRendering(FrameLoop& frames, const PaperWork& work, std::size_t pose, bool kept, PaperResult& result) {
     const Result<FrameSample> sample =
         frames.run(FramePart::Rendering, work.methods.front(), work.input.scene.poses[pose]);
-    if (!sample.ok()) {
-        return sample.error();
-    }
+    VOXTACT_TRY(sample);
     for (std::size_t method = 0; kept && method < work.methods.size(); ++method) {
         keep(FramePart::Rendering, *sample, result.rows[work.firstRow + method]);
     }
@@ -153,9 +146,7 @@ Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t r
 Result<void> timeFrames(const Session& session, const PaperSettings& settings, const PaperWork& work,
                         PaperResult& result, const std::function<void()>& step) {
     Result<FrameLoop> frames = FrameLoop::create(session, work.input.scene, settings.colours);
-    if (!frames.ok()) {
-        return frames.error();
-    }
+    VOXTACT_TRY(frames);
     for (const CountingMethod method : work.methods) {
         if (Result<void> added = frames->add(method); !added.ok()) {
             return added;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/random_poses.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,15 +143,11 @@ Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std
         double inside = 0;
         double outside = most;
         const Result<bool> begins = touches(start);
-        if (!begins.ok()) {
-            return begins.error();
-        }
+        VOXTACT_TRY(begins);
         while (*begins && outside - inside > voxel * kOnsetError) {
             const double middle = (inside + outside) / 2;
             const Result<bool> hit = touches(movedBy(start, direction, middle));
-            if (!hit.ok()) {
-                return hit.error();
-            }
+            VOXTACT_TRY(hit);
             (*hit ? inside : outside) = middle;
         }
         if (*begins) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scene.h"
+#include "core/try.h"
 
 #include "lab/compare_agreement.h"
 
@@ -12,9 +13,7 @@ namespace {
 Result<void> uploadTable(const Session& session, VolumePart& volume) {
     Result<TransferFunction> table =
         TransferFunction::upload(session.context, session.device.queueAccess(), volume.transferFunction());
-    if (!table.ok()) {
-        return table.error();
-    }
+    VOXTACT_TRY(table);
     volume.deviceFunction.emplace(std::move(*table));
     return {};
 }
@@ -22,17 +21,13 @@ Result<void> uploadTable(const Session& session, VolumePart& volume) {
 Result<void> uploadVoxels(const Session& session, const VolumeOptions& options, VolumePart& volume) {
     const QueueAccess queue = session.device.queueAccess();
     Result<Volume> image = Volume::upload(session.context, queue, volume.data.view(), options);
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     volume.device.emplace(std::move(*image));
     if (volume.labels.values.empty()) {
         return {};
     }
     Result<LabelMap> labels = LabelMap::upload(session.context, queue, volume.labels);
-    if (!labels.ok()) {
-        return labels.error();
-    }
+    VOXTACT_TRY(labels);
     volume.deviceLabels.emplace(std::move(*labels));
     return {};
 }
@@ -60,13 +55,9 @@ Result<void> makeHost(VolumePart& volume) {
         return {};
     }
     Result<cpu::Volume> host = cpu::Volume::create(volume.data.view());
-    if (!host.ok()) {
-        return host.error();
-    }
+    VOXTACT_TRY(host);
     Result<cpu::TransferFunction> table = cpu::TransferFunction::create(volume.transferFunction());
-    if (!table.ok()) {
-        return table.error();
-    }
+    VOXTACT_TRY(table);
     volume.host.emplace(std::move(*host));
     volume.hostFunction.emplace(std::move(*table));
     return {};
@@ -93,18 +84,14 @@ Result<void> makeReady(const Session* session, MeshPart& mesh) {
     if (session != nullptr) {
         Result<Mesh> device = Mesh::upload(session->context, session->device.queueAccess(), mesh.data.view(),
                                            {.name = mesh.data.name.c_str(), .clusters = true});
-        if (!device.ok()) {
-            return device.error();
-        }
+        VOXTACT_TRY(device);
         mesh.device.emplace(std::move(*device));
     }
     if (mesh.host) {
         return {};
     }
     Result<cpu::Mesh> host = cpu::Mesh::create(mesh.data.view());
-    if (!host.ok()) {
-        return host.error();
-    }
+    VOXTACT_TRY(host);
     mesh.host.emplace(std::move(*host));
     return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/trace.h"
 #include "core/guard.h"
+#include "core/try.h"
 #include "detect/batch.h"
 #include "detect/recording.h"
 #include "detect/view.h"
@@ -64,19 +65,13 @@ Result<void> reserve(FragmentTraceImpl& trace, std::uint32_t capacity) {
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                      MemoryUse::Device, "fragment list");
-    if (!list.ok()) {
-        return list.error();
-    }
+    VOXTACT_TRY(list);
     Result<Buffer> readBack =
         makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "fragment list on the host");
-    if (!readBack.ok()) {
-        return readBack.error();
-    }
+    VOXTACT_TRY(readBack);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
     Result<DescriptorSet> set = makeDescriptorSet(context, trace.setLayout.get(), {&size, 1}, "fragment list");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     trace.list = std::move(*list);
     trace.readBack = std::move(*readBack);
     trace.descriptors = std::move(*set);
@@ -105,16 +100,10 @@ void record(FragmentTraceImpl& trace, VkCommandBuffer commandBuffer, const Batch
 /// One try: the number of survivors, of which the list may hold fewer.
 Result<std::uint32_t> run(FragmentTraceImpl& trace, const Batch& batch) {
     const Result<VkCommandBuffer> commandBuffer = trace.submitter.begin();
-    if (!commandBuffer.ok()) {
-        return commandBuffer.error();
-    }
+    VOXTACT_TRY(commandBuffer);
     record(trace, *commandBuffer, batch);
-    if (Result<void> done = trace.submitter.submitAndWait(); !done.ok()) {
-        return done.error();
-    }
-    if (Result<void> visible = invalidate(trace.context, trace.readBack); !visible.ok()) {
-        return visible.error();
-    }
+    VOXTACT_TRY(trace.submitter.submitAndWait());
+    VOXTACT_TRY(invalidate(trace.context, trace.readBack));
     std::uint32_t count = 0;
     std::memcpy(&count, trace.readBack.mapped, sizeof count);
     return count;
@@ -138,31 +127,19 @@ FragmentTrace::~FragmentTrace() = default;
 Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filter, const QueueAccess& queue) {
     return guard([&]() -> Result<FragmentTrace> {
         ContextImpl& c = context.impl();
-        if (Result<void> features = checkFeatures(c); !features.ok()) {
-            return features.error();
-        }
+        VOXTACT_TRY(checkFeatures(c));
         Result<Submitter> submitter = Submitter::create(c, queue);
-        if (!submitter.ok()) {
-            return submitter.error();
-        }
+        VOXTACT_TRY(submitter);
         auto impl =
             std::make_unique<FragmentTraceImpl>(FragmentTraceImpl{.context = c, .submitter = std::move(*submitter)});
-        if (Result<void> made = makeLayouts(*impl); !made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(makeLayouts(*impl));
         Result<ViewPass> pass = ViewPass::createTrace(c, filter, impl->layout.get());
-        if (!pass.ok()) {
-            return pass.error();
-        }
+        VOXTACT_TRY(pass);
         impl->pass.emplace(std::move(*pass));
         Result<Results> results = Results::create(context, {.maxPairs = 1, .readBack = false});
-        if (!results.ok()) {
-            return results.error();
-        }
+        VOXTACT_TRY(results);
         impl->results.emplace(std::move(*results));
-        if (Result<void> room = reserve(*impl, kFirstCapacity); !room.ok()) {
-            return room.error();
-        }
+        VOXTACT_TRY(reserve(*impl, kFirstCapacity));
         return FragmentTrace(std::move(impl));
     });
 }
@@ -170,23 +147,17 @@ Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filte
 Result<std::vector<shader::TracedFragment>> FragmentTrace::survivors(const Batch& batch) {
     return guard([&]() -> Result<std::vector<shader::TracedFragment>> {
         const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
-        if (!pairs.ok()) {
-            return pairs.error();
-        }
+        VOXTACT_TRY(pairs);
         if (*pairs != 1) {
             return Error{ErrorCode::InvalidArgument, 0,
                          "a trace is of one pair, the batch has " + std::to_string(*pairs)};
         }
         Result<std::uint32_t> count = run(*impl_, batch);
         if (count.ok() && kHeader + VkDeviceSize{*count} * sizeof(shader::TracedFragment) > impl_->list.size) {
-            if (Result<void> room = reserve(*impl_, *count); !room.ok()) {
-                return room.error();
-            }
+            VOXTACT_TRY(reserve(*impl_, *count));
             count = run(*impl_, batch);
         }
-        if (!count.ok()) {
-            return count.error();
-        }
+        VOXTACT_TRY(count);
         std::vector<shader::TracedFragment> out(*count);
         std::memcpy(out.data(), static_cast<const std::byte*>(impl_->readBack.mapped) + kHeader,
                     out.size() * sizeof out[0]);

@@ -2,6 +2,7 @@
 #include "oracle/certified_oracle.h"
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "oracle/certified_cut.h"
 #include "oracle/certified_sample.h"
 
@@ -47,30 +48,20 @@ Error refuse(std::string text) {
 }
 
 Result<Scene> prepare(const OraclePair& pair, double resolution) {
-    if (Result<MeshFacts> mesh = checkMesh(pair.mesh); !mesh.ok()) {
-        return mesh.error();
-    }
+    VOXTACT_TRY(checkMesh(pair.mesh));
     const Result<ValueRange> range = checkVolume(pair.volume);
-    if (!range.ok()) {
-        return range.error();
-    }
+    VOXTACT_TRY(range);
     Result<std::vector<float>> entries = sampleTable(pair.transferFunction);
-    if (!entries.ok()) {
-        return entries.error();
-    }
+    VOXTACT_TRY(entries);
     if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
         return refuse("the threshold " + number(pair.threshold) + " is outside [0, 1]");
     }
-    if (Result<void> pose = checkAffine(pair.world_from_object, "the pose"); !pose.ok()) {
-        return pose.error();
-    }
+    VOXTACT_TRY(checkAffine(pair.world_from_object, "the pose"));
     if (!(resolution > 0) || !std::isfinite(resolution)) {
         return refuse("the resolution is " + number(resolution) + ", it must be finite and positive");
     }
     const Result<Mat4> texture_from_world = textureFromWorld(pair.volume.grid);
-    if (!texture_from_world.ok()) {
-        return texture_from_world.error();
-    }
+    VOXTACT_TRY(texture_from_world);
     const auto threshold = static_cast<double>(static_cast<float>(pair.threshold));
     return Scene{pair.mesh,
                  Field(pair.volume, *range),
@@ -374,9 +365,7 @@ const char* toString(Certainty certainty) noexcept {
 Result<CertifiedOracle> certifiedOracle(const OraclePair& pair, double resolution) {
     return guard([&]() -> Result<CertifiedOracle> {
         const Result<Scene> scene = prepare(pair, resolution);
-        if (!scene.ok()) {
-            return scene.error();
-        }
+        VOXTACT_TRY(scene);
         CertifiedOracle out;
         bool undecided = false;
         bool certain = false;
@@ -394,9 +383,7 @@ Result<CertifiedOracle> certifiedOracle(const OraclePair& pair, double resolutio
 Result<std::vector<CertifiedCell>> certifiedCells(const OraclePair& pair, std::uint32_t triangle, double margin) {
     return guard([&]() -> Result<std::vector<CertifiedCell>> {
         const Result<Scene> scene = prepare(pair, kOracleResolution);
-        if (!scene.ok()) {
-            return scene.error();
-        }
+        VOXTACT_TRY(scene);
         if (triangle >= pair.mesh.indices.size() / 3) {
             return refuse("there is no triangle " + std::to_string(triangle) + ", the mesh has " +
                           std::to_string(pair.mesh.indices.size() / 3));

@@ -3,6 +3,7 @@
 #include "core/guard.h"
 #include "core/projection.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "oracle/oracle_raster.h"
 #include "oracle/oracle_sample.h"
 
@@ -69,15 +70,9 @@ View viewOf(const OraclePair& pair) {
 }
 
 Result<void> checkPair(const OraclePair& pair) {
-    if (Result<MeshFacts> mesh = checkMesh(pair.mesh); !mesh.ok()) {
-        return mesh.error();
-    }
-    if (Result<ValueRange> volume = checkVolume(pair.volume); !volume.ok()) {
-        return volume.error();
-    }
-    if (Result<void> view = checkView(viewOf(pair)); !view.ok()) {
-        return view.error();
-    }
+    VOXTACT_TRY(checkMesh(pair.mesh));
+    VOXTACT_TRY(checkVolume(pair.volume));
+    VOXTACT_TRY(checkView(viewOf(pair)));
     if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
         return refuse("the threshold " + number(pair.threshold) + " is outside [0, 1]");
     }
@@ -85,17 +80,11 @@ Result<void> checkPair(const OraclePair& pair) {
 }
 
 Result<Scene> prepare(const OraclePair& pair) {
-    if (Result<void> checked = checkPair(pair); !checked.ok()) {
-        return checked.error();
-    }
+    VOXTACT_TRY(checkPair(pair));
     Result<std::vector<float>> entries = sampleTable(pair.transferFunction);
-    if (!entries.ok()) {
-        return entries.error();
-    }
+    VOXTACT_TRY(entries);
     const Result<Mat4> texture_from_world = textureFromWorld(pair.volume.grid);
-    if (!texture_from_world.ok()) {
-        return texture_from_world.error();
-    }
+    VOXTACT_TRY(texture_from_world);
     Scene scene;
     scene.mesh = pair.mesh;
     scene.volume = pair.volume;
@@ -313,9 +302,7 @@ const char* toString(Doubt doubt) noexcept {
 Result<std::vector<OracleFragment>> oracleSurvivors(const OraclePair& pair) {
     return guard([&]() -> Result<std::vector<OracleFragment>> {
         const Result<Scene> scene = prepare(pair);
-        if (!scene.ok()) {
-            return scene.error();
-        }
+        VOXTACT_TRY(scene);
         std::vector<OracleFragment> out;
         for (std::size_t triangle = 0; triangle < pair.mesh.indices.size() / 3; ++triangle) {
             appendSurvivors(*scene, static_cast<std::uint32_t>(triangle), out);
@@ -328,19 +315,13 @@ Result<std::vector<OracleFragment>> oracleSurvivors(const OraclePair& pair) {
 Result<std::vector<Evidence>> oracleEvidence(const OraclePair& pair, std::span<const OracleFragment> fragments,
                                              const Tolerance& tolerance) {
     return guard([&]() -> Result<std::vector<Evidence>> {
-        if (Result<void> checked = checkTolerance(tolerance); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(checkTolerance(tolerance));
         const Result<Scene> scene = prepare(pair);
-        if (!scene.ok()) {
-            return scene.error();
-        }
+        VOXTACT_TRY(scene);
         std::vector<Evidence> out;
         out.reserve(fragments.size());
         for (const OracleFragment& fragment : fragments) {
-            if (Result<void> checked = checkFragment(*scene, fragment); !checked.ok()) {
-                return checked.error();
-            }
+            VOXTACT_TRY(checkFragment(*scene, fragment));
             out.push_back(evidenceOf(*scene, fragment, tolerance));
         }
         return out;
@@ -349,9 +330,7 @@ Result<std::vector<Evidence>> oracleEvidence(const OraclePair& pair, std::span<c
 
 Result<Evidence> oracleEvidence(const OraclePair& pair, const OracleFragment& fragment, const Tolerance& tolerance) {
     Result<std::vector<Evidence>> all = oracleEvidence(pair, std::span(&fragment, 1), tolerance);
-    if (!all.ok()) {
-        return all.error();
-    }
+    VOXTACT_TRY(all);
     return all->front();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/submit.h"
 #include "render/render_impl.h"
@@ -26,9 +27,7 @@ struct Frame {
 Result<Frame> makeFrame(const Renderer& renderer, VkExtent2D extent) {
     ContextImpl& context = renderer.impl().context;
     Result<RenderTargets> targets = RenderTargets::create(renderer, extent);
-    if (!targets.ok()) {
-        return targets.error();
-    }
+    VOXTACT_TRY(targets);
     ImageDesc desc;
     desc.type = VK_IMAGE_TYPE_2D;
     desc.viewType = VK_IMAGE_VIEW_TYPE_2D;
@@ -36,14 +35,10 @@ Result<Frame> makeFrame(const Renderer& renderer, VkExtent2D extent) {
     desc.extent = {extent.width, extent.height, 1};
     desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     Result<Image> image = makeImage(context, desc, "the picture", "picture");
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     Result<Buffer> readBack = makeBuffer(context, VkDeviceSize{kPixelBytes} * extent.width * extent.height,
                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "picture read-back");
-    if (!readBack.ok()) {
-        return readBack.error();
-    }
+    VOXTACT_TRY(readBack);
     return Frame{std::move(*targets), std::move(*image), std::move(*readBack)};
 }
 
@@ -150,17 +145,13 @@ Result<void> BlockingRenderer::State::prepare(VkExtent2D extent) {
     }
     frame.reset();
     Result<Frame> made = makeFrame(renderer, extent);
-    if (!made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(made);
     frame.emplace(std::move(*made));
     return {};
 }
 
 Result<Picture> BlockingRenderer::State::read() {
-    if (Result<void> visible = invalidate(context, frame->readBack); !visible.ok()) {
-        return visible.error();
-    }
+    VOXTACT_TRY(invalidate(context, frame->readBack));
     const VkExtent2D extent = frame->targets.extent();
     Picture picture{extent.width, extent.height, {}};
     picture.rgba.resize(kPixelBytes * extent.width * extent.height);
@@ -176,13 +167,9 @@ BlockingRenderer::~BlockingRenderer() = default;
 Result<BlockingRenderer> BlockingRenderer::create(const Context& context, const QueueAccess& queue) {
     return guard([&]() -> Result<BlockingRenderer> {
         Result<Renderer> renderer = Renderer::create(context);
-        if (!renderer.ok()) {
-            return renderer.error();
-        }
+        VOXTACT_TRY(renderer);
         Result<Submitter> submitter = Submitter::create(context.impl(), queue);
-        if (!submitter.ok()) {
-            return submitter.error();
-        }
+        VOXTACT_TRY(submitter);
         return BlockingRenderer(
             std::make_unique<State>(State{context.impl(), std::move(*renderer), std::nullopt, std::move(*submitter)}));
     });
@@ -199,15 +186,9 @@ Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent, 
         do {
             // First of all: a submission whose wait failed may still be using the frame.
             const Result<VkCommandBuffer> commandBuffer = state.submitter.begin();
-            if (!commandBuffer.ok()) {
-                return commandBuffer.error();
-            }
-            if (Result<void> prepared = state.prepare(extent); !prepared.ok()) {
-                return prepared.error();
-            }
-            if (Result<void> done = state.renderBand(*commandBuffer, scene, bands.first(), bands.last()); !done.ok()) {
-                return done.error();
-            }
+            VOXTACT_TRY(commandBuffer);
+            VOXTACT_TRY(state.prepare(extent));
+            VOXTACT_TRY(state.renderBand(*commandBuffer, scene, bands.first(), bands.last()));
             if (progress) {
                 progress(bands.last(), extent.height);
             }

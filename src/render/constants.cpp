@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/table_extremes.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
@@ -99,9 +100,7 @@ Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target) {
     }
     for (const Result<void>& checked : {checkColour(scene.background, "the background"), checkLighting(scene.lighting),
                                         checkClipPlanes(scene.clipPlanes), checkSamples(scene)}) {
-        if (!checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(checked);
     }
     PictureSetup setup;
     setup.depthTurned = isTurned(*world_from_clip);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "voxtact/render.h"
 
 #include <algorithm>
@@ -139,9 +140,7 @@ Result<MeshData> splitAtCreases(const MeshView& mesh, double degrees) {
             return Error{ErrorCode::InvalidArgument, 0,
                          "the angle of creases " + number(degrees) + " is outside [0, 180] degrees"};
         }
-        if (const Result<MeshFacts> facts = checkMesh(mesh); !facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(checkMesh(mesh));
         const std::vector<Vec3> normals = unitNormals(mesh);
         const CornersOfVertices all(mesh);
         SmoothGroups groups(mesh, normals, std::cos(degrees * std::numbers::pi / kStraightAngle));
@@ -154,9 +153,7 @@ Result<MeshData> splitAtCreases(const MeshView& mesh, double degrees) {
             splitVertex(out, vertex, corners, groups.of(corners));
         }
         // It may have more vertices than a mesh can.
-        if (const Result<MeshFacts> facts = checkMesh(out.view()); !facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(checkMesh(out.view()));
         return out;
     });
 }

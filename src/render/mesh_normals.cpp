@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -57,25 +58,16 @@ MeshNormals::~MeshNormals() = default;
 Result<MeshNormals> MeshNormals::create(const Renderer& renderer, const MeshView& data) {
     return guard([&]() -> Result<MeshNormals> {
         ContextImpl& context = renderer.impl().context;
-        if (Result<void> alive = context.alive(); !alive.ok()) {
-            return alive.error();
-        }
+        VOXTACT_TRY(context.alive());
         const Result<MeshFacts> facts = checkMesh(data);
-        if (!facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(facts);
         auto impl = std::make_unique<MeshNormalsImpl>(MeshNormalsImpl{.context = context, .vertices = facts->vertices});
         const std::vector<float> normals = vertexNormals(data);
         const std::span<const std::byte> bytes = std::as_bytes(std::span(normals));
-        if (Result<void> made = makeStaged(context, bytes.size(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "mesh normals",
-                                           impl->buffer, impl->staging);
-            !made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(makeStaged(context, bytes.size(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "mesh normals", impl->buffer,
+                               impl->staging));
         std::memcpy(impl->staging.mapped, bytes.data(), bytes.size());
-        if (Result<void> flushed = flush(context, impl->staging); !flushed.ok()) {
-            return flushed.error();
-        }
+        VOXTACT_TRY(flush(context, impl->staging));
         return MeshNormals(std::move(impl));
     });
 }

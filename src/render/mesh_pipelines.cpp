@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "gpu/pipeline.h"
 #include "render/render_impl.h"
 
@@ -37,9 +38,7 @@ Result<void> makeMeshPipeline(RendererImpl& renderer, const MeshShaders& shaders
                                                                            .colourFormats = kFormats,
                                                                            .depthFormat = kMeshDepthFormat,
                                                                            .name = shaders.name});
-    if (!made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(made);
     renderer.meshPipelines[static_cast<std::size_t>(shaders.by)][shaders.smooth ? 1 : 0] = std::move(*made);
     return {};
 }

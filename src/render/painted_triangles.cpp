@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -62,9 +63,7 @@ Result<void> describe(PaintedTrianglesImpl& impl, const RendererImpl& renderer, 
     constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
     Result<DescriptorSet> set =
         makeDescriptorSet(impl.context, renderer.bricksLayout.get(), {&kSize, 1}, "painted triangles");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     impl.descriptors = std::move(*set);
     impl.room = mask.size / sizeof(std::uint32_t) * kBitsOfWord;
     writeBuffer(impl.context, impl.descriptors.set, 0, mask.buffer, mask.size, mask.offset);
@@ -86,20 +85,12 @@ Result<PaintedTriangles> PaintedTriangles::create(const Renderer& renderer, std:
             return refuse("a mesh without triangles cannot be painted");
         }
         const Result<std::vector<std::uint32_t>> bits = bitsOf(meshTriangles, triangles);
-        if (!bits.ok()) {
-            return bits.error();
-        }
+        VOXTACT_TRY(bits);
         const std::span<const std::byte> bytes = std::as_bytes(std::span(*bits));
-        if (Result<void> possible = checkDevice(context, bytes.size()); !possible.ok()) {
-            return possible.error();
-        }
+        VOXTACT_TRY(checkDevice(context, bytes.size()));
         auto impl = std::make_unique<PaintedTrianglesImpl>(PaintedTrianglesImpl{.context = context});
-        if (Result<void> made = makeBuffers(*impl, bytes); !made.ok()) {
-            return made.error();
-        }
-        if (Result<void> made = describe(*impl, renderer.impl(), {impl->buffer.get(), 0, bytes.size()}); !made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(makeBuffers(*impl, bytes));
+        VOXTACT_TRY(describe(*impl, renderer.impl(), {impl->buffer.get(), 0, bytes.size()}));
         return PaintedTriangles(std::move(impl));
     });
 }
@@ -120,13 +111,9 @@ Result<PaintedTriangles> PaintedTriangles::wrap(const Renderer& renderer, const 
             return refuse("the bits of the painted triangles begin at byte " + std::to_string(mask.offset) +
                           ", which is no multiple of " + std::to_string(kOffsets));
         }
-        if (Result<void> possible = checkDevice(context, mask.size); !possible.ok()) {
-            return possible.error();
-        }
+        VOXTACT_TRY(checkDevice(context, mask.size));
         auto impl = std::make_unique<PaintedTrianglesImpl>(PaintedTrianglesImpl{.context = context});
-        if (Result<void> made = describe(*impl, renderer.impl(), mask); !made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(describe(*impl, renderer.impl(), mask));
         impl->uploaded = true;
         return PaintedTriangles(std::move(impl));
     });

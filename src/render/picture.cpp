@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -146,12 +147,14 @@ Result<void> checkTarget(const ContextImpl& context, const Target& target) {
     return {};
 }
 
-void cmdVolumePass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Target& target, VkRect2D area) {
+void cmdVolumePass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
+                   const Target& target, VkRect2D area) {
     const DeviceFunctions& vk = renderer.context.vk;
     const VkRenderingAttachmentInfo colour =
         renderAttachment(target.view, target.layout, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
     beginRendering(renderer.context, commandBuffer, target.extent, area, {&colour, 1}, nullptr, false);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer.volumePipeline.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                       renderer.volumePipelines[scene.lighting.occlusion > 0 ? 1 : 0].get());
     vk.CmdDraw(commandBuffer, 3, 1, 0, 0);
     vk.CmdEndRendering(commandBuffer);
 }
@@ -189,16 +192,14 @@ Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& sce
             return checked;
         }
         const Result<PictureSetup> setup = setUpPicture(scene, target);
-        if (!setup.ok()) {
-            return setup.error();
-        }
+        VOXTACT_TRY(setup);
         const Label label(context, commandBuffer, "voxtact picture");
         writeTimestamp(context, commandBuffer, target, 0);
         const VkRect2D area = areaOf(target);
         cmdMeshPass(live(impl_), commandBuffer, scene, *setup, target, area);
         writeTimestamp(context, commandBuffer, target, 1);
         bindVolumeSets(live(impl_), commandBuffer, scene, target);
-        cmdVolumePass(live(impl_), commandBuffer, target, area);
+        cmdVolumePass(live(impl_), commandBuffer, scene, target, area);
         writeTimestamp(context, commandBuffer, target, 2);
         return {};
     });

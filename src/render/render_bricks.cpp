@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "render/render_impl.h"
 
 namespace voxtact {
@@ -13,9 +14,7 @@ Result<RenderBricks> RenderBricks::create(const Renderer& renderer, const Volume
     return guard([&]() -> Result<RenderBricks> {
         const VolumeImpl& source = volume.impl();
         ContextImpl& context = renderer.impl().context;
-        if (Result<void> alive = context.alive(); !alive.ok()) {
-            return alive.error();
-        }
+        VOXTACT_TRY(context.alive());
         if (&source.context != &context) {
             return Error{ErrorCode::InvalidArgument, 0, "volume and renderer belong to different Contexts"};
         }
@@ -26,9 +25,7 @@ Result<RenderBricks> RenderBricks::create(const Renderer& renderer, const Volume
         constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
         Result<DescriptorSet> set =
             makeDescriptorSet(context, renderer.impl().bricksLayout.get(), {&kSize, 1}, "render bricks");
-        if (!set.ok()) {
-            return set.error();
-        }
+        VOXTACT_TRY(set);
         auto impl =
             std::make_unique<RenderBricksImpl>(RenderBricksImpl{.renderer = renderer.impl(), .volume = &source});
         impl->descriptors = std::move(*set);

@@ -37,7 +37,7 @@ struct RendererImpl : SharedImpl<RendererImpl> {
     Owned<VkPipeline> makingPipeline{};
     /// By PaintBy, then flat and smooth. Those by triangles are empty without the feature geometryShader.
     std::array<std::array<Owned<VkPipeline>, 2>, kPaintBys> meshPipelines{};
-    Owned<VkPipeline> volumePipeline{};
+    std::array<Owned<VkPipeline>, 2> volumePipelines{}; ///< without occlusion and with it
     DescriptorSet noBricks{};
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "gpu/layouts.h"
 #include "gpu/pipeline.h"
 #include "render/render_impl.h"
@@ -112,10 +113,23 @@ Result<void> makePipelineLayouts(RendererImpl& renderer) {
 }
 
 Result<void> keep(Owned<VkPipeline>& out, Result<Owned<VkPipeline>> made) {
-    if (!made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(made);
     out = std::move(*made);
+    return {};
+}
+
+Result<void> makeVolumePipelines(RendererImpl& renderer) {
+    for (const bool occlusion : {false, true}) {
+        const ShaderConstant constant{PICTURE_CONSTANT_OCCLUSION, occlusion ? 1U : 0U};
+        const RasterPipelineDesc desc{.vertexSpirv = spirv::render_volume_vert,
+                                      .fragmentSpirv = spirv::render_volume_frag,
+                                      .constants = {&constant, 1},
+                                      .layout = renderer.pictureLayout.get(),
+                                      .vertexInput = false,
+                                      .colourFormats = {&renderer.desc.colorFormat, 1},
+                                      .name = occlusion ? "volume, occlusion" : "volume"};
+        VOXTACT_TRY(keep(renderer.volumePipelines[occlusion ? 1 : 0], makeRasterPipeline(renderer.context, desc)));
+    }
     return {};
 }
 
@@ -130,28 +144,17 @@ Result<void> makePipelines(RendererImpl& renderer) {
     if (Result<void> made = makeMeshPipelines(renderer); !made.ok()) {
         return made;
     }
-    const RasterPipelineDesc desc{.vertexSpirv = spirv::render_volume_vert,
-                                  .fragmentSpirv = spirv::render_volume_frag,
-                                  .constants = {},
-                                  .layout = renderer.pictureLayout.get(),
-                                  .vertexInput = false,
-                                  .colourFormats = {&renderer.desc.colorFormat, 1},
-                                  .name = "volume"};
-    return keep(renderer.volumePipeline, makeRasterPipeline(context, desc));
+    return makeVolumePipelines(renderer);
 }
 
 /// What is bound where there are no bricks.
 Result<void> makeNoBricks(RendererImpl& renderer) {
     const Result<VkBuffer> nothing = emptyBuffer(renderer.context);
-    if (!nothing.ok()) {
-        return nothing.error();
-    }
+    VOXTACT_TRY(nothing);
     constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
     Result<DescriptorSet> set =
         makeDescriptorSet(renderer.context, renderer.bricksLayout.get(), {&kSize, 1}, "no bricks");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     renderer.noBricks = std::move(*set);
     writeBuffer(renderer.context, renderer.noBricks.set, 0, *nothing);
     return {};
@@ -175,17 +178,11 @@ Renderer::~Renderer() {
 Result<Renderer> Renderer::create(const Context& context, const RendererDesc& desc) {
     return guard([&]() -> Result<Renderer> {
         ContextImpl& c = context.impl();
-        if (Result<void> alive = c.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> formats = checkFormats(c, desc.colorFormat); !formats.ok()) {
-            return formats.error();
-        }
+        VOXTACT_TRY(c.alive());
+        VOXTACT_TRY(checkFormats(c, desc.colorFormat));
         auto impl = std::make_shared<RendererImpl>(c, desc);
         for (const auto make : {makeSetLayouts, makePipelineLayouts, makePipelines, makeNoBricks}) {
-            if (Result<void> made = make(*impl); !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(make(*impl));
         }
         return Renderer(RendererImpl::hold(impl));
     });

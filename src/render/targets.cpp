@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/try.h"
 #include "render/render_impl.h"
 
 #include <algorithm>
@@ -56,9 +57,7 @@ Result<void> makeImages(RenderTargetsImpl& targets) {
                                  Wanted{&RenderTargetsImpl::distance, kMeshDistanceFormat, "mesh distance"},
                                  Wanted{&RenderTargetsImpl::depth, kMeshDepthFormat, "mesh depth"}}) {
         Result<Image> made = makeTarget(targets.renderer.context, targets.extent, wanted.format, wanted.name);
-        if (!made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(made);
         targets.*wanted.image = std::move(*made);
     }
     return {};
@@ -69,17 +68,13 @@ Result<void> describe(RenderTargetsImpl& targets) {
     Result<Buffer> constants = makeBuffer(
         context, sizeof(shader::PictureConstants) + PICTURE_MESHES * sizeof(shader::PictureMesh),
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device, "picture constants");
-    if (!constants.ok()) {
-        return constants.error();
-    }
+    VOXTACT_TRY(constants);
     targets.constants = std::move(*constants);
     constexpr VkDescriptorPoolSize kSizes[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2},
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
     Result<DescriptorSet> set =
         makeDescriptorSet(context, targets.renderer.targetsLayout.get(), kSizes, "render targets");
-    if (!set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(set);
     targets.descriptors = std::move(*set);
     writeBuffer(context, targets.descriptors.set, PICTURE_BINDING_CONSTANTS, targets.constants.get());
     writeImage(context, targets.descriptors.set, PICTURE_BINDING_MESH_COLOUR, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
@@ -99,18 +94,12 @@ RenderTargets::~RenderTargets() = default;
 Result<RenderTargets> RenderTargets::create(const Renderer& renderer, VkExtent2D extent) {
     return guard([&]() -> Result<RenderTargets> {
         ContextImpl& context = renderer.impl().context;
-        if (Result<void> alive = context.alive(); !alive.ok()) {
-            return alive.error();
-        }
-        if (Result<void> checked = checkExtent(context, extent); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(context.alive());
+        VOXTACT_TRY(checkExtent(context, extent));
         auto impl =
             std::make_unique<RenderTargetsImpl>(RenderTargetsImpl{.renderer = renderer.impl(), .extent = extent});
         for (const auto make : {makeImages, describe}) {
-            if (Result<void> made = make(*impl); !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(make(*impl));
         }
         return RenderTargets(std::move(impl));
     });

@@ -3,6 +3,7 @@
 #include "core/live.h"
 #include "core/table_extremes.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -58,15 +59,11 @@ Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTrans
     }
     std::array<std::vector<float>, 4> channels;
     Result<std::vector<float>> opacity = sampleTable(desc.opacity);
-    if (!opacity.ok()) {
-        return opacity.error();
-    }
+    VOXTACT_TRY(opacity);
     channels[3] = std::move(*opacity);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         Result<std::vector<float>> table = sampleChannel(desc, channel);
-        if (!table.ok()) {
-            return table.error();
-        }
+        VOXTACT_TRY(table);
         channels[channel] = std::move(*table);
     }
     function.integrals = extinctionIntegrals(channels, desc.opacityUnit);
@@ -81,15 +78,11 @@ Result<void> makeBuffers(RenderTransferFunctionImpl& function) {
     constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Result<Buffer> integrals = makeBuffer(context, function.integrals.size() * sizeof(float), kUsage, MemoryUse::Device,
                                           "transfer function integrals");
-    if (!integrals.ok()) {
-        return integrals.error();
-    }
+    VOXTACT_TRY(integrals);
     function.integralBuffer = std::move(*integrals);
     Result<Buffer> extremes = makeBuffer(context, TableExtremes(function.table).values().size_bytes(), kUsage,
                                          MemoryUse::Device, "transfer function opacities");
-    if (!extremes.ok()) {
-        return extremes.error();
-    }
+    VOXTACT_TRY(extremes);
     function.extremes = std::move(*extremes);
     return {};
 }
@@ -104,9 +97,7 @@ Result<void> makeTable(RenderTransferFunctionImpl& function) {
     desc.extent = {entries, entries, 1};
     desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     Result<Image> image = makeImage(context, desc, "the pre-integrated table", "pre-integrated table");
-    if (!image.ok()) {
-        return image.error();
-    }
+    VOXTACT_TRY(image);
     function.image = std::move(*image);
     return {};
 }
@@ -117,9 +108,7 @@ Result<void> describe(RenderTransferFunctionImpl& function) {
                                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
     Result<DescriptorSet> making =
         makeDescriptorSet(context, function.renderer.makingLayout.get(), kMaking, "pre-integration");
-    if (!making.ok()) {
-        return making.error();
-    }
+    VOXTACT_TRY(making);
     function.making = std::move(*making);
     writeImage(context, function.making.set, 0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, function.image.view.get(),
                VK_IMAGE_LAYOUT_GENERAL);
@@ -128,9 +117,7 @@ Result<void> describe(RenderTransferFunctionImpl& function) {
                                                  {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}};
     Result<DescriptorSet> reading =
         makeDescriptorSet(context, function.renderer.functionLayout.get(), kReading, "render transfer function");
-    if (!reading.ok()) {
-        return reading.error();
-    }
+    VOXTACT_TRY(reading);
     function.reading = std::move(*reading);
     writeImage(context, function.reading.set, PICTURE_BINDING_TABLE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                function.image.view.get());
@@ -178,18 +165,12 @@ RenderTransferFunction::~RenderTransferFunction() = default;
 Result<RenderTransferFunction> RenderTransferFunction::create(const Renderer& renderer,
                                                               const RenderTransferFunctionDesc& desc) {
     return guard([&]() -> Result<RenderTransferFunction> {
-        if (Result<void> alive = renderer.impl().context.alive(); !alive.ok()) {
-            return alive.error();
-        }
+        VOXTACT_TRY(renderer.impl().context.alive());
         auto impl =
             std::make_unique<RenderTransferFunctionImpl>(RenderTransferFunctionImpl{.renderer = renderer.impl()});
-        if (Result<void> set = setFunction(*impl, desc); !set.ok()) {
-            return set.error();
-        }
+        VOXTACT_TRY(setFunction(*impl, desc));
         for (const auto make : {makeBuffers, makeTable, describe}) {
-            if (Result<void> made = make(*impl); !made.ok()) {
-                return made.error();
-            }
+            VOXTACT_TRY(make(*impl));
         }
         return RenderTransferFunction(std::move(impl));
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "samples/edge_split.h"
 #include "samples/loft.h"
 #include "voxtact/builtin.h"
@@ -63,9 +64,7 @@ Surface octahedralEllipsoid(std::uint32_t parts) {
 
 Result<MeshData> makeEllipsoid(std::uint32_t triangles) {
     return guard([&]() -> Result<MeshData> {
-        if (Result<void> possible = checkTriangleCount("an ellipsoid", triangles, kOctahedron); !possible.ok()) {
-            return possible.error();
-        }
+        VOXTACT_TRY(checkTriangleCount("an ellipsoid", triangles, kOctahedron));
         std::uint32_t parts = 1;
         while (kOctahedron * (parts + 1) * (parts + 1) <= triangles) {
             ++parts;

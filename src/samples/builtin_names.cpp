@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "samples/builtin_name.h"
 #include "voxtact/builtin.h"
 
@@ -33,9 +34,7 @@ Result<BuiltinName> parseBuiltinName(std::string_view kind, std::string_view nam
 Result<MeshData> makeBuiltinMesh(std::string_view name) {
     return guard([&]() -> Result<MeshData> {
         Result<BuiltinName> parsed = parseBuiltinName("mesh", name, "triangles");
-        if (!parsed.ok()) {
-            return parsed.error();
-        }
+        VOXTACT_TRY(parsed);
         if (parsed->stem == "scalpel") {
             return makeScalpel(parsed->number.value_or(kScalpelTriangles));
         }

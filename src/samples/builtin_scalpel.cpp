@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "samples/edge_split.h"
 #include "samples/loft.h"
 #include "voxtact/builtin.h"
@@ -252,9 +253,7 @@ class ScalpelRings {
 Result<MeshData> makeScalpel(std::uint32_t triangles) {
     return guard([&]() -> Result<MeshData> {
         const auto minimum = static_cast<std::uint32_t>(ScalpelRings(2 * kButt).triangles());
-        if (Result<void> possible = checkTriangleCount("a scalpel", triangles, minimum); !possible.ok()) {
-            return possible.error();
-        }
+        VOXTACT_TRY(checkTriangleCount("a scalpel", triangles, minimum));
         // 0.5: well below the edge of equilateral triangles (1.52 sqrt(area/number)), so the first try is too fine.
         double edge = 0.5 * std::sqrt(kArea / triangles);
         while (ScalpelRings(edge).triangles() > triangles) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "samples/builtin_head.h"
 #include "samples/builtin_name.h"
 #include "samples/builtin_vessels.h"
@@ -177,9 +178,7 @@ constexpr std::array<Maker, 6> kMakers{{{"head", makeHead},
 Result<VolumeData> makeBuiltinVolume(std::string_view name) {
     return guard([&]() -> Result<VolumeData> {
         Result<BuiltinName> parsed = parseBuiltinName("volume", name, "voxels a side");
-        if (!parsed.ok()) {
-            return parsed.error();
-        }
+        VOXTACT_TRY(parsed);
         std::string known;
         for (const Maker& maker : kMakers) {
             known += (known.empty() ? "" : ", ") + std::string(maker.stem);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "voxtact/builtin.h"
 
 #include <cmath>
@@ -41,13 +42,9 @@ Mat4 poseOnSpiral(std::uint32_t index) {
 Result<MeasureScene> makeMeasureScene() {
     return guard([&]() -> Result<MeasureScene> {
         Result<VolumeData> volume = makeBuiltinVolume("head:64");
-        if (!volume.ok()) {
-            return volume.error();
-        }
+        VOXTACT_TRY(volume);
         Result<MeshData> mesh = makeScalpel();
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         MeasureScene scene;
         scene.volume = std::move(*volume);
         scene.mesh = std::move(*mesh);

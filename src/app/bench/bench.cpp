@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
+#include "core/try.h"
 
 #include "app/commands.h"
 
@@ -116,9 +117,7 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
     options.paper = !options.certified && !options.outputs;
-    if (const Result<void> usable = checkTogether(options, parser); !usable.ok()) {
-        return usable.error();
-    }
+    VOXTACT_TRY(checkTogether(options, parser));
     if (options.paper) {
         PaperSettings& paper = options.paperSettings;
         paper.poses = parser.count("--poses") > 0 ? options.settings.poses : paper.poses;

@@ -2,6 +2,7 @@
 #include "app/bench/bench.h"
 #include "app/options/inputs.h"
 #include "app/options/lab_run.h"
+#include "core/try.h"
 
 namespace voxtact::app {
 
@@ -9,21 +10,15 @@ namespace {
 
 Result<VolumePart> loadBenchVolume(const BenchOptions& options, const std::string& source) {
     Result<VolumeData> data = loadVolume(source);
-    if (!data.ok()) {
-        return data.error();
-    }
+    VOXTACT_TRY(data);
     const Result<ValueRange> range = checkVolume(data->view());
-    if (!range.ok()) {
-        return range.error();
-    }
+    VOXTACT_TRY(range);
     TransferFunctionOptions wanted = options.transferFunction;
     if (options.volumes.empty() && wanted.path.empty() && !wanted.opacity) {
         wanted.opacity = kDefaultOpacity;
     }
     Result<std::vector<ControlPoint>> points = loadControlPoints(wanted);
-    if (!points.ok()) {
-        return points.error();
-    }
+    VOXTACT_TRY(points);
     VolumePart volume;
     volume.name = source;
     volume.domain = tableDomain(wanted, data->type, *range);
@@ -31,9 +26,7 @@ Result<VolumePart> loadBenchVolume(const BenchOptions& options, const std::strin
     volume.tableSize = wanted.tableSize;
     volume.threshold = wanted.threshold;
     volume.data = std::move(*data);
-    if (Result<void> made = makeHost(volume); !made.ok()) {
-        return made.error();
-    }
+    VOXTACT_TRY(makeHost(volume));
     return volume;
 }
 
@@ -42,9 +35,7 @@ Result<std::vector<MeshPart>> loadBenchMeshes(const BenchOptions& options) {
     for (const std::string& source :
          options.meshes.sources.empty() ? defaultMeshes(options.settings.mode) : options.meshes.sources) {
         Result<MeshData> mesh = loadMesh(source, options.meshes);
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         meshes.push_back({.name = source, .data = std::move(*mesh)});
     }
     return meshes;
@@ -80,32 +71,24 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
     std::shared_ptr<const ValidationMessages> messages;
     {
         const Result<std::optional<Session>> opened = openBenchSession(options, result);
-        if (!opened.ok()) {
-            return opened.error();
-        }
+        VOXTACT_TRY(opened);
         const Session* session = opened->has_value() ? &**opened : nullptr;
         // What is on the device must end before the session.
         Result<VolumePart> volume = loadBenchVolume(options, result.volume);
-        if (!volume.ok()) {
-            return volume.error();
-        }
+        VOXTACT_TRY(volume);
         result.voxels = volume->data.grid.size;
         result.threshold = volume->threshold;
         const Provenance provenance = provenanceOf(parser);
         result.machine =
             session == nullptr ? describeHost(provenance) : describeMachine(*session, volume->data.type, provenance);
         Result<std::vector<MeshPart>> meshes = loadBenchMeshes(options);
-        if (!meshes.ok()) {
-            return meshes.error();
-        }
+        VOXTACT_TRY(meshes);
         if (session != nullptr) {
             messages = session->instance.messages();
         }
         ShownSteps shown(options.progress, "voxtact bench");
         const Result<void> done = bench(options.settings, session, *volume, std::move(*meshes), shown.steps(), result);
-        if (!done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(done);
     }
     if (messages != nullptr) {
         if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {

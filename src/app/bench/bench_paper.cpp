@@ -3,6 +3,7 @@
 #include "app/options/lab_run.h"
 #include "app/render/presets.h"
 #include "app/render/view.h"
+#include "core/try.h"
 #include "lab/paper_output.h"
 #include "lab/report.h"
 
@@ -47,15 +48,11 @@ Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
     std::shared_ptr<const ValidationMessages> messages;
     {
         const Result<Session> session = openSession(options.device);
-        if (!session.ok()) {
-            return session.error();
-        }
+        VOXTACT_TRY(session);
         messages = session->instance.messages();
         result.machine.provenance = provenanceOf(parser);
         ShownSteps shown(options.progress, "voxtact bench");
-        if (const Result<void> done = measurePaper(settings, *session, shown.steps(), result); !done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(measurePaper(settings, *session, shown.steps(), result));
     }
     if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
         return invalid;

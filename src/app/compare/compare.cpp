@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
+#include "core/try.h"
 #include "lab/compare_output.h"
 #include "lab/compare_run.h"
 #include "lab/report.h"
@@ -83,23 +84,17 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     }
     std::optional<Session> session; // ends after what the scene has on it
     const Result<Scene> scene = readScene(options);
-    if (!scene.ok()) {
-        return scene.error();
-    }
+    VOXTACT_TRY(scene);
     CompareResult result;
     std::shared_ptr<const ValidationMessages> messages;
     {
         Result<Session> opened = openSession(options.device);
-        if (!opened.ok()) {
-            return opened.error();
-        }
+        VOXTACT_TRY(opened);
         session.emplace(std::move(*opened));
         messages = session->instance.messages();
         result.machine = describeMachine(*session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
-        if (const Result<void> done = compare(options.settings, *scene, *session, shown.steps(), result); !done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(compare(options.settings, *scene, *session, shown.steps(), result));
     }
     scene->leaveDevice();
     session.reset();

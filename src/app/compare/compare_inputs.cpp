@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare/compare_inputs.h"
+#include "core/try.h"
 
 #include "app/options/inputs.h"
 #include "lab/random_poses.h"
@@ -15,9 +16,7 @@ Result<void> choosePoses(const CompareOptions& options, Scene& scene) {
         scene.posesFrom = "random, seed " + std::to_string(options.seed);
     } else {
         Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);
-        if (!poses.ok()) {
-            return poses.error();
-        }
+        VOXTACT_TRY(poses);
         scene.poses = std::move(*poses);
         scene.posesFrom = options.view.poses.string();
     }
@@ -44,9 +43,7 @@ Result<void> chooseCamera(const CompareOptions& options, Scene& scene) {
         return {};
     }
     const Result<Mat4> camera = io::readCamera(options.view.camera);
-    if (!camera.ok()) {
-        return camera.error();
-    }
+    VOXTACT_TRY(camera);
     scene.view.clip_from_world = *camera;
     return {};
 }
@@ -60,21 +57,13 @@ Result<Scene> readScene(const CompareOptions& options) {
     Scene scene{std::make_shared<VolumePart>(), std::make_shared<MeshPart>(), {}, {}, {}, {}};
     VolumePart& part = *scene.volume;
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
-    if (!points.ok()) {
-        return points.error();
-    }
+    VOXTACT_TRY(points);
     Result<VolumeData> volume = loadVolume(options.volumes.front());
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     const Result<ValueRange> range = checkVolume(volume->view());
-    if (!range.ok()) {
-        return range.error();
-    }
+    VOXTACT_TRY(range);
     Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
-    if (!mesh.ok()) {
-        return mesh.error();
-    }
+    VOXTACT_TRY(mesh);
     part.domain = tableDomain(options.transferFunction, volume->type, *range);
     part.points = points->empty() ? defaultRamp(part.domain) : std::move(*points);
     part.tableSize = options.transferFunction.tableSize;
@@ -83,12 +72,8 @@ Result<Scene> readScene(const CompareOptions& options) {
     part.data = std::move(*volume);
     scene.mesh->name = options.meshes.sources.front();
     scene.mesh->data = std::move(*mesh);
-    if (Result<void> camera = chooseCamera(options, scene); !camera.ok()) {
-        return camera.error();
-    }
-    if (Result<void> poses = choosePoses(options, scene); !poses.ok()) {
-        return poses.error();
-    }
+    VOXTACT_TRY(chooseCamera(options, scene));
+    VOXTACT_TRY(choosePoses(options, scene));
     return scene;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
+#include "core/try.h"
 #include "lab/compare_localize.h"
 
 #include <CLI/CLI.hpp>
@@ -44,16 +45,12 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
     }
     std::optional<Session> session; // ends after what the scene has on it
     const Result<Scene> scene = readScene(options);
-    if (!scene.ok()) {
-        return scene.error();
-    }
+    VOXTACT_TRY(scene);
     LocalizeResult result;
     std::shared_ptr<const ValidationMessages> messages;
     {
         Result<Session> opened = openSession(options.device);
-        if (!opened.ok()) {
-            return opened.error();
-        }
+        VOXTACT_TRY(opened);
         session.emplace(std::move(*opened));
         messages = session->instance.messages();
         result.machine = describeMachine(*session, scene->volume->data.type, provenanceOf(parser));
@@ -61,9 +58,7 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
         const Steps steps = shown.steps();
         steps.begin(std::uint64_t{options.settings.repeats} * scene->poses.size());
         const Result<void> done = localize(*session, options.settings, *scene, result, steps.step);
-        if (!done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(done);
     }
     scene->leaveDevice();
     session.reset();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/auto_method.h"
+#include "core/try.h"
 
 #include "app/detect/detect_run.h"
 #include "app/detect/speed_cache.h"
@@ -29,9 +30,7 @@ bool describes(const std::vector<MethodSpeed>& speeds, const Context& context, b
 
 Result<std::vector<MethodSpeed>> measureAll(const Session& session, std::optional<Filter> filter, bool host) {
     const Result<MeasureScene> scene = makeMeasureScene();
-    if (!scene.ok()) {
-        return scene.error();
-    }
+    VOXTACT_TRY(scene);
     MeasureDesc desc;
     desc.scene = &*scene;
     desc.filter = filter;
@@ -93,9 +92,7 @@ Result<MeasuredMethods> measuredMethods(const Session& session, std::optional<Fi
         return MeasuredMethods{std::move(*known), false};
     }
     Result<std::vector<MethodSpeed>> speeds = measureAll(session, filter, host);
-    if (!speeds.ok()) {
-        return speeds.error();
-    }
+    VOXTACT_TRY(speeds);
     if (!choice.validate) {
         cache.write(*speeds);
     }
@@ -118,9 +115,7 @@ std::optional<CountingMethod> fastest(std::span<const MethodSpeed> speeds, const
 
 Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits, const DeviceChoice& choice) {
     const Result<MeasuredMethods> measured = measuredMethods(session, limits.filter, choice);
-    if (!measured.ok()) {
-        return measured.error();
-    }
+    VOXTACT_TRY(measured);
     const VkExtent2D most = session.context.maxViewport();
     const std::string device = "'" + session.device.physical().name + "'";
     const std::optional<CountingMethod> method = fastest(measured->speeds, limits, most);

@@ -6,6 +6,7 @@
 #include "app/options/output_paths.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
+#include "core/try.h"
 
 #include <CLI/CLI.hpp>
 
@@ -102,9 +103,7 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
         if (session.ok()) {
             messages = session->instance.messages();
             const Result<AutoChoice> choice = choose(options, *session, limits);
-            if (!choice.ok()) {
-                return choice.error();
-            }
+            VOXTACT_TRY(choice);
             if (!choice->note.empty()) {
                 notes.push_back(choice->note);
             }
@@ -121,30 +120,22 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
 }
 
 Outcome interruptedOutcome(const DetectOptions& options, DetectOutput& output) {
-    if (const Result<void> ended = output.breakOff(); !ended.ok()) {
-        return ended.error();
-    }
+    VOXTACT_TRY(output.breakOff());
     const bool toFile = !options.output.path.empty();
     return interruptOutcome(toFile ? "'" + options.output.path.string() + "' is not written"
                                    : std::to_string(output.rows()) + " pairs are written");
 }
 
 Outcome runDetect(DetectOptions options) {
-    if (const Result<void> usable = resolveOptions(options); !usable.ok()) {
-        return usable.error();
-    }
-    if (const Result<void> writable = checkDetectPaths(options); !writable.ok()) {
-        return writable.error();
-    }
+    VOXTACT_TRY(resolveOptions(options));
+    VOXTACT_TRY(checkDetectPaths(options));
     const InterruptGuard guard;
     Result<DetectInputs> inputs = readDetectInputs(options);
     if (!inputs.ok()) {
         return interrupted() ? interruptOutcome("nothing is written") : Outcome(inputs.error());
     }
     Result<DetectOutput> output = DetectOutput::create(options, *inputs);
-    if (!output.ok()) {
-        return output.error();
-    }
+    VOXTACT_TRY(output);
     std::vector<std::string> notes; // to be said once all has gone well: an error is one line
     std::shared_ptr<const ValidationMessages> messages;
     double milliseconds = 0;
@@ -153,9 +144,7 @@ Outcome runDetect(DetectOptions options) {
         milliseconds = took.ok() ? *took : 0;
         return took.ok() ? Result<void>() : took.error();
     });
-    if (!done.ok()) {
-        return done.error();
-    }
+    VOXTACT_TRY(done);
     if (messages) {
         if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
             return invalid;
@@ -164,9 +153,7 @@ Outcome runDetect(DetectOptions options) {
     if (interrupted()) {
         return interruptedOutcome(options, *output);
     }
-    if (const Result<void> written = output->finish(milliseconds); !written.ok()) {
-        return written.error();
-    }
+    VOXTACT_TRY(output->finish(milliseconds));
     if (const std::string cut = output->noteOfContacts(); !cut.empty()) {
         notes.push_back(cut);
     }

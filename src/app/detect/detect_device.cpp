@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_engine.h"
 #include "app/options/inputs.h"
+#include "core/try.h"
 #include "voxtact/contact_result.h"
 #include "voxtact/detector.h"
 
@@ -87,16 +88,12 @@ class DeviceEngine : public PairEngine {
 Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
     const std::string& source = options_.jobs.volumes[number];
     const Result<VolumeData> data = loadVolume(source);
-    if (!data.ok()) {
-        return data.error();
-    }
+    VOXTACT_TRY(data);
     const QueueAccess queue = session_.device.queueAccess();
     Result<Volume> volume =
         Volume::upload(session_.context, queue, data->view(),
                        {.name = source.c_str(), .bricks = desc_.projection == Projection::Conservative});
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     const VolumeSettings settings =
         settingsFor(options_, inputs_, number, *data, volume->valueRange().value_or(ValueRange{}));
     Result<TransferFunction> function = TransferFunction::upload(
@@ -109,9 +106,7 @@ Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
 
 Result<Grid> DeviceEngine::use(std::uint32_t job) {
     const Result<DeviceVolume*> volume = shelf_.get(job, [&] { return make(options_.jobs.jobs[job].volume); });
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     volume_ = *volume;
     return volume_->grid;
 }
@@ -168,17 +163,13 @@ Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs
     for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
         Result<Mesh> mesh = Mesh::upload(session.context, queue, inputs.meshes[i].view(),
                                          {.name = options.jobs.meshes[i].c_str(), .clusters = true});
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         scene.meshes.push_back(std::move(*mesh));
     }
     if (inputs.labels) {
         Result<LabelMap> labels =
             LabelMap::upload(session.context, queue, *inputs.labels, options.extra.labels.string().c_str());
-        if (!labels.ok()) {
-            return labels.error();
-        }
+        VOXTACT_TRY(labels);
         scene.labels = std::move(*labels);
     }
     return scene;
@@ -196,13 +187,9 @@ Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& 
         }
     }
     const Result<Detector> detector = Detector::create(session.context, descOf(options, method));
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     const Result<DeviceScene> scene = uploadScene(options, inputs, session);
-    if (!scene.ok()) {
-        return scene.error();
-    }
+    VOXTACT_TRY(scene);
     const PipelineDesc desc = pipelineDescOf(options, inputs);
     Result<PairPipeline> pipeline = PairPipeline::create(session.device, session.context, *detector, desc);
     if (!pipeline.ok()) {

@@ -2,6 +2,7 @@
 #include "app/detect/pair_engine.h"
 #include "app/options/inputs.h"
 #include "core/batch_cutter.h"
+#include "core/try.h"
 #include "voxtact/cpu.h"
 
 namespace voxtact::app {
@@ -58,31 +59,21 @@ class HostEngine : public PairEngine {
 
 Result<HostVolume> HostEngine::make(std::uint32_t number) const {
     const Result<VolumeData> data = loadVolume(options_.jobs.volumes[number]);
-    if (!data.ok()) {
-        return data.error();
-    }
+    VOXTACT_TRY(data);
     const Result<ValueRange> values = checkVolume(data->view());
-    if (!values.ok()) {
-        return values.error();
-    }
+    VOXTACT_TRY(values);
     Result<cpu::Volume> volume = cpu::Volume::create(data->view());
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     const VolumeSettings settings = settingsFor(options_, inputs_, number, *data, *values);
     Result<cpu::TransferFunction> function =
         cpu::TransferFunction::create({settings.points, settings.domain, options_.transferFunction.tableSize});
-    if (!function.ok()) {
-        return function.error();
-    }
+    VOXTACT_TRY(function);
     return HostVolume{std::move(*volume), std::move(*function), settings.view, data->voxels.size()};
 }
 
 Result<Grid> HostEngine::use(std::uint32_t job) {
     const Result<HostVolume*> volume = shelf_.get(job, [&] { return make(options_.jobs.jobs[job].volume); });
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     volume_ = *volume;
     return volume_->volume.grid();
 }
@@ -99,9 +90,7 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
     while (!stop() && cutter.next(pace_.size(), items, pieces)) {
         const Result<BatchAnswer> answer =
             detector_.detect({items, volume_->view, options_.transferFunction.threshold});
-        if (!answer.ok()) {
-            return answer.error();
-        }
+        VOXTACT_TRY(answer);
         TimedAnswer timed;
         timed.gpuMilliseconds = 0;
         timed.wallMilliseconds = answer->wallMilliseconds / static_cast<double>(answer->pairs.size());
@@ -143,15 +132,11 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
                                .samplesPerVoxel = method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel),
                                .resolution = method.resolution.value_or(kDefaultResolution),
                                .mostContacts = options.extra.contactRoom()});
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     std::vector<cpu::Mesh> meshes;
     for (const MeshData& data : inputs.meshes) {
         Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         meshes.push_back(std::move(*mesh));
     }
     HostEngine engine(options, inputs, std::move(*detector), std::move(meshes));

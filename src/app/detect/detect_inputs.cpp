@@ -3,6 +3,7 @@
 #include "app/options/inputs.h"
 #include "app/output/standard_streams.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "voxtact/io.h"
 
 namespace voxtact::app {
@@ -22,14 +23,10 @@ Result<void> readLabels(const ExtraOptions& options, DetectInputs& inputs) {
         return {};
     }
     Result<LabelData> labels = loadLabels(options.labels);
-    if (!labels.ok()) {
-        return labels.error();
-    }
+    VOXTACT_TRY(labels);
     inputs.labels = std::move(*labels);
     Result<std::map<std::int32_t, std::string>> names = loadLabelNames(options.labelNames, options.labels);
-    if (!names.ok()) {
-        return names.error();
-    }
+    VOXTACT_TRY(names);
     inputs.labelNames = std::move(*names);
     return {};
 }
@@ -58,39 +55,27 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
     }
     DetectInputs inputs;
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
-    if (!points.ok()) {
-        return points.error();
-    }
+    VOXTACT_TRY(points);
     inputs.points = std::move(*points);
     for (std::uint32_t i = 0; i < options.jobs.poses.size(); ++i) {
         Result<PoseSource> poses = PoseSource::open(options.jobs.poses[i], options.jobs.uses(i) > 1);
-        if (!poses.ok()) {
-            return poses.error();
-        }
+        VOXTACT_TRY(poses);
         inputs.poses.push_back(std::move(*poses));
     }
     if (!options.view.camera.empty()) {
         const Result<Mat4> camera = io::readCamera(options.view.camera);
-        if (!camera.ok()) {
-            return camera.error();
-        }
+        VOXTACT_TRY(camera);
         inputs.clip_from_world = *camera;
     }
     for (const std::string& source : options.jobs.meshes) {
         Result<MeshData> mesh = loadMesh(source, options.meshes);
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         const Result<MeshFacts> facts = checkMesh(mesh->view());
-        if (!facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(facts);
         inputs.bounds.push_back(facts->bounds);
         inputs.meshes.push_back(std::move(*mesh));
     }
-    if (Result<void> labels = readLabels(options.extra, inputs); !labels.ok()) {
-        return labels.error();
-    }
+    VOXTACT_TRY(readLabels(options.extra, inputs));
     return inputs;
 }
 

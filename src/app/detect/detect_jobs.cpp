@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_jobs.h"
+#include "core/try.h"
 
 #include "app/output/text_for_messages.h"
 
@@ -131,9 +132,7 @@ Result<PairJobs> readJobs(const std::filesystem::path& path) {
         if (line.empty() || line.starts_with('#')) {
             continue;
         }
-        if (const Result<void> added = addJob({path, number}, line, all); !added.ok()) {
-            return added.error();
-        }
+        VOXTACT_TRY(addJob({path, number}, line, all));
     }
     if (all.jobs.empty()) {
         return Error{ErrorCode::Format, 0,

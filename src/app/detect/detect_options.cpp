@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_run.h"
+#include "core/try.h"
 
 #include <algorithm>
 
@@ -31,9 +32,7 @@ Result<void> resolveJobs(DetectOptions& options) {
         return badArgument("--poses: --jobs names meshes, volumes and poses; leave out one of the two");
     }
     Result<PairJobs> jobs = readJobs(options.jobsPath);
-    if (!jobs.ok()) {
-        return jobs.error();
-    }
+    VOXTACT_TRY(jobs);
     options.jobs = std::move(*jobs);
     return {};
 }

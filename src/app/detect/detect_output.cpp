@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_output.h"
+#include "core/try.h"
 
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_table.h"
@@ -100,9 +101,7 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
             continue;
         }
         Result<io::OutputFile> opened = io::OutputFile::create(*path);
-        if (!opened.ok()) {
-            return opened.error();
-        }
+        VOXTACT_TRY(opened);
         *file = std::move(*opened);
     }
     if (state->triangles) {

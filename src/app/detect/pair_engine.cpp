@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_engine.h"
+#include "core/try.h"
 
 #include "app/detect/detect_notes.h"
 #include "app/output/interrupt.h"
@@ -34,9 +35,7 @@ Result<double> answerPairs(const DetectOptions& options, DetectInputs& inputs, P
     for (std::uint32_t begin = 0, end = 0; begin < jobs.jobs.size() && !interrupted(); begin = end) {
         end = endOfGroup(jobs, begin);
         const Result<Grid> grid = engine.use(begin);
-        if (!grid.ok()) {
-            return grid.error();
-        }
+        VOXTACT_TRY(grid);
         PairWindows windows(options, inputs, begin, end);
         Window window;
         while (!interrupted()) {
@@ -46,9 +45,7 @@ Result<double> answerPairs(const DetectOptions& options, DetectInputs& inputs, P
             if (window.pairs == 0) {
                 break;
             }
-            if (Result<void> selected = selectPoses(options, inputs, *grid, window, fit.near()); !selected.ok()) {
-                return selected.error();
-            }
+            VOXTACT_TRY(selectPoses(options, inputs, *grid, window, fit.near()));
             fit.look(window, *grid);
             WindowRows rows(options, window, engine.untouched(), output);
             const auto begun = Clock::now();
@@ -57,9 +54,7 @@ Result<double> answerPairs(const DetectOptions& options, DetectInputs& inputs, P
                 return interrupted() || !rows.written().ok();
             });
             milliseconds += std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
-            if (!answered.ok()) {
-                return answered.error();
-            }
+            VOXTACT_TRY(answered);
             if (!interrupted()) {
                 rows.endWindow();
             }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/detect/window_rows.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <functional>
@@ -59,9 +60,7 @@ template <class Ready> class VolumeShelf {
             }));
         }
         Result<Ready> made = make();
-        if (!made.ok()) {
-            return made.error();
-        }
+        VOXTACT_TRY(made);
         return &ready_.emplace(volume, std::move(*made)).first->second;
     }
 

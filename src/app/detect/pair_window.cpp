@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_window.h"
+#include "core/try.h"
 
 #include "voxtact/broad_phase.h"
 
@@ -51,9 +52,7 @@ Result<std::vector<std::uint32_t>> nearPoses(std::span<const Mat4> world_from_ob
         boxes.push_back(fragmentsOf(multiply(texture_from_world, pose), object));
     }
     const Result<std::vector<BoxPair>> pairs = overlappingPairs(boxes, {&kVolume, 1});
-    if (!pairs.ok()) {
-        return pairs.error();
-    }
+    VOXTACT_TRY(pairs);
     std::vector<std::uint32_t> numbers;
     numbers.reserve(pairs->size());
     std::ranges::transform(*pairs, std::back_inserter(numbers), &BoxPair::first);
@@ -113,9 +112,7 @@ Result<void> selectPoses(const DetectOptions& options, const DetectInputs& input
         if (texture_from_world.ok()) {
             numbers = nearPoses(item.poses, *texture_from_world, inputs.bounds[options.jobs.jobs[item.job].mesh]);
         }
-        if (!numbers.ok()) {
-            return numbers.error();
-        }
+        VOXTACT_TRY(numbers);
         near[item.job] += numbers->size();
         item.numbers = all ? std::move(everyPose) : std::move(*numbers);
         for (const std::uint32_t number : item.numbers) {

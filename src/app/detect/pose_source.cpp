@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pose_source.h"
+#include "core/try.h"
 
 #include "app/output/outcome.h"
 
@@ -48,18 +49,14 @@ Result<void> PoseSource::takeStock() {
     const bool standardInput = path_ == "-";
     Result<io::PoseReader> reader =
         standardInput ? io::PoseReader::over(std::cin, kStandardInput) : io::PoseReader::open(path_);
-    if (!reader.ok()) {
-        return reader.error();
-    }
+    VOXTACT_TRY(reader);
     std::vector<Mat4> part;
     std::uint64_t count = 0;
     bool more = true;
     while (more) {
         // What is kept is not read again, and standard input cannot be.
         const Result<bool> read = reader->read(kMostKept, part);
-        if (!read.ok()) {
-            return read.error();
-        }
+        VOXTACT_TRY(read);
         more = *read;
         if (!standardInput && (more || count > 0)) {
             count += part.size();

@@ -4,6 +4,7 @@
 #include "app/options/open_session.h"
 #include "app/options/output_paths.h"
 #include "app/version.h"
+#include "core/try.h"
 #include "voxtact/detector.h"
 
 #include <CLI/CLI.hpp>
@@ -56,18 +57,12 @@ struct Judgement {
 /// The self-test is run each time, since it is what this command is asked for; speeds are remembered.
 Result<Judgement> judge(const VulkanInstance& instance, const PhysicalDevice& physical, const DeviceChoice& choice) {
     const Result<Session> session = openSessionOn(instance, physical, pipelineStore(choice, physical), nullptr);
-    if (!session.ok()) {
-        return session.error();
-    }
+    VOXTACT_TRY(session);
     Result<MeasuredMethods> measured = measuredMethods(*session, std::nullopt, choice);
-    if (!measured.ok()) {
-        return measured.error();
-    }
+    VOXTACT_TRY(measured);
     if (!measured->fresh) {
         const Result<std::vector<SelfTestVerdict>> verdicts = selfTest(session->context, session->device.queueAccess());
-        if (!verdicts.ok()) {
-            return verdicts.error();
-        }
+        VOXTACT_TRY(verdicts);
         // The device's methods come first, in the order of its verdicts.
         std::transform(verdicts->begin(), verdicts->end(), measured->speeds.begin(), measured->speeds.begin(),
                        [](const SelfTestVerdict& verdict, const MethodSpeed& speed) {
@@ -80,14 +75,10 @@ Result<Judgement> judge(const VulkanInstance& instance, const PhysicalDevice& ph
 
 Result<std::vector<DeviceRow>> listDevices(const VulkanInstance& instance, const DeviceChoice& choice) {
     const Result<std::vector<PhysicalDevice>> devices = instance.devices();
-    if (!devices.ok()) {
-        return devices.error();
-    }
+    VOXTACT_TRY(devices);
     const Result<PhysicalDevice> standard = chooseDevice(*devices, "");
     const Result<PhysicalDevice> chosen = chooseDevice(*devices, choice.wanted);
-    if (!chosen.ok()) {
-        return chosen.error();
-    }
+    VOXTACT_TRY(chosen);
     std::vector<DeviceRow> rows;
     for (const PhysicalDevice& device : *devices) {
         if (!choice.wanted.empty() && device.index != chosen->index) {
@@ -147,14 +138,10 @@ Outcome runDevices(const DevicesOptions& options) {
     std::shared_ptr<const ValidationMessages> messages;
     {
         const Result<VulkanInstance> instance = VulkanInstance::create({.validate = options.device.validate});
-        if (!instance.ok()) {
-            return instance.error();
-        }
+        VOXTACT_TRY(instance);
         messages = instance->messages();
         Result<std::vector<DeviceRow>> listed = listDevices(*instance, options.device);
-        if (!listed.ok()) {
-            return listed.error();
-        }
+        VOXTACT_TRY(listed);
         rows = std::move(*listed);
     }
     if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {

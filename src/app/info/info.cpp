@@ -4,6 +4,7 @@
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
 #include "app/output/size_note.h"
+#include "core/try.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,34 +50,24 @@ bool isMesh(const std::string& source) {
 
 Result<PathInfo> meshAt(const InfoOptions& options, const std::string& source) {
     const Result<MeshData> mesh = loadMesh(source, options.meshes);
-    if (!mesh.ok()) {
-        return mesh.error();
-    }
+    VOXTACT_TRY(mesh);
     const Result<MeshFacts> facts = checkMesh(mesh->view());
-    if (!facts.ok()) {
-        return facts.error();
-    }
+    VOXTACT_TRY(facts);
     return PathInfo{source, {}, MeshInfo{*facts, closednessOf(mesh->view()), unitHint(facts->bounds)}};
 }
 
 Result<PathInfo> volumeAt(const InfoOptions& options, const std::vector<ControlPoint>& points,
                           const std::string& source) {
     const Result<VolumeData> volume = loadVolume(source);
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     const Result<ValueRange> values = checkVolume(volume->view());
-    if (!values.ok()) {
-        return values.error();
-    }
+    VOXTACT_TRY(values);
     const TransferFunctionOptions& function = options.transferFunction;
     const ValueRange domain = tableDomain(function, volume->type, *values);
     const std::vector<ControlPoint> used = points.empty() ? defaultRamp(domain) : points;
     Result<VolumeInfo> info =
         volumeInfo(volume->view(), *values, {used, domain, function.tableSize}, function.threshold);
-    if (!info.ok()) {
-        return info.error();
-    }
+    VOXTACT_TRY(info);
     return PathInfo{source, std::move(*info), {}};
 }
 
@@ -94,19 +85,13 @@ Result<void> checkPaths(const InfoOptions& options) {
 }
 
 Outcome runInfo(const InfoOptions& options) {
-    if (const Result<void> usable = checkPaths(options); !usable.ok()) {
-        return usable.error();
-    }
+    VOXTACT_TRY(checkPaths(options));
     const Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
-    if (!points.ok()) {
-        return points.error();
-    }
+    VOXTACT_TRY(points);
     std::vector<PathInfo> paths;
     for (const std::string& source : options.paths) {
         Result<PathInfo> info = isMesh(source) ? meshAt(options, source) : volumeAt(options, *points, source);
-        if (!info.ok()) {
-            return info.error();
-        }
+        VOXTACT_TRY(info);
         paths.push_back(std::move(*info));
     }
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/info/volume_info.h"
+#include "core/try.h"
 
 #include "core/voxel_visit.h"
 #include "lab/opaque_cells.h"
@@ -99,9 +100,7 @@ std::string orientationLetters(const Grid& grid) {
 Result<VolumeInfo> volumeInfo(const VolumeView& volume, const ValueRange& values, const TransferFunctionDesc& function,
                               double threshold) {
     Result<std::vector<float>> table = sampleTable(function);
-    if (!table.ok()) {
-        return table.error();
-    }
+    VOXTACT_TRY(table);
     const IsOpaque isOpaque(std::move(*table), function.domain, threshold);
     VolumeInfo info;
     info.grid = volume.grid;

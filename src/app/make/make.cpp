@@ -4,6 +4,7 @@
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "lab/random_poses.h"
 #include "voxtact/io.h"
 
@@ -59,9 +60,7 @@ Result<void> requireBuiltin(const std::string& source) {
 }
 
 Outcome makeMesh(const MakeFileOptions& options) {
-    if (const Result<void> usable = requireBuiltin(options.source); !usable.ok()) {
-        return usable.error();
-    }
+    VOXTACT_TRY(requireBuiltin(options.source));
     if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
         return writable.error();
     }
@@ -70,9 +69,7 @@ Outcome makeMesh(const MakeFileOptions& options) {
 }
 
 Outcome makeVolume(const MakeFileOptions& options) {
-    if (const Result<void> usable = requireBuiltin(options.source); !usable.ok()) {
-        return usable.error();
-    }
+    VOXTACT_TRY(requireBuiltin(options.source));
     if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
         return writable.error();
     }
@@ -97,13 +94,9 @@ Outcome makePoses(const MakePosesOptions& options) {
         return writable.error();
     }
     const Result<VolumeData> volume = loadVolume(options.volumes.front());
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
-    if (!mesh.ok()) {
-        return mesh.error();
-    }
+    VOXTACT_TRY(mesh);
     const std::vector<Mat4> poses = randomPoses(volume->grid, mesh->view(), options.count, options.seed);
     return outcomeOf(deliver(options.path, [&](std::ostream& out) -> Result<void> {
         out << "# voxtact make poses: " << options.count << " poses, seed " << options.seed << ", mesh "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/open_session.h"
+#include "core/try.h"
 
 #include "app/output/standard_streams.h"
 
@@ -7,17 +8,11 @@ namespace voxtact::app {
 
 Result<Session> openSession(const DeviceChoice& choice) {
     Result<VulkanInstance> instance = VulkanInstance::create({.validate = choice.validate});
-    if (!instance.ok()) {
-        return instance.error();
-    }
+    VOXTACT_TRY(instance);
     const Result<std::vector<PhysicalDevice>> devices = instance->devices();
-    if (!devices.ok()) {
-        return devices.error();
-    }
+    VOXTACT_TRY(devices);
     const Result<PhysicalDevice> chosen = chooseDevice(*devices, choice.wanted);
-    if (!chosen.ok()) {
-        return chosen.error();
-    }
+    VOXTACT_TRY(chosen);
     return openSessionOn(*instance, *chosen, pipelineStore(choice, *chosen),
                          [](void*, const char* text) { printNote(text); });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/device_picture.h"
+#include "core/try.h"
 
 #include "app/detect/detect_run.h"
 #include "app/output/progress.h"
@@ -29,22 +30,16 @@ Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inpu
     const Renderer& renderer = objects.renderer.renderer();
     for (const MeshData& data : inputs.meshes) {
         Result<Mesh> mesh = Mesh::upload(session.context, queue, data.view());
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         objects.meshes.push_back(std::move(*mesh));
         Result<MeshNormals> normals = MeshNormals::upload(renderer, queue, data.view());
-        if (!normals.ok()) {
-            return normals.error();
-        }
+        VOXTACT_TRY(normals);
         objects.normals.push_back(std::move(*normals));
     }
     const ShownPairs pairs{inputs.volume, inputs.meshes, inputs.poses, inputs.transferFunction(options),
                            options.transferFunction.threshold};
     Result<ShowObjects> show = makeShowObjects(options.show, pairs, options.progress, session, renderer);
-    if (!show.ok()) {
-        return show.error();
-    }
+    VOXTACT_TRY(show);
     objects.show = std::move(*show);
     return {};
 }
@@ -52,29 +47,19 @@ Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inpu
 Result<RenderObjects> uploadObjects(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
     const QueueAccess queue = session.device.queueAccess();
     Result<BlockingRenderer> renderer = BlockingRenderer::create(session.context, queue);
-    if (!renderer.ok()) {
-        return renderer.error();
-    }
+    VOXTACT_TRY(renderer);
     RenderTransferFunctionDesc desc;
     desc.opacity = inputs.transferFunction(options);
     desc.colours = inputs.colours;
     desc.step = *std::ranges::min_element(inputs.volume.grid.spacing) / 2;
     Result<RenderTransferFunction> function = RenderTransferFunction::upload(renderer->renderer(), queue, desc);
-    if (!function.ok()) {
-        return function.error();
-    }
+    VOXTACT_TRY(function);
     Result<Volume> volume = Volume::upload(session.context, queue, inputs.volume.view(), {.bricks = true});
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     Result<RenderBricks> bricks = RenderBricks::create(renderer->renderer(), *volume);
-    if (!bricks.ok()) {
-        return bricks.error();
-    }
+    VOXTACT_TRY(bricks);
     RenderObjects objects{std::move(*renderer), std::move(*volume), std::move(*bricks), std::move(*function)};
-    if (Result<void> uploaded = uploadMeshes(options, inputs, session, objects); !uploaded.ok()) {
-        return uploaded.error();
-    }
+    VOXTACT_TRY(uploadMeshes(options, inputs, session, objects));
     return objects;
 }
 
@@ -119,14 +104,9 @@ std::vector<SceneMesh> sceneMeshes(const RenderOptions& options, const RenderInp
 } // namespace
 
 Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
-    if (Result<void> viewport = checkViewport(options.view.size, session.context.maxViewport(), "the device");
-        !viewport.ok()) {
-        return viewport.error();
-    }
+    VOXTACT_TRY(checkViewport(options.view.size, session.context.maxViewport(), "the device"));
     Result<RenderObjects> objects = uploadObjects(options, inputs, session);
-    if (!objects.ok()) {
-        return objects.error();
-    }
+    VOXTACT_TRY(objects);
     if (!objects->function.visible()) {
         printNote("the transfer function has no opacity above 0: the volume is not to be seen");
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/inputs.h"
+#include "core/try.h"
 
 #include "app/options/inputs.h"
 #include "app/output/standard_streams.h"
@@ -19,30 +20,20 @@ Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
         return {};
     }
     const Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);
-    if (!poses.ok()) {
-        return poses.error();
-    }
+    VOXTACT_TRY(poses);
     Result<std::vector<std::uint32_t>> numbers = chosenPoses(options.poses, poses->size());
-    if (!numbers.ok()) {
-        return numbers.error();
-    }
+    VOXTACT_TRY(numbers);
     inputs.numbers = std::move(*numbers);
     for (const std::uint32_t number : inputs.numbers) {
         inputs.poses.push_back((*poses)[number]);
     }
     for (const std::string& source : options.meshes.sources) {
         const Result<MeshData> mesh = loadMesh(source, options.meshes);
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         const Result<MeshFacts> facts = checkMesh(mesh->view());
-        if (!facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(facts);
         Result<MeshData> creased = splitAtCreases(mesh->view());
-        if (!creased.ok()) {
-            return creased.error();
-        }
+        VOXTACT_TRY(creased);
         inputs.bounds.push_back(facts->bounds);
         inputs.meshes.push_back(std::move(*creased));
     }
@@ -51,14 +42,10 @@ Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
 
 Result<void> readVolume(const RenderOptions& options, RenderInputs& inputs) {
     Result<VolumeData> volume = loadVolume(options.volumes.front());
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     inputs.volume = std::move(*volume);
     const Result<ValueRange> values = checkVolume(inputs.volume.view());
-    if (!values.ok()) {
-        return values.error();
-    }
+    VOXTACT_TRY(values);
     inputs.values = *values;
     return {};
 }
@@ -83,9 +70,7 @@ Result<void> setCamera(const RenderOptions& options, RenderInputs& inputs) {
     }
     if (!options.view.camera.empty()) {
         const Result<Mat4> camera = io::readCamera(options.view.camera);
-        if (!camera.ok()) {
-            return camera.error();
-        }
+        VOXTACT_TRY(camera);
         inputs.clip_from_world = *camera;
         return {};
     }
@@ -112,18 +97,14 @@ Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
             }
         }
         const Result<SlicePlane> plane = slicePlane(*options.slice, directionOf(options), inputs.volume.grid, first);
-        if (!plane.ok()) {
-            return plane.error();
-        }
+        VOXTACT_TRY(plane);
         inputs.slice = *plane;
     }
     if (Result<void> set = setCamera(options, inputs); !set.ok()) {
         return set;
     }
     Result<std::vector<ClipPlane>> planes = clipPlanes(options.clips, inputs.volume.grid, inputs.clip_from_world);
-    if (!planes.ok()) {
-        return planes.error();
-    }
+    VOXTACT_TRY(planes);
     inputs.clips = std::move(*planes);
     return {};
 }
@@ -140,16 +121,12 @@ void noteOtherUnits(const RenderOptions& options, const ValueRange& values) {
 
 Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
-    if (!points.ok()) {
-        return points.error();
-    }
+    VOXTACT_TRY(points);
     inputs.domain = tableDomain(options.transferFunction, inputs.volume.type, inputs.values);
     inputs.opacity = std::move(*points);
     if (!options.transferFunction.path.empty()) {
         Result<std::vector<ColourPoint>> colours = io::readColours(options.transferFunction.path);
-        if (!colours.ok()) {
-            return colours.error();
-        }
+        VOXTACT_TRY(colours);
         inputs.colours = std::move(*colours);
     }
     noteOtherUnits(options, inputs.values);
@@ -165,9 +142,7 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
 Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
     RenderInputs inputs;
     for (const auto read : {readMeshes, readVolume, setCuts, setLook}) {
-        if (Result<void> done = read(options, inputs); !done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(read(options, inputs));
     }
     return inputs;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/legend.h"
+#include "core/try.h"
 
 #include "app/draw/text.h"
 #include "core/text.h"
@@ -68,9 +69,7 @@ Result<void> drawLegend(Canvas& canvas, const Legend& legend, const Box2& box, d
     }
     const auto rows = static_cast<std::size_t>(std::lround(ramp.height()));
     const Result<std::vector<float>> opacity = sampled(legend.opacity, legend.range, rows);
-    if (!opacity.ok()) {
-        return opacity.error();
-    }
+    VOXTACT_TRY(opacity);
     std::array<std::vector<float>, 3> channels;
     for (std::size_t channel = 0; channel < channels.size(); ++channel) {
         std::vector<ControlPoint> points;
@@ -78,9 +77,7 @@ Result<void> drawLegend(Canvas& canvas, const Legend& legend, const Box2& box, d
             points.push_back({point.value, point.colour[channel]});
         }
         Result<std::vector<float>> table = sampled(points, legend.range, rows);
-        if (!table.ok()) {
-            return table.error();
-        }
+        VOXTACT_TRY(table);
         channels[channel] = std::move(*table);
     }
     drawText(canvas, legend.unit, size, {box.left, box.top + size});

@@ -4,6 +4,7 @@
 #include "app/options/open_session.h"
 #include "app/render/device_picture.h"
 #include "app/render/presets.h"
+#include "core/try.h"
 #include "voxtact/io.h"
 
 #include <CLI/CLI.hpp>
@@ -34,9 +35,7 @@ ValueRange windowOf(const RenderOptions& options, const RenderInputs& inputs) {
 }
 
 Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& inputs, const ValueRange& window) {
-    if (Result<void> checked = checkSliceSize(options.view.size); !checked.ok()) {
-        return checked.error();
-    }
+    VOXTACT_TRY(checkSliceSize(options.view.size));
     SliceScene scene;
     scene.volume = &inputs.volume;
     scene.plane = *inputs.slice;
@@ -50,15 +49,11 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
     if (!options.show.what.empty()) {
         const TransferFunctionDesc function = inputs.transferFunction(options);
-        if (Result<void> noted = noteWhereNothingIsOpaque(function, scene.threshold); !noted.ok()) {
-            return noted.error();
-        }
+        VOXTACT_TRY(noteWhereNothingIsOpaque(function, scene.threshold));
         if (options.show.what == "triangles") {
             Result<std::vector<std::vector<std::uint32_t>>> found = touchingTriangles(
                 {inputs.volume, inputs.meshes, inputs.poses, function, scene.threshold}, options.progress);
-            if (!found.ok()) {
-                return found.error();
-            }
+            VOXTACT_TRY(found);
             touching = std::move(*found);
         } else {
             scene.transferFunction = function;
@@ -79,9 +74,7 @@ Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& i
     std::shared_ptr<const ValidationMessages> messages;
     Result<Picture> picture = [&]() -> Result<Picture> {
         const Result<Session> session = openSession(options.device);
-        if (!session.ok()) {
-            return session.error();
-        }
+        VOXTACT_TRY(session);
         messages = session->instance.messages();
         return renderOn(options, inputs, *session);
     }();
@@ -92,30 +85,21 @@ Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& i
 }
 
 Outcome runRender(const RenderOptions& options) {
-    if (const Result<void> usable = checkRenderOptions(options); !usable.ok()) {
-        return usable.error();
-    }
+    VOXTACT_TRY(checkRenderOptions(options));
     const Result<RenderInputs> inputs = readRenderInputs(options);
-    if (!inputs.ok()) {
-        return inputs.error();
-    }
+    VOXTACT_TRY(inputs);
     std::optional<ValueRange> window;
     if (inputs->slice) {
         window = windowOf(options, *inputs);
     }
     Outcome invalid;
     Result<Picture> picture = window ? renderSlice(options, *inputs, *window) : renderVolume(options, *inputs, invalid);
-    if (!picture.ok()) {
-        return picture.error();
-    }
+    VOXTACT_TRY(picture);
     if (invalid.status != kExitDone) {
         return invalid;
     }
     if (inputs->room) {
-        if (Result<void> drawn = annotate(*picture, annotationOf(options, *inputs, window), *inputs->room);
-            !drawn.ok()) {
-            return drawn.error();
-        }
+        VOXTACT_TRY(annotate(*picture, annotationOf(options, *inputs, window), *inputs->room));
     }
     const Result<void> written = io::writePng(options.output, picture->width, picture->height, picture->rgba);
     return written.ok() ? Outcome() : Outcome(written.error());

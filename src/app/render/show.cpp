@@ -3,6 +3,7 @@
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "voxtact/cpu.h"
 
 #include <CLI/CLI.hpp>
@@ -20,17 +21,13 @@ constexpr double kDiscardedThrough = 1;
 Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const Session& session, const Renderer& renderer,
                              ShowObjects& objects) {
     const Result<std::vector<std::vector<std::uint32_t>>> touching = touchingTriangles(pairs, progress);
-    if (!touching.ok()) {
-        return touching.error();
-    }
+    VOXTACT_TRY(touching);
     for (std::size_t i = 0; i < touching->size(); ++i) {
         const MeshData& mesh = pairs.meshes[i / pairs.poses.size()];
         Result<PaintedTriangles> triangles =
             PaintedTriangles::upload(renderer, session.device.queueAccess(),
                                      static_cast<std::uint32_t>(mesh.indices.size() / 3), (*touching)[i]);
-        if (!triangles.ok()) {
-            return triangles.error();
-        }
+        VOXTACT_TRY(triangles);
         objects.triangles.push_back(std::move(*triangles));
     }
     return {};
@@ -40,9 +37,7 @@ Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const Sessi
 
 Result<void> noteWhereNothingIsOpaque(const TransferFunctionDesc& transferFunction, double threshold) {
     const Result<std::vector<float>> table = sampleTable(transferFunction);
-    if (!table.ok()) {
-        return table.error();
-    }
+    VOXTACT_TRY(table);
     if (*std::ranges::max_element(*table) < static_cast<float>(threshold)) {
         printNote("no opacity of the transfer function reaches the threshold " + number(threshold) +
                   ": nothing touches");
@@ -52,31 +47,21 @@ Result<void> noteWhereNothingIsOpaque(const TransferFunctionDesc& transferFuncti
 
 Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress) {
     const Result<cpu::Volume> volume = cpu::Volume::create(pairs.volume.view());
-    if (!volume.ok()) {
-        return volume.error();
-    }
+    VOXTACT_TRY(volume);
     const Result<cpu::TransferFunction> function = cpu::TransferFunction::create(pairs.transferFunction);
-    if (!function.ok()) {
-        return function.error();
-    }
+    VOXTACT_TRY(function);
     Result<cpu::Detector> detector =
         cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.triangles = true}});
-    if (!detector.ok()) {
-        return detector.error();
-    }
+    VOXTACT_TRY(detector);
     Progress shown(progress, "triangles that touch", pairs.meshes.size() * pairs.poses.size());
     std::vector<std::vector<std::uint32_t>> touching;
     for (const MeshData& data : pairs.meshes) {
         const Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
-        if (!mesh.ok()) {
-            return mesh.error();
-        }
+        VOXTACT_TRY(mesh);
         for (const Mat4& pose : pairs.poses) {
             const cpu::BatchItem item{&*mesh, &*volume, &*function, {&pose, 1}};
             const Result<BatchAnswer> answer = detector->detect({{&item, 1}, {}, pairs.threshold});
-            if (!answer.ok()) {
-                return answer.error();
-            }
+            VOXTACT_TRY(answer);
             std::vector<std::uint32_t>& triangles = touching.emplace_back();
             for (const TouchedTriangle& touched : answer->triangles) {
                 triangles.push_back(touched.triangle);
@@ -108,20 +93,14 @@ Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs
     if (options.what.empty()) {
         return objects;
     }
-    if (Result<void> noted = noteWhereNothingIsOpaque(pairs.transferFunction, pairs.threshold); !noted.ok()) {
-        return noted.error();
-    }
+    VOXTACT_TRY(noteWhereNothingIsOpaque(pairs.transferFunction, pairs.threshold));
     if (options.what == "triangles") {
-        if (Result<void> done = uploadTriangles(pairs, progress, session, renderer, objects); !done.ok()) {
-            return done.error();
-        }
+        VOXTACT_TRY(uploadTriangles(pairs, progress, session, renderer, objects));
         return objects;
     }
     Result<TransferFunction> function =
         TransferFunction::upload(session.context, session.device.queueAccess(), pairs.transferFunction);
-    if (!function.ok()) {
-        return function.error();
-    }
+    VOXTACT_TRY(function);
     objects.transferFunction = std::move(*function);
     return objects;
 }

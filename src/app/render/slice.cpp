@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/slice.h"
+#include "core/try.h"
 
 #include "app/draw/canvas.h"
 #include "app/options/shared_options.h"
@@ -279,19 +280,13 @@ Result<SlicePlane> slicePlane(const SliceOption& slice, const Direction& view, c
 
 Result<Picture> makeSlice(const SliceScene& scene, VkExtent2D size) {
     const Result<Mat4> texture_from_world = textureFromWorld(scene.volume->grid);
-    if (!texture_from_world.ok()) {
-        return texture_from_world.error();
-    }
+    VOXTACT_TRY(texture_from_world);
     const Result<Mat4> world_from_clip = inverse(scene.clip_from_world);
-    if (!world_from_clip.ok()) {
-        return world_from_clip.error();
-    }
+    VOXTACT_TRY(world_from_clip);
     std::optional<Opacities> opacities;
     if (scene.transferFunction) {
         Result<std::vector<float>> table = sampleTable(*scene.transferFunction);
-        if (!table.ok()) {
-            return table.error();
-        }
+        VOXTACT_TRY(table);
         opacities.emplace(std::move(*table), scene.transferFunction->domain);
     }
     return visitVoxels(scene.volume->view(), [&](const auto* voxels) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "cpu/scene/scene_impl.h"
 #include "cpu/scene/stored_voxels.h"
 
@@ -45,12 +46,8 @@ Volume::~Volume() = default;
 
 Result<Volume> Volume::create(const VolumeView& data) {
     return guard([&]() -> Result<Volume> {
-        if (Result<void> sides = checkSides(data.grid); !sides.ok()) {
-            return sides.error();
-        }
-        if (const Result<ValueRange> range = checkVolume(data); !range.ok()) {
-            return range.error();
-        }
+        VOXTACT_TRY(checkSides(data.grid));
+        VOXTACT_TRY(checkVolume(data));
         return Volume(std::make_unique<VolumeImpl>(data));
     });
 }
@@ -67,9 +64,7 @@ TransferFunction::~TransferFunction() = default;
 Result<TransferFunction> TransferFunction::create(const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<TransferFunction> {
         Result<std::vector<float>> table = sampleTable(desc);
-        if (!table.ok()) {
-            return table.error();
-        }
+        VOXTACT_TRY(table);
         auto impl = std::make_unique<TransferFunctionImpl>();
         impl->domain = desc.domain;
         impl->table = std::move(*table);
@@ -85,9 +80,7 @@ Mesh::~Mesh() = default;
 Result<Mesh> Mesh::create(const MeshView& data) {
     return guard([&]() -> Result<Mesh> {
         const Result<MeshFacts> facts = checkMesh(data);
-        if (!facts.ok()) {
-            return facts.error();
-        }
+        VOXTACT_TRY(facts);
         return Mesh(std::make_unique<MeshImpl>(data, *facts));
     });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/edit_rows.h"
 #include "core/guard.h"
+#include "core/try.h"
 #include "core/voxel_value.h"
 #include "cpu/scene/scene_impl.h"
 
@@ -9,13 +10,9 @@ namespace voxtact::cpu {
 Result<void> Volume::set(const VoxelRegion& region, double value) {
     return guard([&]() -> Result<void> {
         const Result<VoxelBox> bounds = voxelBounds(region, impl_->grid);
-        if (!bounds.ok()) {
-            return bounds.error();
-        }
+        VOXTACT_TRY(bounds);
         const Result<VoxelBytes> voxel = voxelOf(impl_->type, value);
-        if (!voxel.ok()) {
-            return voxel.error();
-        }
+        VOXTACT_TRY(voxel);
         const std::vector<VoxelRow> rows = voxelRows(region, impl_->grid);
         for (const VoxelRow& row : rows) {
             impl_->image.replace(row, impl_->type, voxel->data(), 0);
@@ -29,12 +26,8 @@ Result<void> Volume::set(const VoxelRegion& region, double value) {
 
 Result<void> Volume::write(const VoxelBox& box, std::span<const std::byte> voxels) {
     return guard([&]() -> Result<void> {
-        if (const Result<VoxelBox> bounds = voxelBounds(box, impl_->grid); !bounds.ok()) {
-            return bounds.error();
-        }
-        if (const Result<ValueRange> checked = checkVoxels(impl_->type, box, voxels); !checked.ok()) {
-            return checked.error();
-        }
+        VOXTACT_TRY(voxelBounds(box, impl_->grid));
+        VOXTACT_TRY(checkVoxels(impl_->type, box, voxels));
         const std::size_t step = bytesPerVoxel(impl_->type);
         const std::vector<VoxelRow> rows = voxelRows(box, impl_->grid);
         const std::byte* from = voxels.data();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/polygon.h"
@@ -130,9 +131,7 @@ Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& optio
         return Error{ErrorCode::InvalidArgument, 0, "the scale of a mesh must be positive and finite"};
     }
     Result<MeshFile> file = readMeshFile(source);
-    if (!file.ok()) {
-        return file.error();
-    }
+    VOXTACT_TRY(file);
     if (file->faceSizes.empty()) {
         return cannotRead(source.path, "it holds no triangle");
     }
@@ -177,9 +176,7 @@ Result<MeshFile> readMeshFile(const MeshSource& source) {
 Result<MeshData> readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {
     return guard([&]() -> Result<MeshData> {
         const Result<std::string> content = readWholeFile(path);
-        if (!content.ok()) {
-            return content.error();
-        }
+        VOXTACT_TRY(content);
         const auto other = [&](const std::filesystem::path& beside) {
             return readWholeFile(path.parent_path() / beside);
         };

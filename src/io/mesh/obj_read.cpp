@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_text.h"
@@ -147,9 +148,7 @@ class ObjReader {
 
 Result<MeshFile> readObj(const MeshSource& source) {
     const Result<std::string_view> text = meshText(source.path, source.content);
-    if (!text.ok()) {
-        return text.error();
-    }
+    VOXTACT_TRY(text);
     ObjReader reader;
     TextLines lines(*text);
     std::string joined;

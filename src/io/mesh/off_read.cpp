@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_text.h"
@@ -17,9 +18,7 @@ class OffReader {
     Result<MeshFile> read() {
         std::uint64_t vertices = 0;
         std::uint64_t faces = 0;
-        if (Result<void> header = readHeader(vertices, faces); !header.ok()) {
-            return header.error();
-        }
+        VOXTACT_TRY(readHeader(vertices, faces));
         for (std::uint64_t i = 0; i < vertices; ++i) {
             if (!nextTokens()) {
                 return truncated(i, vertices, "vertices");
@@ -119,9 +118,7 @@ class OffReader {
 
 Result<MeshFile> readOff(const MeshSource& source) {
     const Result<std::string_view> text = meshText(source.path, source.content);
-    if (!text.ok()) {
-        return text.error();
-    }
+    VOXTACT_TRY(text);
     return OffReader(source.path, *text).read();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+#include "core/try.h"
 #include "io/byte_source.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
@@ -270,9 +271,7 @@ Result<MeshFile> readBody(const MeshSource& source, const PlyHeader& header, Bod
 Result<MeshFile> readPly(const MeshSource& source) {
     TextLines lines(source.content);
     const Result<PlyHeader> header = readPlyHeader(source.path, lines);
-    if (!header.ok()) {
-        return header.error();
-    }
+    VOXTACT_TRY(header);
     if (header->storage == PlyStorage::Ascii) {
         TextBody body(lines);
         return readBody(source, *header, body);

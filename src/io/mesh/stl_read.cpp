@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "io/byte_source.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
@@ -106,9 +107,7 @@ class AsciiStl {
 
 Result<MeshFile> readAscii(const MeshSource& source) {
     const Result<std::string_view> text = meshText(source.path, source.content);
-    if (!text.ok()) {
-        return text.error();
-    }
+    VOXTACT_TRY(text);
     MeshFile file;
     AsciiStl stl(file);
     TextLines lines(*text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "voxtact/io.h"
@@ -30,9 +31,7 @@ std::optional<std::string> parseLabel(std::string_view token, std::int32_t& labe
 Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path) {
     return guard([&]() -> Result<std::vector<LabelName>> {
         Result<LineReader> lines = LineReader::open(path);
-        if (!lines.ok()) {
-            return lines.error();
-        }
+        VOXTACT_TRY(lines);
         std::vector<LabelName> names;
         std::unordered_map<std::int32_t, std::size_t> places;
         std::vector<std::string_view> tokens;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "voxtact/io.h"
@@ -67,9 +68,7 @@ Result<std::optional<Mat4>> PoseReader::State::next() {
             continue;
         }
         const Result<Mat4> pose = parsePose(tokens, name, lines.lineNumber());
-        if (!pose.ok()) {
-            return pose.error();
-        }
+        VOXTACT_TRY(pose);
         any = true;
         return std::optional(*pose);
     }
@@ -87,9 +86,7 @@ PoseReader::~PoseReader() = default;
 Result<PoseReader> PoseReader::open(const std::filesystem::path& path) {
     return guard([&]() -> Result<PoseReader> {
         Result<LineReader> lines = LineReader::open(path);
-        if (!lines.ok()) {
-            return lines.error();
-        }
+        VOXTACT_TRY(lines);
         return PoseReader(std::make_unique<State>(State{path, std::move(*lines)}));
     });
 }
@@ -104,9 +101,7 @@ Result<bool> PoseReader::read(std::size_t most, std::vector<Mat4>& world_from_ob
     return guard([&]() -> Result<bool> {
         for (std::size_t i = 0; i < most; ++i) {
             const Result<std::optional<Mat4>> pose = state_->next();
-            if (!pose.ok()) {
-                return pose.error();
-            }
+            VOXTACT_TRY(pose);
             if (!pose->has_value()) {
                 return false;
             }
@@ -119,9 +114,7 @@ Result<bool> PoseReader::read(std::size_t most, std::vector<Mat4>& world_from_ob
 Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
     return guard([&]() -> Result<std::vector<Mat4>> {
         Result<PoseReader> reader = PoseReader::open(path);
-        if (!reader.ok()) {
-            return reader.error();
-        }
+        VOXTACT_TRY(reader);
         std::vector<Mat4> poses;
         const Result<bool> more = reader->read(std::numeric_limits<std::size_t>::max(), poses);
         return more.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : more.error();
@@ -131,9 +124,7 @@ Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
 Result<Mat4> readCamera(const std::filesystem::path& path) {
     return guard([&]() -> Result<Mat4> {
         Result<LineReader> lines = LineReader::open(path);
-        if (!lines.ok()) {
-            return lines.error();
-        }
+        VOXTACT_TRY(lines);
         Mat4 clip_from_world{};
         std::size_t count = 0;
         std::vector<std::string_view> tokens;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/text/text_lines.h"
+#include "core/try.h"
 
 #include "io/errors.h"
 
@@ -25,9 +26,7 @@ std::string inQuotes(std::string_view token) {
 }
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
-    if (const Result<std::uint64_t> size = readableFile(path); !size.ok()) {
-        return size.error();
-    }
+    VOXTACT_TRY(readableFile(path));
     LineReader reader;
     reader.file_ = std::make_unique<std::ifstream>(path, std::ios::binary);
     reader.stream_ = reader.file_.get();

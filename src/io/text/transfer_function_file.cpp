@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "voxtact/io.h"
@@ -35,9 +36,7 @@ std::optional<std::string> addPoint(Points& points, double value, double opacity
 
 Result<Points> readText(const std::filesystem::path& path) {
     Result<LineReader> lines = LineReader::open(path);
-    if (!lines.ok()) {
-        return lines.error();
-    }
+    VOXTACT_TRY(lines);
     Points points;
     std::vector<std::string_view> tokens;
     while (const auto line = lines->next()) {
@@ -101,9 +100,7 @@ Result<Json> parseJson(const std::filesystem::path& path) {
 
 Result<Points> readJson(const std::filesystem::path& path) {
     const Result<Json> parsed = parseJson(path);
-    if (!parsed.ok()) {
-        return parsed.error();
-    }
+    VOXTACT_TRY(parsed);
     const Json& root = *parsed;
     const auto list = root.is_object() ? root.find("points") : root.end();
     if (list == root.end() || !list->is_array() || list->empty()) {
@@ -124,9 +121,7 @@ Result<Points> readJson(const std::filesystem::path& path) {
 /// Told by the first character.
 Result<bool> isJson(const std::filesystem::path& path) {
     Result<LineReader> lines = LineReader::open(path);
-    if (!lines.ok()) {
-        return lines.error();
-    }
+    VOXTACT_TRY(lines);
     while (const auto line = lines->next()) {
         if (!line->empty()) {
             return line->front() == '{' || line->front() == '[';
@@ -162,9 +157,7 @@ std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const Js
 Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path) {
     return guard([&]() -> Result<Points> {
         const Result<bool> json = isJson(path);
-        if (!json.ok()) {
-            return json.error();
-        }
+        VOXTACT_TRY(json);
         return *json ? readJson(path) : readText(path);
     });
 }
@@ -172,17 +165,13 @@ Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::pa
 Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path) {
     return guard([&]() -> Result<std::vector<ColourPoint>> {
         const Result<bool> json = isJson(path);
-        if (!json.ok()) {
-            return json.error();
-        }
+        VOXTACT_TRY(json);
         std::vector<ColourPoint> colours;
         if (!*json) {
             return colours;
         }
         const Result<Json> root = parseJson(path);
-        if (!root.ok()) {
-            return root.error();
-        }
+        VOXTACT_TRY(root);
         const auto list = root->is_object() ? root->find("colours") : root->end();
         if (list == root->end()) {
             return colours;

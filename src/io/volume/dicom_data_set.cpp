@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_data_set.h"
+#include "core/try.h"
 
 #include "io/byte_source.h"
 #include "io/errors.h"
@@ -132,9 +133,7 @@ std::string_view DicomDataSet::text(DicomTag tag) const {
 
 Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path) {
     Result<DicomStream> stream = DicomStream::open(path);
-    if (!stream.ok()) {
-        return stream.error();
-    }
+    VOXTACT_TRY(stream);
     DicomFile file;
     file.path = path;
     file.bytes = stream->mostLeft();
@@ -147,15 +146,11 @@ Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path
         return cannotRead(path, meta.problem());
     }
     const Result<const DicomSyntax*> syntax = syntaxOf(file, *stream);
-    if (!syntax.ok()) {
-        return syntax.error();
-    }
+    VOXTACT_TRY(syntax);
     file.syntax = *syntax;
     file.dataSetAt = stream->position();
     if (file.syntax->deflated) {
-        if (Result<void> inflating = stream->inflateFromHere(); !inflating.ok()) {
-            return inflating.error();
-        }
+        VOXTACT_TRY(stream->inflateFromHere());
     }
     DicomWalker data(*stream, *file.syntax);
     if (!data.dataSet(file.set)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_folder.h"
+#include "core/try.h"
 
 #include "io/errors.h"
 #include "io/volume/dicom_stack.h"
@@ -66,9 +67,7 @@ Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
 Result<Survey> survey(const fs::path& folder) {
     constexpr std::string_view kDirectoryClass = "1.2.840.10008.1.3.10";
     const Result<std::vector<fs::path>> paths = filesOf(folder);
-    if (!paths.ok()) {
-        return paths.error();
-    }
+    VOXTACT_TRY(paths);
     Survey found;
     for (const fs::path& path : *paths) {
         Result<std::optional<DicomFile>> file = readDicomFile(path);
@@ -181,25 +180,17 @@ Result<Stack> stackOf(const fs::path& folder, const std::vector<DicomFile>& file
     Stack stack;
     for (const DicomFile& file : files) {
         const Result<DicomImage> image = dicomImage(file);
-        if (!image.ok()) {
-            return image.error();
-        }
+        VOXTACT_TRY(image);
         const Result<std::vector<DicomSlice>> frames = dicomSlices(file, *image, stack.images.size());
-        if (!frames.ok()) {
-            return frames.error();
-        }
+        VOXTACT_TRY(frames);
         stack.images.push_back(*image);
         stack.slices.insert(stack.slices.end(), frames->begin(), frames->end());
     }
-    if (Result<void> alike = checkAlike(files, stack.images, stack.slices); !alike.ok()) {
-        return alike.error();
-    }
+    VOXTACT_TRY(checkAlike(files, stack.images, stack.slices));
     if (stack.slices.size() < 2) {
         return cannotRead(folder, "the DICOM series has fewer than 2 slices; a 3D image is needed");
     }
-    if (Result<void> sane = checkExpansion(folder, files, stack.images); !sane.ok()) {
-        return sane.error();
-    }
+    VOXTACT_TRY(checkExpansion(folder, files, stack.images));
     return stack;
 }
 
@@ -219,28 +210,18 @@ std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const 
 
 Result<StoredImage> readDicomFolder(const fs::path& folder, std::string_view wanted, std::vector<std::string>& notes) {
     Result<Survey> found = survey(folder);
-    if (!found.ok()) {
-        return found.error();
-    }
-    if (Result<void> chosen = chooseSeries(folder, wanted, found->images); !chosen.ok()) {
-        return chosen.error();
-    }
+    VOXTACT_TRY(found);
+    VOXTACT_TRY(chooseSeries(folder, wanted, found->images));
     const std::vector<DicomFile>& files = found->images;
     Result<Stack> stack = stackOf(folder, files);
-    if (!stack.ok()) {
-        return stack.error();
-    }
+    VOXTACT_TRY(stack);
     const Result<Grid> grid = stackSlices(folder, files, stack->images.front(), stack->slices);
-    if (!grid.ok()) {
-        return grid.error();
-    }
+    VOXTACT_TRY(grid);
     StoredImage image;
     image.grid = *grid;
     image.type = dicomType(stack->images, stack->slices);
     Result<std::vector<std::byte>> voxels = dicomVoxels(files, stack->images, stack->slices, image.type);
-    if (!voxels.ok()) {
-        return voxels.error();
-    }
+    VOXTACT_TRY(voxels);
     image.voxels = std::move(*voxels);
     notes = notesOf(*found, *stack, image);
     return image;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_pixels.h"
+#include "core/try.h"
 
 #include "io/byte_source.h"
 #include "io/errors.h"
@@ -140,9 +141,7 @@ class FrameSource {
 
 Result<void> readDicomFrames(const DicomFile& file, const DicomImage& image, const DicomFrameVisitor& visit) {
     Result<DicomStream> stream = DicomStream::open(file.path);
-    if (!stream.ok()) {
-        return stream.error();
-    }
+    VOXTACT_TRY(stream);
     FrameSource source(file, image, std::move(stream).value());
     if (Result<void> begun = source.begin(); !begun.ok()) {
         return begun;
@@ -151,9 +150,7 @@ Result<void> readDicomFrames(const DicomFile& file, const DicomImage& image, con
         return source.native(visit);
     }
     const Result<std::vector<std::vector<DicomPiece>>> frames = piecesOfFrames(file, image.frames);
-    if (!frames.ok()) {
-        return frames.error();
-    }
+    VOXTACT_TRY(frames);
     return source.compressed(*frames, visit);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_slice.h"
+#include "core/try.h"
 
 #include "core/text.h"
 #include "io/errors.h"
@@ -82,9 +83,7 @@ Result<void> counts(const DicomFile& file, DicomImage& image) {
           Count{dicom::kBitsStored, "BitsStored", &image.bitsStored}, Count{dicom::kHighBit, "HighBit", &image.highBit},
           Count{dicom::kPixelRepresentation, "PixelRepresentation", &isSigned}}) {
         const Result<std::uint32_t> value = count(file, one.tag, one.name);
-        if (!value.ok()) {
-            return value.error();
-        }
+        VOXTACT_TRY(value);
         *one.to = *value;
     }
     if (isSigned > 1) {
@@ -94,9 +93,7 @@ Result<void> counts(const DicomFile& file, DicomImage& image) {
     image.isMultiFrame = file.set.items(dicom::kPerFrame) != nullptr;
     if (file.set.find(dicom::kFrames) != nullptr) {
         const Result<std::uint32_t> frames = count(file, dicom::kFrames, "NumberOfFrames");
-        if (!frames.ok()) {
-            return frames.error();
-        }
+        VOXTACT_TRY(frames);
         image.frames = *frames;
         image.isMultiFrame = image.isMultiFrame || image.frames != 1;
     }
@@ -228,9 +225,7 @@ class FrameReader {
         const auto at = numbers(dicom::kPlanePosition, dicom::kPosition, "ImagePositionPatient", 3,
                                 "so its place in the series is not known; export the series again with its original "
                                 "attributes, or convert it by a tool that knows the scanner");
-        if (!at.ok()) {
-            return at.error();
-        }
+        VOXTACT_TRY(at);
         slice_.position = {(*at)[0], (*at)[1], (*at)[2]};
         return {};
     }
@@ -239,9 +234,7 @@ class FrameReader {
         const auto axes = numbers(dicom::kPlaneOrientation, dicom::kOrientation, "ImageOrientationPatient", 6,
                                   "so how it lies in the patient is not known; export the series again with its "
                                   "original attributes, or convert it by a tool that knows the scanner");
-        if (!axes.ok()) {
-            return axes.error();
-        }
+        VOXTACT_TRY(axes);
         slice_.across = {(*axes)[0], (*axes)[1], (*axes)[2]};
         slice_.down = {(*axes)[3], (*axes)[4], (*axes)[5]};
         const double across = std::sqrt(dot(slice_.across, slice_.across));
@@ -273,9 +266,7 @@ class FrameReader {
         const auto gaps = numbers(dicom::kPixelMeasures, dicom::kPixelSpacing, "PixelSpacing", 2,
                                   "so the size of its pixels is not known; export the series again with its original "
                                   "attributes, or convert it by a tool that knows the scanner");
-        if (!gaps.ok()) {
-            return gaps.error();
-        }
+        VOXTACT_TRY(gaps);
         // The first is the distance of the rows.
         slice_.spacing = {(*gaps)[1], (*gaps)[0]};
         if (!(slice_.spacing[0] > 0) || !(slice_.spacing[1] > 0)) {
@@ -315,18 +306,10 @@ class FrameReader {
 
 Result<DicomImage> dicomImage(const DicomFile& file) {
     DicomImage image;
-    if (Result<void> meaning = checkMeaning(file); !meaning.ok()) {
-        return meaning.error();
-    }
-    if (Result<void> counted = counts(file, image); !counted.ok()) {
-        return counted.error();
-    }
-    if (Result<void> bits = checkBits(file, image); !bits.ok()) {
-        return bits.error();
-    }
-    if (Result<void> fits = checkPixelLength(file, image); !fits.ok()) {
-        return fits.error();
-    }
+    VOXTACT_TRY(checkMeaning(file));
+    VOXTACT_TRY(counts(file, image));
+    VOXTACT_TRY(checkBits(file, image));
+    VOXTACT_TRY(checkPixelLength(file, image));
     const std::vector<DicomDataSet>* perFrame = file.set.items(dicom::kPerFrame);
     if (image.frames > 1 && perFrame == nullptr) {
         return cannotRead(file.path, "it holds " + std::to_string(image.frames) +
@@ -355,9 +338,7 @@ Result<std::vector<DicomSlice>> dicomSlices(const DicomFile& file, const DicomIm
         }
         const Groups groups{{perFrame == nullptr ? nullptr : &(*perFrame)[frame],
                              shared == nullptr ? nullptr : &shared->front(), &file.set}};
-        if (Result<void> read = FrameReader(file, groups, slice).read(); !read.ok()) {
-            return read.error();
-        }
+        VOXTACT_TRY(FrameReader(file, groups, slice).read());
     }
     return slices;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_stack.h"
+#include "core/try.h"
 
 #include "core/text.h"
 #include "io/errors.h"
@@ -242,14 +243,10 @@ Result<Grid> stackSlices(const std::filesystem::path& folder, const std::vector<
     }
     std::stable_sort(slices.begin(), slices.end(),
                      [](const DicomSlice& a, const DicomSlice& b) { return a.height < b.height; });
-    if (Result<void> places = checkPlaces(folder, files, slices); !places.ok()) {
-        return places.error();
-    }
+    VOXTACT_TRY(checkPlaces(folder, files, slices));
     const DicomSlice& first = slices.front();
     const double gap = (slices.back().height - first.height) / static_cast<double>(slices.size() - 1);
-    if (Result<void> upright = checkUpright(folder, slices, gap); !upright.ok()) {
-        return upright.error();
-    }
+    VOXTACT_TRY(checkUpright(folder, slices, gap));
     Grid grid;
     grid.size = {image.columns, image.rows, static_cast<std::uint32_t>(slices.size())};
     grid.spacing = {first.spacing[0], first.spacing[1], gap};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_stream.h"
+#include "core/try.h"
 
 #include "io/errors.h"
 
@@ -30,9 +31,7 @@ DicomStream::~DicomStream() = default;
 
 Result<DicomStream> DicomStream::open(const std::filesystem::path& path) {
     const Result<std::uint64_t> size = readableFile(path);
-    if (!size.ok()) {
-        return size.error();
-    }
+    VOXTACT_TRY(size);
     return DicomStream(std::ifstream(path, std::ios::binary), *size);
 }
 

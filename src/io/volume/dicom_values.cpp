@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_values.h"
+#include "core/try.h"
 
 #include "core/text.h"
 #include "io/volume/dicom_pixels.h"
@@ -118,9 +119,7 @@ Result<std::vector<std::byte>> dicomVoxels(const std::vector<DicomFile>& files, 
                 const std::size_t place = places[file][frame];
                 fillAs(type, images[file], slices[place], cells, voxels.data() + place * sliceBytes);
             });
-        if (!read.ok()) {
-            return read.error();
-        }
+        VOXTACT_TRY(read);
     }
     return voxels;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "io/volume/volume_container.h"
@@ -167,9 +168,7 @@ Result<Grid> gridOf(const fs::path& path, const MetaHeader& header, const std::v
             affine.directions[axis][row] = (*matrix)[axis * dimensions + row]; // a row of the file is an axis
         }
     }
-    if (Result<void> set = setSteps(grid, affine, path); !set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(setSteps(grid, affine, path));
     return grid;
 }
 
@@ -200,9 +199,7 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader local, cons
         return cannotRead(path, "its voxels follow its header, and 'HeaderSize' puts them elsewhere; mend its header");
     }
     Result<ByteReader> reader = isLocal ? std::move(local) : source.openBeside(path, name);
-    if (!reader.ok()) {
-        return reader.error();
-    }
+    VOXTACT_TRY(reader);
     if (header.isTrue("CompressedData")) {
         if (*skip != 0) {
             return cannotRead(path, "compressed data behind a 'HeaderSize' is not supported; write it anew");
@@ -235,47 +232,27 @@ std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid) {
 
 Result<ContainedImage> readMeta(const VolumeSource& source, const fs::path& path) {
     Result<ByteReader> reader = source.open(path);
-    if (!reader.ok()) {
-        return reader.error();
-    }
+    VOXTACT_TRY(reader);
     const Result<MetaHeader> header = readHeader(*reader);
-    if (!header.ok()) {
-        return header.error();
-    }
+    VOXTACT_TRY(header);
     const Result<std::vector<std::int64_t>> sizes = sizesOf(path, *header);
-    if (!sizes.ok()) {
-        return sizes.error();
-    }
+    VOXTACT_TRY(sizes);
     const Result<StoredType> type = storedType(path, *header);
-    if (!type.ok()) {
-        return type.error();
-    }
+    VOXTACT_TRY(type);
     const Result<std::uint64_t> needed = imageBytes(path, *sizes, storedBytes(*type));
-    if (!needed.ok()) {
-        return needed.error();
-    }
+    VOXTACT_TRY(needed);
     if (!header->get("BinaryData").empty() && !header->isTrue("BinaryData")) {
         return cannotRead(path, "its voxels are text, where a missing end goes unseen; write it as binary data");
     }
     const Result<Grid> grid = gridOf(path, *header, *sizes);
-    if (!grid.ok()) {
-        return grid.error();
-    }
+    VOXTACT_TRY(grid);
     const Result<bool> swapped = isSwapped(path, *header);
-    if (!swapped.ok()) {
-        return swapped.error();
-    }
+    VOXTACT_TRY(swapped);
     Result<ByteReader> voxels = openVoxels(source, std::move(*reader), *header, *needed);
-    if (!voxels.ok()) {
-        return voxels.error();
-    }
+    VOXTACT_TRY(voxels);
     ContainedImage contained{{*grid, *type, std::nullopt, {}}, notesOf(*header, *grid)};
-    if (Result<void> taken = takeVoxels(*voxels, contained.image, *swapped); !taken.ok()) {
-        return taken.error();
-    }
-    if (Result<void> whole = voxels->finish(); !whole.ok()) {
-        return whole.error();
-    }
+    VOXTACT_TRY(takeVoxels(*voxels, contained.image, *swapped));
+    VOXTACT_TRY(voxels->finish());
     return contained;
 }
 

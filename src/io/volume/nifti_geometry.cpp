@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/volume/nifti_header.h"
 
@@ -177,9 +178,7 @@ Result<Grid> gridOf(const fs::path& path, const NiftiHeader& header, AffineSteps
             direction[row] = -direction[row];
         }
     }
-    if (Result<void> set = setSteps(grid, affine, path); !set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(setSteps(grid, affine, path));
     return grid;
 }
 
@@ -285,9 +284,7 @@ Result<Grid> niftiGrid(const fs::path& path, const NiftiHeader& written, std::ve
     NiftiHeader header = written;
     header.qformCode = definedCode(header.qformCode, "qform", notes);
     header.sformCode = definedCode(header.sformCode, "sform", notes);
-    if (Result<void> finite = checkNumbers(path, header); !finite.ok()) {
-        return finite.error();
-    }
+    VOXTACT_TRY(checkNumbers(path, header));
     const std::optional<double> unit = millimetresPerUnit(header.units);
     if (!unit) {
         return cannotRead(path, "its unit of length (xyzt_units " + std::to_string(header.units) +
@@ -297,9 +294,7 @@ Result<Grid> niftiGrid(const fs::path& path, const NiftiHeader& written, std::ve
         const Vec3 sizes = voxelSizes(header, notes);
         return header.qformCode > 0 ? qformPlace(path, header, sizes) : Result<Place>(unsaidPlace(header, sizes));
     }();
-    if (!place.ok()) {
-        return place.error();
-    }
+    VOXTACT_TRY(place);
     Result<Grid> grid = gridOf(path, header, place->affine, *unit);
     if (!grid.ok()) {
         return grid;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/volume/nifti_header.h"
 
@@ -104,26 +105,16 @@ struct NiftiContent {
 Result<NiftiContent> contentOf(const fs::path& path, NiftiHeader header, const VolumeReadOptions& options) {
     NiftiContent content;
     const Result<StoredType> type = storedType(path, header.type);
-    if (!type.ok()) {
-        return type.error();
-    }
+    VOXTACT_TRY(type);
     std::uint64_t frames = 0;
     const Result<std::uint64_t> bytes = frameBytes(path, header.sizes, storedBytes(*type), frames);
-    if (!bytes.ok()) {
-        return bytes.error();
-    }
+    VOXTACT_TRY(bytes);
     const Result<std::uint64_t> frame = frameOf(path, frames, options);
-    if (!frame.ok()) {
-        return frame.error();
-    }
+    VOXTACT_TRY(frame);
     const Result<Grid> grid = niftiGrid(path, header, content.notes);
-    if (!grid.ok()) {
-        return grid.error();
-    }
+    VOXTACT_TRY(grid);
     const Result<std::optional<Scaling>> scaling = scalingOf(path, header, content.notes);
-    if (!scaling.ok()) {
-        return scaling.error();
-    }
+    VOXTACT_TRY(scaling);
     content.image = {*grid, *type, *scaling, {}};
     content.voxelsAt = header.voxelOffset + *frame * *bytes;
     content.header = std::move(header);
@@ -138,28 +129,18 @@ struct OpenNifti {
 
 Result<OpenNifti> openHeader(const VolumeSource& source, const NiftiFiles& files, const VolumeReadOptions& options) {
     Result<ByteReader> reader = source.open(files.header);
-    if (!reader.ok()) {
-        return reader.error();
-    }
-    if (Result<void> unpacked = reader->unpack(ByteReader::Packing::GzipOrPlain); !unpacked.ok()) {
-        return unpacked.error();
-    }
+    VOXTACT_TRY(reader);
+    VOXTACT_TRY(reader->unpack(ByteReader::Packing::GzipOrPlain));
     Result<std::string> head = reader->head(kNifti1Bytes);
     if (head.ok() && isNifti2(*head)) {
         const Result<std::string> rest = reader->head(kNifti2Bytes - kNifti1Bytes);
         head = rest.ok() ? Result<std::string>(*head + *rest) : rest;
     }
-    if (!head.ok()) {
-        return head.error();
-    }
+    VOXTACT_TRY(head);
     Result<NiftiHeader> header = parseNiftiHeader(files.header, *head, files.header == files.image);
-    if (!header.ok()) {
-        return header.error();
-    }
+    VOXTACT_TRY(header);
     Result<NiftiContent> content = contentOf(files.header, std::move(*header), options);
-    if (!content.ok()) {
-        return content.error();
-    }
+    VOXTACT_TRY(content);
     return OpenNifti{std::move(*content), std::move(*reader), head->size()};
 }
 
@@ -168,9 +149,7 @@ Result<ByteReader> openImage(const VolumeSource& source, const fs::path& path) {
     Result<ByteReader> reader = source.open(path);
     // Voxels may begin as gzip does; only the ending tells.
     if (reader.ok() && lowerEnding(path).ends_with(".gz")) {
-        if (Result<void> unpacked = reader->unpack(ByteReader::Packing::GzipOrPlain); !unpacked.ok()) {
-            return unpacked.error();
-        }
+        VOXTACT_TRY(reader->unpack(ByteReader::Packing::GzipOrPlain));
     }
     return reader;
 }
@@ -180,25 +159,15 @@ Result<ByteReader> openImage(const VolumeSource& source, const fs::path& path) {
 Result<ContainedImage> readNifti(const VolumeSource& source, const fs::path& path, const VolumeReadOptions& options) {
     const NiftiFiles files = filesOf(source, path);
     Result<OpenNifti> opened = openHeader(source, files, options);
-    if (!opened.ok()) {
-        return opened.error();
-    }
+    VOXTACT_TRY(opened);
     NiftiContent& content = opened->content;
     const bool pair = files.header != files.image;
     Result<ByteReader> opener = pair ? openImage(source, files.image) : std::move(opened->reader);
-    if (!opener.ok()) {
-        return opener.error();
-    }
+    VOXTACT_TRY(opener);
     ByteReader& reader = *opener;
-    if (const auto skipped = reader.skip(content.voxelsAt - (pair ? 0 : opened->readBytes)); !skipped.ok()) {
-        return skipped.error();
-    }
-    if (Result<void> taken = takeVoxels(reader, content.image, content.header.swapped); !taken.ok()) {
-        return taken.error();
-    }
-    if (Result<void> whole = reader.finish(); !whole.ok()) {
-        return whole.error();
-    }
+    VOXTACT_TRY(reader.skip(content.voxelsAt - (pair ? 0 : opened->readBytes)));
+    VOXTACT_TRY(takeVoxels(reader, content.image, content.header.swapped));
+    VOXTACT_TRY(reader.finish());
     return ContainedImage{std::move(content.image), std::move(content.notes)};
 }
 

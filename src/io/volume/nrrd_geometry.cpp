@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "io/volume/nrrd_header.h"
@@ -191,9 +192,7 @@ Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std:
     Result<AffineSteps> affine = !unit.ok() ? Result<AffineSteps>(unit.error())
                                  : inSpace  ? spaceSteps(path, header, sizes.size(), notes)
                                             : plainSteps(path, header, sizes, notes);
-    if (!affine.ok()) {
-        return affine.error();
-    }
+    VOXTACT_TRY(affine);
     Grid grid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = static_cast<std::uint32_t>(sizes[axis]);
@@ -204,9 +203,7 @@ Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std:
             direction[axis] *= sign;
         }
     }
-    if (Result<void> set = setSteps(grid, *affine, path); !set.ok()) {
-        return set.error();
-    }
+    VOXTACT_TRY(setSteps(grid, *affine, path));
     noteShear(grid, notes);
     if (*unit != 1) {
         notes.push_back("the file's unit of length is " + number(*unit) + " mm; its lengths are taken to millimetres");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "io/volume/nrrd_header.h"
@@ -85,9 +86,7 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader attached, c
         return cannotRead(path, "its NRRD header is damaged: 'line skip' or 'byte skip' is not a number");
     }
     Result<ByteReader> reader = detached.empty() ? std::move(attached) : source.openBeside(path, detached);
-    if (!reader.ok()) {
-        return reader.error();
-    }
+    VOXTACT_TRY(reader);
     if (encoding == "raw") {
         const Result<void> skipped = skipBefore(*reader, *lines, *bytes, needed);
         return skipped.ok() ? std::move(reader) : Result<ByteReader>(skipped.error());
@@ -106,46 +105,28 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader attached, c
 
 Result<ContainedImage> readNrrd(const VolumeSource& source, const fs::path& path) {
     Result<ByteReader> reader = source.open(path);
-    if (!reader.ok()) {
-        return reader.error();
-    }
+    VOXTACT_TRY(reader);
     const Result<NrrdHeader> header = readNrrdHeader(*reader);
-    if (!header.ok()) {
-        return header.error();
-    }
+    VOXTACT_TRY(header);
     const Result<std::vector<std::int64_t>> sizes = nrrdSizes(path, *header);
-    if (!sizes.ok()) {
-        return sizes.error();
-    }
+    VOXTACT_TRY(sizes);
     const std::optional<StoredType> type = storedType(header->get("type"));
     if (!type) {
         return cannotRead(path, "its voxels are of the type " + inQuotes(header->get("type")) +
                                     ", which is not supported; convert it to integers or floats");
     }
     const Result<std::uint64_t> needed = imageBytes(path, *sizes, storedBytes(*type));
-    if (!needed.ok()) {
-        return needed.error();
-    }
+    VOXTACT_TRY(needed);
     ContainedImage contained;
     const Result<Grid> grid = nrrdGrid(path, *header, *sizes, contained.notes);
-    if (!grid.ok()) {
-        return grid.error();
-    }
+    VOXTACT_TRY(grid);
     const Result<bool> swapped = isSwapped(path, *header, *type);
-    if (!swapped.ok()) {
-        return swapped.error();
-    }
+    VOXTACT_TRY(swapped);
     Result<ByteReader> voxels = openVoxels(source, std::move(*reader), *header, *needed);
-    if (!voxels.ok()) {
-        return voxels.error();
-    }
+    VOXTACT_TRY(voxels);
     contained.image = {*grid, *type, std::nullopt, {}};
-    if (Result<void> taken = takeVoxels(*voxels, contained.image, *swapped); !taken.ok()) {
-        return taken.error();
-    }
-    if (Result<void> whole = voxels->finish(); !whole.ok()) {
-        return whole.error();
-    }
+    VOXTACT_TRY(takeVoxels(*voxels, contained.image, *swapped));
+    VOXTACT_TRY(voxels->finish());
     return contained;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/volume_container.h"
+#include "core/try.h"
 
 #include "core/text.h"
 #include "io/errors.h"
@@ -72,9 +73,7 @@ namespace {
 /// A file whose ending says nothing.
 Error unknownFormat(const VolumeSource& source, const std::filesystem::path& path) {
     Result<ByteReader> reader = source.open(path);
-    if (!reader.ok()) {
-        return reader.error();
-    }
+    VOXTACT_TRY(reader);
     const Result<std::string> head = reader->head(132);
     if (head.ok() && head->size() == 132 && head->substr(128) == "DICM") {
         return cannotRead(path, "it is one DICOM file; give the folder that holds the series");
@@ -138,9 +137,7 @@ Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<
 Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped) {
     const std::size_t width = storedBytes(image.type);
     Result<std::vector<std::byte>> bytes = reader.take(voxelCount(image.grid) * width);
-    if (!bytes.ok()) {
-        return bytes.error();
-    }
+    VOXTACT_TRY(bytes);
     image.voxels = std::move(*bytes);
     for (std::size_t at = 0; swapped && width > 1 && at < image.voxels.size(); at += width) {
         std::reverse(image.voxels.data() + at, image.voxels.data() + at + width);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/volume/dicom_folder.h"
 #include "io/volume/volume_container.h"
@@ -19,9 +20,7 @@ Result<VolumeData> readFolder(const fs::path& path, const VolumeReadOptions& opt
 Result<VolumeData> readOne(const VolumeSource& source, const fs::path& path, const VolumeReadOptions& options,
                            std::vector<std::string>& notes) {
     Result<ContainedImage> contained = readContainer(source, path, options);
-    if (!contained.ok()) {
-        return contained.error();
-    }
+    VOXTACT_TRY(contained);
     notes = std::move(contained->notes);
     return toScalars(std::move(contained->image), path);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/volume/nifti_header.h"
 #include "io/volume/volume_container.h"
@@ -180,9 +181,7 @@ Result<void> writeVolume(const fs::path& path, const VolumeView& volume) {
             return cannotWrite(path, range.error().text, range.error().code);
         }
         const Result<std::string> head = headOf(path, volumeFormat(path).value_or(VolumeFormat::Nrrd), volume);
-        if (!head.ok()) {
-            return head.error();
-        }
+        VOXTACT_TRY(head);
         const std::string_view voxels(reinterpret_cast<const char*>(volume.voxels.data()), volume.voxels.size());
         return writeFile(path, [&](std::ostream& out) -> Result<void> {
             if (ending.ends_with(".gz")) {
