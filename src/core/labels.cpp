@@ -80,9 +80,7 @@ Result<LabelData> makeLabels(const VolumeView& volume) {
         LabelData out;
         out.grid = volume.grid;
         Result<void> made = visitVoxels(volume, [&](const auto* voxels) -> Result<void> {
-            if (Result<void> whole = checkWhole(volume.grid, voxels); !whole.ok()) {
-                return whole;
-            }
+            VOXTACT_TRY(checkWhole(volume.grid, voxels));
             Census census(*range);
             return fill(voxels, census, out);
         });

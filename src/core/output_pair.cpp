@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/output_pair.h"
 #include "core/text.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,9 +105,7 @@ Result<void> checkLabelValues(const LabelData& labels) {
 }
 
 Result<void> checkLabels(const LabelData& labels) {
-    if (Result<void> values = checkLabelValues(labels); !values.ok()) {
-        return values;
-    }
+    VOXTACT_TRY(checkLabelValues(labels));
     const auto largest = std::max_element(labels.indices.begin(), labels.indices.end());
     if (*largest >= labels.values.size()) {
         return refuse("the label map's voxel " + std::to_string(largest - labels.indices.begin()) + " has the index " +

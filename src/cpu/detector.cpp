@@ -37,9 +37,7 @@ Result<void> checkDesc(const DetectorDesc& desc) {
             return known;
         }
     }
-    if (Result<void> samples = checkSamples(desc.samplesPerVoxel); !samples.ok()) {
-        return samples;
-    }
+    VOXTACT_TRY(checkSamples(desc.samplesPerVoxel));
     return checkResolution(desc.resolution);
 }
 

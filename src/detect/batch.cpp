@@ -42,10 +42,7 @@ Result<void> checkView(const ContextImpl& context, const View& view) {
     if (view.width == 0 || view.height == 0) {
         return refuse("the viewport is " + size + ", it needs at least one pixel");
     }
-    if (Result<void> limits = checkLimits(context, {view.width, view.height}, "the viewport is " + size);
-        !limits.ok()) {
-        return limits;
-    }
+    VOXTACT_TRY(checkLimits(context, {view.width, view.height}, "the viewport is " + size));
     if (const Result<Mat4> world_from_clip = inverse(view.clip_from_world); !world_from_clip.ok()) {
         return refuse("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
     }
@@ -56,9 +53,7 @@ Result<void> checkView(const ContextImpl& context, const View& view) {
 Result<void> checkDominant(const ContextImpl& context, const DetectorDesc& desc, const BatchItem& item,
                            const std::string& which) {
     if (desc.method != CountingMethod::Compute) {
-        if (Result<void> storage = checkStorage(item, "the projection dominant-axis"); !storage.ok()) {
-            return storage;
-        }
+        VOXTACT_TRY(checkStorage(item, "the projection dominant-axis"));
     }
     const Grid& grid = item.volume->grid();
     const std::uint64_t side = dominantSide(grid, desc.samplesPerVoxel);

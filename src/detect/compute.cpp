@@ -42,12 +42,8 @@ Result<void> ComputePass::check(const Batch& batch) const {
                          "the viewport is " + std::to_string(viewport.width) + "x" + std::to_string(viewport.height) +
                              ", the counting method compute does at most " + std::to_string(kMost) + " pixels a side"};
         }
-        if (Result<void> storage = checkStorage(item, "the counting method compute"); !storage.ok()) {
-            return storage;
-        }
-        if (Result<void> groups = checkGroups(*context_, *item.mesh); !groups.ok()) {
-            return groups;
-        }
+        VOXTACT_TRY(checkStorage(item, "the counting method compute"));
+        VOXTACT_TRY(checkGroups(*context_, *item.mesh));
     }
     return {};
 }

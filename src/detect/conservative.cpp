@@ -61,12 +61,8 @@ Result<void> ConservativePass::check(const Batch& batch) const {
             return Error{ErrorCode::InvalidArgument, 0,
                          which + "a transfer function whose table the host knows (WrappedTransferFunction::table)"};
         }
-        if (Result<void> storage = checkStorage(item, "the projection conservative"); !storage.ok()) {
-            return storage;
-        }
-        if (Result<void> groups = checkGroups(*context_, *item.mesh); !groups.ok()) {
-            return groups;
-        }
+        VOXTACT_TRY(checkStorage(item, "the projection conservative"));
+        VOXTACT_TRY(checkGroups(*context_, *item.mesh));
     }
     return {};
 }

@@ -110,12 +110,8 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "DetectorDesc::stopAtFirst is for the projection conservative; a boolean query is query-any"};
     }
-    if (Result<void> resolution = checkResolution(desc.resolution); !resolution.ok()) {
-        return resolution;
-    }
-    if (Result<void> samples = checkSamples(desc.samplesPerVoxel); !samples.ok()) {
-        return samples;
-    }
+    VOXTACT_TRY(checkResolution(desc.resolution));
+    VOXTACT_TRY(checkSamples(desc.samplesPerVoxel));
     return checkOverestimate(context, desc);
 }
 
@@ -165,9 +161,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
     return guard([&]() -> Result<void> {
         ContextImpl& context = live(impl_).context;
         ResultsImpl& slot = results.impl();
-        if (Result<void> recordable = context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(context.recordable(commandBuffer));
         if (&slot.context != &context) {
             return Error{ErrorCode::InvalidArgument, 0, "the Results belong to another Context"};
         }
@@ -185,12 +179,8 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                              std::to_string(slot.maxTransforms / (transforms / *pairs)) + " by the projection " +
                              toString(live(impl_).desc.projection) + " within the device's maxStorageBufferRange"};
         }
-        if (Result<void> outputs = checkOutputs(context, batch, live(impl_).desc.outputs, slot); !outputs.ok()) {
-            return outputs;
-        }
-        if (Result<void> checked = checkPass(live(impl_).pass, batch); !checked.ok()) {
-            return checked;
-        }
+        VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
+        VOXTACT_TRY(checkPass(live(impl_).pass, batch));
         slot.pairs = *pairs;
         slot.detectRecorded = true;
         slot.readBackRecorded = false;

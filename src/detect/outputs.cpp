@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/outputs.h"
 #include "core/output_pair.h"
+#include "core/try.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 
@@ -63,9 +64,7 @@ Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc) 
     if (!desc.outputs.any()) {
         return {};
     }
-    if (Result<void> outputs = checkOutputs(desc.outputs); !outputs.ok()) {
-        return outputs;
-    }
+    VOXTACT_TRY(checkOutputs(desc.outputs));
     if (desc.method != CountingMethod::Compute && !context.features.fragmentStoresAndAtomics) {
         return unsupported("fragmentStoresAndAtomics is not enabled");
     }
@@ -89,9 +88,7 @@ Result<void> checkOutputs(const ContextImpl& context, const Batch& batch, const 
     if (!outputs.any()) {
         return {};
     }
-    if (Result<void> labels = checkLabelMaps(context, batch, outputs); !labels.ok()) {
-        return labels;
-    }
+    VOXTACT_TRY(checkLabelMaps(context, batch, outputs));
     if (results.outputs == nullptr) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "the detector has outputs, the Results were made without room for them (ResultsDesc::room)"};

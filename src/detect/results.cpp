@@ -54,10 +54,7 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     }
     if (desc.timestamps) {
         constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-        if (Result<void> family = context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily");
-            !family.ok()) {
-            return family;
-        }
+        VOXTACT_TRY(context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily"));
     }
     if (desc.timestamps && context.timestampBits(desc.queueFamily) == 0) {
         return Error{ErrorCode::Unsupported, 0,
@@ -135,18 +132,14 @@ Error notReady(const char* text) {
 }
 
 Result<void> checkReadable(const ResultsImpl& results) {
-    if (Result<void> alive = results.context.alive(); !alive.ok()) {
-        return alive;
-    }
+    VOXTACT_TRY(results.context.alive());
     if (!results.readBackRecorded) {
         return notReady("cmdReadBack() was not recorded after the last cmdDetect()");
     }
     if (results.pairs == 0) {
         return {};
     }
-    if (Result<void> visible = invalidate(results.context, results.readBack); !visible.ok()) {
-        return visible;
-    }
+    VOXTACT_TRY(invalidate(results.context, results.readBack));
     if (copyOnHost(results) != results.copies) {
         return notReady("the submission with the last cmdReadBack() has not completed");
     }
@@ -203,9 +196,7 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
         if (!r.readBack.buffer) {
             return Error{ErrorCode::InvalidArgument, 0, "the Results were made without readBack"};
         }
-        if (Result<void> recordable = r.context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(r.context.recordable(commandBuffer));
         if (!r.detectRecorded) {
             return notReady("there is nothing to read back: cmdDetect() was not recorded");
         }
@@ -246,9 +237,7 @@ Result<std::span<const PairResult>> Results::read() {
 Result<void> Results::readOutputs(BatchAnswer& answer) {
     return guard([&]() -> Result<void> {
         const ResultsImpl& r = live(impl_);
-        if (Result<void> readable = checkReadable(r); !readable.ok()) {
-            return readable;
-        }
+        VOXTACT_TRY(checkReadable(r));
         answer.triangles.clear();
         answer.contacts.clear();
         answer.contactsFound = 0;
@@ -257,9 +246,7 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
         if (r.outputs == nullptr || r.pairs == 0) {
             return {};
         }
-        if (Result<void> visible = invalidate(r.context, r.outputs->readBack); !visible.ok()) {
-            return visible;
-        }
+        VOXTACT_TRY(invalidate(r.context, r.outputs->readBack));
         return unpackOutputs(*r.outputs, answer);
     });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/pair_pipeline.h"
-#include "core/try.h"
 
 #include "core/batch_cutter.h"
+#include "core/try.h"
 #include "device/created.h"
 
 #include <algorithm>
@@ -105,12 +105,8 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
     if (result != VK_SUCCESS) {
         return vulkanError(result, "recording the pairs failed");
     }
-    if (Result<void> recorded = detector.cmdDetect(flight.commands, part, *flight.results); !recorded.ok()) {
-        return recorded;
-    }
-    if (Result<void> recorded = flight.results->cmdReadBack(flight.commands); !recorded.ok()) {
-        return recorded;
-    }
+    VOXTACT_TRY(detector.cmdDetect(flight.commands, part, *flight.results));
+    VOXTACT_TRY(flight.results->cmdReadBack(flight.commands));
     result = vk.vkEndCommandBuffer(flight.commands);
     if (result == VK_SUCCESS) {
         // Before the submission, so that a failure leaves no fence that says too early that the next one is done.
@@ -159,10 +155,7 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
         events.pair(timed);
     }
     BatchAnswer answer;
-    if (Result<void> unpacked = desc.room ? results.readOutputs(flight.frame, answer) : Result<void>();
-        !unpacked.ok()) {
-        return unpacked;
-    }
+    VOXTACT_TRY(desc.room ? results.readOutputs(flight.frame, answer) : Result<void>());
     if (events.submission) {
         events.submission(answer);
     }
@@ -182,9 +175,7 @@ Result<void> PairPipeline::State::run(const Batch& batch, const Events& events) 
     for (std::size_t landed = 0; more || landed < flights.size(); next = (next + 1) % flights.size()) {
         Flight& flight = flights[next];
         if (flight.pending) {
-            if (Result<void> done = land(flight, events); !done.ok()) {
-                return done;
-            }
+            VOXTACT_TRY(land(flight, events));
         }
         more = more && !(events.stop && events.stop()) &&
                cutter.next(events.pace != nullptr ? events.pace->size() : desc.pairsPerSubmission, items, pieces);
@@ -193,9 +184,7 @@ Result<void> PairPipeline::State::run(const Batch& batch, const Events& events) 
             continue;
         }
         flight.pieces = pieces;
-        if (Result<void> done = launch(flight, {items, batch.view, batch.threshold}); !done.ok()) {
-            return done;
-        }
+        VOXTACT_TRY(launch(flight, {items, batch.view, batch.threshold}));
     }
     return {};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/session.h"
+
 #include "core/try.h"
 
 namespace voxtact::app {

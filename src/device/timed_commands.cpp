@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/timed_commands.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "device/created.h"
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/timed_submission.h"
+
 #include "core/try.h"
 
 #include <chrono>
@@ -16,16 +17,10 @@ Result<void> TimedSubmission::submit(const std::function<Result<void>(VkCommandB
     const Result<VkCommandBuffer> begun = commands_.begin();
     VOXTACT_TRY(begun);
     commands_.cmdStamp(0);
-    if (Result<void> recorded = record(*begun); !recorded.ok()) {
-        return recorded;
-    }
+    VOXTACT_TRY(record(*begun));
     commands_.cmdStamp(1);
-    if (Result<void> ended = commands_.end(); !ended.ok()) {
-        return ended;
-    }
-    if (Result<void> submitted = commands_.submit(); !submitted.ok()) {
-        return submitted;
-    }
+    VOXTACT_TRY(commands_.end());
+    VOXTACT_TRY(commands_.submit());
     return commands_.wait();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_device.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "device/created.h"
 #include "device/enumerate.h"
 #include "device/vulkan_instance.h"

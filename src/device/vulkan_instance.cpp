@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_instance.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "device/enumerate.h"
 
 #include "device/created.h"

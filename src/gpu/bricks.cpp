@@ -52,9 +52,7 @@ Result<void> makeBricks(VolumeImpl& volume, const char* name) {
                          " bytes, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
-    if (Result<void> made = makePipeline(context); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makePipeline(context));
     Result<Buffer> buffer =
         makeBuffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                    MemoryUse::Device, (std::string(name) + " bricks").c_str());

@@ -87,17 +87,13 @@ Result<void> makeSetLayouts(ContextImpl& context) {
         {VOXTACT_BINDING_TRANSFORMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
         {VOXTACT_BINDING_RESULTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
     };
-    if (Result<void> made = makeSetLayout(context, SetIndex::Volume, volume, "volume set layout"); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeSetLayout(context, SetIndex::Volume, volume, "volume set layout"));
     if (Result<void> made =
             makeSetLayout(context, SetIndex::TransferFunction, function, "transfer function set layout");
         !made.ok()) {
         return made;
     }
-    if (Result<void> made = makeSetLayout(context, SetIndex::Pairs, pairs, "pairs set layout"); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeSetLayout(context, SetIndex::Pairs, pairs, "pairs set layout"));
     const VkDescriptorSetLayoutBinding mesh[] = {
         {VOXTACT_BINDING_VERTICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
         {VOXTACT_BINDING_INDICES, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kStages, nullptr},
@@ -116,16 +112,10 @@ constexpr VkPushConstantRange kComputeConstants[] = {
 
 Result<void> makeLayouts(ContextImpl& context) {
     const std::span<const VkDescriptorSetLayout> sets(context.setLayouts);
-    if (Result<void> made = makePipelineLayout(context, context.rasterLayout, sets.first(VOXTACT_SET_PAIRS + 1),
-                                               std::span(kRasterConstants).first(1), "raster pipeline layout");
-        !made.ok()) {
-        return made;
-    }
-    if (Result<void> made = makePipelineLayout(context, context.dominantLayout, sets.first(VOXTACT_SET_MESH + 1),
-                                               kRasterConstants, "dominant-axis pipeline layout");
-        !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makePipelineLayout(context, context.rasterLayout, sets.first(VOXTACT_SET_PAIRS + 1),
+                                   std::span(kRasterConstants).first(1), "raster pipeline layout"));
+    VOXTACT_TRY(makePipelineLayout(context, context.dominantLayout, sets.first(VOXTACT_SET_MESH + 1), kRasterConstants,
+                                   "dominant-axis pipeline layout"));
     if (context.limits.maxPerStageDescriptorStorageBuffers < kComputeStorageBuffers) {
         return {};
     }
@@ -142,17 +132,13 @@ Result<void> makeOutputSetLayouts(ContextImpl& context) {
         {VOXTACT_BINDING_OUTPUT_PAIRS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kWriters, nullptr},
         {VOXTACT_BINDING_OUTPUTS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kWriters, nullptr},
     };
-    if (Result<void> made = makeSetLayout(context, context.outputSetLayout, kPairs, "output set layout"); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeSetLayout(context, context.outputSetLayout, kPairs, "output set layout"));
     constexpr VkDescriptorSetLayoutBinding kLabels{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, kWriters, nullptr};
     return makeSetLayout(context, context.labelSetLayout, {&kLabels, 1}, "label set layout");
 }
 
 Result<void> makeOutputLayouts(ContextImpl& context) {
-    if (Result<void> made = makeOutputSetLayouts(context); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeOutputSetLayouts(context));
     if (context.limits.maxBoundDescriptorSets < kOutputSets ||
         context.limits.maxPerStageDescriptorStorageBuffers < kOutputStorageBuffers) {
         return {};
@@ -161,11 +147,8 @@ Result<void> makeOutputLayouts(ContextImpl& context) {
                                           context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], context.outputSetLayout,
                                           context.setLayouts[VOXTACT_SET_MESH], context.labelSetLayout};
     static_assert(std::size(sets) == kOutputSets && kOutputSets == VOXTACT_SET_LABELS + 1);
-    if (Result<void> made = makePipelineLayout(context, context.rasterOutputLayout, sets, kRasterConstants,
-                                               "raster pipeline layout with outputs");
-        !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makePipelineLayout(context, context.rasterOutputLayout, sets, kRasterConstants,
+                                   "raster pipeline layout with outputs"));
     return makePipelineLayout(context, context.computeOutputLayout, sets, kComputeConstants,
                               "compute pipeline layout with outputs");
 }

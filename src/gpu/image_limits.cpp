@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/image_limits.h"
 
+#include "core/try.h"
+
 #include <algorithm>
 
 namespace voxtact {
@@ -31,9 +33,7 @@ Result<void> checkSampledLayout(VkImageLayout layout, const char* what) {
 
 Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage,
                               std::size_t bytesOfVoxel, const std::string& what) {
-    if (Result<void> sides = checkSides(context, grid, what); !sides.ok()) {
-        return sides;
-    }
+    VOXTACT_TRY(checkSides(context, grid, what));
     VkImageFormatProperties properties{};
     const VkResult result = context.vk.GetPhysicalDeviceImageFormatProperties(
         context.physicalDevice, format, VK_IMAGE_TYPE_3D, VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);

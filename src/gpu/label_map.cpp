@@ -33,9 +33,7 @@ Result<void> fillMap(LabelMapImpl& map, const LabelData& data, const char* name)
     VOXTACT_TRY(staging);
     map.staging = std::move(*staging);
     std::memcpy(map.staging.mapped, data.indices.data(), bytes);
-    if (Result<void> flushed = flush(context, map.staging); !flushed.ok()) {
-        return flushed;
-    }
+    VOXTACT_TRY(flush(context, map.staging));
     Result<DescriptorSet> set = makeLabelSet(context, map.image.view.get(), name);
     VOXTACT_TRY(set);
     map.descriptors = std::move(*set);
@@ -82,9 +80,7 @@ Result<void> LabelMap::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!live(impl_).staging.buffer) {
             return notUploadable("label map");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Label label(live(impl_).context, commandBuffer, "voxtact label map upload");
         cmdFillImage(live(impl_).context, commandBuffer, live(impl_).staging.get(), live(impl_).image.image.get(),
                      extentOf(live(impl_).grid));

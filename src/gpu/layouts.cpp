@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/layouts.h"
+#include "core/try.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
 
@@ -25,9 +26,7 @@ Result<void> makeSetLayout(ContextImpl& context, VkDescriptorSetLayout& out,
 Result<void> makeSetLayout(ContextImpl& context, Owned<VkDescriptorSetLayout>& out,
                            std::span<const VkDescriptorSetLayoutBinding> bindings, const char* name) {
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    if (Result<void> made = makeSetLayout(context, layout, bindings, name); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeSetLayout(context, layout, bindings, name));
     out = {context, layout, [](ContextImpl& c, VkDescriptorSetLayout handle) {
                c.vk.DestroyDescriptorSetLayout(c.device, handle, c.allocator);
            }};
@@ -57,9 +56,7 @@ Result<void> makePipelineLayout(ContextImpl& context, Owned<VkPipelineLayout>& o
                                 std::span<const VkDescriptorSetLayout> sets,
                                 std::span<const VkPushConstantRange> constants, const char* name) {
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    if (Result<void> made = makePipelineLayout(context, layout, sets, constants, name); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makePipelineLayout(context, layout, sets, constants, name));
     out = {context, layout,
            [](ContextImpl& c, VkPipelineLayout handle) { c.vk.DestroyPipelineLayout(c.device, handle, c.allocator); }};
     return {};

@@ -51,9 +51,7 @@ Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions
     mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    if (Result<void> made = makeStaged(context, total, kUsage, name, mesh.buffer, mesh.staging); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeStaged(context, total, kUsage, name, mesh.buffer, mesh.staging));
     mesh.vertices = mesh.buffer.get();
     mesh.indices = mesh.buffer.get();
     mesh.indexOffset = positions;
@@ -194,9 +192,7 @@ Result<void> Mesh::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!live(impl_).staging.buffer) {
             return notUploadable("mesh");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Label label(live(impl_).context, commandBuffer, "voxtact mesh upload");
         cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
         live(impl_).uploaded = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/pipeline.h"
+
 #include "core/try.h"
 #include "gpu/debug.h"
 

@@ -54,9 +54,7 @@ template <class Object>
     VOXTACT_TRY(submitter);
     const Result<VkCommandBuffer> commandBuffer = submitter->begin();
     VOXTACT_TRY(commandBuffer);
-    if (Result<void> recorded = object.cmdUpload(*commandBuffer); !recorded.ok()) {
-        return recorded;
-    }
+    VOXTACT_TRY(object.cmdUpload(*commandBuffer));
     Result<void> done = submitter->submitAndWait();
     if (done.ok()) {
         object.releaseStaging();

@@ -85,16 +85,10 @@ Result<void> fillTable(TransferFunctionImpl& function, const char* name) {
     const TableExtremes extremes(function.table);
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-    if (Result<void> made = makeExtremes(function, extremes, kUsage, MemoryUse::Device, "transfer function extremes",
-                                         function.extremes);
-        !made.ok()) {
-        return made;
-    }
-    if (Result<void> made = makeExtremes(function, extremes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
-                                         "transfer function staging", function.staging);
-        !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(
+        makeExtremes(function, extremes, kUsage, MemoryUse::Device, "transfer function extremes", function.extremes));
+    VOXTACT_TRY(makeExtremes(function, extremes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
+                             "transfer function staging", function.staging));
     return describe(function, function.image.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, name);
 }
 
@@ -179,9 +173,7 @@ Result<void> TransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!live(impl_).staging.buffer) {
             return notUploadable("transfer function");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Label label(live(impl_).context, commandBuffer, "voxtact transfer function upload");
         cmdBeginFilling(live(impl_), commandBuffer);
         const VkBufferCopy whole{0, 0, live(impl_).extremes.size};
@@ -194,12 +186,8 @@ Result<void> TransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
 
 Result<void> TransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<void> {
-        if (Result<void> checked = checkUpdate(live(impl_), desc); !checked.ok()) {
-            return checked;
-        }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(checkUpdate(live(impl_), desc));
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         Result<std::vector<float>> table = sampleTable(desc);
         VOXTACT_TRY(table);
         const TableExtremes extremes(*table);

@@ -129,18 +129,12 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const Volume
     VOXTACT_TRY(staging);
     volume.staging = std::move(*staging);
     fillTexels(data.type, data.voxels, static_cast<std::byte*>(volume.staging.mapped));
-    if (Result<void> flushed = flush(context, volume.staging); !flushed.ok()) {
-        return flushed;
-    }
+    VOXTACT_TRY(flush(context, volume.staging));
     if (options.editable) {
-        if (Result<void> made = makeEditScratch(volume); !made.ok()) {
-            return made;
-        }
+        VOXTACT_TRY(makeEditScratch(volume));
     }
     if (options.bricks) {
-        if (Result<void> made = makeBricks(volume, name); !made.ok()) {
-            return made;
-        }
+        VOXTACT_TRY(makeBricks(volume, name));
     }
     return describe(volume, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, name);
 }
@@ -158,12 +152,8 @@ Result<void> checkWrapped(const ContextImpl& context, const WrappedVolume& wrapp
         return Error{ErrorCode::InvalidArgument, 0,
                      "WrappedVolume::slope and intercept must be finite, the slope not zero"};
     }
-    if (Result<void> layout = checkSampledLayout(wrapped.layout, "WrappedVolume::layout"); !layout.ok()) {
-        return layout;
-    }
-    if (Result<void> grid = checkGrid(wrapped.grid); !grid.ok()) {
-        return grid;
-    }
+    VOXTACT_TRY(checkSampledLayout(wrapped.layout, "WrappedVolume::layout"));
+    VOXTACT_TRY(checkGrid(wrapped.grid));
     return checkSides(context, wrapped.grid, "WrappedVolume::grid");
 }
 
@@ -236,9 +226,7 @@ Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!live(impl_).staging.buffer) {
             return notUploadable("volume");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Label label(live(impl_).context, commandBuffer, "voxtact volume upload");
         cmdFillImage(live(impl_).context, commandBuffer, live(impl_).staging.get(), live(impl_).image.image.get(),
                      extentOf(live(impl_).grid));
@@ -258,9 +246,7 @@ Result<void> Volume::cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelB
         if (!live(impl_).uploaded) {
             return neverUploaded("the volume");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Result<VoxelBox> box = voxelBounds(changed, live(impl_).grid);
         VOXTACT_TRY(box);
         if (!isEmpty(*box)) {

@@ -197,9 +197,7 @@ void write(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::span<const 
 Result<void> Volume::cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value) {
     return guard([&]() -> Result<void> {
         VolumeImpl& volume = live(impl_);
-        if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
-            return editable;
-        }
+        VOXTACT_TRY(checkEditable(volume, commandBuffer));
         const Result<VoxelBox> bounds = voxelBounds(region, volume.grid);
         VOXTACT_TRY(bounds);
         const Result<VoxelBytes> voxel = voxelOf(volume.type, value);
@@ -223,9 +221,7 @@ Result<void> Volume::cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& re
 Result<void> Volume::cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box, std::span<const std::byte> voxels) {
     return guard([&]() -> Result<void> {
         VolumeImpl& volume = live(impl_);
-        if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
-            return editable;
-        }
+        VOXTACT_TRY(checkEditable(volume, commandBuffer));
         VOXTACT_TRY(voxelBounds(box, volume.grid));
         const Result<ValueRange> values = checkVoxels(volume.type, box, voxels);
         VOXTACT_TRY(values);
@@ -242,9 +238,7 @@ Result<void> Volume::cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box
 Result<void> Volume::cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box, VkBuffer source, VkDeviceSize offset) {
     return guard([&]() -> Result<void> {
         VolumeImpl& volume = live(impl_);
-        if (Result<void> editable = checkEditable(volume, commandBuffer); !editable.ok()) {
-            return editable;
-        }
+        VOXTACT_TRY(checkEditable(volume, commandBuffer));
         VOXTACT_TRY(voxelBounds(box, volume.grid));
         if (source == VK_NULL_HANDLE) {
             return refuse("the buffer to copy voxels from is null");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/errors.h"
+
 #include "core/try.h"
 
 #include <algorithm>

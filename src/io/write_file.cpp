@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+
 #include "core/try.h"
 #include "io/errors.h"
 #include "io/file_buffer.h"
@@ -149,9 +150,7 @@ Result<void> OutputFile::close() {
 Result<void> OutputFile::commit() {
     return guard([&]() -> Result<void> {
         if (!state_->closed) {
-            if (Result<void> closed = close(); !closed.ok()) {
-                return closed;
-            }
+            VOXTACT_TRY(close());
         }
         return state_->temporary ? state_->temporary->renameTo(*state_->target) : Result<void>();
     });

@@ -24,16 +24,12 @@ Result<void> addHostOutputs(Engines& engines) {
     constexpr std::array kOrder{Projection::View, Projection::Conservative, Projection::TwoView,
                                 Projection::DominantAxis};
     for (const Projection projection : kOrder) {
-        if (Result<void> added = add(makeHostEngine({.projection = projection}), engines); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(add(makeHostEngine({.projection = projection}), engines));
     }
     for (const std::size_t bare : {std::size_t{0}, std::size_t{1}}) {
         for (const Outputs& outputs : kOneOutput) {
             MadeEngine engine = makeHostEngine({.projection = kOrder.at(bare), .outputs = outputs});
-            if (Result<void> added = add(std::move(engine), engines, bare, true); !added.ok()) {
-                return added;
-            }
+            VOXTACT_TRY(add(std::move(engine), engines, bare, true));
         }
     }
     return {};
@@ -50,16 +46,12 @@ Result<void> addDeviceOutputs(const Session& session, CountingMethod method, Pro
         }
         bare = projection == withOutputs ? engines.size() : bare;
         desc.projection = projection;
-        if (Result<void> added = add(makeBlockingEngine(session, desc), engines, view); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(add(makeBlockingEngine(session, desc), engines, view));
     }
     desc.projection = withOutputs;
     for (const Outputs& outputs : kOneOutput) {
         desc.outputs = outputs;
-        if (Result<void> added = add(makeBlockingEngine(session, desc), engines, bare, true); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(add(makeBlockingEngine(session, desc), engines, bare, true));
     }
     return {};
 }
@@ -70,9 +62,7 @@ Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const 
          {cpu::DetectorDesc{.threads = 1, .stopAtFirst = true, .projection = kCertified},
           cpu::DetectorDesc{.projection = kCertified}, cpu::DetectorDesc{.stopAtFirst = true, .projection = kCertified},
           cpu::DetectorDesc{.projection = Projection::View}}) {
-        if (Result<void> added = add(makeHostEngine(desc), engines); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(add(makeHostEngine(desc), engines));
     }
     const DetectorDesc all{.method = CountingMethod::Compute, .projection = kCertified, .filter = Filter::Exact};
     DetectorDesc yesNo = all;
@@ -81,9 +71,7 @@ Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const 
         if (session == nullptr || !session->context.supports(desc.method, desc.projection)) {
             continue;
         }
-        if (Result<void> added = add(makeBlockingEngine(*session, desc), engines); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(add(makeBlockingEngine(*session, desc), engines));
     }
     for (const FclScalar scalar : {FclScalar::Float, FclScalar::Double}) {
         if (volume.fcl != nullptr) {
@@ -94,9 +82,7 @@ Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const 
 }
 
 Result<void> addOutputs(const Session* session, Engines& engines) {
-    if (Result<void> added = addHostOutputs(engines); !added.ok()) {
-        return added;
-    }
+    VOXTACT_TRY(addHostOutputs(engines));
     constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
         {CountingMethod::Query, Projection::View},
         {CountingMethod::Atomic, Projection::View},
@@ -106,9 +92,7 @@ Result<void> addOutputs(const Session* session, Engines& engines) {
         if (session == nullptr || !session->context.supports(method, withOutputs)) {
             continue;
         }
-        if (Result<void> added = addDeviceOutputs(*session, method, withOutputs, engines); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(addDeviceOutputs(*session, method, withOutputs, engines));
     }
     return {};
 }

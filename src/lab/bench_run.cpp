@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/bench_run.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/random_poses.h"
 
 #include <algorithm>
@@ -138,9 +138,7 @@ std::span<const char* const> kindsOf(BenchMode mode) {
 /// The sets of poses of a mesh: verified, then timed.
 Result<void> benchMesh(const BenchSettings& settings, const VolumePart& volume, MeshPart& mesh, const Session* session,
                        const std::function<void()>& step, BenchResult& result) {
-    if (Result<void> ready = makeReady(session, mesh); !ready.ok()) {
-        return ready;
-    }
+    VOXTACT_TRY(makeReady(session, mesh));
     const Result<Engines> engines = makeBenchEngines(settings.mode, volume, mesh, session);
     VOXTACT_TRY(engines);
     const Work work{volume, mesh, {}, {framingCamera(volume.data.grid, 512, 512), 512, 512}};
@@ -149,13 +147,9 @@ Result<void> benchMesh(const BenchSettings& settings, const VolumePart& volume, 
         VOXTACT_TRY(poses);
         Case one{.engines = &*engines, .work = {}, .poses = std::move(*poses), .passes = {}, .some = {}};
         one.work = work.at(one.poses);
-        if (Result<void> verified = verifyCase(one, kind, result); !verified.ok()) {
-            return verified;
-        }
+        VOXTACT_TRY(verifyCase(one, kind, result));
         for (std::uint32_t round = 0; round < settings.repetitions && result.disagreement.empty(); ++round) {
-            if (Result<void> done = timeRound(one, result); !done.ok()) {
-                return done;
-            }
+            VOXTACT_TRY(timeRound(one, result));
             step();
         }
     }
@@ -195,18 +189,14 @@ Result<void> bench(const BenchSettings& settings, const Session* session, Volume
         volume.labels = octants(volume.data.grid);
     }
     if (session != nullptr) {
-        if (Result<void> uploaded = upload(*session, {.bricks = true}, volume); !uploaded.ok()) {
-            return uploaded;
-        }
+        VOXTACT_TRY(upload(*session, {.bricks = true}, volume));
     }
     if (settings.mode == BenchMode::Certified) {
         result.notes.push_back(makeOctree(volume));
     }
     steps.begin(kindsOf(settings.mode).size() * settings.repetitions * meshes.size());
     for (MeshPart& mesh : meshes) {
-        if (Result<void> done = benchMesh(settings, volume, mesh, session, steps.step, result); !done.ok()) {
-            return done;
-        }
+        VOXTACT_TRY(benchMesh(settings, volume, mesh, session, steps.step, result));
     }
     return {};
 }

@@ -86,9 +86,7 @@ Result<void> findByAll(const Engines& engines, const Work& work, bool keep, std:
         if (engines[i] == nullptr) {
             continue;
         }
-        if (Result<void> one = findOne(*engines[i], work, keep, ways[i]); !one.ok()) {
-            return one;
-        }
+        VOXTACT_TRY(findOne(*engines[i], work, keep, ways[i]));
     }
     return {};
 }
@@ -99,9 +97,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
                      LocalizeResult& result, const std::function<void()>& step) {
     const Work work(scene);
     std::vector<LocalizeWay> unkept = result.ways;
-    if (Result<void> warm = findByAll(engines, work.at(work.poses.first(1)), true, unkept); !warm.ok()) {
-        return warm;
-    }
+    VOXTACT_TRY(findByAll(engines, work.at(work.poses.first(1)), true, unkept));
     const Stopwatch watch;
     for (std::uint32_t round = 0; round < settings.repeats; ++round) {
         if (round > 0 && watch.milliseconds() * (round + 1) / round > settings.timeLimit * 1000) {
@@ -111,9 +107,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
         }
         for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
             const Work one = work.at(work.poses.subspan(pose, 1));
-            if (Result<void> found = findByAll(engines, one, round == 0, result.ways); !found.ok()) {
-                return found;
-            }
+            VOXTACT_TRY(findByAll(engines, one, round == 0, result.ways));
             step();
         }
     }
@@ -146,20 +140,12 @@ Result<void> localize(const Session& session, const CompareSettings& settings, c
                       LocalizeResult& result, const std::function<void()>& step) {
     result.poseNumbers = scene.poseNumbers;
     result.triangles = scene.mesh->triangles();
-    if (Result<void> fits = checkViewport(session, {scene.view.width, scene.view.height}); !fits.ok()) {
-        return fits;
-    }
-    if (Result<void> ready = makeReady(session, {}, *scene.volume); !ready.ok()) {
-        return ready;
-    }
-    if (Result<void> ready = makeReady(&session, *scene.mesh); !ready.ok()) {
-        return ready;
-    }
+    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
+    VOXTACT_TRY(makeReady(session, {}, *scene.volume));
+    VOXTACT_TRY(makeReady(&session, *scene.mesh));
     const Result<Engines> engines = makeWays(session, scene, result);
     VOXTACT_TRY(engines);
-    if (Result<void> found = findAll(*engines, settings, scene, result, step); !found.ok()) {
-        return found;
-    }
+    VOXTACT_TRY(findAll(*engines, settings, scene, result, step));
     judgeLocalize(result);
     return listWrong(*engines->back(), scene, result);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_points.h"
+
 #include "core/try.h"
 
 #include <algorithm>
@@ -137,9 +138,7 @@ Result<void> measure(std::vector<Point>& points, const CompareSettings& settings
                 point.finished = true;
                 continue;
             }
-            if (Result<void> done = takeSample(point); !done.ok()) {
-                return done;
-            }
+            VOXTACT_TRY(takeSample(point));
         }
         step();
     }

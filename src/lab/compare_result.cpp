@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_result.h"
+
 #include "core/try.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_run.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_timing.h"
 
 #include <algorithm>
@@ -53,17 +53,11 @@ void addOracleSeries(const Scene& scene, CompareResult& result) {
 
 Result<void> compare(const CompareSettings& settings, const Scene& scene, const Session& session, const Steps& steps,
                      CompareResult& result) {
-    if (Result<void> fits = checkViewport(session, {scene.view.width, scene.view.height}); !fits.ok()) {
-        return fits;
-    }
+    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
     result.poseNumbers = scene.poseNumbers;
     result.triangles = scene.mesh->triangles();
-    if (Result<void> ready = makeReady(session, {}, *scene.volume); !ready.ok()) {
-        return ready;
-    }
-    if (Result<void> ready = makeReady(&session, *scene.mesh); !ready.ok()) {
-        return ready;
-    }
+    VOXTACT_TRY(makeReady(session, {}, *scene.volume));
+    VOXTACT_TRY(makeReady(&session, *scene.mesh));
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
     VOXTACT_TRY(engines);
     std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, scene.poses.size());
@@ -76,17 +70,12 @@ Result<void> compare(const CompareSettings& settings, const Scene& scene, const 
     result.counts = std::move(*counts);
     result.verdicts = judgeCounts(result.counts, scene.poseNumbers);
     steps.step();
-    if (Result<void> checked = checkFragments(session, settings, scene, result, steps.step); !checked.ok()) {
-        return checked;
-    }
+    VOXTACT_TRY(checkFragments(session, settings, scene, result, steps.step));
     for (const Sweep sweep : settings.sweeps) {
         if (result.firstFailure() != nullptr && !settings.keepGoing) {
             break;
         }
-        if (Result<void> timed = timeSweep(session, settings, scene, *engines, sweep, result, steps.step);
-            !timed.ok()) {
-            return timed;
-        }
+        VOXTACT_TRY(timeSweep(session, settings, scene, *engines, sweep, result, steps.step));
         if (sweep == Sweep::Batch) {
             addOracleSeries(scene, result);
         }

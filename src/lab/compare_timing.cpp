@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_timing.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_points.h"
 
 #include <algorithm>
@@ -92,10 +92,7 @@ class SweptPoints {
     /// Of the poses that are swept; what it is given must outlive it.
     Result<void> add(const VolumePart& volume, const MeshPart& mesh, const View& view, const std::string& where) {
         const Work work{volume, mesh, some_.poses, view};
-        if (Result<void> verified = verifyPoint(engines_, work, some_.poseNumbers, where, sweep_, result_);
-            !verified.ok()) {
-            return verified;
-        }
+        VOXTACT_TRY(verifyPoint(engines_, work, some_.poseNumbers, where, sweep_, result_));
         addPoints(sweep_, engines_, work, points_);
         return {};
     }
@@ -134,9 +131,7 @@ Result<void> timeBatches(const CompareSettings& settings, const Engines& engines
     for (const std::unique_ptr<Engine>& engine : engines) {
         points.push_back(makePoint(Sweep::Batch, *engine, work.at(one), Mode::Sync, 1));
     }
-    if (Result<void> done = measure(points, settings, result, step); !done.ok()) {
-        return done;
-    }
+    VOXTACT_TRY(measure(points, settings, result, step));
     for (std::size_t i = points.size() - engines.size(), end = points.size(); i < end; ++i) {
         for (std::size_t batch = 1; batch < kBatches.size(); ++batch) {
             Point copy = points[i];
@@ -164,13 +159,9 @@ Result<void> timeTriangles(const Session& session, const CompareSettings& settin
         }
         MeshPart& mesh = *meshes.emplace_back(std::make_unique<MeshPart>());
         mesh.data = std::move(*data);
-        if (Result<void> ready = makeReady(&session, mesh); !ready.ok()) {
-            return ready;
-        }
+        VOXTACT_TRY(makeReady(&session, mesh));
         const std::string where = std::to_string(triangles) + " triangles";
-        if (Result<void> added = points.add(*scene.volume, mesh, scene.view, where); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(points.add(*scene.volume, mesh, scene.view, where));
     }
     return points.measure(settings, step);
 }
@@ -188,9 +179,7 @@ Result<void> timeFragments(const Session& session, const CompareSettings& settin
             continue;
         }
         const std::string where = "--size " + std::to_string(view.width) + "x" + std::to_string(view.height);
-        if (Result<void> added = points.add(*scene.volume, *scene.mesh, view, where); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(points.add(*scene.volume, *scene.mesh, view, where));
     }
     return points.measure(settings, step);
 }
@@ -213,9 +202,7 @@ Result<void> timeVoxels(const Session& session, const CompareSettings& settings,
         }
         const VolumePart& volume = *volumes.emplace_back(std::move(*sized));
         const std::string where = sizeText(volume.data.grid.size) + " voxels";
-        if (Result<void> added = points.add(volume, *scene.mesh, scene.view, where); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(points.add(volume, *scene.mesh, scene.view, where));
     }
     return points.measure(settings, step);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare_verify.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/stopwatch.h"
 #include "lab/trace.h"
 #include "oracle/oracle.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/frame_target.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "device/created.h"
 #include "device/timed_commands.h"
 
@@ -81,9 +81,7 @@ Result<void> FrameTarget::State::makeImage(VkFormat format, VkExtent2D extent) {
         result != VK_SUCCESS) {
         return vulkanError(result, "making the image of the frame failed");
     }
-    if (Result<void> made = makeMemory(); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeMemory());
     VkImageViewCreateInfo viewInfo{};
     viewInfo.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     viewInfo.image = image;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/host_speed.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_result.h"
 #include "lab/engine.h"
 

@@ -22,6 +22,7 @@ struct Provenance {
 struct Steps {
     std::function<void(std::uint64_t total)> begin; ///< before the first
     std::function<void()> step;
+    std::function<void(const std::string& what)> doing; ///< what the following steps are
 };
 
 /// What the numbers were measured on.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/opaque_cells.h"
+
 #include "core/try.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_result.h"
 #include "lab/paper_output.h"
 #include "lab/paper_sweeps.h"
@@ -12,6 +12,9 @@
 namespace voxtact::app {
 
 namespace {
+
+/// Of the time, with sweeps.
+constexpr double kFramesShare = 0.65;
 
 void addNotes(const PaperSettings& settings, PaperResult& result) {
     result.notes.emplace_back(
@@ -36,24 +39,27 @@ void addNotes(const PaperSettings& settings, PaperResult& result) {
 
 Result<void> measurePaper(const PaperSettings& settings, const Session& session, const Steps& steps,
                           PaperResult& result) {
-    if (Result<void> fits = checkViewport(session, settings.size); !fits.ok()) {
-        return fits;
-    }
+    VOXTACT_TRY(checkViewport(session, settings.size));
     const Result<std::vector<PaperInput>> inputs = loadPaperScenes(settings);
     VOXTACT_TRY(inputs);
     result.machine = describeMachine(session, inputs->front().scene.volume->data.type, result.machine.provenance);
     result.width = settings.size.width;
     result.height = settings.size.height;
     addNotes(settings, result);
+    const auto scenes = static_cast<double>(inputs->size());
+    const double frames = settings.noSweeps ? 1 : kFramesShare;
     steps.begin(inputs->size() * paperSceneSteps(settings) + (settings.noSweeps ? 0 : paperSweepSteps(settings)));
     for (const PaperInput& input : *inputs) {
-        Result<void> measured = measurePaperScene(session, settings, input, result, steps.step);
+        steps.doing("frames of " + input.facts.name);
+        Result<void> measured =
+            measurePaperScene(session, settings, settings.timeLimit * frames / scenes, input, result, steps.step);
         if (!measured.ok() || !result.disagreement.empty()) {
             return measured;
         }
     }
     return settings.noSweeps ? Result<void>()
-                             : runPaperSweeps(session, settings, inputs->front().scene, result, steps.step);
+                             : runPaperSweeps(session, settings, settings.timeLimit * (1 - kFramesShare),
+                                              inputs->front().scene, result, steps);
 }
 
 } // namespace voxtact::app

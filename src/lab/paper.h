@@ -20,6 +20,7 @@ struct PaperSettings {
     std::uint32_t scale = 1;    ///< the sides of its builtin volumes are divided by it
     bool noSweeps = false;      ///< the tables alone
     VkExtent2D size{512, 512};  ///< of frames
+    double timeLimit = 240;     ///< seconds for all samples: fewer than `repetitions` are taken where they do not fit
     Loaders load;
     /// From the front of a volume; deep enough for `also`, a box in world space.
     std::function<Mat4(const Grid& grid, const Box& also, const VkExtent2D& size)> camera;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_frames.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/engine.h"
 #include "lab/frame_target.h"
 #include "lab/stopwatch.h"
@@ -98,14 +98,10 @@ Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, con
     const Result<VkCommandBuffer> commands = target.begin();
     VOXTACT_TRY(commands);
     if (part != FramePart::Detection) {
-        if (Result<void> recorded = cmdPicture(*commands, pose); !recorded.ok()) {
-            return recorded;
-        }
+        VOXTACT_TRY(cmdPicture(*commands, pose));
     }
     if (part != FramePart::Rendering && method != CountingMethod::Cpu) {
-        if (Result<void> recorded = cmdDetect(*commands, method, pose); !recorded.ok()) {
-            return recorded;
-        }
+        VOXTACT_TRY(cmdDetect(*commands, method, pose));
     }
     return target.end();
 }

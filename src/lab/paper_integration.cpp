@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_integration.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "device/timed_submission.h"
 #include "voxtact/render.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_scenes.h"
-#include "core/try.h"
 
 #include "core/text.h"
+#include "core/try.h"
 #include "lab/compare_result.h"
 #include "lab/engine.h"
 #include "lab/opaque_cells.h"
@@ -212,12 +212,8 @@ Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, co
 Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::string& name, Scene& scene) {
     scene.poses.clear();
     scene.poseNumbers.clear();
-    if (Result<void> made = makeHost(*scene.volume); !made.ok()) {
-        return made;
-    }
-    if (Result<void> ready = makeReady(nullptr, *scene.mesh); !ready.ok()) {
-        return ready;
-    }
+    VOXTACT_TRY(makeHost(*scene.volume));
+    VOXTACT_TRY(makeReady(nullptr, *scene.mesh));
     const MadeEngine yesNo = makeHostEngine({.stopAtFirst = true});
     VOXTACT_TRY(yesNo);
     const std::uint64_t most = std::min<std::uint64_t>(std::uint64_t{kTries} * count, UINT32_MAX);

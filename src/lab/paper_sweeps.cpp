@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_sweeps.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_timing.h"
 #include "lab/paper_integration.h"
 #include "lab/paper_scenes.h"
@@ -20,13 +20,13 @@ constexpr std::array<ControlPoint, 2> kOpacity{{{40, 0}, {80, 1}}};
 constexpr ValueRange kDomain{0, 255};
 /// Of those of the scene: a query a polygon takes its time.
 constexpr std::uint32_t kPolygonPoses = 4;
-/// For the samples of a sweep.
-constexpr double kSeconds = 15;
+/// Each gets the same share of the time: the four sweeps, and the polygons.
+constexpr double kParts = kSweeps.size() + 1.0;
 
-CompareSettings settingsFor(const PaperSettings& settings) {
+CompareSettings settingsFor(const PaperSettings& settings, double seconds) {
     CompareSettings out;
     out.repeats = settings.repetitions;
-    out.timeLimit = kSeconds;
+    out.timeLimit = seconds / kParts;
     out.load = settings.load;
     return out;
 }
@@ -49,7 +49,9 @@ Result<Scene> headOf(const PaperSettings& settings, const Scene& v1s1) {
 
 /// Counts every pose, and where the methods agree times them; as `voxtact compare` does.
 Result<void> timeAll(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
-                     const Scene& v1s1, CompareResult& result, const std::function<void()>& step) {
+                     const Scene& v1s1, CompareResult& result, const Steps& steps) {
+    const std::function<void()>& step = steps.step;
+    steps.doing("sweep of batches");
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
     VOXTACT_TRY(engines);
     const Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(v1s1));
@@ -59,31 +61,30 @@ Result<void> timeAll(const Session& session, const PaperSettings& paper, const C
     if (result.firstFailure() != nullptr) {
         return {};
     }
-    if (Result<void> done = timeBatches(settings, *engines, Work(v1s1), result, step); !done.ok()) {
-        return done;
-    }
-    for (const auto sweepOne : {timeTriangles, timeFragments}) {
-        if (Result<void> done = sweepOne(session, settings, v1s1, *engines, result, step);
+    VOXTACT_TRY(timeBatches(settings, *engines, Work(v1s1), result, step));
+    struct Swept {
+        const char* what;
+        decltype(&timeTriangles) sweep;
+    };
+    for (const Swept& swept :
+         {Swept{"sweep of triangles", timeTriangles}, Swept{"sweep of fragments", timeFragments}}) {
+        steps.doing(swept.what);
+        if (Result<void> done = swept.sweep(session, settings, v1s1, *engines, result, step);
             !done.ok() || result.firstFailure() != nullptr) {
             return done;
         }
     }
+    steps.doing("sweep of voxels");
     const Result<Scene> head = headOf(paper, v1s1);
     return head.ok() ? timeVoxels(session, settings, *head, *engines, result, step) : head.error();
 }
 
 Result<void> sweep(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
-                   const Scene& v1s1, PaperResult& result, const std::function<void()>& step) {
-    if (Result<void> ready = makeReady(session, {}, *v1s1.volume); !ready.ok()) {
-        return ready;
-    }
-    if (Result<void> ready = makeReady(&session, *v1s1.mesh); !ready.ok()) {
-        return ready;
-    }
+                   const Scene& v1s1, PaperResult& result, const Steps& steps) {
+    VOXTACT_TRY(makeReady(session, {}, *v1s1.volume));
+    VOXTACT_TRY(makeReady(&session, *v1s1.mesh));
     CompareResult compared;
-    if (Result<void> done = timeAll(session, paper, settings, v1s1, compared, step); !done.ok()) {
-        return done;
-    }
+    VOXTACT_TRY(timeAll(session, paper, settings, v1s1, compared, steps));
     if (const Verdict* failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
         result.disagreement = failure->rule + ": disagreement on pose " + std::to_string(failure->first->pose) + ": " +
                               failure->first->text;
@@ -98,9 +99,7 @@ Result<void> findPolygons(const Session& session, const CompareSettings& setting
                           PaperResult& result, const std::function<void()>& step) {
     LocalizeResult found;
     found.machine = result.machine;
-    if (Result<void> done = localize(session, settings, v1s1.withPoses(kPolygonPoses), found, step); !done.ok()) {
-        return done;
-    }
+    VOXTACT_TRY(localize(session, settings, v1s1.withPoses(kPolygonPoses), found, step));
     if (result.disagreement.empty()) {
         result.disagreement = disagreementOf(found);
     }
@@ -122,18 +121,20 @@ std::uint64_t paperSweepSteps(const PaperSettings& settings) {
     return steps + poses * settings.repetitions + settings.repetitions + 1;
 }
 
-Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, const Scene& v1s1,
-                            PaperResult& result, const std::function<void()>& step) {
-    const CompareSettings how = settingsFor(settings);
-    if (Result<void> done = sweep(session, settings, how, v1s1, result, step);
+Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, double seconds, const Scene& v1s1,
+                            PaperResult& result, const Steps& steps) {
+    const CompareSettings how = settingsFor(settings, seconds);
+    if (Result<void> done = sweep(session, settings, how, v1s1, result, steps);
         !done.ok() || !result.disagreement.empty()) {
         return done;
     }
-    if (Result<void> done = findPolygons(session, how, v1s1, result, step);
+    steps.doing("which triangles touch");
+    if (Result<void> done = findPolygons(session, how, v1s1, result, steps.step);
         !done.ok() || !result.disagreement.empty()) {
         return done;
     }
-    Result<std::vector<IntegrationPoint>> integration = timeIntegration(session, settings.repetitions, step);
+    steps.doing("the pre-integrated table");
+    Result<std::vector<IntegrationPoint>> integration = timeIntegration(session, settings.repetitions, steps.step);
     VOXTACT_TRY(integration);
     result.integration = std::move(*integration);
     return {};

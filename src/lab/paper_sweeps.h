@@ -15,8 +15,8 @@ namespace voxtact::app {
 /// What grows from point to point, which triangles touch, and the making of the pre-integrated table. `v1s1` is the
 /// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
 /// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
-/// fills `disagreement`, unless there is one already, and goes no further.
-[[nodiscard]] Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, const Scene& v1s1,
-                                          PaperResult& result, const std::function<void()>& step);
+/// fills `disagreement`, unless there is one already, and goes no further. The samples are cut to fit in `seconds`.
+[[nodiscard]] Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, double seconds,
+                                          const Scene& v1s1, PaperResult& result, const Steps& steps);
 
 } // namespace voxtact::app

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper_tables.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_verify.h"
 #include "lab/paper_frames.h"
+#include "lab/stopwatch.h"
 
 #include <algorithm>
 #include <array>
@@ -130,57 +131,54 @@ Result<void> takeRound(FrameLoop& frames, const PaperWork& work, std::uint64_t r
     const bool backwards = (round + (round + poses - 1) / poses) % 2 == 0;
     for (std::size_t i = 0; i < work.methods.size() && result.disagreement.empty(); ++i) {
         if (i == work.methods.size() / 2) {
-            if (Result<void> taken = takeRendering(frames, work, pose, round > 0, result); !taken.ok()) {
-                return taken;
-            }
+            VOXTACT_TRY(takeRendering(frames, work, pose, round > 0, result));
         }
         const std::size_t method = backwards ? work.methods.size() - 1 - i : i;
         PaperRow* row = round == 0 ? nullptr : &result.rows[work.firstRow + method];
-        if (Result<void> taken = takeFrames(frames, work, method, pose, backwards, row, result); !taken.ok()) {
-            return taken;
-        }
+        VOXTACT_TRY(takeFrames(frames, work, method, pose, backwards, row, result));
     }
     return {};
 }
 
-Result<void> timeFrames(const Session& session, const PaperSettings& settings, const PaperWork& work,
+Result<void> timeFrames(const Session& session, const PaperSettings& settings, double seconds, const PaperWork& work,
                         PaperResult& result, const std::function<void()>& step) {
+    const Stopwatch watch;
     Result<FrameLoop> frames = FrameLoop::create(session, work.input.scene, settings.colours);
     VOXTACT_TRY(frames);
     for (const CountingMethod method : work.methods) {
-        if (Result<void> added = frames->add(method); !added.ok()) {
-            return added;
-        }
+        VOXTACT_TRY(frames->add(method));
     }
+    std::uint64_t taken = 0;
     for (std::uint64_t round = 0; round <= settings.repetitions && result.disagreement.empty(); ++round) {
-        if (Result<void> taken = takeRound(*frames, work, round, result); !taken.ok()) {
-            return taken;
+        const double next = round == 0 ? 0 : watch.milliseconds() / static_cast<double>(round);
+        if (round <= 1 || watch.milliseconds() + next <= seconds * 1000) {
+            VOXTACT_TRY(takeRound(*frames, work, round, result));
+            taken = round;
         }
         step();
+    }
+    if (taken < settings.repetitions && result.disagreement.empty()) {
+        addNote(work.input.facts.name + ": " + std::to_string(taken) + " of " + std::to_string(settings.repetitions) +
+                    " repetitions fit in --time-limit",
+                result);
     }
     return {};
 }
 
 } // namespace
 
-Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, const PaperInput& input,
-                               PaperResult& result, const std::function<void()>& step) {
-    if (Result<void> ready = makeReady(session, {.bricks = true}, *input.scene.volume); !ready.ok()) {
-        return ready;
-    }
-    if (Result<void> ready = makeReady(&session, *input.scene.mesh); !ready.ok()) {
-        return ready;
-    }
+Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, double seconds,
+                               const PaperInput& input, PaperResult& result, const std::function<void()>& step) {
+    VOXTACT_TRY(makeReady(session, {.bricks = true}, *input.scene.volume));
+    VOXTACT_TRY(makeReady(&session, *input.scene.mesh));
     PaperWork work{.input = input};
     work.methods = availableMethods(session, [&](CountingMethod method, const std::string& reason) {
         addNote(std::string("no ") + toString(method) + " on this device: " + reason, result);
     });
-    if (Result<void> verified = verify(session, work, result); !verified.ok()) {
-        return verified;
-    }
+    VOXTACT_TRY(verify(session, work, result));
     step();
     addRows(work, result);
-    return timeFrames(session, settings, work, result, step);
+    return timeFrames(session, settings, seconds, work, result, step);
 }
 
 std::uint64_t paperSceneSteps(const PaperSettings& settings) {

@@ -10,8 +10,9 @@ namespace voxtact::app {
 /// PaperResult::disagreement says so and no time is taken any more. Adds the scene too.
 ///
 /// A round takes of each method a frame without detection, the detection alone, and a frame with it, next to each
-/// other, so that what else the machine does falls on all alike; the next round takes them the other way round.
-[[nodiscard]] Result<void> measurePaperScene(const Session& session, const PaperSettings& settings,
+/// other, so that what else the machine does falls on all alike; the next round takes them the other way round. There
+/// are `settings.repetitions` rounds, fewer where they do not fit in `seconds`, at least one; the notes say so.
+[[nodiscard]] Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, double seconds,
                                              const PaperInput& input, PaperResult& result,
                                              const std::function<void()>& step);
 

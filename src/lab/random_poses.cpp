@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/random_poses.h"
+
 #include "core/try.h"
 
 #include <algorithm>

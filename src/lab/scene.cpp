@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/scene.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "lab/compare_agreement.h"
 
 #include <algorithm>
@@ -69,9 +69,7 @@ Result<void> upload(const Session& session, const VolumeOptions& options, Volume
 }
 
 Result<void> makeReady(const Session& session, const VolumeOptions& options, VolumePart& volume) {
-    if (Result<void> voxels = uploadVoxels(session, options, volume); !voxels.ok()) {
-        return voxels;
-    }
+    VOXTACT_TRY(uploadVoxels(session, options, volume));
     if (Result<void> table = uploadTable(session, volume); !table.ok()) {
         return table.error().code == ErrorCode::LimitExceeded
                    ? Error{ErrorCode::InvalidArgument, 0, "--tf-size: " + table.error().text}

@@ -41,9 +41,7 @@ Result<void> makeLayouts(FragmentTraceImpl& trace) {
     ContextImpl& context = trace.context;
     const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
                                                nullptr};
-    if (Result<void> made = makeSetLayout(context, trace.setLayout, {&binding, 1}, "trace set layout"); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeSetLayout(context, trace.setLayout, {&binding, 1}, "trace set layout"));
     const VkDescriptorSetLayout sets[] = {context.setLayouts[0], context.setLayouts[1], context.setLayouts[2],
                                           trace.setLayout.get()};
     static_assert(std::size(sets) == VOXTACT_SET_TRACE + 1);

@@ -121,9 +121,7 @@ Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, cons
     target.extent = extent;
     target.targets = &frame->targets;
     target.area = {{0, static_cast<std::int32_t>(first)}, {extent.width, last - first}};
-    if (Result<void> recorded = renderer.cmdRender(commandBuffer, scene, target); !recorded.ok()) {
-        return recorded;
-    }
+    VOXTACT_TRY(renderer.cmdRender(commandBuffer, scene, target));
     if (last == extent.height) {
         cmdReadBack(context, commandBuffer, *frame);
     }
@@ -132,9 +130,7 @@ Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, cons
 
 Result<void> BlockingRenderer::State::renderBand(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first,
                                                  std::uint32_t last) {
-    if (Result<void> recorded = record(commandBuffer, scene, first, last); !recorded.ok()) {
-        return recorded;
-    }
+    VOXTACT_TRY(record(commandBuffer, scene, first, last));
     return submitter.submitAndWait();
 }
 

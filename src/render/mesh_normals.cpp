@@ -81,9 +81,7 @@ Result<void> MeshNormals::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!live(impl_).staging.buffer) {
             return notUploadable("normals");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Label label(live(impl_).context, commandBuffer, "voxtact normals upload");
         cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
         live(impl_).uploaded = true;

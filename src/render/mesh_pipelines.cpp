@@ -62,9 +62,7 @@ Result<void> makeMeshPipelines(RendererImpl& renderer) {
         if (shaders.by == PaintBy::Triangles && !renderer.context.features.geometryShader) {
             continue;
         }
-        if (Result<void> made = makeMeshPipeline(renderer, shaders); !made.ok()) {
-            return made;
-        }
+        VOXTACT_TRY(makeMeshPipeline(renderer, shaders));
     }
     return {};
 }

@@ -21,9 +21,7 @@ Error refuse(std::string text) {
 }
 
 Result<void> checkDevice(const ContextImpl& context, VkDeviceSize bytes) {
-    if (Result<void> alive = context.alive(); !alive.ok()) {
-        return alive;
-    }
+    VOXTACT_TRY(context.alive());
     if (!context.features.geometryShader) {
         return Error{ErrorCode::Unsupported, 0,
                      "painting triangles: geometryShader is not enabled (gl_PrimitiveID needs it)"};
@@ -50,11 +48,8 @@ Result<std::vector<std::uint32_t>> bitsOf(std::uint32_t meshTriangles, std::span
 }
 
 Result<void> makeBuffers(PaintedTrianglesImpl& impl, std::span<const std::byte> bytes) {
-    if (Result<void> made = makeStaged(impl.context, bytes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                       "painted triangles", impl.buffer, impl.staging);
-        !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeStaged(impl.context, bytes.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "painted triangles",
+                           impl.buffer, impl.staging));
     std::memcpy(impl.staging.mapped, bytes.data(), bytes.size());
     return flush(impl.context, impl.staging);
 }
@@ -124,9 +119,7 @@ Result<void> PaintedTriangles::cmdUpload(VkCommandBuffer commandBuffer) {
         if (!live(impl_).staging.buffer) {
             return notUploadable("painted triangles");
         }
-        if (Result<void> recordable = live(impl_).context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
         const Label label(live(impl_).context, commandBuffer, "voxtact painted triangles upload");
         cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
         live(impl_).uploaded = true;

@@ -59,25 +59,17 @@ Result<void> checkMeshUploaded(const SceneMesh& mesh) {
 }
 
 Result<void> checkMesh(const ContextImpl& context, const SceneMesh& mesh) {
-    if (Result<void> checked = checkMeshParts(context, mesh); !checked.ok()) {
-        return checked;
-    }
-    if (Result<void> checked = checkPaint(context, mesh); !checked.ok()) {
-        return checked;
-    }
+    VOXTACT_TRY(checkMeshParts(context, mesh));
+    VOXTACT_TRY(checkPaint(context, mesh));
     if (mesh.mesh == nullptr) {
         return checkColour(mesh.meshColour, "the mesh's colour");
     }
-    if (Result<void> checked = checkMeshUploaded(mesh); !checked.ok()) {
-        return checked;
-    }
+    VOXTACT_TRY(checkMeshUploaded(mesh));
     return checkMeshLook(mesh);
 }
 
 Result<void> checkMeshes(const ContextImpl& context, const Scene& scene) {
-    if (Result<void> checked = checkMesh(context, scene); !checked.ok()) {
-        return checked;
-    }
+    VOXTACT_TRY(checkMesh(context, scene));
     for (std::size_t i = 0; i < scene.others.size(); ++i) {
         Result<void> checked = scene.others[i].mesh != nullptr ? checkMesh(context, scene.others[i])
                                                                : Result<void>(refuse("there is no mesh"));
@@ -182,15 +174,9 @@ void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, c
 Result<void> Renderer::cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const {
     return guard([&]() -> Result<void> {
         ContextImpl& context = live(impl_).context;
-        if (Result<void> recordable = context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
-        if (Result<void> checked = checkScene(context, scene); !checked.ok()) {
-            return checked;
-        }
-        if (Result<void> checked = checkTarget(context, target); !checked.ok()) {
-            return checked;
-        }
+        VOXTACT_TRY(context.recordable(commandBuffer));
+        VOXTACT_TRY(checkScene(context, scene));
+        VOXTACT_TRY(checkTarget(context, target));
         const Result<PictureSetup> setup = setUpPicture(scene, target);
         VOXTACT_TRY(setup);
         const Label label(context, commandBuffer, "voxtact picture");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+
 #include "core/try.h"
 #include "gpu/layouts.h"
 #include "gpu/pipeline.h"
@@ -46,9 +47,7 @@ Result<void> checkFormats(const ContextImpl& context, VkFormat colour) {
           Needed{kRenderTableFormat,
                  VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT,
                  "the pre-integrated table"}}) {
-        if (Result<void> checked = checkFormat(context, needed.format, needed.features, needed.use); !checked.ok()) {
-            return checked;
-        }
+        VOXTACT_TRY(checkFormat(context, needed.format, needed.features, needed.use));
     }
     return {};
 }
@@ -81,10 +80,7 @@ Result<void> makeSetLayouts(RendererImpl& renderer) {
                                  Wanted{renderer.functionLayout, kFunction, "render function set layout"},
                                  Wanted{renderer.targetsLayout, kTargets, "render targets set layout"},
                                  Wanted{renderer.bricksLayout, kBricks, "render bricks set layout"}}) {
-        if (Result<void> made = makeSetLayout(renderer.context, wanted.layout, wanted.bindings, wanted.name);
-            !made.ok()) {
-            return made;
-        }
+        VOXTACT_TRY(makeSetLayout(renderer.context, wanted.layout, wanted.bindings, wanted.name));
     }
     return {};
 }
@@ -93,11 +89,8 @@ Result<void> makePipelineLayouts(RendererImpl& renderer) {
     ContextImpl& context = renderer.context;
     constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::PreintegrateConstants)};
     const VkDescriptorSetLayout making = renderer.makingLayout.get();
-    if (Result<void> made = makePipelineLayout(context, renderer.makingPipelineLayout, {&making, 1}, {&kConstants, 1},
-                                               "pre-integration pipeline layout");
-        !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makePipelineLayout(context, renderer.makingPipelineLayout, {&making, 1}, {&kConstants, 1},
+                                   "pre-integration pipeline layout"));
     constexpr VkPushConstantRange kMesh{kMeshStages, 0, sizeof(std::uint32_t)};
     const VkDescriptorSetLayout sets[] = {context.setLayouts[VOXTACT_SET_VOLUME], renderer.functionLayout.get(),
                                           renderer.targetsLayout.get(), renderer.bricksLayout.get()};
@@ -141,9 +134,7 @@ Result<void> makePipelines(RendererImpl& renderer) {
         !made.ok()) {
         return made;
     }
-    if (Result<void> made = makeMeshPipelines(renderer); !made.ok()) {
-        return made;
-    }
+    VOXTACT_TRY(makeMeshPipelines(renderer));
     return makeVolumePipelines(renderer);
 }
 

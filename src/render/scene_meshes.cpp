@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/pair_transform.h"
+#include "core/try.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
@@ -33,9 +34,7 @@ const SceneMesh& meshOf(const Scene& scene, std::size_t number) noexcept {
 }
 
 Result<void> checkMeshLook(const SceneMesh& mesh) {
-    if (Result<void> affine = checkAffine(mesh.world_from_object, "the mesh's pose"); !affine.ok()) {
-        return affine;
-    }
+    VOXTACT_TRY(checkAffine(mesh.world_from_object, "the mesh's pose"));
     if (const Result<Mat4> object_from_world = inverse(linearPart(mesh.world_from_object)); !object_from_world.ok()) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "the mesh's pose cannot be used: " + object_from_world.error().text};

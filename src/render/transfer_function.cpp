@@ -47,12 +47,8 @@ Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc,
 }
 
 Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTransferFunctionDesc& desc) {
-    if (Result<void> step = checkPositive(desc.step, "the step"); !step.ok()) {
-        return step;
-    }
-    if (Result<void> unit = checkPositive(desc.opacityUnit, "the opacity unit"); !unit.ok()) {
-        return unit;
-    }
+    VOXTACT_TRY(checkPositive(desc.step, "the step"));
+    VOXTACT_TRY(checkPositive(desc.opacityUnit, "the opacity unit"));
     if (desc.opacity.tableSize > kMostEntries) {
         return refuse("the transfer function's table has " + std::to_string(desc.opacity.tableSize) +
                       " entries, for pictures it may have " + std::to_string(kMostEntries));
@@ -183,9 +179,7 @@ Result<RenderTransferFunction> RenderTransferFunction::upload(const Renderer& re
 
 Result<void> RenderTransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (Result<void> recordable = live(impl_).renderer.context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
+        VOXTACT_TRY(live(impl_).renderer.context.recordable(commandBuffer));
         const Label label(live(impl_).renderer.context, commandBuffer, "voxtact pre-integration");
         cmdMake(live(impl_), commandBuffer);
         live(impl_).uploaded = true;
@@ -199,12 +193,8 @@ Result<void> RenderTransferFunction::cmdUpdate(VkCommandBuffer commandBuffer, co
             return refuse("the new table has " + std::to_string(desc.opacity.tableSize) +
                           " entries, that of the transfer function " + std::to_string(live(impl_).table.size()));
         }
-        if (Result<void> recordable = live(impl_).renderer.context.recordable(commandBuffer); !recordable.ok()) {
-            return recordable;
-        }
-        if (Result<void> set = setFunction(live(impl_), desc); !set.ok()) {
-            return set;
-        }
+        VOXTACT_TRY(live(impl_).renderer.context.recordable(commandBuffer));
+        VOXTACT_TRY(setFunction(live(impl_), desc));
         return cmdUpload(commandBuffer);
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+
 #include "core/try.h"
 #include "samples/edge_split.h"
 #include "samples/loft.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
-#include "core/try.h"
 
 #include "app/commands.h"
+#include "app/options/lab_run.h"
+#include "core/try.h"
 
 #include <CLI/CLI.hpp>
 
@@ -60,6 +61,8 @@ void addPaperOptions(CLI::App& parser, BenchOptions& options) {
         parser, "--scale", [&options](std::uint32_t scale) { options.paperSettings.scale = scale; },
         {.least = 1, .most = 16}, "with --paper: the sides of its builtin volumes are divided by so many, for trying",
         options.paperSettings.scale);
+    addTimeLimit(parser, options.paperSettings.timeLimit,
+                 "with --paper: seconds for all samples: fewer than --repetitions are taken where they do not fit");
     parser.add_flag("--no-sweeps", options.paperSettings.noSweeps, "with --paper: the tables alone");
     addSize(
         parser, [&options](const VkExtent2D& size) { options.paperSettings.size = size; },
@@ -100,7 +103,7 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     constexpr const char* kOfScenes[] = {
         "--volume",  "--mesh",      "--mesh-space", "--mesh-scale", "--transfer-function",
         "--opacity", "--tf-domain", "--tf-size",    "--threshold"};
-    constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--size", "--report"};
+    constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--time-limit", "--size", "--report"};
     for (const char* option : options.paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
         if (parser.count(option) > 0) {
             return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare/compare_inputs.h"
-#include "core/try.h"
 
 #include "app/options/inputs.h"
+#include "core/try.h"
 #include "lab/random_poses.h"
 #include "voxtact/io.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare/compare_options.h"
 
+#include "app/options/lab_run.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -87,13 +89,8 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
             "what is timed: batch, triangles, fragments, voxels, all, none; default: batch, and all with --report")
         ->type_name("NAME");
     addWholeNumber(parser, "--repeats", options.settings.repeats, 1, "samples of each time, after a warm-up");
-    parser
-        .add_option("--time-limit", options.settings.timeLimit,
-                    "seconds for the samples of a sweep: fewer than --repeats are taken where they do not fit")
-        ->type_name("SECONDS")
-        ->capture_default_str()
-        ->check(
-            [](const std::string& text) { return std::strtod(text.c_str(), nullptr) > 0 ? "" : "it is not above 0"; });
+    addTimeLimit(parser, options.settings.timeLimit,
+                 "seconds for the samples of a sweep: fewer than --repeats are taken where they do not fit");
     parser.add_flag("--keep-going", options.settings.keepGoing,
                     "when methods disagree, time them and write the outputs all the same; the exit status stays 3");
     CLI::Option* localize =

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/auto_method.h"
-#include "core/try.h"
 
 #include "app/detect/detect_run.h"
 #include "app/detect/speed_cache.h"
+#include "core/try.h"
 #include "lab/host_speed.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"

@@ -180,11 +180,8 @@ Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs
 Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
                               CountingMethod method, const UseEngine& answer) {
     if (usesView(*options.method.projection)) {
-        if (Result<void> viewport = checkViewport(options.view.size, session.context.maxViewport(),
-                                                  "'" + session.device.physical().name + "'");
-            !viewport.ok()) {
-            return viewport;
-        }
+        VOXTACT_TRY(checkViewport(options.view.size, session.context.maxViewport(),
+                                  "'" + session.device.physical().name + "'"));
     }
     const Result<Detector> detector = Detector::create(session.context, descOf(options, method));
     VOXTACT_TRY(detector);

@@ -119,9 +119,7 @@ Result<void> checkLimits(const DetectOptions& options) {
 } // namespace
 
 Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& inputs, const UseEngine& answer) {
-    if (Result<void> possible = checkLimits(options); !possible.ok()) {
-        return possible;
-    }
+    VOXTACT_TRY(checkLimits(options));
     const MethodOptions& method = options.method;
     Result<cpu::Detector> detector =
         cpu::Detector::create({.threads = options.threads,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_jobs.h"
-#include "core/try.h"
 
 #include "app/output/text_for_messages.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cerrno>

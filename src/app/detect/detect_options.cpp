@@ -141,21 +141,13 @@ Result<void> resolveOptions(DetectOptions& options) {
     if (options.output.path == "-") {
         options.output.path.clear();
     }
-    if (Result<void> jobs = resolveJobs(options); !jobs.ok()) {
-        return jobs;
-    }
-    if (Result<void> host = checkHost(options); !host.ok()) {
-        return host;
-    }
+    VOXTACT_TRY(resolveJobs(options));
+    VOXTACT_TRY(checkHost(options));
     if (!options.method.projection) {
         options.method.projection = canBeConservative(options.method) ? Projection::Conservative : Projection::View;
     }
-    if (Result<void> conservative = checkConservative(options.method); !conservative.ok()) {
-        return conservative;
-    }
-    if (Result<void> projection = checkProjection(options); !projection.ok()) {
-        return projection;
-    }
+    VOXTACT_TRY(checkConservative(options.method));
+    VOXTACT_TRY(checkProjection(options));
     return checkExtra(options);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_output.h"
-#include "core/try.h"
 
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_table.h"
 #include "app/output/standard_streams.h"
+#include "core/try.h"
 #include "io/text/table.h"
 #include "voxtact/io.h"
 
@@ -162,9 +162,7 @@ std::uint64_t DetectOutput::rows() const noexcept {
 
 Result<void> DetectOutput::finish(double wallMilliseconds) {
     State& state = *state_;
-    if (Result<void> written = state.writeHeld(); !written.ok()) {
-        return written;
-    }
+    VOXTACT_TRY(state.writeHeld());
     io::NamedCells timing;
     if (state.options.timing) {
         const double seconds = wallMilliseconds / 1000;
@@ -178,18 +176,12 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     }
     // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
     for (std::optional<io::OutputFile>* file : {&state.table, &state.triangles, &state.contactsFile}) {
-        if (Result<void> closed = *file ? (*file)->close() : Result<void>(); !closed.ok()) {
-            return closed;
-        }
+        VOXTACT_TRY(*file ? (*file)->close() : Result<void>());
     }
     state.held = false;
-    if (Result<void> written = state.table ? Result<void>() : state.pass(); !written.ok()) {
-        return written;
-    }
+    VOXTACT_TRY(state.table ? Result<void>() : state.pass());
     for (std::optional<io::OutputFile>* file : {&state.contactsFile, &state.triangles, &state.table}) {
-        if (Result<void> named = *file ? (*file)->commit() : Result<void>(); !named.ok()) {
-            return named;
-        }
+        VOXTACT_TRY(*file ? (*file)->commit() : Result<void>());
     }
     return {};
 }
@@ -200,9 +192,7 @@ Result<void> DetectOutput::breakOff() {
         return {};
     }
     state.held = false;
-    if (Result<void> written = state.writeHeld(); !written.ok()) {
-        return written;
-    }
+    VOXTACT_TRY(state.writeHeld());
     state.writer->end({}, false);
     return state.pass();
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_engine.h"
-#include "core/try.h"
 
 #include "app/detect/detect_notes.h"
 #include "app/output/interrupt.h"
 #include "app/output/progress.h"
+#include "core/try.h"
 
 #include <chrono>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_window.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "voxtact/broad_phase.h"
 
 #include <algorithm>
@@ -76,9 +76,7 @@ Result<void> PairWindows::next(Window& window) {
     while (job_ < end_ && window.pairs < pace_.size() && failure_.ok()) {
         PoseSource& source = inputs_.poses[jobs_.jobs[job_].poses];
         if (!pose_) {
-            if (Result<void> started = source.begin(); !started.ok()) {
-                return started;
-            }
+            VOXTACT_TRY(source.begin());
             pose_ = 0;
         }
         WindowItem item;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pose_source.h"
-#include "core/try.h"
 
 #include "app/output/outcome.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <iostream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/info/volume_info.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "core/voxel_visit.h"
 #include "lab/opaque_cells.h"
 #include "voxtact/broad_phase.h"

@@ -2,12 +2,15 @@
 #include "app/options/lab_run.h"
 
 #include "app/options/inputs.h"
+#include "app/options/shared_options.h"
 #include "app/version.h"
+#include "core/try.h"
 #include "lab/report.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxtact::app {
 
@@ -55,16 +58,20 @@ Loaders loaders() {
     return {loadVolume, [](const std::string& source) { return loadMesh(source, {}); }};
 }
 
+void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help) {
+    addNumber(
+        parser, "--time-limit", [&seconds](double value) { seconds = value; }, help,
+        [](double value) { return value > 0; }, "above 0", std::to_string(std::llround(seconds)).c_str());
+}
+
 Steps ShownSteps::steps() {
     return {[this](std::uint64_t total) { progress_.emplace(wanted_, title_, total); },
-            [this] { progress_->update(++done_); }};
+            [this] { progress_->update(++done_); }, [this](const std::string& what) { progress_->doing(what); }};
 }
 
 Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
                               const std::vector<NamedPath>& inputs) {
-    if (Result<void> possible = report.empty() ? Result<void>() : reportPossible(); !possible.ok()) {
-        return possible;
-    }
+    VOXTACT_TRY(report.empty() ? Result<void>() : reportPossible());
     return checkOutputs({{"--output", output}, {"--report", report}}, inputs);
 }
 

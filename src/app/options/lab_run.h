@@ -16,6 +16,9 @@ namespace voxtact::app {
 /// loadVolume() and loadMesh(), files as they are.
 [[nodiscard]] Loaders loaders();
 
+/// --time-limit, in seconds; `seconds` has the default.
+void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help);
+
 /// Steps on a bar of progress. Must outlive the use of steps().
 class ShownSteps {
   public:

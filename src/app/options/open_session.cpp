@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/open_session.h"
-#include "core/try.h"
 
 #include "app/output/standard_streams.h"
+#include "core/try.h"
 
 namespace voxtact::app {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/output_paths.h"
 
+#include "core/try.h"
+
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -191,16 +193,12 @@ std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const
 
 Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs) {
     for (const NamedPath& output : outputs) {
-        if (Result<void> writable = checkOutput(output.path); !writable.ok()) {
-            return writable;
-        }
+        VOXTACT_TRY(checkOutput(output.path));
         if (output.path.empty() || output.path == "-") {
             continue;
         }
         for (const NamedPath& input : inputs) {
-            if (Result<void> apart = checkApart(output, input); !apart.ok()) {
-                return apart;
-            }
+            VOXTACT_TRY(checkApart(output, input));
         }
     }
     std::vector<std::pair<std::string, fs::path>> all;

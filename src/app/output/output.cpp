@@ -3,6 +3,7 @@
 
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
+#include "core/try.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
@@ -47,9 +48,7 @@ Result<void> deliverFrom(const std::vector<Delivery>& deliveries, std::size_t ne
     }
     const Delivery& delivery = deliveries[next];
     return deliver(delivery.path, [&](std::ostream& out) -> Result<void> {
-        if (Result<void> written = delivery.write(out); !written.ok()) {
-            return written;
-        }
+        VOXTACT_TRY(delivery.write(out));
         errno = 0;
         if (!out.flush()) {
             return fileError(delivery.path, errno != 0 ? std::generic_category().message(errno) : "writing stopped");
@@ -108,9 +107,7 @@ Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& 
 Result<void> deliver(const fs::path& path, const std::function<Result<void>(std::ostream&)>& write) {
     if (isStandardOutput(path)) {
         std::ostringstream text;
-        if (Result<void> written = write(text); !written.ok()) {
-            return written;
-        }
+        VOXTACT_TRY(write(text));
         return writeStandardOutput(text.str());
     }
     return io::writeFile(path, write);

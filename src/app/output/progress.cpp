@@ -67,7 +67,7 @@ void Progress::update(std::uint64_t done) {
     next_ = now + (terminal_ ? std::chrono::milliseconds(kBetween) : std::chrono::milliseconds(kBetweenLines));
     const double seconds = std::chrono::duration<double>(now - begun_).count();
     const std::string rest =
-        withCommas(done) + (total_ > 0 ? " of " + withCommas(total_) : "") + timeLeft(done, total_, seconds);
+        doing_ + withCommas(done) + (total_ > 0 ? " of " + withCommas(total_) : "") + timeLeft(done, total_, seconds);
     if (terminal_) {
         drawBar(done, rest);
     } else {

@@ -18,6 +18,8 @@ class Progress {
     ~Progress();
 
     void update(std::uint64_t done);
+    /// What is being done from now on; said with the next update.
+    void doing(const std::string& what) { doing_ = what + ", "; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -27,6 +29,7 @@ class Progress {
     bool wanted_;
     bool terminal_;
     std::string title_;
+    std::string doing_;
     std::uint64_t total_;
     std::size_t lineLength_ = 0;
     Clock::time_point begun_;

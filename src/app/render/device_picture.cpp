@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/device_picture.h"
-#include "core/try.h"
 
 #include "app/detect/detect_run.h"
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/inputs.h"
-#include "core/try.h"
 
 #include "app/options/inputs.h"
 #include "app/output/standard_streams.h"
 #include "app/render/presets.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
@@ -100,9 +100,7 @@ Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
         VOXTACT_TRY(plane);
         inputs.slice = *plane;
     }
-    if (Result<void> set = setCamera(options, inputs); !set.ok()) {
-        return set;
-    }
+    VOXTACT_TRY(setCamera(options, inputs));
     Result<std::vector<ClipPlane>> planes = clipPlanes(options.clips, inputs.volume.grid, inputs.clip_from_world);
     VOXTACT_TRY(planes);
     inputs.clips = std::move(*planes);

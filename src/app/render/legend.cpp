@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/legend.h"
-#include "core/try.h"
 
 #include "app/draw/text.h"
 #include "core/text.h"
+#include "core/try.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "app/options/output_paths.h"
 #include "app/render/annotation.h"
 #include "app/render/presets.h"
+#include "core/try.h"
 
 #include <CLI/CLI.hpp>
 
@@ -192,9 +193,7 @@ Result<void> checkRenderOptions(const RenderOptions& options) {
     if (options.output.extension() != ".png" && options.output.extension() != ".PNG") {
         return badArgument("--output " + options.output.string() + ": the ending of a picture is .png");
     }
-    if (Result<void> checked = checkViewpoint(options); !checked.ok()) {
-        return checked;
-    }
+    VOXTACT_TRY(checkViewpoint(options));
     if (options.meshes.sources.empty() && (!options.view.poses.empty() || options.poses)) {
         return badArgument("--poses and --pose are for a mesh; --mesh is missing");
     }

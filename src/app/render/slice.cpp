@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/slice.h"
-#include "core/try.h"
 
 #include "app/draw/canvas.h"
 #include "app/options/shared_options.h"
 #include "app/output/outcome.h"
 #include "core/text.h"
+#include "core/try.h"
 #include "core/voxel_visit.h"
 
 #include <algorithm>

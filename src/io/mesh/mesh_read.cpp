@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
+
 #include "core/try.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+
 #include "core/try.h"
 #include "io/byte_source.h"
 #include "io/errors.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_codecs.h"
 
+#include "core/try.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -200,9 +202,7 @@ Result<void> Decoder::decode() {
         if (marker == kScan) {
             return scan(at + 4, end);
         }
-        if (Result<void> done = segment(marker, at + 4, end); !done.ok()) {
-            return done;
-        }
+        VOXTACT_TRY(segment(marker, at + 4, end));
         at = end;
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_codecs.h"
 
+#include "core/try.h"
+
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -119,9 +121,7 @@ template <auto Destroy> struct Destroyed {
 
 Result<void> decodeJpeg2000(std::string_view bytes, const DicomImage& image, std::span<std::uint32_t> cells) {
     Source source{codeStream(bytes)};
-    if (Result<void> size = checkSize(source.bytes, image); !size.ok()) {
-        return size;
-    }
+    VOXTACT_TRY(checkSize(source.bytes, image));
     const std::unique_ptr<opj_codec_t, Destroyed<opj_destroy_codec>> codec(opj_create_decompress(OPJ_CODEC_J2K));
     const std::unique_ptr<opj_stream_t, Destroyed<opj_stream_destroy>> stream(
         opj_stream_create(std::max<std::size_t>(source.bytes.size(), 64), OPJ_TRUE));

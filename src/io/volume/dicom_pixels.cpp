@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_pixels.h"
-#include "core/try.h"
 
+#include "core/try.h"
 #include "io/byte_source.h"
 #include "io/errors.h"
 #include "io/volume/dicom_codecs.h"
@@ -143,9 +143,7 @@ Result<void> readDicomFrames(const DicomFile& file, const DicomImage& image, con
     Result<DicomStream> stream = DicomStream::open(file.path);
     VOXTACT_TRY(stream);
     FrameSource source(file, image, std::move(stream).value());
-    if (Result<void> begun = source.begin(); !begun.ok()) {
-        return begun;
-    }
+    VOXTACT_TRY(source.begin());
     if (!file.pixels->encapsulated) {
         return source.native(visit);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_slice.h"
-#include "core/try.h"
 
 #include "core/text.h"
+#include "core/try.h"
 #include "io/errors.h"
 #include "io/volume/dicom_walker.h"
 
@@ -194,9 +194,7 @@ class FrameReader {
     Result<void> read() {
         for (const auto step :
              {&FrameReader::place, &FrameReader::orientation, &FrameReader::spacing, &FrameReader::rescale}) {
-            if (Result<void> done = (this->*step)(); !done.ok()) {
-                return done;
-            }
+            VOXTACT_TRY((this->*step)());
         }
         return {};
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+
 #include "core/try.h"
 #include "io/errors.h"
 #include "io/volume/nifti_header.h"
@@ -50,27 +51,18 @@ Result<void> checkFinite(const fs::path& path, const std::string& name, double v
 Result<void> checkNumbers(const fs::path& path, const NiftiHeader& header) {
     // Analyze has nothing in pixdim[0].
     for (std::size_t i = header.kind == NiftiHeader::Kind::Analyze ? 1 : 0; i < header.pixdim.size(); ++i) {
-        if (Result<void> r = checkFinite(path, "pixdim[" + std::to_string(i) + "]", header.pixdim[i]); !r.ok()) {
-            return r;
-        }
+        VOXTACT_TRY(checkFinite(path, "pixdim[" + std::to_string(i) + "]", header.pixdim[i]));
     }
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     constexpr std::array<const char*, 3> kQuaternion{"b", "c", "d"};
     for (std::size_t i = 0; i < 3; ++i) {
         if (header.qformCode > 0) {
-            if (Result<void> r = checkFinite(path, std::string("quatern_") + kQuaternion[i], header.quaternion[i]);
-                !r.ok()) {
-                return r;
-            }
-            if (Result<void> r = checkFinite(path, std::string("qoffset_") + kAxes[i], header.qoffset[i]); !r.ok()) {
-                return r;
-            }
+            VOXTACT_TRY(checkFinite(path, std::string("quatern_") + kQuaternion[i], header.quaternion[i]));
+            VOXTACT_TRY(checkFinite(path, std::string("qoffset_") + kAxes[i], header.qoffset[i]));
         }
         for (std::size_t column = 0; column < 4 && header.sformCode > 0; ++column) {
             const std::string name = std::string("srow_") + kAxes[i] + "[" + std::to_string(column) + "]";
-            if (Result<void> r = checkFinite(path, name, header.srow[i][column]); !r.ok()) {
-                return r;
-            }
+            VOXTACT_TRY(checkFinite(path, name, header.srow[i][column]));
         }
     }
     return {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.h"
+
 #include "core/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
