@@ -66,7 +66,7 @@ vec3 shadedInside(vec4 segment, vec3 coordinate, vec3 away) {
         return light;
     }
     // Half-way to the eye: within matter a gradient may point anywhere.
-    const vec3 outside = normalize((dot(normal, away) > 0.0 ? -normal : normal) - away);
+    const vec3 outside = normalize(outwards(dot(normal, away)) * normal - away);
     const float openness = opennessAt(coordinate, outside);
     return light * (1.0 - picture.occlusion * (1.0 - openness));
 }

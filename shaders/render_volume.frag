@@ -120,6 +120,12 @@ float hashOf(uvec2 pixel) {
     return (float(state >> 8u) + 1.0) / 16777216.0;
 }
 
+/// How much a face seems to cut through matter, 0 to 1: a layer as deep as a face is shaded, of what has an opacity over
+/// a step, must hide half of what is behind it. Less and less where it thins out, or the rim of a face would be a line.
+float cutThrough(float opacity) {
+    return min(2.0 * (1.0 - pow(1.0 - min(opacity, 0.999), picture.faceDepth / picture.step)), 1.0);
+}
+
 /// Colour times opacity, and opacity, of the ray from one distance to another. It came in through a face.
 vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
     const float step = picture.step;
@@ -127,8 +133,7 @@ vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
     float at = from;
     float next = from + firstStep;
     float front = scalarAt(ray.origin + at * ray.direction);
-    // Whether all was visible from the face on: it cuts through matter.
-    bool cut = (picture.switches & PICTURE_FACES) != 0u;
+    float cut = (picture.switches & PICTURE_FACES) != 0u ? 1.0 : 0.0;
     float brickEnd = picture.bricksX > 0 ? from : PICTURE_NOTHING;
     // The bound is for llvmpipe (seen in Mesa 22.3): without, it goes on to a limit of its own, 65535 rounds, in some
     // blocks of pixels that are long done.
@@ -140,7 +145,7 @@ vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
             const float beyond = floor((min(brick.x, to) - next) / step);
             if (brick.y > 0.0 && beyond >= 0.0) {
                 at = next + beyond * step;
-                cut = false;
+                cut = 0.0;
                 next = at + step;
                 front = scalarAt(ray.origin + at * ray.direction);
                 if (at >= to) {
@@ -153,6 +158,7 @@ vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
         const float back = scalarAt(ray.origin + end * ray.direction);
         vec4 segment = textureLod(table, vec2(front, back), 0.0);
         if (segment.a > 0.0) {
+            cut = min(cut, cutThrough(segment.a));
             const float share = (end - at) / step;
             if (share < 0.999) {
                 const float opacity = 1.0 - pow(1.0 - min(segment.a, 1.0), share);
@@ -160,12 +166,12 @@ vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
             }
             if ((picture.switches & PICTURE_LIT_VOLUME) != 0u) {
                 const float middle = 0.5 * (at + end);
-                const float face = cut ? clamp(2.0 - (middle - from) / picture.faceDepth, 0.0, 1.0) : 0.0;
+                const float face = cut * clamp(2.0 - (middle - from) / picture.faceDepth, 0.0, 1.0);
                 segment.rgb = shaded(segment, ray.origin + middle * ray.direction, ray.world, faceNormal, face);
             }
             sum += (1.0 - sum.a) * segment;
         } else {
-            cut = false;
+            cut = 0.0;
         }
         front = back;
         at = end;

@@ -57,12 +57,14 @@ class Caster {
         double seen = 1;
         const double step = scene_.function.step;
         const Part part = seenPart(near, direction);
-        bool cut = scene_.lighting.faces;
+        double cut = scene_.lighting.faces ? 1 : 0;
         for (double at = part.from; at < std::min(part.to, end); at += step) {
             const double piece = std::min(step, std::min(part.to, end) - at);
             const double behind = at + piece / 2 - part.from;
-            const double face = cut ? std::clamp(2 - behind / faceDepth(), 0.0, 1.0) : 0;
-            cut = add(near + (at + piece / 2) * direction, direction, piece, {part.normal, face}, sum, seen) && cut;
+            const Vec3 world = near + (at + piece / 2) * direction;
+            cut = std::min(cut, cutThrough(world));
+            const double face = cut * std::clamp(2 - behind / faceDepth(), 0.0, 1.0);
+            add(world, direction, piece, {part.normal, face}, sum, seen);
         }
         const Colour& behind = mesh < length ? scene_.meshColour : scene_.background;
         return sum + seen * behind;
@@ -126,6 +128,12 @@ class Caster {
         return -std::log1p(-std::min(lookUp(opacity_, s), 0.999)) / scene_.function.opacityUnit;
     }
 
+    /// Whole where what is as deep as a face hides half of what is behind it.
+    [[nodiscard]] double cutThrough(const Vec3& world) const {
+        const double s = scalar(transformPoint(texture_from_world_, world));
+        return std::min(2 * -std::expm1(-extinction(s) * faceDepth()), 1.0);
+    }
+
     /// The mean light that comes from a quarter, half, three quarters and all of the reach along a way outside.
     [[nodiscard]] double openness(const Vec3& world, const Vec3& normal) const {
         constexpr int kLooks = 4;
@@ -153,22 +161,28 @@ class Caster {
         double share;
         double glint;
     };
-    [[nodiscard]] Light lightOn(Vec3 normal, const Vec3& direction) const {
+    [[nodiscard]] Light lightOn(const Vec3& normal, const Vec3& direction) const {
         const Lighting& light = scene_.lighting;
-        if (dot(normal, direction) > 0) {
-            normal = -1.0 * normal;
-        }
         const Vec3 right = alongPicture({-1, 0, 0}, {1, 0, 0});
         const Vec3 up = alongPicture({0, 1, 0}, {0, -1, 0});
         const Vec3 forward = alongPicture({0, 0, 0}, {0, 0, 1});
         Vec3 side = light.sideFrom[0] * right + light.sideFrom[1] * up - light.sideFrom[2] * forward;
         side = (1 / size(side)) * side;
-        const double facing = -dot(normal, direction);
-        const double bySide = std::max(dot(normal, side), 0.0);
         const Vec3 half = side - direction;
-        const double glint = std::max(dot(normal, half) / size(half), 0.0);
+        double bySide = 0;
+        double glint = 0;
+        const double front = (1 + outside(normal, direction)) / 2;
+        for (const auto& [weight, out] : {std::pair(front, normal), std::pair(1 - front, -1.0 * normal)}) {
+            bySide += weight * std::max(dot(out, side), 0.0);
+            glint += weight * std::pow(std::max(dot(out, half) / size(half), 0.0), light.shininess);
+        }
+        const double facing = std::abs(dot(normal, direction));
         return {light.ambient + light.diffuse * facing + light.side * bySide,
-                light.specular * (std::pow(facing, light.shininess) + light.side * std::pow(glint, light.shininess))};
+                light.specular * (std::pow(facing, light.shininess) + light.side * glint)};
+    }
+    /// 1: the normal points outside, -1: inside; between them within a cosine of a quarter from the silhouette.
+    static double outside(const Vec3& normal, const Vec3& direction) {
+        return std::clamp(-4 * dot(normal, direction), -1.0, 1.0);
     }
     [[nodiscard]] Vec3 alongPicture(const Vec3& from, const Vec3& to) const {
         const Vec3 way = transformPoint(world_from_clip_, to) - transformPoint(world_from_clip_, from);
@@ -235,14 +249,13 @@ class Caster {
         return sum;
     }
 
-    /// Whether there is anything to be seen.
-    bool add(const Vec3& world, const Vec3& direction, double part, const Face& face, Colour& sum, double& seen) const {
+    void add(const Vec3& world, const Vec3& direction, double part, const Face& face, Colour& sum, double& seen) const {
         const Vec3 texture = transformPoint(texture_from_world_, world);
         const double s = scalar(texture);
         const double opacity = std::min(lookUp(opacity_, s), 0.999);
         const double alpha = 1 - std::pow(1 - opacity, part / scene_.function.opacityUnit);
         if (alpha <= 0) {
-            return false;
+            return;
         }
         Light light{1, 0};
         if (scene_.lighting.volume) {
@@ -250,8 +263,7 @@ class Caster {
             const bool isFlat = size(slope) < 1e-9;
             const Vec3 normal = isFlat ? direction : (1 / size(slope)) * slope;
             light = lightOn(normal, direction);
-            const double open =
-                isFlat ? 1 : openness(world, halfWay(dot(normal, direction) > 0 ? -1.0 * normal : normal, direction));
+            const double open = isFlat ? 1 : openness(world, halfWay(outside(normal, direction) * normal, direction));
             const double left = 1 - scene_.lighting.occlusion * (1 - open);
             const Lighting& lights = scene_.lighting;
             const double facing = std::abs(dot(face.normal, direction));
@@ -263,7 +275,6 @@ class Caster {
             sum[channel] += seen * alpha * (lookUp(colour_[channel], s) * light.share + light.glint);
         }
         seen *= 1 - alpha;
-        return true;
     }
 
     [[nodiscard]] Vec3 vertex(std::size_t corner) const {
