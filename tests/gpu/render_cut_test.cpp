@@ -135,6 +135,36 @@ TEST_F(RenderCutTest, ACutThroughNoiseIsAsEvenAsItsPlane) {
     }
 }
 
+TEST_F(RenderCutTest, TheRimOfACutIsNoLine) {
+    // Denser from left to right and from both faces inwards; at the faces visible in the right half alone. The slope
+    // along y turns the surfaces within away from the eye.
+    const Grid grid = unitGrid(24);
+    const VolumeData data =
+        makeVolume<float>(grid, ScalarType::Float32, [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+            const double inwards = 12 - std::abs(z - 11.5);
+            return 0.3 + 0.01 * (x - 11.5) + 0.05 * inwards + 0.05 * std::abs(y - 11.5);
+        });
+    const Volume volume = upload(data);
+    constexpr ControlPoint kRamp[] = {{0, 0}, {0.42, 0}, {1, 0.9}};
+    constexpr ColourPoint kGray[] = {{0, {1, 1, 1}}};
+    const RenderTransferFunction function = take(RenderTransferFunction::upload(
+        renderer(), queue(),
+        {.opacity = {kRamp, {0, 1}, 256}, .colours = kGray, .opacityUnit = 1.0 / 24, .step = 0.002}));
+    Scene scene;
+    scene.volume = &volume;
+    scene.transferFunction = &function;
+    scene.clip_from_world = flatView(0, 1, kWidth, kHeight).clip_from_world;
+    scene.lighting = {.ambient = 0, .diffuse = 1, .specular = 0};
+    const Picture picture = take(blocking().render(scene, kExtent));
+    const std::size_t row = std::size_t{4} * kWidth * (kHeight / 3);
+    int jump = 0;
+    for (std::size_t x = 4; x + 1 < kWidth - 4; ++x) {
+        const std::size_t at = row + 4 * x;
+        jump = std::max(jump, std::abs(picture.rgba[at + 4] - picture.rgba[at]));
+    }
+    EXPECT_LE(jump, 6);
+}
+
 TEST_F(RenderCutTest, LightFromTheSide) {
     scene_.lighting.volume = true;
     scene_.lighting.diffuse = 0.4;
