@@ -1,60 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "voxtact/methods.h"
 
-#include <array>
+#include "core/method_table.h"
 
 namespace voxtact {
 
 namespace {
 
-struct MethodName {
-    CountingMethod method;
-    const char* name;
-};
+constexpr auto kMethods = [] {
+    std::array<CountingMethod, kMethodTable.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = kMethodTable[i].method;
+    }
+    return all;
+}();
 
-constexpr std::array kMethods{CountingMethod::Query,    CountingMethod::QueryAny, CountingMethod::Atomic,
-                              CountingMethod::Subgroup, CountingMethod::Compute,  CountingMethod::Cpu};
-constexpr std::array<MethodName, kMethods.size()> kMethodNames{{
-    {CountingMethod::Query, "query"},
-    {CountingMethod::QueryAny, "query-any"},
-    {CountingMethod::Atomic, "atomic"},
-    {CountingMethod::Subgroup, "subgroup"},
-    {CountingMethod::Compute, "compute"},
-    {CountingMethod::Cpu, "cpu"},
-}};
-
-struct ProjectionName {
-    Projection projection;
-    const char* name;
-};
-
-constexpr std::array kProjections{Projection::View, Projection::TwoView, Projection::DominantAxis,
-                                  Projection::Conservative};
-constexpr std::array<ProjectionName, kProjections.size()> kProjectionNames{{
-    {Projection::View, "view"},
-    {Projection::TwoView, "two-view"},
-    {Projection::DominantAxis, "dominant-axis"},
-    {Projection::Conservative, "conservative"},
-}};
+constexpr auto kProjections = [] {
+    std::array<Projection, kProjectionTable.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = kProjectionTable[i].projection;
+    }
+    return all;
+}();
 
 } // namespace
 
 const char* toString(CountingMethod method) noexcept {
-    for (const MethodName& entry : kMethodNames) {
-        if (entry.method == method) {
-            return entry.name;
-        }
-    }
-    return "unknown";
+    return isKnown(method) ? rowOf(method).name : "unknown";
 }
 
 const char* toString(Projection projection) noexcept {
-    for (const ProjectionName& entry : kProjectionNames) {
-        if (entry.projection == projection) {
-            return entry.name;
-        }
-    }
-    return "unknown";
+    return isKnown(projection) ? rowOf(projection).name : "unknown";
 }
 
 const char* toString(Filter filter) noexcept {
@@ -82,9 +58,9 @@ std::span<const CountingMethod> countingMethods() noexcept {
 }
 
 std::optional<CountingMethod> countingMethodFromName(std::string_view name) noexcept {
-    for (const MethodName& entry : kMethodNames) {
-        if (name == entry.name) {
-            return entry.method;
+    for (const MethodRow& row : kMethodTable) {
+        if (name == row.name) {
+            return row.method;
         }
     }
     return std::nullopt;
@@ -95,24 +71,24 @@ std::span<const Projection> projections() noexcept {
 }
 
 std::optional<Projection> projectionFromName(std::string_view name) noexcept {
-    for (const ProjectionName& entry : kProjectionNames) {
-        if (name == entry.name) {
-            return entry.projection;
+    for (const ProjectionRow& row : kProjectionTable) {
+        if (name == row.name) {
+            return row.projection;
         }
     }
     return std::nullopt;
 }
 
 bool usesView(Projection projection) noexcept {
-    return projection == Projection::View || projection == Projection::TwoView;
+    return isKnown(projection) && rowOf(projection).camera;
 }
 
 Filter defaultFilter(CountingMethod method) noexcept {
-    return method == CountingMethod::Compute || method == CountingMethod::Cpu ? Filter::Exact : Filter::Hardware;
+    return isKnown(method) ? rowOf(method).filter : Filter::Hardware;
 }
 
 Exactness exactness(CountingMethod method) noexcept {
-    return method == CountingMethod::QueryAny ? Exactness::LowerBound : Exactness::Exact;
+    return isKnown(method) ? rowOf(method).exactness : Exactness::Exact;
 }
 
 } // namespace voxtact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/projection.h"
+#include "core/method_table.h"
 
 #include <algorithm>
 
@@ -17,13 +18,13 @@ std::uint32_t longestSide(const Grid& grid) {
 
 Cameras::Cameras(Projection projection, const View& view) noexcept : count_(viewsPerPair(projection)) {
     matrices_[0] = usesView(projection) ? view.clip_from_world : kNoCamera;
-    if (projection == Projection::TwoView) {
+    if (count_ > 1) {
         matrices_[1] = sideView(view.clip_from_world);
     }
 }
 
 std::uint32_t viewsPerPair(Projection projection) noexcept {
-    return projection == Projection::TwoView ? 2 : 1;
+    return rowOf(projection).views;
 }
 
 std::uint64_t dominantSide(const Grid& grid, std::uint32_t samplesPerVoxel) noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/batch_check.h"
+#include "core/method_table.h"
 #include "core/projection.h"
 #include "core/text.h"
 #include "core/try.h"
@@ -69,7 +70,7 @@ Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch) {
     std::uint64_t pairs = 0;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         VOXTACT_TRY(checkItem(batch.items[i], i));
-        if (desc.projection == Projection::DominantAxis) {
+        if (rowOf(desc.projection).voxelGrid) {
             VOXTACT_TRY(checkDominant(batch.items[i], i, desc.samplesPerVoxel));
         }
         pairs += batch.items[i].world_from_object.size();

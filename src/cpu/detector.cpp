@@ -2,6 +2,7 @@
 #include "core/certified_constants.h"
 #include "core/enum_check.h"
 #include "core/guard.h"
+#include "core/method_table.h"
 #include "core/projection.h"
 #include "core/try.h"
 #include "cpu/batch_check.h"
@@ -64,7 +65,7 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
         VOXTACT_TRY(pairs);
         VOXTACT_TRY(checkLabelMaps(batch, impl_->desc.outputs));
         DetectorImpl& impl = *impl_;
-        BatchAnswer answer = impl.desc.projection == Projection::Conservative
+        BatchAnswer answer = rowOf(impl.desc.projection).certified
                                  ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)
                                  : runCounts(batch, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
         answer.wallMilliseconds =

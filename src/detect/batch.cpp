@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/batch.h"
+#include "core/method_table.h"
 #include "core/projection.h"
 #include "core/text.h"
 #include "core/try.h"
@@ -52,7 +53,7 @@ Result<void> checkView(const ContextImpl& context, const View& view) {
 /// What the projection `dominant-axis` asks of an item.
 Result<void> checkDominant(const ContextImpl& context, const DetectorDesc& desc, const BatchItem& item,
                            const std::string& which) {
-    if (desc.method != CountingMethod::Compute) {
+    if (rowOf(desc.method).coverage == Coverage::Rasteriser) {
         VOXTACT_TRY(checkStorage(item, "the projection dominant-axis"));
     }
     const Grid& grid = item.volume->grid();
@@ -104,7 +105,7 @@ Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc&
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const std::string which = "batch item " + std::to_string(i);
         VOXTACT_TRY(checkItem(context, batch.items[i], which));
-        if (desc.projection == Projection::DominantAxis) {
+        if (rowOf(desc.projection).voxelGrid) {
             VOXTACT_TRY(checkDominant(context, desc, batch.items[i], which));
         }
         pairs += batch.items[i].world_from_object.size();
@@ -141,7 +142,7 @@ shader::ItemConstants itemConstants(const BatchItem& item, Filter filter, double
 }
 
 VkExtent2D viewportOf(const DetectorDesc& desc, const Batch& batch, const BatchItem& item) noexcept {
-    if (desc.projection == Projection::DominantAxis) {
+    if (rowOf(desc.projection).voxelGrid) {
         const auto side = static_cast<std::uint32_t>(dominantSide(item.volume->grid(), desc.samplesPerVoxel));
         return {side, side};
     }

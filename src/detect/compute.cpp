@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/compute.h"
+#include "core/method_table.h"
 #include "core/projection.h"
 #include "core/try.h"
 #include "detect/batch.h"
@@ -19,7 +20,7 @@ Result<ComputePass> ComputePass::create(ContextImpl& context, const DetectorDesc
     const ShaderConstant constants[] = {
         {VOXTACT_CONSTANT_EXACT_FILTER, desc.filter == Filter::Exact ? 1U : 0U},
         {VOXTACT_CONSTANT_VIEWS, viewsPerPair(desc.projection)},
-        {VOXTACT_CONSTANT_DOMINANT_AXIS, desc.projection == Projection::DominantAxis ? 1U : 0U},
+        {VOXTACT_CONSTANT_DOMINANT_AXIS, rowOf(desc.projection).voxelGrid ? 1U : 0U},
         {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)},
     };
     const std::string name = std::string("compute ") + toString(desc.projection) + " " + toString(desc.filter);

@@ -3,6 +3,7 @@
 #include "core/enum_check.h"
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/method_table.h"
 #include "core/opaque_ranges.h"
 #include "core/projection.h"
 #include "core/try.h"
@@ -60,9 +61,10 @@ Result<void> checkMethod(const Context& context, CountingMethod method) {
                              " cannot be used on this device: " + entry.reason};
         }
     }
-    if (method == CountingMethod::Cpu) {
+    if (isKnown(method)) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     "the counting method cpu is the host engine's (voxtact/cpu.h), not a device's"};
+                     std::string("the counting method ") + toString(method) +
+                         " is the host engine's (voxtact/cpu.h), not a device's"};
     }
     return Error{ErrorCode::InvalidArgument, 0,
                  "there is no counting method number " + std::to_string(static_cast<std::uint32_t>(method))};
@@ -72,7 +74,7 @@ Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& d
     if (!desc.overestimate) {
         return {};
     }
-    if (desc.projection != Projection::DominantAxis || desc.method == CountingMethod::Compute) {
+    if (!rowOf(desc.projection).voxelGrid || rowOf(desc.method).coverage != Coverage::Rasteriser) {
         return Error{ErrorCode::InvalidArgument, 0,
                      std::string("DetectorDesc::overestimate is for the projection dominant-axis by a method that "
                                  "rasterises, not for ") +
@@ -93,20 +95,20 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
             return known;
         }
     }
-    if (desc.projection == Projection::Conservative && desc.method != CountingMethod::Compute) {
+    const ProjectionRow& projection = rowOf(desc.projection);
+    if (!answers(desc.method, desc.projection)) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("the projection conservative is answered by the counting methods compute and cpu, "
-                                 "not by ") +
+                     std::string("the projection ") + projection.name + " is answered by the counting methods " +
+                         methodNames([](const MethodRow& row) { return row.certified; }) + ", not by " +
                          toString(desc.method)};
     }
-    if (const char* control = missingFloatControl(context.floatControls);
-        desc.projection == Projection::Conservative && control != nullptr) {
+    if (const char* control = missingFloatControl(context.floatControls); projection.certified && control != nullptr) {
         return Error{ErrorCode::Unsupported, 0,
                      std::string("the projection conservative cannot be had by compute on this device: its "
                                  "VkPhysicalDeviceFloatControlsProperties do not report ") +
                          control + "; the host engine (voxtact/cpu.h) has it"};
     }
-    if (desc.stopAtFirst && desc.projection != Projection::Conservative) {
+    if (desc.stopAtFirst && !projection.certified) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "DetectorDesc::stopAtFirst is for the projection conservative; a boolean query is query-any"};
     }
@@ -149,9 +151,9 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         VOXTACT_TRY(checkDesc(c, desc));
         VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =
-            desc.projection == Projection::Conservative ? withPass(c, desc, ConservativePass::create(c, desc))
-            : desc.method == CountingMethod::Compute    ? withPass(c, desc, ComputePass::create(c, desc))
-                                                        : withPass(c, desc, ViewPass::create(c, desc));
+            rowOf(desc.projection).certified                    ? withPass(c, desc, ConservativePass::create(c, desc))
+            : rowOf(desc.method).coverage == Coverage::Computed ? withPass(c, desc, ComputePass::create(c, desc))
+                                                                : withPass(c, desc, ViewPass::create(c, desc));
         VOXTACT_TRY(impl);
         return Detector(std::move(*impl));
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/outputs.h"
+#include "core/method_table.h"
 #include "core/output_pair.h"
 #include "core/try.h"
 #include "gpu/scene_impl.h"
@@ -65,10 +66,11 @@ Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc) 
         return {};
     }
     VOXTACT_TRY(checkOutputs(desc.outputs));
-    if (desc.method != CountingMethod::Compute && !context.features.fragmentStoresAndAtomics) {
+    const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
+    if (rasterised && !context.features.fragmentStoresAndAtomics) {
         return unsupported("fragmentStoresAndAtomics is not enabled");
     }
-    if (desc.method != CountingMethod::Compute && !context.features.geometryShader) {
+    if (rasterised && !context.features.geometryShader) {
         return unsupported("geometryShader is not enabled (gl_PrimitiveID needs it)");
     }
     if (context.limits.maxBoundDescriptorSets < kOutputSets) {

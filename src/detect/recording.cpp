@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "detect/recording.h"
 #include "core/certified_constants.h"
+#include "core/method_table.h"
 #include "core/projection.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
-#include "detect/counting.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
@@ -90,7 +90,7 @@ std::uint32_t firstOpen(std::uint32_t pairs) noexcept {
 }
 
 std::uint32_t transformsPerPair(Projection projection) noexcept {
-    return projection == Projection::Conservative ? kMostTransformsPerPair : viewsPerPair(projection);
+    return rowOf(projection).certified ? kMostTransformsPerPair : viewsPerPair(projection);
 }
 
 void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
@@ -103,7 +103,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     barrier(context, commandBuffer, kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    if (desc.projection == Projection::Conservative) {
+    if (rowOf(desc.projection).certified) {
         recordCertifiedPairs(context, commandBuffer, batch, results);
     } else {
         recordTransforms(context, commandBuffer, batch, results, desc.projection);
@@ -112,7 +112,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     if (desc.outputs.any()) {
         recordOutputs(context, commandBuffer, batch, *results.outputs);
     }
-    if (countsByQuery(desc.method)) {
+    if (rowOf(desc.method).query) {
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);
     }
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -123,7 +123,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
 
 void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
                     const DetectorDesc& desc) {
-    if (countsByQuery(desc.method)) {
+    if (rowOf(desc.method).query) {
         copyQueries(context, commandBuffer, results);
     }
     barrier(context, commandBuffer, kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "detect/view.h"
+#include "core/method_table.h"
 #include "core/projection.h"
 #include "core/try.h"
 #include "detect/batch.h"
-#include "detect/counting.h"
 #include "detect/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -29,7 +29,7 @@ std::span<const std::uint32_t> fragmentSpirv(CountingMethod method, bool outputs
     const auto either = [outputs](std::span<const std::uint32_t> without, std::span<const std::uint32_t> with) {
         return outputs ? with : without;
     };
-    if (countsByQuery(method)) {
+    if (rowOf(method).query) {
         return either(spirv::view_frag, spirv::view_outputs_frag);
     }
     if (method == CountingMethod::Subgroup) {
@@ -75,7 +75,7 @@ Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc
     const bool outputs = desc.outputs.any();
     const std::string name = toString(desc.method) + std::string(outputs ? " outputs" : "");
     if (Result<void> made =
-            pass.makePipelines(fragmentSpirv(desc.method, outputs), pass.layout(), !countsByQuery(desc.method), name);
+            pass.makePipelines(fragmentSpirv(desc.method, outputs), pass.layout(), !rowOf(desc.method).query, name);
         !made.ok()) {
         return made.error();
     }
@@ -90,7 +90,7 @@ Result<ViewPass> ViewPass::createTrace(ContextImpl& context, Filter filter, VkPi
 }
 
 bool ViewPass::eachAlone() const noexcept {
-    return countsByQuery(desc_.method) && context_->flushAfterQuery;
+    return rowOf(desc_.method).query && context_->flushAfterQuery;
 }
 
 VkPipelineLayout ViewPass::layout() const noexcept {
@@ -148,7 +148,7 @@ void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const
     const VkRect2D area{{0, 0}, extent};
     vk.CmdSetViewport(commandBuffer, 0, 1, &viewport);
     vk.CmdSetScissor(commandBuffer, 0, 1, &area);
-    const bool carry = !countsByQuery(desc_.method) && needsCarry(desc_, batch, item);
+    const bool carry = !rowOf(desc_.method).query && needsCarry(desc_, batch, item);
     const auto& variants = pipelines_[boundary == Boundary::Range ? 1 : 0];
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, variants[carry ? 1 : 0].get());
     const VkDescriptorSet sets[] = {item.volume->impl().descriptors.set, item.transferFunction->impl().descriptors.set};
@@ -167,7 +167,7 @@ void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const
 void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                           std::uint32_t firstPair, const ResultsImpl& results) const {
     bindItem(commandBuffer, batch, item, boundary, results);
-    if (countsByQuery(desc_.method)) {
+    if (rowOf(desc_.method).query) {
         recordQueries(commandBuffer, viewportOf(desc_, batch, item), item, firstPair, results);
     } else {
         draw(commandBuffer, item, firstPair, static_cast<std::uint32_t>(item.world_from_object.size()));

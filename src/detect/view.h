@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/method_table.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/pipeline.h"
@@ -54,7 +55,7 @@ class ViewPass {
     [[nodiscard]] VkPipelineLayout layout() const noexcept;
     /// Whether each pair is a rendering of its own, flushed before the next: see ContextImpl::flushAfterQuery.
     [[nodiscard]] bool eachAlone() const noexcept;
-    [[nodiscard]] bool dominantAxis() const noexcept { return desc_.projection == Projection::DominantAxis; }
+    [[nodiscard]] bool dominantAxis() const noexcept { return rowOf(desc_.projection).voxelGrid; }
     [[nodiscard]] VkExtent2D largestViewport(const Batch& batch) const noexcept;
     void bindPairs(VkCommandBuffer commandBuffer, const ResultsImpl& results) const;
     void bindMesh(VkCommandBuffer commandBuffer, const BatchItem& item) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/guard.h"
 #include "core/live.h"
+#include "core/method_table.h"
 #include "core/try.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
@@ -266,9 +267,10 @@ bool Context::supports(CountingMethod method) const noexcept {
 }
 
 bool Context::supports(CountingMethod method, Projection projection) const noexcept {
-    const bool certified =
-        method == CountingMethod::Compute && missingFloatControl(live(impl_).floatControls) == nullptr;
-    return supports(method) && (projection != Projection::Conservative || certified);
+    if (!isKnown(projection) || !supports(method) || !answers(method, projection)) {
+        return false;
+    }
+    return !rowOf(projection).certified || missingFloatControl(live(impl_).floatControls) == nullptr;
 }
 
 CountingMethod Context::defaultMethod() const noexcept {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/requirements.h"
 #include "core/guard.h"
+#include "core/method_table.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <initializer_list>
 
 namespace voxtact {
 
@@ -101,37 +101,37 @@ DeviceSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
             readFloatControls(floats)};
 }
 
-/// One thing that a method needs, and what to say when it is not there.
-struct Need {
-    bool there;
-    const char* otherwise;
-};
-
-MethodSupport support(CountingMethod method, std::initializer_list<Need> needs) {
-    MethodSupport out{method, true, {}};
-    for (const Need& need : needs) {
-        if (!need.there) {
-            out.available = false;
-            out.reason += (out.reason.empty() ? "" : ", ") + std::string(need.otherwise);
-        }
-    }
-    return out;
-}
-
 static_assert(kComputeStorageBuffers == 6, "methodSupport() says so");
 
 std::vector<MethodSupport> methodSupport(const EnabledFeatures& enabled, const DeviceSupport& device) {
-    const Need stores{enabled.fragmentStoresAndAtomics, "fragmentStoresAndAtomics is not enabled"};
-    return {
-        support(CountingMethod::Query, {{enabled.occlusionQueryPrecise, "occlusionQueryPrecise is not enabled"}}),
-        support(CountingMethod::QueryAny, {}),
-        support(CountingMethod::Atomic, {stores}),
-        support(CountingMethod::Subgroup,
-                {stores, {device.fragmentBallotAndShuffle, "the fragment stage has no subgroup ballot and shuffle"}}),
-        support(CountingMethod::Compute, {{enabled.shaderInt64, "shaderInt64 is not enabled"},
-                                          {device.computeArithmetic, "the compute stage has no subgroup arithmetic"},
-                                          {device.computeBuffers, "maxPerStageDescriptorStorageBuffers is below 6"}}),
+    struct Known {
+        MethodNeed need;
+        bool there;
+        const char* otherwise;
     };
+    const Known known[] = {
+        {kNeedsPreciseQuery, enabled.occlusionQueryPrecise, "occlusionQueryPrecise is not enabled"},
+        {kNeedsFragmentStores, enabled.fragmentStoresAndAtomics, "fragmentStoresAndAtomics is not enabled"},
+        {kNeedsFragmentBallot, device.fragmentBallotAndShuffle,
+         "the fragment stage has no subgroup ballot and shuffle"},
+        {kNeedsInt64, enabled.shaderInt64, "shaderInt64 is not enabled"},
+        {kNeedsComputeArithmetic, device.computeArithmetic, "the compute stage has no subgroup arithmetic"},
+        {kNeedsComputeBuffers, device.computeBuffers, "maxPerStageDescriptorStorageBuffers is below 6"},
+    };
+    std::vector<MethodSupport> all;
+    for (const MethodRow& row : kMethodTable) {
+        if (row.host) {
+            continue;
+        }
+        MethodSupport& support = all.emplace_back(MethodSupport{row.method, true, {}});
+        for (const Known& one : known) {
+            if ((row.needs & one.need) != 0 && !one.there) {
+                support.available = false;
+                support.reason += (support.reason.empty() ? "" : ", ") + std::string(one.otherwise);
+            }
+        }
+    }
+    return all;
 }
 
 } // namespace

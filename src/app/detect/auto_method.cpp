@@ -3,6 +3,7 @@
 
 #include "app/detect/detect_run.h"
 #include "app/detect/speed_cache.h"
+#include "core/method_table.h"
 #include "core/try.h"
 #include "lab/host_speed.h"
 #include "voxtact/builtin.h"
@@ -25,7 +26,7 @@ bool describes(const std::vector<MethodSpeed>& speeds, const Context& context, b
                       [](const MethodSupport& has, const MethodSpeed& speed) {
                           return has.method == speed.verdict.method && has.available == speed.verdict.available;
                       }) &&
-           (!host || speeds.back().verdict.method == CountingMethod::Cpu);
+           (!host || rowOf(speeds.back().verdict.method).host);
 }
 
 Result<std::vector<MethodSpeed>> measureAll(const Session& session, std::optional<Filter> filter, bool host) {
@@ -46,9 +47,10 @@ bool fits(const VkExtent2D& size, const VkExtent2D& most) {
 }
 
 bool isCandidate(const MethodSpeed& speed, const AutoLimits& limits, const VkExtent2D& maxViewport) {
-    const bool onHost = speed.verdict.method == CountingMethod::Cpu;
+    const MethodRow& row = rowOf(speed.verdict.method);
+    const bool onHost = row.host;
     // The compute pass and the host share their rasteriser, and its guard band.
-    const bool guarded = onHost || speed.verdict.method == CountingMethod::Compute;
+    const bool guarded = row.coverage == Coverage::Computed;
     return speed.verdict.trusted && (limits.host || !onHost) && (onHost || fits(limits.size, maxViewport)) &&
            (!guarded || fits(limits.size, {cpu::kMaxViewport, cpu::kMaxViewport}));
 }
@@ -70,7 +72,7 @@ std::string choiceNote(const MeasuredMethods& measured, const AutoLimits& limits
         const std::string name = toString(speed.verdict.method);
         if (speed.verdict.method == chosen) {
             first = "auto chose " + name + ": " + rateText(speed.pairsPerSecond) + " pairs/s";
-        } else if (speed.verdict.method != CountingMethod::Cpu || limits.host) {
+        } else if (!rowOf(speed.verdict.method).host || limits.host) {
             others += (others.empty() ? "; " : ", ") + name +
                       (speed.verdict.trusted     ? " " + rateText(speed.pairsPerSecond)
                        : speed.verdict.available ? " fails its self-test"

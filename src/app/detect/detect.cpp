@@ -6,6 +6,7 @@
 #include "app/options/output_paths.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
+#include "core/method_table.h"
 #include "core/try.h"
 
 #include <CLI/CLI.hpp>
@@ -58,7 +59,7 @@ Result<AutoChoice> choose(const DetectOptions& options, const Session& session, 
     if (options.method.count) {
         return AutoChoice{*options.method.count, {}};
     }
-    if (options.method.projection == Projection::Conservative) {
+    if (rowOf(*options.method.projection).certified) {
         return AutoChoice{conservativeMethod(session, limits), {}};
     }
     return autoMethod(session, limits, options.device);
@@ -90,7 +91,7 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
 /// By the device that the options name; by the host where they, or the want of a device, say so.
 Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs, std::vector<std::string>& notes,
                         std::shared_ptr<const ValidationMessages>& messages, const UseEngine& answer) {
-    if (options.method.count == CountingMethod::Cpu) {
+    if (options.method.count && rowOf(*options.method.count).host) {
         if (!options.device.wanted.empty()) {
             notes.push_back("--device " + options.device.wanted +
                             " is not used: the counting method cpu runs on the host");
@@ -107,7 +108,7 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
             if (!choice->note.empty()) {
                 notes.push_back(choice->note);
             }
-            if (choice->method != CountingMethod::Cpu) {
+            if (!rowOf(choice->method).host) {
                 return withDeviceEngine(options, inputs, *session, choice->method, answer);
             }
         } else if (options.method.count || !limits.host) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_engine.h"
 #include "app/options/inputs.h"
+#include "core/method_table.h"
 #include "core/try.h"
 #include "voxtact/contact_result.h"
 #include "voxtact/detector.h"
@@ -90,9 +91,8 @@ Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
     const Result<VolumeData> data = loadVolume(source);
     VOXTACT_TRY(data);
     const QueueAccess queue = session_.device.queueAccess();
-    Result<Volume> volume =
-        Volume::upload(session_.context, queue, data->view(),
-                       {.name = source.c_str(), .bricks = desc_.projection == Projection::Conservative});
+    Result<Volume> volume = Volume::upload(session_.context, queue, data->view(),
+                                           {.name = source.c_str(), .bricks = rowOf(desc_.projection).certified});
     VOXTACT_TRY(volume);
     const VolumeSettings settings =
         settingsFor(options_, inputs_, number, *data, volume->valueRange().value_or(ValueRange{}));
@@ -133,7 +133,7 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.outputs = options.extra.outputs();
     desc.samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel);
     desc.resolution = options.method.resolution.value_or(kDefaultResolution);
-    desc.stopAtFirst = options.yesNo() && desc.projection == Projection::Conservative;
+    desc.stopAtFirst = options.yesNo() && rowOf(desc.projection).certified;
     return desc;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_run.h"
+#include "core/method_table.h"
 #include "core/try.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ Result<void> resolveJobs(DetectOptions& options) {
 }
 
 Result<void> checkHost(const DetectOptions& options) {
-    if (options.method.count != CountingMethod::Cpu) {
+    if (!options.method.count || !rowOf(*options.method.count).host) {
         return {};
     }
     if (options.method.filter == Filter::Hardware) {
@@ -52,7 +53,7 @@ Result<void> checkHost(const DetectOptions& options) {
 }
 
 Result<void> checkConservative(const MethodOptions& method) {
-    if (method.projection != Projection::Conservative) {
+    if (!rowOf(*method.projection).certified) {
         return {};
     }
     if (method.filter == Filter::Hardware) {
@@ -60,7 +61,8 @@ Result<void> checkConservative(const MethodOptions& method) {
     }
     if (!canBeConservative(method)) {
         return badArgument(std::string("--count ") + toString(*method.count) +
-                           ": the projection conservative is answered by compute, cpu and auto only");
+                           ": the projection conservative is answered by " +
+                           methodNames([](const MethodRow& row) { return row.certified; }, ", ") + " and auto only");
     }
     if (method.boundary == Boundary::Clamp) {
         return badArgument("--boundary clamp: the projection conservative always tests the range; leave it out, or add "
@@ -83,9 +85,9 @@ Result<void> checkProjection(const DetectOptions& options) {
     for (const Result<void>& used :
          {checkUsed(view.sizeGiven, "--size", usesView(projection), camera),
           checkUsed(!view.camera.empty(), "--camera", usesView(projection), camera),
-          checkUsed(options.method.samplesPerVoxel.has_value(), "--samples-per-voxel",
-                    projection == Projection::DominantAxis, "it is for --projection dominant-axis, not for " + name),
-          checkUsed(options.method.resolution.has_value(), "--resolution", projection == Projection::Conservative,
+          checkUsed(options.method.samplesPerVoxel.has_value(), "--samples-per-voxel", rowOf(projection).voxelGrid,
+                    "it is for --projection dominant-axis, not for " + name),
+          checkUsed(options.method.resolution.has_value(), "--resolution", rowOf(projection).certified,
                     "it is for --projection conservative, not for " + name)}) {
         if (!used.ok()) {
             return used;
@@ -132,8 +134,7 @@ Outputs ExtraOptions::outputs() const {
 }
 
 bool canBeConservative(const MethodOptions& method) {
-    const bool byMethod =
-        !method.count || method.count == CountingMethod::Compute || method.count == CountingMethod::Cpu;
+    const bool byMethod = !method.count || rowOf(*method.count).certified;
     return byMethod && method.filter != Filter::Hardware;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/raster/count_run.h"
+#include "core/method_table.h"
 #include "core/pair_transform.h"
 #include "core/projection.h"
 #include "cpu/outputs.h"
@@ -56,7 +57,7 @@ class CountRun {
   private:
     [[nodiscard]] ViewFacts viewOf(const BatchItem& item) const {
         View view = batch_.view;
-        if (desc_.projection == Projection::DominantAxis) {
+        if (rowOf(desc_.projection).voxelGrid) {
             view.width = static_cast<std::uint32_t>(dominantSide(item.volume->grid(), desc_.samplesPerVoxel));
             view.height = view.width;
         }
@@ -88,7 +89,7 @@ class CountRun {
                           .occupancy = *facts.occupancy,
                           .view = facts.view,
                           .transform = transform,
-                          .dominantAxis = desc_.projection == Projection::DominantAxis ? &facts.grid : nullptr,
+                          .dominantAxis = rowOf(desc_.projection).voxelGrid ? &facts.grid : nullptr,
                           .orthographic = isOrthographic(transform),
                           .cull = CullForms(mesh, transform),
                           .clusterBegin = task.clusterBegin,

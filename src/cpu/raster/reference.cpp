@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/raster/reference.h"
+#include "core/method_table.h"
 #include "core/pair_transform.h"
 #include "core/projection.h"
 #include "core/voxel_visit.h"
@@ -32,7 +33,7 @@ Scene makeScene(const ReferencePair& pair) {
                                     textureFromWorld(pair.volume.grid).value());
     scene.constants = itemConstants(1, storedIntercept(pair.volume.type), pair.transferFunction.domain, pair.threshold);
     const auto side = static_cast<std::uint32_t>(dominantSide(pair.volume.grid, pair.samplesPerVoxel));
-    const bool dominant = pair.projection == Projection::DominantAxis;
+    const bool dominant = rowOf(pair.projection).voxelGrid;
     const std::uint32_t width = dominant ? side : pair.view.width;
     const std::uint32_t height = dominant ? side : pair.view.height;
     scene.guardX = exactGuard(width);
@@ -100,7 +101,7 @@ ReferenceCounts referenceCounts(const ReferencePair& pair) {
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = cornerOf(scene, pair.mesh.indices[i + k]);
         }
-        if (pair.projection == Projection::DominantAxis &&
+        if (rowOf(pair.projection).voxelGrid &&
             !dominantProject(corners[0], corners[1], corners[2], dominantGrid(pair.volume.grid))) {
             continue;
         }

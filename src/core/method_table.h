@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/methods.h"
+
+#include <array>
+#include <string>
+
+/// What is known of each counting method and of each projection: a row each, in the order of their numbers. Checks,
+/// requirements, options, the program and the lab read it here. docs/change.md says what else a new row needs.
+namespace voxtact {
+
+/// What a method asks of a device, as bits. gpu/requirements.cpp says how each is called and looks whether it is there.
+enum MethodNeed : std::uint32_t {
+    kNeedsNothing = 0,
+    kNeedsPreciseQuery = 1U << 0U,
+    kNeedsFragmentStores = 1U << 1U,
+    kNeedsFragmentBallot = 1U << 2U,
+    kNeedsInt64 = 1U << 3U,
+    kNeedsComputeArithmetic = 1U << 4U,
+    kNeedsComputeBuffers = 1U << 5U,
+};
+
+/// Who covers the pixels of the projections that have pixels: methods of one kind count the same on every pose.
+enum class Coverage {
+    Rasteriser, ///< the device's, with its filters
+    Computed,   ///< ours, the same bits everywhere
+};
+
+struct MethodRow {
+    CountingMethod method;
+    const char* name;
+    bool host;  ///< needs no device
+    bool query; ///< an occlusion query counts, so that each pair is a draw of its own
+    Coverage coverage;
+    bool certified; ///< can decide cells: answers the projection conservative
+    Exactness exactness;
+    Filter filter;       ///< the default
+    std::uint32_t needs; ///< MethodNeed
+};
+
+inline constexpr std::array kMethodTable{
+    MethodRow{CountingMethod::Query, "query", false, true, Coverage::Rasteriser, false, Exactness::Exact,
+              Filter::Hardware, kNeedsPreciseQuery},
+    MethodRow{CountingMethod::QueryAny, "query-any", false, true, Coverage::Rasteriser, false, Exactness::LowerBound,
+              Filter::Hardware, kNeedsNothing},
+    MethodRow{CountingMethod::Atomic, "atomic", false, false, Coverage::Rasteriser, false, Exactness::Exact,
+              Filter::Hardware, kNeedsFragmentStores},
+    MethodRow{CountingMethod::Subgroup, "subgroup", false, false, Coverage::Rasteriser, false, Exactness::Exact,
+              Filter::Hardware, kNeedsFragmentStores | kNeedsFragmentBallot},
+    MethodRow{CountingMethod::Compute, "compute", false, false, Coverage::Computed, true, Exactness::Exact,
+              Filter::Exact, kNeedsInt64 | kNeedsComputeArithmetic | kNeedsComputeBuffers},
+    MethodRow{CountingMethod::Cpu, "cpu", true, false, Coverage::Computed, true, Exactness::Exact, Filter::Exact,
+              kNeedsNothing},
+};
+
+struct ProjectionRow {
+    Projection projection;
+    const char* name;
+    bool camera;         ///< looks through the batch's View
+    std::uint32_t views; ///< of a pair, one after the other
+    bool voxelGrid;      ///< its pixels are the volume's samples; samplesPerVoxel is for it
+    bool certified;      ///< decides cells with bounds; resolution and stopAtFirst are for it
+};
+
+inline constexpr std::array kProjectionTable{
+    ProjectionRow{Projection::View, "view", true, 1, false, false},
+    ProjectionRow{Projection::TwoView, "two-view", true, 2, false, false},
+    ProjectionRow{Projection::DominantAxis, "dominant-axis", false, 1, true, false},
+    ProjectionRow{Projection::Conservative, "conservative", false, 1, false, true},
+};
+
+namespace detail {
+template <class Table, class Key> constexpr bool isInOrder(const Table& table, Key key) {
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (static_cast<std::size_t>(key(table[i])) != i) {
+            return false;
+        }
+    }
+    return true;
+}
+} // namespace detail
+static_assert(detail::isInOrder(kMethodTable, [](const MethodRow& row) { return row.method; }));
+static_assert(detail::isInOrder(kProjectionTable, [](const ProjectionRow& row) { return row.projection; }));
+
+/// Whether there is a row: the number of an enumeration may come from anywhere.
+[[nodiscard]] constexpr bool isKnown(CountingMethod method) noexcept {
+    return static_cast<std::size_t>(method) < kMethodTable.size();
+}
+[[nodiscard]] constexpr bool isKnown(Projection projection) noexcept {
+    return static_cast<std::size_t>(projection) < kProjectionTable.size();
+}
+
+/// The row of one that is known.
+[[nodiscard]] constexpr const MethodRow& rowOf(CountingMethod method) noexcept {
+    return kMethodTable[static_cast<std::size_t>(method)];
+}
+[[nodiscard]] constexpr const ProjectionRow& rowOf(Projection projection) noexcept {
+    return kProjectionTable[static_cast<std::size_t>(projection)];
+}
+
+/// Whether a method answers in a projection, on a device that has what both need.
+[[nodiscard]] constexpr bool answers(CountingMethod method, Projection projection) noexcept {
+    return !rowOf(projection).certified || rowOf(method).certified;
+}
+
+/// "query, atomic and subgroup": the names of the methods for which `wanted` holds, with a word before the last.
+template <class Wanted> [[nodiscard]] std::string methodNames(Wanted wanted, const std::string& last = " and ") {
+    std::string names;
+    std::string pending;
+    for (const MethodRow& row : kMethodTable) {
+        if (wanted(row)) {
+            names += (names.empty() || pending.empty() ? "" : ", ") + pending;
+            pending = row.name;
+        }
+    }
+    return names.empty() ? pending : names + last + pending;
+}
+
+} // namespace voxtact
