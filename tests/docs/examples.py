@@ -63,20 +63,21 @@ def blocks_of(page):
 
 
 def commands_of(text):
-    """The voxtact calls of a block, each as (subcommand, words)."""
+    """The voxtact calls of a block: the words after `voxtact` of each, beginning with the subcommand."""
+    found = []
     for statement in re.sub(r"\\\n", " ", text).splitlines():
         lexer = shlex.shlex(statement, posix=True, punctuation_chars="|;&")
         lexer.whitespace_split, lexer.commenters = True, "#"
-        words, current = list(lexer), None
-        for word in words:
+        current = None
+        for word in lexer:
             if re.fullmatch(r"[|;&]+", word):
                 current = None
-            elif current is None and os.path.basename(word) == "voxtact":
-                current = []
             elif current is not None:
                 current.append(word)
-                if len(current) == 1:
-                    yield current
+            elif os.path.basename(word) == "voxtact":
+                current = []
+                found.append(current)
+    return [words for words in found if words]
 
 
 def help_of(program, subcommand):
