@@ -17,7 +17,7 @@ Poses are at large (`voxtact make poses`), or around the onset of contact: a ran
 random direction until it no longer does, found by bisection with the certified answer, and from there by a random
 length from 0.75 voxels back to 0.25 voxels on. Rates are pairs per second of CPU time on one thread, all in one run.
 
-Needs the packages of third_party/debian-packages-docs.txt. Usage:
+Needs the packages of third_party/debian-packages-peers.txt. Usage:
   peers.py VOXTACT [--poses N] [--output FILE]
 """
 import argparse
