@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
 MADE = ROOT / "build" / "site-pages"
 OUTSIDE_PAGES = ("CONTRIBUTING.md", "CHANGELOG.md")
-TOOLS = ("Doxyfile", "reference.css", "doxygen_filter.awk", "mkdocs_hooks.py")  # of the manual, and no part of it
+TOOLS = ("Doxyfile", "mainpage.dox", "reference.css", "doxygen_filter.awk", "mkdocs_hooks.py")  # of the manual, and no part of it
 REFERENCE = "# Reference\n\nThe public headers, by Doxygen: <a href='reference/index.html'>open the reference</a>.\n"
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]+)(#[^)]*)?\)")
 
