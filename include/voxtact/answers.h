@@ -14,21 +14,23 @@ namespace voxtact {
 
 /// A PairResult unpacked.
 struct PairAnswer {
-    std::uint32_t pair = 0;
-    std::uint32_t item = 0;
-    std::uint32_t pose = 0;
+    std::uint32_t pair = 0;  ///< number of the pair in its batch
+    std::uint32_t item = 0;  ///< number of the BatchItem that the pair came from
+    std::uint32_t pose = 0;  ///< number of the pose within that item
     bool hit = false;        ///< at least one survivor: the pair certainly touches
     bool possible = false;   ///< no survivor, but conservative fragments that could not be decided: it may touch
     std::uint64_t count = 0; ///< survivors; 1 for a hit of a boolean query or an early exit
-    Exactness exactness = Exactness::Exact;
-    CountingMethod method = CountingMethod::Query;
-    Projection projection = Projection::View;
+    Exactness exactness = Exactness::Exact;        ///< what the count is worth
+    CountingMethod method = CountingMethod::Query; ///< what counted
+    Projection projection = Projection::View;      ///< what gave the fragments
 };
 
+/// Reads the packed words of a PairResult: its count, its numbers, and how it was counted.
 [[nodiscard]] VOXTACT_API PairAnswer unpack(const PairResult& result) noexcept;
 
+/// What a batch gave: the pairs, and what the detector's Outputs asked for. What was not asked for is empty.
 struct BatchAnswer {
-    std::vector<PairAnswer> pairs;
+    std::vector<PairAnswer> pairs;          ///< in the order of the batch
     std::vector<TouchedTriangle> triangles; ///< by pair, then by triangle
     std::vector<Contact> contacts;          ///< by pair, then by triangle, then by position
     std::uint64_t contactsFound = 0;        ///< more than contacts.size(): the list was cut, arbitrarily

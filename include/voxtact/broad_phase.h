@@ -11,8 +11,9 @@ namespace voxtact {
 
 /// Two boxes that overlap: their numbers, `first` < `second`.
 struct BoxPair {
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
+    std::uint32_t first = 0;  ///< number of a box in the first span
+    std::uint32_t second = 0; ///< in the same span, or in the second one
+    /// By `first`, then by `second`.
     // clang-tidy 14 takes the 0 that the compiler writes for a null pointer.
     auto operator<=>(const BoxPair&) const = default; // NOLINT(modernize-use-nullptr)
 };

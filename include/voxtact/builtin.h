@@ -10,8 +10,9 @@
 /// IEEE arithmetic.
 namespace voxtact {
 
-/// The paper's two instruments have these numbers of triangles.
+/// Triangles of the paper's instrument.
 inline constexpr std::uint32_t kScalpelTriangles = 3068;
+/// Triangles of the paper's finer mesh.
 inline constexpr std::uint32_t kEllipsoidTriangles = 49998;
 
 /// A scalpel with handle, neck and blade: 150 mm long, the tip of the blade at the object's origin, the handle along

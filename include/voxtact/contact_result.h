@@ -13,18 +13,18 @@ namespace voxtact {
 
 /// A contact on the device, 48 bytes; std430. See Contact in outputs.h for what the members mean.
 struct ContactResult {
-    float x; ///< world, mm
-    float y;
-    float z;
-    float nx; ///< unit vector, or zero
-    float ny;
-    float nz;
-    float depth; ///< mm
-    float value;
-    float opacity;
-    VOXTACT_UINT pair; ///< number of the pair in its batch
-    VOXTACT_UINT triangle;
-    VOXTACT_UINT label; ///< number of the label in LabelData::values; 0 without a label map
+    float x;               ///< world, mm
+    float y;               ///< world, mm
+    float z;               ///< world, mm
+    float nx;              ///< unit vector, or zero
+    float ny;              ///< normal, unit vector or zero
+    float nz;              ///< normal, unit vector or zero
+    float depth;           ///< mm
+    float value;           ///< of the image, in its own units
+    float opacity;         ///< of that value, 0..1
+    VOXTACT_UINT pair;     ///< number of the pair in its batch
+    VOXTACT_UINT triangle; ///< number in the mesh
+    VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
 };
 
 /// The bits of the float behind a word of Results::bounds().

@@ -24,9 +24,9 @@ using LogCallback = void (*)(void* user, const char* text);
 /// kept but the handles, `getInstanceProcAddr`, the allocator and the log callback; those must outlive the Context.
 struct ContextDesc {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr; ///< the caller's loader; never looked up by voxtact
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
+    VkInstance instance = VK_NULL_HANDLE;                    ///< the caller's
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;        ///< that the device was made of
+    VkDevice device = VK_NULL_HANDLE;                        ///< the caller's; must outlive all that is made with it
     std::uint32_t apiVersion = 0; ///< VkApplicationInfo::apiVersion of the instance; at least VK_API_VERSION_1_3
     /// The chain that vkCreateDevice was given, or one that says the same: what was *enabled*, not what is supported.
     /// Both VkPhysicalDeviceVulkan1xFeatures and the single-feature structs are read.
@@ -36,7 +36,7 @@ struct ContextDesc {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;         ///< optional; used, never destroyed
     const VkAllocationCallbacks* allocator = nullptr;       ///< optional
     LogCallback log = nullptr;                              ///< optional; warnings, a line each
-    void* logUser = nullptr;
+    void* logUser = nullptr;                                ///< the first argument of every call of `log`
 };
 
 /// A feature that voxtact uses, as data.
@@ -63,22 +63,23 @@ class FeatureRequest {
     FeatureRequest(const FeatureRequest&) = delete;
     FeatureRequest& operator=(const FeatureRequest&) = delete;
 
-    VkPhysicalDeviceFeatures2 features2{};
-    VkPhysicalDeviceVulkan12Features vulkan12{};
-    VkPhysicalDeviceVulkan13Features vulkan13{};
+    VkPhysicalDeviceFeatures2 features2{};       ///< the chain's beginning: VkDeviceCreateInfo::pNext
+    VkPhysicalDeviceVulkan12Features vulkan12{}; ///< behind features2
+    VkPhysicalDeviceVulkan13Features vulkan13{}; ///< behind vulkan12; its pNext is yours
 };
 
 /// Whether a counting method can be had.
 struct MethodSupport {
-    CountingMethod method;
-    bool available;
-    std::string reason; ///< when not: the missing feature
+    CountingMethod method; ///< which
+    bool available;        ///< whether a Detector can be made for it
+    std::string reason;    ///< when not: the missing feature
 };
 
+/// What check() found.
 struct CheckReport {
-    bool usable = false;              ///< Context::create() would succeed
-    std::vector<std::string> missing; ///< a line for each thing: what, and what it costs
-    std::vector<MethodSupport> methods;
+    bool usable = false;                ///< Context::create() would succeed
+    std::vector<std::string> missing;   ///< a line for each thing: what, and what it costs
+    std::vector<MethodSupport> methods; ///< every counting method of a device
 };
 
 /// Looks at a description without making anything. Never fails: what is wrong is in the report.
@@ -87,11 +88,11 @@ struct CheckReport {
 /// A queue of the caller's for the blocking conveniences. lock and unlock, where given, bracket each vkQueueSubmit2
 /// and, after a failure, vkQueueWaitIdle: threads can share the queue. The wait is on a fence, outside the lock.
 struct QueueAccess {
-    VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t family = 0; ///< of the device; with graphics or, for upload(), compute
-    void (*lock)(void* user) = nullptr;
-    void (*unlock)(void* user) = nullptr;
-    void* user = nullptr;
+    VkQueue queue = VK_NULL_HANDLE;       ///< of the Context's device
+    std::uint32_t family = 0;             ///< of the device; with graphics or, for upload(), compute
+    void (*lock)(void* user) = nullptr;   ///< called before each submission; may be null
+    void (*unlock)(void* user) = nullptr; ///< called after it; may be null
+    void* user = nullptr;                 ///< the argument of both
 };
 
 /// voxtact on one device: a private function table, pipeline and descriptor layouts. No global state: any number of
@@ -107,7 +108,9 @@ class Context {
     VOXTACT_API Context& operator=(Context&&) noexcept;
     VOXTACT_API ~Context();
 
+    /// Every counting method of a device, in the order of their numbers. Valid as long as the Context.
     [[nodiscard]] VOXTACT_API std::span<const MethodSupport> methods() const noexcept;
+    /// Whether a counting method can be had on this device.
     [[nodiscard]] VOXTACT_API bool supports(CountingMethod method) const noexcept;
     /// Whether it can be had in a projection: `conservative` is for `compute` alone, and wants 32-bit floats that keep
     /// infinities and NaN and round to the nearest (VkPhysicalDeviceFloatControlsProperties).

@@ -32,6 +32,7 @@ class Volume {
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
     VOXTACT_API ~Volume();
+    /// Where the voxels are.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
 
     /// Edits: the next detect() sees them. None may run on the volume meanwhile. Either all of an edit is done or,
@@ -76,6 +77,7 @@ class Mesh {
     VOXTACT_API Mesh(Mesh&&) noexcept;
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
     VOXTACT_API ~Mesh();
+    /// What checkMesh() found.
     [[nodiscard]] VOXTACT_API const MeshFacts& facts() const noexcept;
     [[nodiscard]] const MeshImpl& impl() const noexcept { return *impl_; }
 
@@ -86,22 +88,24 @@ class Mesh {
 
 /// One mesh at some poses against one volume under one transfer function.
 struct BatchItem {
-    const Mesh* mesh = nullptr;
-    const Volume* volume = nullptr;
-    const TransferFunction* transferFunction = nullptr;
-    std::span<const Mat4> world_from_object; ///< affine
-    const LabelData* labels = nullptr;       ///< for the outputs contacts (optional) and labels
+    const Mesh* mesh = nullptr;                         ///< must be given, as all but the labels; read by detect() only
+    const Volume* volume = nullptr;                     ///< what is touched
+    const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
+    std::span<const Mat4> world_from_object;            ///< affine
+    const LabelData* labels = nullptr;                  ///< for the outputs contacts (optional) and labels
 };
 
 /// The pairs of one call: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items;
+    std::span<const BatchItem> items;     ///< any number; answers are in their order
     View view;                            ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
 
+/// Pixels along a side of a View, at most.
 inline constexpr std::uint32_t kMaxViewport = 16384;
 
+/// What a Detector of the host is made for.
 struct DetectorDesc {
     std::uint32_t threads = 0;          ///< 0: one for each processor
     Boundary boundary = Boundary::Auto; ///< Auto is the range test: the host has nothing to gain from clamping
@@ -117,6 +121,7 @@ struct DetectorDesc {
 /// Keeps its threads from call to call. Thread-safety: one detect() at a time.
 class Detector {
   public:
+    /// Starts its threads. Refuses numbers outside the ranges of DetectorDesc, and outputs with stopAtFirst.
     [[nodiscard]] VOXTACT_API static Result<Detector> create(const DetectorDesc& desc = {});
     VOXTACT_API Detector(Detector&&) noexcept;
     VOXTACT_API Detector& operator=(Detector&&) noexcept;
@@ -126,6 +131,7 @@ class Detector {
     /// refuses: null objects, bad poses, a singular camera, a viewport of 0 or beyond kMaxViewport (dominant-axis: a
     /// volume that needs one), a threshold outside [0,1].
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
+    /// How many threads detect() runs on.
     [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
 
   private:

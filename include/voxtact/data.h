@@ -18,13 +18,16 @@
 /// (i+0.5)/n. *clip*: Vulkan's (y down, depth 0..1). A matrix `b_from_a` takes points of space a to space b.
 namespace voxtact {
 
+/// x, y, z; of which space, and whether a point or a direction, its name says.
 using Vec3 = std::array<double, 3>;
 
 /// 4x4 matrix, column-major: element (row r, column c) is at [4*c + r]; vectors are columns.
 /// Double, because `texture_from_object` and `clip_from_object` are products that are rounded to float once.
 using Mat4 = std::array<double, 16>;
 
+/// The matrix that leaves every point where it is.
 [[nodiscard]] VOXTACT_API Mat4 identity() noexcept;
+/// The matrix that moves every point by `offset`.
 [[nodiscard]] VOXTACT_API Mat4 translation(const Vec3& offset) noexcept;
 /// c_from_a = multiply(c_from_b, b_from_a)
 [[nodiscard]] VOXTACT_API Mat4 multiply(const Mat4& c_from_b, const Mat4& b_from_a) noexcept;
@@ -38,49 +41,55 @@ using Mat4 = std::array<double, 16>;
 /// Where the voxels of an image are. `direction` holds three columns, the unit vectors (LPS) along the index axes:
 /// component r of axis c is at [3*c + r], as in ITK's direction matrix. It may be oblique; it must not be singular.
 struct Grid {
-    std::array<std::uint32_t, 3> size{}; ///< voxels along x, y, z; each at least 1
-    Vec3 spacing{1, 1, 1};               ///< mm; positive
-    Vec3 origin{};                       ///< mm; the *centre* of voxel (0,0,0)
-    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    std::array<std::uint32_t, 3> size{};                        ///< voxels along x, y, z; each at least 1
+    Vec3 spacing{1, 1, 1};                                      ///< mm; positive
+    Vec3 origin{};                                              ///< mm; the *centre* of voxel (0,0,0)
+    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< columns: unit vectors along the index axes
 };
 
 /// Refuses an empty grid, a spacing that is not positive and finite, a singular or non-finite direction.
 [[nodiscard]] VOXTACT_API Result<void> checkGrid(const Grid& grid);
-/// Both expect a grid that checkGrid() accepts.
+/// From texture space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromTexture(const Grid& grid) noexcept;
+/// From index space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromIndex(const Grid& grid) noexcept;
+/// The inverse of worldFromTexture(). Refuses what checkGrid() refuses.
 [[nodiscard]] VOXTACT_API Result<Mat4> textureFromWorld(const Grid& grid);
+/// Voxels of the whole grid.
 [[nodiscard]] VOXTACT_API std::uint64_t voxelCount(const Grid& grid) noexcept;
 
 /// How a voxel is stored. The number is the image's own unit (HU for CT): there is no other scale behind it.
 enum class ScalarType : std::uint32_t { UInt8, Int16, UInt16, Float32 };
 
+/// 1, 2 or 4.
 [[nodiscard]] VOXTACT_API std::size_t bytesPerVoxel(ScalarType type) noexcept;
+/// "uint8", "int16", "uint16" or "float"; it lives for ever.
 [[nodiscard]] VOXTACT_API const char* toString(ScalarType type) noexcept;
 
 /// An image somebody else owns. `voxels` holds voxelCount(grid) scalars of `type`, x fastest, then y, then z, without
 /// padding, in the machine's byte order, aligned to their size.
 struct VolumeView {
-    Grid grid;
-    ScalarType type = ScalarType::UInt8;
-    std::span<const std::byte> voxels;
+    Grid grid;                           ///< where the voxels are
+    ScalarType type = ScalarType::UInt8; ///< of each voxel
+    std::span<const std::byte> voxels;   ///< x fastest
 };
 
 /// An image that owns its voxels.
 struct VolumeData {
-    Grid grid;
-    ScalarType type = ScalarType::UInt8;
-    std::vector<std::byte> voxels;
-    std::string name;               ///< the file's name, or the builtin's
-    std::vector<std::string> notes; ///< what the reader did that the user may want to know, a line each
+    Grid grid;                           ///< where the voxels are
+    ScalarType type = ScalarType::UInt8; ///< of each voxel
+    std::vector<std::byte> voxels;       ///< as in VolumeView
+    std::string name;                    ///< the file's name, or the builtin's
+    std::vector<std::string> notes;      ///< what the reader did that the user may want to know, a line each
 
+    /// Of these voxels; valid as long as they are.
     [[nodiscard]] VolumeView view() const noexcept { return {grid, type, voxels}; }
 };
 
 /// A closed interval of scalars in the image's own units.
 struct ValueRange {
-    double lo = 0;
-    double hi = 0;
+    double lo = 0; ///< the least
+    double hi = 0; ///< the greatest
 };
 
 /// Refuses what checkGrid() refuses, a span of the wrong length, and NaN or infinite voxels (the first is named).
@@ -97,10 +106,11 @@ using Colour = std::array<double, 3>; ///< red, green, blue; 0..1
 
 /// A corner of the piecewise linear colours that pictures have.
 struct ColourPoint {
-    double value = 0; ///< in the image's own units
-    Colour colour{1, 1, 1};
+    double value = 0;       ///< in the image's own units
+    Colour colour{1, 1, 1}; ///< at that value
 };
 
+/// Entries of a transfer function's table, where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultTableSize = 256;
 inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sample is opaque (paper, section 5)
 
@@ -108,9 +118,9 @@ inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sampl
 /// s = (i+0.5)/tableSize, where s = (value - domain.lo) / (domain.hi - domain.lo). Between entries: linear. Outside
 /// the domain: the first and the last entry. The look-up coordinate is s itself.
 struct TransferFunctionDesc {
-    std::span<const ControlPoint> points; ///< ascending values; piecewise linear between, constant outside
-    ValueRange domain{0, 255};            ///< lo < hi, and hi - lo finite
-    std::uint32_t tableSize = kDefaultTableSize;
+    std::span<const ControlPoint> points;        ///< ascending values; piecewise linear between, constant outside
+    ValueRange domain{0, 255};                   ///< lo < hi, and hi - lo finite
+    std::uint32_t tableSize = kDefaultTableSize; ///< entries; at least 2
 };
 
 /// Refuses no points, values not finite or not ascending (equal ones make a step) or too far apart for a difference,
@@ -119,29 +129,31 @@ struct TransferFunctionDesc {
 
 /// A triangle mesh somebody else owns, in object space. Three floats a vertex, three indices a triangle.
 struct MeshView {
-    std::span<const float> positions;
-    std::span<const std::uint32_t> indices;
+    std::span<const float> positions;       ///< x, y, z of each vertex, object space
+    std::span<const std::uint32_t> indices; ///< three per triangle
 };
 
 /// A triangle mesh that owns its arrays.
 struct MeshData {
     std::vector<float> positions;       ///< x, y, z of each vertex, object space
     std::vector<std::uint32_t> indices; ///< three a triangle
-    std::string name;
-    std::vector<std::string> notes;
+    std::string name;                   ///< the file's name, or the builtin's
+    std::vector<std::string> notes;     ///< as in VolumeData
 
+    /// Of these arrays; valid as long as they are.
     [[nodiscard]] MeshView view() const noexcept { return {positions, indices}; }
 };
 
 /// An axis-aligned box.
 struct Box {
-    Vec3 lo{};
-    Vec3 hi{};
+    Vec3 lo{}; ///< least coordinates
+    Vec3 hi{}; ///< greatest coordinates
 };
 
+/// What checkMesh() finds out on its way.
 struct MeshFacts {
-    std::uint32_t vertices = 0;
-    std::uint32_t triangles = 0;
+    std::uint32_t vertices = 0;   ///< how many
+    std::uint32_t triangles = 0;  ///< how many, degenerate ones included
     std::uint32_t degenerate = 0; ///< triangles whose area is zero in float: allowed, they give no fragment
     Box bounds;                   ///< object space
 };
@@ -152,20 +164,20 @@ struct MeshFacts {
 
 /// The camera of the projections `view` and `two-view`.
 struct View {
-    Mat4 clip_from_world{};    ///< Vulkan clip space; orthographic or perspective; not singular
-    std::uint32_t width = 512; ///< pixels; at least 1, at most what the method can do: Context::maxViewport()
-    std::uint32_t height = 512;
+    Mat4 clip_from_world{};     ///< Vulkan clip space; orthographic or perspective; not singular
+    std::uint32_t width = 512;  ///< pixels; at least 1, at most what the method can do: Context::maxViewport()
+    std::uint32_t height = 512; ///< pixels, likewise
 };
 
 /// A scene in host memory for measuring with: one mesh at some poses against one volume.
 struct MeasureScene {
-    VolumeData volume{};
-    MeshData mesh{};
-    std::vector<ControlPoint> points{};
-    ValueRange domain{};
-    std::vector<Mat4> world_from_object{};
-    View view{};
-    double threshold = kDefaultThreshold;
+    VolumeData volume{};                   ///< what is touched
+    MeshData mesh{};                       ///< what touches
+    std::vector<ControlPoint> points{};    ///< of the transfer function
+    ValueRange domain{};                   ///< of the transfer function
+    std::vector<Mat4> world_from_object{}; ///< the poses; affine
+    View view{};                           ///< for projections with a camera
+    double threshold = kDefaultThreshold;  ///< opacity from which a sample is opaque
 };
 
 /// An orthographic view along world -z (from above, anterior up: world x runs to the left, y down) whose square

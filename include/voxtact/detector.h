@@ -17,11 +17,11 @@ struct ResultsImpl;
 
 /// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines.
 struct DetectorDesc {
-    CountingMethod method = CountingMethod::Query;
-    Projection projection = Projection::View;
-    Filter filter = Filter::Hardware;
-    Boundary boundary = Boundary::Auto;                      ///< the projection conservative always tests the range
-    Outputs outputs{};                                       ///< beside the counts; the Results need room for them
+    CountingMethod method = CountingMethod::Query; ///< how survivors are counted; Cpu is refused: see cpu.h
+    Projection projection = Projection::View;      ///< how meshes become fragments
+    Filter filter = Filter::Hardware;              ///< how the image is sampled; Conservative never looks at it
+    Boundary boundary = Boundary::Auto;            ///< the projection conservative always tests the range
+    Outputs outputs{};                             ///< beside the counts; the Results need room for them
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
     double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
     bool stopAtFirst = false; ///< conservative: the count is then 0 or 1, and its exactness LowerBound
@@ -33,20 +33,21 @@ struct DetectorDesc {
 
 /// One mesh at some poses against one volume under one transfer function.
 struct BatchItem {
-    const Mesh* mesh = nullptr;
-    const Volume* volume = nullptr;
-    const TransferFunction* transferFunction = nullptr;
-    std::span<const Mat4> world_from_object; ///< a pose a pair; affine. Read while recording only
-    const LabelMap* labels = nullptr;        ///< for the outputs contacts (optional) and labels
+    const Mesh* mesh = nullptr;     ///< must be given, as all but the labels; outlives the command buffer
+    const Volume* volume = nullptr; ///< what is touched
+    const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
+    std::span<const Mat4> world_from_object;            ///< a pose a pair; affine. Read while recording only
+    const LabelMap* labels = nullptr;                   ///< for the outputs contacts (optional) and labels
 };
 
 /// The pairs of one submission: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items;
+    std::span<const BatchItem> items;     ///< any number; results are in their order
     View view;                            ///< not looked at by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
 
+/// Contacts that a list has room for, where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
 
 /// Room for the outputs beside the counts, over all pairs of a batch. The bounds have room for maxPairs.
@@ -56,10 +57,11 @@ struct OutputRoom {
     std::uint32_t contacts = kDefaultContactRoom; ///< for the output contacts; a longer list is cut
 };
 
+/// How large Results are, and what they keep. Fixed for their life.
 struct ResultsDesc {
-    std::uint32_t maxPairs = 1;
-    bool readBack = true;    ///< a host-visible copy is kept, for cmdReadBack() and read()
-    bool timestamps = false; ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
+    std::uint32_t maxPairs = 1; ///< pairs of the largest batch
+    bool readBack = true;       ///< a host-visible copy is kept, for cmdReadBack() and read()
+    bool timestamps = false;    ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
 };
@@ -67,9 +69,9 @@ struct ResultsDesc {
 /// A part of a device buffer: where a descriptor of it begins, and how many bytes it has. The offset is a multiple of
 /// 256. The buffer is null where there is nothing.
 struct BufferRange {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0;
-    VkDeviceSize size = 0;
+    VkBuffer buffer = VK_NULL_HANDLE; ///< null: there is nothing
+    VkDeviceSize offset = 0;          ///< bytes
+    VkDeviceSize size = 0;            ///< bytes
 };
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
@@ -78,11 +80,14 @@ struct BufferRange {
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
+    /// Allocates the buffers. Refuses no pairs, more than the device's limits allow (which limit, how large), and
+    /// timestamps on a queue family that has none.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;
     VOXTACT_API Results& operator=(Results&&) noexcept;
     VOXTACT_API ~Results();
 
+    /// Pairs that there is room for.
     [[nodiscard]] VOXTACT_API std::uint32_t maxPairs() const noexcept;
     /// Pairs of the batch recorded last.
     [[nodiscard]] VOXTACT_API std::uint32_t pairs() const noexcept;
@@ -139,9 +144,11 @@ class Results {
 /// Thread-safety: none; one thread at a time.
 class ResultRing {
   public:
+    /// `frames`: how many may be in flight, 1 to 4096. Otherwise refuses what Results::create() refuses.
     [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Context& context, std::uint32_t frames,
                                                                const ResultsDesc& desc);
 
+    /// Slots, one for each frame in flight.
     [[nodiscard]] std::uint32_t frames() const noexcept { return static_cast<std::uint32_t>(slots_.size()); }
     /// Claims the slot of `frame` for recording. The caller knows that frame `frame - frames()` has completed.
     /// Frames ascend; claiming one that is older than its slot's is refused.
@@ -199,6 +206,7 @@ class Detector {
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
 
+    /// What it was made for.
     [[nodiscard]] VOXTACT_API const DetectorDesc& desc() const noexcept;
     /// Which variant Boundary::Auto takes for an item at a threshold: Range or Clamp.
     [[nodiscard]] VOXTACT_API Boundary boundaryFor(const BatchItem& item, double threshold) const noexcept;
@@ -221,7 +229,10 @@ class BlockingDetector {
     VOXTACT_API BlockingDetector& operator=(BlockingDetector&&) noexcept;
     VOXTACT_API ~BlockingDetector();
 
+    /// Answers for every pair of the batch. Blocks. Refuses what Detector::cmdDetect() refuses. After an error nothing
+    /// of the failed batch is in flight, and the next call works, unless the device is lost.
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
+    /// The detector that records; it lives as long as this object.
     [[nodiscard]] VOXTACT_API const Detector& detector() const noexcept;
 
   private:
@@ -232,10 +243,10 @@ class BlockingDetector {
 
 /// What selfTest() found for one counting method.
 struct SelfTestVerdict {
-    CountingMethod method;
-    bool available = false;
-    bool trusted = false; ///< available, and every count was as it must be
-    std::string text;     ///< "1024 of 1024 fragments", or what is wrong
+    CountingMethod method;  ///< which
+    bool available = false; ///< whether the device can do it
+    bool trusted = false;   ///< available, and every count was as it must be
+    std::string text;       ///< "1024 of 1024 fragments", or what is wrong
 };
 
 /// Renders a known number of fragments by each of `methods` (empty: all that the Context knows) on this driver: a full
@@ -245,6 +256,7 @@ struct SelfTestVerdict {
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
 
+/// What measureMethods() measures.
 struct MeasureDesc {
     const MeasureScene* scene = nullptr;          ///< must be given; makeMeasureScene() of voxtact::samples makes one
     std::span<const CountingMethod> methods = {}; ///< empty: all that the Context knows

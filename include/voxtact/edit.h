@@ -22,6 +22,7 @@ struct Ball {
     double radius = 0; ///< mm; not negative
 };
 
+/// What an edit changes.
 using VoxelRegion = std::variant<VoxelBox, Ball>;
 
 /// The least box with all voxels of a region that lie in the grid; a Ball may reach over the grid's faces and be empty.

@@ -20,6 +20,7 @@
 /// Thread-safety: safe from any thread on different files.
 namespace voxtact::io {
 
+/// Which image of a file or folder that holds several is read.
 struct VolumeReadOptions {
     /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it.
     std::optional<std::uint32_t> frame;
@@ -60,6 +61,7 @@ VOXTACT_API Result<void> writeVolume(const std::filesystem::path& path, const Vo
 /// What the coordinates of a mesh file mean.
 enum class MeshSpace { LPS, RAS };
 
+/// What the numbers of a mesh file mean; the files themselves do not say.
 struct MeshReadOptions {
     MeshSpace space = MeshSpace::LPS; ///< RAS: x and y are negated
     double scale = 1;                 ///< millimetres in a unit of the file; positive
@@ -92,6 +94,7 @@ VOXTACT_API Result<void> writeMesh(const std::filesystem::path& path, const Mesh
 /// Thread-safety: none; one thread at a time.
 class PoseReader {
   public:
+    /// Refuses a file that cannot be opened.
     [[nodiscard]] VOXTACT_API static Result<PoseReader> open(const std::filesystem::path& path);
     /// `name` is what errors call the stream, which must outlive the reader.
     [[nodiscard]] VOXTACT_API static Result<PoseReader> over(std::istream& stream, const std::string& name);
@@ -129,8 +132,8 @@ class PoseReader {
 
 /// What a label of a label map is called.
 struct LabelName {
-    std::int32_t label = 0;
-    std::string name;
+    std::int32_t label = 0; ///< its number in the map
+    std::string name;       ///< what it is called
 };
 
 /// One label a line: `number name`, and whatever follows; `#` comments and empty lines. This is what lies beside label
@@ -157,6 +160,7 @@ class OutputFile {
     VOXTACT_API OutputFile& operator=(OutputFile&&) noexcept;
     VOXTACT_API ~OutputFile();
 
+    /// Where to write: in the classic locale, valid until close() or commit().
     [[nodiscard]] VOXTACT_API std::ostream& stream() noexcept;
     /// Writes the rest, and says whether all went well, with the system's reason where it did not: a full disk.
     /// Nothing is written afterwards.

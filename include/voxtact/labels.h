@@ -11,7 +11,7 @@ namespace voxtact {
 /// A label map: which structure each voxel belongs to. Looked up at the nearest voxel, never interpolated; outside of
 /// the map's own grid the label is 0.
 struct LabelData {
-    Grid grid;
+    Grid grid;                          ///< where its voxels are
     std::vector<std::uint16_t> indices; ///< of each voxel, x fastest: the number of its label in `values`
     std::vector<std::int32_t> values;   ///< the labels, ascending, each once; 0 is always among them
 };

@@ -35,6 +35,7 @@ enum class Projection : std::uint32_t {
 
 /// Samples along a voxel's side in the projection DominantAxis.
 inline constexpr std::uint32_t kDefaultSamplesPerVoxel = 1;
+/// The finest grid of the projection DominantAxis.
 inline constexpr std::uint32_t kMostSamplesPerVoxel = 16;
 /// The projection Conservative stops dividing pieces of a triangle that are no longer than this many voxels.
 inline constexpr double kDefaultResolution = 1.0 / 64;
@@ -60,10 +61,15 @@ enum class Exactness : std::uint32_t {
     LowerBound = 1, ///< at least that many: a boolean query, an early exit, or fragments that could not be decided
 };
 
+/// The name as on the command line ("query-any"); it lives for ever; "unknown" for no method.
 [[nodiscard]] VOXTACT_API const char* toString(CountingMethod method) noexcept;
+/// The same of a projection: "two-view".
 [[nodiscard]] VOXTACT_API const char* toString(Projection projection) noexcept;
+/// The same of a filter: "hardware".
 [[nodiscard]] VOXTACT_API const char* toString(Filter filter) noexcept;
+/// The same of a boundary: "range".
 [[nodiscard]] VOXTACT_API const char* toString(Boundary boundary) noexcept;
+/// The same of an exactness: "lower-bound".
 [[nodiscard]] VOXTACT_API const char* toString(Exactness exactness) noexcept;
 
 /// The methods in the order of their numbers.
@@ -80,6 +86,8 @@ enum class Exactness : std::uint32_t {
 
 /// Exact for the methods that are the same on every device with it (compute, cpu), hardware for the others.
 [[nodiscard]] VOXTACT_API Filter defaultFilter(CountingMethod method) noexcept;
+/// What a count by a method is worth: LowerBound for QueryAny. A fragment that stays undecided (Conservative) and an
+/// early exit make it a lower bound too; PairAnswer::exactness has the last word.
 [[nodiscard]] VOXTACT_API Exactness exactness(CountingMethod method) noexcept;
 
 } // namespace voxtact

@@ -10,6 +10,7 @@
 /// What a detector can say beside the count of a pair. Everything is off by default, and what is off costs nothing.
 namespace voxtact {
 
+/// What is asked for; fixed for the life of a detector.
 struct Outputs {
     bool triangles = false; ///< which triangles have survivors, and how many
     bool contacts = false;  ///< a Contact for each survivor, as many as there is room for
@@ -18,19 +19,20 @@ struct Outputs {
     /// How far a contact's penetration is followed, mm; positive. Contacts only.
     double maxDepth = kDefaultMaxDepth;
 
+    /// Whether anything is.
     [[nodiscard]] bool any() const noexcept { return triangles || contacts || bounds || labels; }
 };
 
 /// A triangle with at least one survivor.
 struct TouchedTriangle {
-    std::uint32_t pair = 0;
+    std::uint32_t pair = 0;     ///< number of the pair in its batch
     std::uint32_t triangle = 0; ///< number in the mesh
     std::uint32_t count = 0;    ///< its survivors
 };
 
 /// One survivor and its place.
 struct Contact {
-    std::uint32_t pair = 0;
+    std::uint32_t pair = 0;     ///< number of the pair in its batch
     std::uint32_t triangle = 0; ///< number in the mesh
     Vec3 position{};            ///< world, mm: on the triangle, in an opaque sample up to rounding
     /// Unit vector in world space, against the gradient of opacity: out of what is opaque. The gradient is of
@@ -50,8 +52,8 @@ struct Contact {
 
 /// Survivors of a pair at one label.
 struct LabelCount {
-    std::uint32_t pair = 0;
-    std::int32_t label = 0;
+    std::uint32_t pair = 0;  ///< number of the pair in its batch
+    std::int32_t label = 0;  ///< as the label map has it
     std::uint64_t count = 0; ///< at least 1
 };
 

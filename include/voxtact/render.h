@@ -50,25 +50,26 @@ struct RenderTransferFunctionDesc {
     double step = 0.5; ///< mm from one sample of a ray to the next; half a voxel is a good one
 };
 
+/// What a Renderer is made for.
 struct RendererDesc {
     VkFormat colorFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< of the pictures; a colour attachment. There is no depth image
 };
 
 /// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong).
 struct Lighting {
-    bool volume = true; ///< by the gradient, from central differences; false: the colours as they are
-    bool mesh = true;
-    double ambient = 0.25;
+    bool volume = true;    ///< by the gradient, from central differences; false: the colours as they are
+    bool mesh = true;      ///< the same for meshes
+    double ambient = 0.25; ///< light from everywhere
     double diffuse = 0.75; ///< of the light at the eye
-    double specular = 0.2;
-    double shininess = 30;
+    double specular = 0.2; ///< how bright glints are
+    double shininess = 30; ///< how small they are
     /// What a second light adds where a surface faces it; its glint is this part of `specular`.
     double side = 0;
     Vec3 sideFrom{-0.55, 0.6, 0.6}; ///< where it is: to the picture's right, up, and towards the eye; of any length
     /// 0..1: how dark a place of the volume is that is shut in. What is between it and `reach` mm, half-way
     /// between its normal and the way to the eye, shuts in; faces of a cut are open.
     double occlusion = 0;
-    double reach = 8;
+    double reach = 8; ///< mm
     /// Where the border of the volume, a clipping plane or the near plane cuts through what is visible: light falls on
     /// the plane, all of it from the eye and without gloss, for two voxels of the longest spacing behind it, and goes
     /// over to the gradient in two more. false: the gradient at once, which is noise on such a face.
@@ -77,9 +78,10 @@ struct Lighting {
 
 /// The side `normal` points to is away: points p of world space with dot(normal, p) > offset.
 struct ClipPlane {
-    Vec3 normal{}; ///< of any length; it scales `offset`
-    double offset = 0;
+    Vec3 normal{};     ///< of any length; it scales `offset`
+    double offset = 0; ///< mm along the normal, where that is of length 1
 };
+/// Planes that a Scene may have.
 inline constexpr std::size_t kMostClipPlanes = 6;
 
 class RenderTransferFunction;
@@ -104,7 +106,7 @@ enum class Paint : std::uint32_t {
 /// with Filter::Hardware, counts it: for a View of Scene::clip_from_world and of Target::extent. (Boundary::Clamp may
 /// differ where it is asked for; Auto does not.)
 struct MeshPaint {
-    Paint what = Paint::Plain;
+    Paint what = Paint::Plain;                          ///< what is painted
     const TransferFunction* transferFunction = nullptr; ///< the detector's; for Contacts and Discarded
     double threshold = kDefaultThreshold;               ///< the same; 0..1
     const PaintedTriangles* triangles = nullptr;        ///< for Triangles; of Scene::mesh
@@ -117,25 +119,25 @@ struct MeshPaint {
 
 /// A mesh at a pose, and how it looks.
 struct SceneMesh {
-    const Mesh* mesh = nullptr;
+    const Mesh* mesh = nullptr;           ///< what is drawn
     const MeshNormals* normals = nullptr; ///< optional, of `mesh`: smooth; without, each triangle is flat
     Mat4 world_from_object = identity();  ///< of the mesh; affine, not singular
-    Colour meshColour{0.75, 0.78, 0.82};
-    MeshPaint paint{};
-    bool clipped = false; ///< by Scene::clipPlanes, as the volume is
+    Colour meshColour{0.75, 0.78, 0.82};  ///< where nothing is painted
+    MeshPaint paint{};                    ///< what of it has another colour
+    bool clipped = false;                 ///< by Scene::clipPlanes, as the volume is
 };
 
 /// What is to be seen: a volume, and meshes in it. It is its first mesh itself; without one, `mesh` is null.
 struct Scene : SceneMesh {
-    const Volume* volume = nullptr;
-    const RenderTransferFunction* transferFunction = nullptr;
-    const RenderBricks* bricks = nullptr;       ///< optional, of `volume`: what is transparent is skipped
+    const Volume* volume = nullptr;                           ///< must be given
+    const RenderTransferFunction* transferFunction = nullptr; ///< must be given
+    const RenderBricks* bricks = nullptr;                     ///< optional, of `volume`: what is transparent is skipped
     std::span<const SceneMesh> others = {};     ///< further meshes, or the same at further poses; none is null
     std::span<const ClipPlane> clipPlanes = {}; ///< at most kMostClipPlanes: what any of them takes away is away
     /// Orthographic or perspective; not singular. The near plane may be at depth 0 or 1, the far one at infinity.
     Mat4 clip_from_world{};
-    Colour background{};
-    Lighting lighting{};
+    Colour background{}; ///< behind everything
+    Lighting lighting{}; ///< of the volume and of all meshes
     /// The first sample of each ray is moved by a part of the step that is a hash of the pixel: noise instead of bands,
     /// the same in every picture of one size.
     bool jitter = true;
@@ -146,7 +148,7 @@ struct Target {
     VkImageView view = VK_NULL_HANDLE; ///< of RendererDesc::colorFormat, one sample, usage COLOR_ATTACHMENT
     VkExtent2D extent{};               ///< of the picture, from the image's corner; at most that of `targets`
     VkImageLayout layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; ///< or GENERAL; while the commands execute
-    RenderTargets* targets = nullptr;
+    RenderTargets* targets = nullptr;                                ///< must be given; of this Renderer
     /// The part of the picture that is made; without an extent all of it. Pixels outside are left as they are, and
     /// those inside are the same as in the whole: a picture that takes long can be made in pieces.
     VkRect2D area{};
@@ -154,7 +156,7 @@ struct Target {
     /// done, when the mesh is, and when the volume is. The caller has reset them, and the queue's family has
     /// timestamps.
     VkQueryPool timestamps = VK_NULL_HANDLE;
-    std::uint32_t firstTimestamp = 0;
+    std::uint32_t firstTimestamp = 0; ///< number of the first query in `timestamps`
 };
 
 /// Makes pictures in one colour format.
@@ -196,8 +198,8 @@ class Renderer {
 
 /// A picture in host memory.
 struct Picture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;        ///< pixels
+    std::uint32_t height = 0;       ///< pixels
     std::vector<std::uint8_t> rgba; ///< four bytes a pixel, the uppermost row first
 };
 
@@ -206,6 +208,7 @@ struct Picture {
 /// Thread-safety: none; one thread at a time.
 class BlockingRenderer {
   public:
+    /// `queue` needs graphics.
     [[nodiscard]] VOXTACT_API static Result<BlockingRenderer> create(const Context& context, const QueueAccess& queue);
     VOXTACT_API BlockingRenderer(BlockingRenderer&&) noexcept;
     VOXTACT_API BlockingRenderer& operator=(BlockingRenderer&&) noexcept;
@@ -219,6 +222,7 @@ class BlockingRenderer {
     /// The same picture, but in bands of rows, a submission each, of about a fifth of a second: `progress` is called
     /// after each, on this thread. It must not throw.
     [[nodiscard]] VOXTACT_API Result<Picture> render(const Scene& scene, VkExtent2D extent, const Progress& progress);
+    /// The renderer that records, to make the objects of a Scene with; it lives as long as this object.
     [[nodiscard]] VOXTACT_API const Renderer& renderer() const noexcept;
 
   private:
@@ -235,6 +239,7 @@ class RenderTransferFunction {
     /// finite.
     [[nodiscard]] VOXTACT_API static Result<RenderTransferFunction> create(const Renderer& renderer,
                                                                            const RenderTransferFunctionDesc& desc);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<RenderTransferFunction>
     upload(const Renderer& renderer, const QueueAccess& queue, const RenderTransferFunctionDesc& desc);
     VOXTACT_API RenderTransferFunction(RenderTransferFunction&&) noexcept;
@@ -274,6 +279,7 @@ class RenderTargets {
     VOXTACT_API RenderTargets& operator=(RenderTargets&&) noexcept;
     VOXTACT_API ~RenderTargets();
 
+    /// The largest picture that they are good for.
     [[nodiscard]] VOXTACT_API VkExtent2D extent() const noexcept;
     [[nodiscard]] RenderTargetsImpl& impl() const noexcept { return *impl_; }
 
@@ -287,14 +293,16 @@ class MeshNormals {
   public:
     /// Refuses what checkMesh() refuses.
     [[nodiscard]] VOXTACT_API static Result<MeshNormals> create(const Renderer& renderer, const MeshView& data);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<MeshNormals> upload(const Renderer& renderer, const QueueAccess& queue,
                                                                 const MeshView& data);
     VOXTACT_API MeshNormals(MeshNormals&&) noexcept;
     VOXTACT_API MeshNormals& operator=(MeshNormals&&) noexcept;
     VOXTACT_API ~MeshNormals();
 
-    /// As Mesh::cmdUpload() and Mesh::releaseStaging().
+    /// As Mesh::cmdUpload().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// As Mesh::releaseStaging().
     VOXTACT_API void releaseStaging() noexcept;
     [[nodiscard]] MeshNormalsImpl& impl() const noexcept { return *impl_; }
 
@@ -334,6 +342,7 @@ class PaintedTriangles {
     /// maxStorageBufferRange. Unsupported where the feature geometryShader is not enabled, which gl_PrimitiveID needs.
     [[nodiscard]] VOXTACT_API static Result<PaintedTriangles>
     create(const Renderer& renderer, std::uint32_t meshTriangles, std::span<const std::uint32_t> triangles);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<PaintedTriangles> upload(const Renderer& renderer, const QueueAccess& queue,
                                                                      std::uint32_t meshTriangles,
                                                                      std::span<const std::uint32_t> triangles);
@@ -346,8 +355,9 @@ class PaintedTriangles {
     VOXTACT_API PaintedTriangles& operator=(PaintedTriangles&&) noexcept;
     VOXTACT_API ~PaintedTriangles();
 
-    /// As Mesh::cmdUpload() and Mesh::releaseStaging(). A wrapped mask is refused.
+    /// As Mesh::cmdUpload(). A wrapped mask is refused.
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// As Mesh::releaseStaging().
     VOXTACT_API void releaseStaging() noexcept;
     [[nodiscard]] PaintedTrianglesImpl& impl() const noexcept { return *impl_; }
 

@@ -36,10 +36,10 @@ struct WrappedVolume {
     VkImageView view = VK_NULL_HANDLE;     ///< 3D, one mip level, component r sampled
     VkFormat format = VK_FORMAT_UNDEFINED; ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< or GENERAL; while commands execute
-    Grid grid;
+    Grid grid;                                                       ///< where its voxels are
     /// value = slope * stored + intercept, where stored is the integer behind a UNORM or SNORM texel, or the float.
     double slope = 1;
-    double intercept = 0;
+    double intercept = 0; ///< in the image's units
     /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp.
     std::optional<ValueRange> boundaryValues;
     /// As in VolumeOptions. Not to be used before the first Volume::cmdUpdateBricks(), of the whole grid.
@@ -62,7 +62,10 @@ class Volume {
     /// Refuses what checkVolume() refuses, and a volume beyond the device's limits (which limit, how large).
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const Context& context, const VolumeView& data,
                                                            const VolumeOptions& options = {});
+    /// Uses an image of the caller's, which must outlive this. Refuses a null view, a format or layout that is none of
+    /// those in WrappedVolume, a slope that is 0, what checkGrid() refuses, and a grid beyond the device's limits.
     [[nodiscard]] VOXTACT_API static Result<Volume> wrap(const Context& context, const WrappedVolume& wrapped);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<Volume> upload(const Context& context, const QueueAccess& queue,
                                                            const VolumeView& data, const VolumeOptions& options = {});
     VOXTACT_API Volume(Volume&&) noexcept;
@@ -72,6 +75,7 @@ class Volume {
     /// With VolumeOptions::bricks also fills the bricks: the queue needs compute, and the bound state that is lost is
     /// that of cmdUpdateBricks().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
     /// Brings the bricks up to date after the caller changed voxels of a wrapped image; `changed` holds all of them.
@@ -110,11 +114,14 @@ class Volume {
     VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box, VkBuffer source,
                                      VkDeviceSize offset);
 
+    /// Where the voxels are.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
     /// Smallest and largest voxel in the image's units; after edits, a range that holds all. Nothing for a wrapped
     /// volume, and after cmdCopy().
     [[nodiscard]] VOXTACT_API std::optional<ValueRange> valueRange() const noexcept;
+    /// The image on the device, for passes of the caller's: 3D, in SHADER_READ_ONLY_OPTIMAL, or as it was wrapped.
     [[nodiscard]] VOXTACT_API VkImageView view() const noexcept;
+    /// Its format; int16 voxels are kept as R16_UNORM with their sign bit flipped.
     [[nodiscard]] VOXTACT_API VkFormat format() const noexcept;
 
     [[nodiscard]] VolumeImpl& impl() const noexcept { return *impl_; }
@@ -126,9 +133,9 @@ class Volume {
 
 /// A table of the caller's.
 struct WrappedTransferFunction {
-    VkImageView view = VK_NULL_HANDLE; ///< 1D, opacity in component r
-    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    ValueRange domain{0, 255};
+    VkImageView view = VK_NULL_HANDLE;                               ///< 1D, opacity in component r
+    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while commands execute
+    ValueRange domain{0, 255};                                       ///< the values that the table covers
     /// The same table on the host, where the caller has it: lets Boundary::Auto prove that it may clamp.
     std::span<const float> table;
 };
@@ -136,10 +143,15 @@ struct WrappedTransferFunction {
 /// Scalar -> opacity, on the device.
 class TransferFunction {
   public:
+    /// Refuses what sampleTable() refuses, and a table beyond the device's limits. `name` appears on the Vulkan
+    /// objects.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction>
     create(const Context& context, const TransferFunctionDesc& desc, const char* name = nullptr);
+    /// Uses a table of the caller's, which must outlive this. Refuses a null view, a layout that no shader can
+    /// sample, and a domain that is empty.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction> wrap(const Context& context,
                                                                    const WrappedTransferFunction& wrapped);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction> upload(const Context& context, const QueueAccess& queue,
                                                                      const TransferFunctionDesc& desc,
                                                                      const char* name = nullptr);
@@ -147,7 +159,9 @@ class TransferFunction {
     VOXTACT_API TransferFunction& operator=(TransferFunction&&) noexcept;
     VOXTACT_API ~TransferFunction();
 
+    /// Records the copy to the device; see above for what it expects and leaves.
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
     /// Records a new table, of the same size, for the same or another domain. It takes effect in command-buffer order;
@@ -163,6 +177,7 @@ class TransferFunction {
     ///   bound state         none is lost
     VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc);
 
+    /// The values that the table covers, as recorded last.
     [[nodiscard]] VOXTACT_API ValueRange domain() const noexcept;
     [[nodiscard]] VOXTACT_API std::uint32_t tableSize() const noexcept; ///< 0 for a wrapped one without a host table
 
@@ -175,14 +190,14 @@ class TransferFunction {
 
 /// Buffers of the caller's. Vertices are three floats each at the start of a stride.
 struct WrappedMesh {
-    VkBuffer vertices = VK_NULL_HANDLE; ///< usage VERTEX_BUFFER
-    VkDeviceSize vertexOffset = 0;      ///< bytes, of the first position; a multiple of 4
-    std::uint32_t vertexStride = 12;    ///< bytes; at least 12, a multiple of 4
-    std::uint32_t vertexCount = 0;
+    VkBuffer vertices = VK_NULL_HANDLE;           ///< usage VERTEX_BUFFER
+    VkDeviceSize vertexOffset = 0;                ///< bytes, of the first position; a multiple of 4
+    std::uint32_t vertexStride = 12;              ///< bytes; at least 12, a multiple of 4
+    std::uint32_t vertexCount = 0;                ///< vertices in the buffer
     VkBuffer indices = VK_NULL_HANDLE;            ///< usage INDEX_BUFFER; null: every three vertices are a triangle
     VkDeviceSize indexOffset = 0;                 ///< bytes
     VkIndexType indexType = VK_INDEX_TYPE_UINT32; ///< UINT16 or UINT32
-    std::uint32_t triangleCount = 0;
+    std::uint32_t triangleCount = 0;              ///< triangles that are drawn
     /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` and the projection
     /// `dominant-axis` need. 16-bit indices must then be followed by two more bytes where they end in the middle of
     /// four.
@@ -203,16 +218,23 @@ class Mesh {
     /// Refuses what checkMesh() refuses.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
                                                          const MeshOptions& options = {});
+    /// Uses buffers of the caller's, which must outlive this. Their contents are not looked at: vertices must be finite
+    /// and indices in range. Refuses null vertices, strides and offsets that WrappedMesh does not allow, and no
+    /// triangles.
     [[nodiscard]] VOXTACT_API static Result<Mesh> wrap(const Context& context, const WrappedMesh& wrapped);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<Mesh> upload(const Context& context, const QueueAccess& queue,
                                                          const MeshView& data, const MeshOptions& options = {});
     VOXTACT_API Mesh(Mesh&&) noexcept;
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
     VOXTACT_API ~Mesh();
 
+    /// Records the copy to the device; see above for what it expects and leaves.
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
+    /// How many there are.
     [[nodiscard]] VOXTACT_API std::uint32_t triangles() const noexcept;
     /// Nothing for a wrapped mesh.
     [[nodiscard]] VOXTACT_API std::optional<MeshFacts> facts() const noexcept;
@@ -231,15 +253,19 @@ class LabelMap {
     /// make, and a map beyond the device's limits (which limit, how large).
     [[nodiscard]] VOXTACT_API static Result<LabelMap> create(const Context& context, const LabelData& data,
                                                              const char* name = nullptr);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<LabelMap> upload(const Context& context, const QueueAccess& queue,
                                                              const LabelData& data, const char* name = nullptr);
     VOXTACT_API LabelMap(LabelMap&&) noexcept;
     VOXTACT_API LabelMap& operator=(LabelMap&&) noexcept;
     VOXTACT_API ~LabelMap();
 
+    /// Records the copy to the device; see above for what it expects and leaves.
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
+    /// Where its voxels are; need not be the volume's grid.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
     /// The labels, by their numbers.
     [[nodiscard]] VOXTACT_API std::span<const std::int32_t> values() const noexcept;
