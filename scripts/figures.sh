@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 # A pose at which the mesh touches the volume: the first of some random ones.
 touching() {
     local volume=$1 mesh=$2 opacity=$3
-    "$program" make poses --volume "$volume" --mesh "$mesh" --count 40 --seed 5 --output "$work/poses.txt"
+    "$program" make poses --volume "$volume" --mesh "$mesh" --number 40 --seed 5 --output "$work/poses.txt"
     "$program" detect --volume "$volume" --mesh "$mesh" --opacity "$opacity" --poses "$work/poses.txt" --format csv \
         --output "$work/answers.csv"
     awk -F, '!/^#/ && $4 == 1 && $5 > most { most = $5; pose = $1 } END { print pose + 0 }' "$work/answers.csv"

@@ -64,7 +64,7 @@ class Voxtact:
 
     def random_poses(self, number, seed):
         path = self.folder / "random.txt"
-        self.run("make", "poses", "--volume", VOLUME, "--mesh", self.mesh, "--count", number, "--seed", seed,
+        self.run("make", "poses", "--volume", VOLUME, "--mesh", self.mesh, "--number", number, "--seed", seed,
                  "--output", path)
         return numpy.loadtxt(path).reshape(-1, 4, 4)
 
@@ -79,7 +79,7 @@ class Voxtact:
     def bench(self, number):
         """Certified, view and FCL by CPU time; the host alone, so that no driver's threads are in it."""
         answer = self.run("bench", "--certified", "--volume", VOLUME, "--mesh", MESH, "--opacity", self.opacity,
-                          "--poses", number, "--repetitions", 5, "--seed", SEED, "--format", "json", "--progress",
+                          "--number", number, "--repetitions", 5, "--seed", SEED, "--format", "json", "--progress",
                           "never", environment={**os.environ, "VK_DRIVER_FILES": "/nonexistent"})
         return json.loads(answer)
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
+#include "app/options/old_names.h"
 #include "app/output/standard_streams.h"
 #include "app/output/text_for_messages.h"
 #include "app/version.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <new>
 
 namespace voxtact::app {
@@ -90,7 +92,9 @@ int run(int argc, char** argv) {
         commands.push_back(std::move(command));
     }
     try {
-        program.parse(argc, argv);
+        std::vector<std::string> arguments = withNewNames({argv + std::min(argc, 1), argv + argc});
+        std::ranges::reverse(arguments); // as CLI11 wants them
+        program.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
         return printed(writeStandardOutput(program.help()));
     } catch (const CLI::CallForVersion&) {

@@ -47,7 +47,7 @@ class AnswerTest : public CliTest {
         EXPECT_LT(hits, counted.size());
     }
     void makePoses(int count) const {
-        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count",
+        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
                 std::to_string(count), "--seed", "7", "--output", path("poses.txt")});
     }
 };

@@ -20,7 +20,7 @@ class BenchTest : public CliDeviceTest {
     /// A scene that takes a moment, and what is added.
     static Arguments bench(const std::string& poses, const std::string& repetitions, const Arguments& more = {}) {
         Arguments all{"bench",   "--certified", "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:500",
-                      "--poses", poses,         "--repetitions", repetitions};
+                      "--number", poses,         "--repetitions", repetitions};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -84,7 +84,7 @@ TEST_F(BenchTest, FclIsThereOrTheTableSaysWhy) {
 TEST_F(BenchTest, AnisotropicObliqueVolumes) {
     output({"make", "volume", "builtin:ct:24", path("ct.nii.gz")});
     const Json result = json({"bench", "--certified", "--volume", path("ct.nii.gz"), "--mesh", "builtin:ellipsoid:200",
-                              "--opacity", "100:0,200:1", "--poses", "40", "--repetitions", "1"});
+                              "--opacity", "100:0,200:1", "--number", "40", "--repetitions", "1"});
     for (const Json& row : rowsOf(result, "fcl-float", "yes/no")) {
         EXPECT_LT(row["missed_percent"], 50) << row;
     }
@@ -121,7 +121,7 @@ TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {
                 AllOf(HasSubstr("--paper has its own scenes"), HasSubstr("--certified")));
     EXPECT_THAT(refused(2, bench("8", "1", {"--volume", "builtin:sphere"})), HasSubstr("one --volume"));
     EXPECT_THAT(refused(2, bench("8", "0")), HasSubstr("--repetitions"));
-    EXPECT_THAT(refused(2, bench("none.txt", "1")), HasSubstr("--poses"));
+    EXPECT_THAT(refused(2, bench("none.txt", "1")), HasSubstr("--number"));
     EXPECT_THAT(refused(2, bench("8", "1", {"--mesh", "builtin:spoon"})), HasSubstr("spoon"));
     EXPECT_THAT(refused(1, bench("8", "1", {"--output", path("none/out.csv")})), HasSubstr("does not exist"));
     EXPECT_EQ(filesInFolder(), 0U);

@@ -27,11 +27,11 @@ class CompareTest : public CliDeviceTest {
                       "builtin:scalpel:500",
                       "--size",
                       "128x128",
-                      "--count",
+                      "--number",
                       "12",
                       "--oracle",
                       "4",
-                      "--repeats",
+                      "--repetitions",
                       "2",
                       "--cache",
                       "off",
@@ -129,7 +129,7 @@ TEST_F(CompareTest, PosesAreThoseOfMakePoses) {
     const Json made = json({"--sweep", "none", "--seed", "7"});
     const std::string file = poses(12);
     Arguments given = compare({"--sweep", "none", "--poses", file, "--format", "json"});
-    const auto count = std::find(given.begin(), given.end(), "--count");
+    const auto count = std::find(given.begin(), given.end(), "--number");
     given.erase(count, count + 2);
     EXPECT_EQ(Json::parse(output(given))["counts"], made["counts"]);
 }
@@ -152,7 +152,7 @@ TEST_F(CompareTest, SweepsOfTrianglesAndFragments) {
     EXPECT_TRUE(std::is_sorted(fragments.begin(), fragments.end()));
     output({"make", "mesh", "builtin:scalpel:500", path("own.stl")});
     const Arguments own{"compare",  "--volume", "builtin:head:32", "--mesh",    path("own.stl"),
-                        "--count",  "4",        "--oracle",        "0",         "--size",
+                        "--number",  "4",        "--oracle",        "0",         "--size",
                         "64x64",    "--sweep",  "triangles",       "--methods", "query,cpu",
                         "--format", "text",     "--cache",         "off"};
     EXPECT_THAT(output(own), HasSubstr("no sweep of triangles"));
@@ -184,7 +184,7 @@ TEST_F(CompareTest, SweepOfVoxelsVariesTheVolumeAlone) {
 
 TEST_F(CompareTest, SizesThatCannotBeHadAreTold) {
     const auto sweep = [](const std::string& volume) {
-        return output({"compare", "--volume", volume, "--mesh", "builtin:scalpel:500", "--count", "4", "--oracle", "0",
+        return output({"compare", "--volume", volume, "--mesh", "builtin:scalpel:500", "--number", "4", "--oracle", "0",
                        "--size", "64x64", "--sweep", "voxels", "--methods", "query,cpu", "--cache", "off"});
     };
     const std::string small = sweep("builtin:head:4");
@@ -227,7 +227,7 @@ TEST_F(CompareTest, WhatCannotBeDoneIsOneLine) {
                 AllOf(HasSubstr("'sideways' is not known"), HasSubstr("fragments, voxels, all")));
     EXPECT_THAT(refused(2, compare({"--mesh", "builtin:ellipsoid"})), HasSubstr("one --volume and one --mesh"));
     EXPECT_THAT(refused(2, compare({"--time-limit", "0"})), HasSubstr("--time-limit"));
-    EXPECT_THAT(refused(2, compare({"--poses", "poses.txt"})), HasSubstr("--count"));
+    EXPECT_THAT(refused(2, compare({"--poses", "poses.txt"})), HasSubstr("--number"));
     EXPECT_THAT(refused(1, compare({"--report", path("none/report.html")})),
                 HasSubstr(VOXTACT_HAS_CHARTS == 0 ? "libjs-chart.js" : "does not exist"));
     if (VOXTACT_HAS_CHARTS != 0) {

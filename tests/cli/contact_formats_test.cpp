@@ -15,7 +15,7 @@ using testing::HasSubstr;
 class ContactFormatsTest : public CliTest {
   protected:
     ContactFormatsTest() {
-        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count", "30",
+        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number", "30",
                 "--seed", "7", "--output", path("poses.txt")});
     }
     /// The file, and the CSV of the same contacts (without its header).

@@ -23,7 +23,7 @@ class HostTest : public CliTest {
     }
     [[nodiscard]] std::string poses(int count) const {
         std::string file = path("poses.txt");
-        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count",
+        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
                 std::to_string(count), "--seed", "7", "--output", file});
         return file;
     }

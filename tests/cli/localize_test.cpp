@@ -15,14 +15,14 @@ class LocalizeCommandTest : public CliDeviceTest {
   protected:
     static Arguments localize(const Arguments& more = {}) {
         Arguments all{"compare", "--localize", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--size",
-                      "128x128", "--cache",    "off",      "--repeats",       "1"};
+                      "128x128", "--cache",    "off",      "--repetitions",       "1"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
 };
 
 TEST_F(LocalizeCommandTest, WaysOfTheViewAgreeAndMissWhatIsCertified) {
-    const Json result = Json::parse(output(localize({"--format", "json", "--count", "6"})));
+    const Json result = Json::parse(output(localize({"--format", "json", "--number", "6"})));
     EXPECT_TRUE(result["agrees"]);
     EXPECT_EQ(result["poses"].size(), 6U);
     std::vector<std::string> names;

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kFirst = "-0.8522518888796717 0.23358694423290272 -0.4680853099435682 9.108038504113518 "
                                "0.1402831209323217 0.9640505443754803 0.2256705427627353 -5.573363836863345 "
@@ -73,7 +74,7 @@ TEST_F(MakeTest, EndingsThatAreNone) {
 }
 
 TEST_F(MakeTest, PosesSayWhereTheyComeFrom) {
-    const auto lines = linesOf(makePoses({"--count", "3", "--seed", "18446744073709551615"}));
+    const auto lines = linesOf(makePoses({"--number", "3", "--seed", "18446744073709551615"}));
     ASSERT_EQ(lines.size(), 5U);
     EXPECT_THAT(lines[0], AllOf(HasSubstr("seed 18446744073709551615"), HasSubstr("builtin:head:16"),
                                 HasSubstr("builtin:scalpel:500")));
@@ -84,16 +85,23 @@ TEST_F(MakeTest, PosesAreTheSameEverywhere) {
     writeNifti(path("box.nii"), {});
     writeText(path("triangle.obj"), "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
     const auto lines = linesOf(output(
-        {"make", "poses", "--volume", path("box.nii"), "--mesh", path("triangle.obj"), "--count", "2", "--seed", "1"}));
+        {"make", "poses", "--volume", path("box.nii"), "--mesh", path("triangle.obj"), "--number", "2", "--seed", "1"}));
     ASSERT_EQ(lines.size(), 4U);
     EXPECT_EQ(lines[2], kFirst);
     EXPECT_EQ(lines[3], kSecond);
 }
 
+TEST_F(MakeTest, TheOldNameOfNumberIsKept) {
+    const std::vector<std::string> now = linesOf(makePoses({"--number", "3", "--seed", "5"}));
+    EXPECT_EQ(linesOf(makePoses({"--count", "3", "--seed", "5"})), now);
+    EXPECT_EQ(linesOf(makePoses({"--count=3", "--seed", "5"})), now);
+    EXPECT_THAT(output({"make", "poses", "--help"}), Not(HasSubstr("--count")));
+}
+
 TEST_F(MakeTest, PosesDependOnTheSeedAndNotOnTheCount) {
-    const auto few = linesOf(makePoses({"--count", "3", "--seed", "5"}));
-    const auto many = linesOf(makePoses({"--count", "9", "--seed", "5"}));
-    const auto other = linesOf(makePoses({"--count", "3", "--seed", "6"}));
+    const auto few = linesOf(makePoses({"--number", "3", "--seed", "5"}));
+    const auto many = linesOf(makePoses({"--number", "9", "--seed", "5"}));
+    const auto other = linesOf(makePoses({"--number", "3", "--seed", "6"}));
     for (std::size_t i = 2; i < 5; ++i) {
         EXPECT_EQ(few.at(i), many.at(i));
         EXPECT_NE(few.at(i), other.at(i));
@@ -101,7 +109,7 @@ TEST_F(MakeTest, PosesDependOnTheSeedAndNotOnTheCount) {
 }
 
 TEST_F(MakeTest, PosesAreRigidAndNearTheVolume) {
-    const auto lines = linesOf(makePoses({"--count", "200"}));
+    const auto lines = linesOf(makePoses({"--number", "200"}));
     ASSERT_EQ(lines.size(), 202U);
     for (std::size_t i = 2; i < lines.size(); ++i) {
         const auto m = numbersOf(lines[i]); // row by row
@@ -131,8 +139,8 @@ TEST_F(MakeTest, PosesOfOnePairOnly) {
                     AllOf(HasSubstr("--seed"), HasSubstr(seed)));
     }
     EXPECT_THAT(
-        refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--count", "0"}),
-        HasSubstr("--count"));
+        refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--number", "0"}),
+        HasSubstr("--number"));
 }
 
 } // namespace

@@ -28,7 +28,7 @@ class PaperTest : public CliDeviceTest {
         return all;
     }
     static Arguments withSweeps(const std::string& repetitions) {
-        return {"bench", "--paper", "--scale", "8", "--size", "48x48", "--poses", "2", "--repetitions", repetitions};
+        return {"bench", "--paper", "--scale", "8", "--size", "48x48", "--number", "2", "--repetitions", repetitions};
     }
     static Json json(const Arguments& more = {}, const std::string& repetitions = "2") {
         Arguments all = paper({"--format", "json"}, repetitions);
@@ -229,7 +229,7 @@ TEST_F(PaperTest, FilesStandForTheBuiltins) {
     output({"make", "mesh", "builtin:ellipsoid:49998", path("data/meshes/armadillo_49998.ply")});
     output({"make", "volume", "builtin:vessels:256", path("data/volumes/bonsai_256x256x128.nrrd")});
     const Json result = Json::parse(output({"bench", "--paper", "--data", path("data"), "--size", "16x16",
-                                            "--repetitions", "1", "--poses", "1", "--no-sweeps", "--format", "json"}));
+                                            "--repetitions", "1", "--number", "1", "--no-sweeps", "--format", "json"}));
     EXPECT_EQ(result["scenes"][0]["volume"], "builtin:head:256");
     EXPECT_EQ(result["scenes"][0]["voxels"], Json({256, 256, 256}));
     EXPECT_EQ(result["scenes"][3]["volume"], "bonsai_256x256x128.nrrd");

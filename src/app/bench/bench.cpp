@@ -88,7 +88,7 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
     addMeshOptions(parser, options.meshes);
     parser.get_option("--mesh")->required(false);
     addTransferFunctionOptions(parser, options.transferFunction);
-    addWholeNumber(parser, "--poses", options.settings.poses, 1, "how many poses of each kind; with --paper 7");
+    addWholeNumber(parser, "--number", options.settings.poses, 1, "how many poses of each kind; with --paper 7");
     addSeed(parser, options.settings.seed);
     addWholeNumber(parser, "--repetitions", options.settings.repetitions, 1,
                    "samples of each time, after a warm-up; with --paper 7");
@@ -123,7 +123,7 @@ Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     VOXTACT_TRY(checkTogether(options, parser));
     if (options.paper) {
         PaperSettings& paper = options.paperSettings;
-        paper.poses = parser.count("--poses") > 0 ? options.settings.poses : paper.poses;
+        paper.poses = parser.count("--number") > 0 ? options.settings.poses : paper.poses;
         paper.repetitions = parser.count("--repetitions") > 0 ? options.settings.repetitions : paper.repetitions;
         paper.seed = options.settings.seed;
         return runPaper(options, parser);

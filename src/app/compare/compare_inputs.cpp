@@ -12,7 +12,7 @@ namespace {
 
 Result<void> choosePoses(const CompareOptions& options, Scene& scene) {
     if (options.view.poses.empty()) {
-        scene.poses = randomPoses(scene.volume->data.grid, scene.mesh->data.view(), options.count, options.seed);
+        scene.poses = randomPoses(scene.volume->data.grid, scene.mesh->data.view(), options.number, options.seed);
         scene.posesFrom = "random, seed " + std::to_string(options.seed);
     } else {
         Result<std::vector<Mat4>> poses = loadPoses(options.view.poses);

@@ -60,9 +60,9 @@ void readSweep(const std::string& name, CompareOptions& options) {
 void addPoseOptions(CLI::App& parser, CompareOptions& options) {
     parser.get_option("--poses")->description(
         "a world_from_object matrix a line: 16 numbers, row by row; default: random ones, as make poses gives");
-    addWholeNumber(parser, "--count", options.count, 1, "how many random poses");
+    addWholeNumber(parser, "--number", options.number, 1, "how many random poses");
     addSeed(parser, options.seed);
-    parser.get_option("--count")->excludes("--poses");
+    parser.get_option("--number")->excludes("--poses");
     parser.get_option("--seed")->excludes("--poses");
     parser.add_option("--only-pose", options.onlyPose, "this pose alone, by its number from 0")->type_name("K");
 }
@@ -88,14 +88,14 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
             "--sweep", [&options](const std::string& name) { readSweep(name, options); },
             "what is timed: batch, triangles, fragments, voxels, all, none; default: batch, and all with --report")
         ->type_name("NAME");
-    addWholeNumber(parser, "--repeats", options.settings.repeats, 1, "samples of each time, after a warm-up");
+    addWholeNumber(parser, "--repetitions", options.settings.repeats, 1, "samples of each time, after a warm-up");
     addTimeLimit(parser, options.settings.timeLimit,
-                 "seconds for the samples of a sweep: fewer than --repeats are taken where they do not fit");
+                 "seconds for the samples of a sweep: fewer than --repetitions are taken where they do not fit");
     parser.add_flag("--keep-going", options.settings.keepGoing,
                     "when methods disagree, time them and write the outputs all the same; the exit status stays 3");
     CLI::Option* localize =
         parser.add_flag("--localize", options.localize,
-                        "which triangles touch, by each way to tell, instead; 8 poses and 3 repeats unless given");
+                        "which triangles touch, by each way to tell, instead; 8 poses and 3 repetitions unless given");
     addPath(parser, "--report", options.report, "an HTML page with charts, in one file, for reading without a network");
     for (const char* other : {"--methods", "--oracle", "--sweep", "--report"}) {
         localize->excludes(other);

@@ -18,7 +18,7 @@ struct CompareOptions {
     MeshOptions meshes;
     TransferFunctionOptions transferFunction;
     ViewOptions view;
-    std::uint32_t count = 128;
+    std::uint32_t number = 128;
     std::uint64_t seed = 1;
     std::optional<std::uint32_t> onlyPose;
     bool sweepsGiven = false;

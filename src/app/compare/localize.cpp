@@ -15,10 +15,10 @@ constexpr std::uint32_t kDefaultRepeats = 3;
 
 CompareOptions withDefaults(const CompareOptions& given, const CLI::App& parser) {
     CompareOptions options = given;
-    if (parser.get_option("--count")->empty()) {
-        options.count = kDefaultPoses;
+    if (parser.get_option("--number")->empty()) {
+        options.number = kDefaultPoses;
     }
-    if (parser.get_option("--repeats")->empty()) {
+    if (parser.get_option("--repetitions")->empty()) {
         options.settings.repeats = kDefaultRepeats;
     }
     return options;

@@ -32,7 +32,7 @@ box, made larger by a tenth on each side: most meshes overlap the box, some are 
 seed gives the same poses on every machine. The output is what detect --poses reads.
 
 Example:
-  voxtact make poses --volume builtin:head:128 --mesh builtin:scalpel --count 1000 --seed 7 --output poses.txt)";
+  voxtact make poses --volume builtin:head:128 --mesh builtin:scalpel --number 1000 --seed 7 --output poses.txt)";
 
 struct MakeFileOptions {
     std::string source;
@@ -42,7 +42,7 @@ struct MakeFileOptions {
 struct MakePosesOptions {
     std::vector<std::string> volumes;
     MeshOptions meshes;
-    std::uint32_t count = 100;
+    std::uint32_t number = 100;
     std::uint64_t seed = 1;
     std::filesystem::path path;
 };
@@ -97,9 +97,9 @@ Outcome makePoses(const MakePosesOptions& options) {
     VOXTACT_TRY(volume);
     const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
     VOXTACT_TRY(mesh);
-    const std::vector<Mat4> poses = randomPoses(volume->grid, mesh->view(), options.count, options.seed);
+    const std::vector<Mat4> poses = randomPoses(volume->grid, mesh->view(), options.number, options.seed);
     return outcomeOf(deliver(options.path, [&](std::ostream& out) -> Result<void> {
-        out << "# voxtact make poses: " << options.count << " poses, seed " << options.seed << ", mesh "
+        out << "# voxtact make poses: " << options.number << " poses, seed " << options.seed << ", mesh "
             << oneLine(options.meshes.sources.front()) << ", volume " << oneLine(options.volumes.front()) << '\n'
             << "# world_from_object, 16 numbers a line, row by row\n";
         for (const Mat4& pose : poses) {
@@ -125,7 +125,7 @@ Command addMakePoses(CLI::App& make) {
     parser->footer(kPosesFooter);
     addVolumeOption(*parser, options->volumes);
     addMeshOptions(*parser, options->meshes);
-    addWholeNumber(*parser, "--count", options->count, 1, "how many poses");
+    addWholeNumber(*parser, "--number", options->number, 1, "how many poses");
     addSeed(*parser, options->seed);
     addPath(*parser, "--output", options->path, "a file, or - for standard output, the default");
     return {parser, [options] { return makePoses(*options); }};

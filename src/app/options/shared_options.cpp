@@ -8,7 +8,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <string_view>
 
 namespace voxtact::app {
@@ -33,19 +32,27 @@ std::string quote(std::string_view text) {
     throw CLI::ValidationError(option, why);
 }
 
-std::string join(std::initializer_list<const char*> names) {
+std::string join(const std::vector<std::string>& names) {
     std::string text;
-    for (const char* name : names) {
-        text += (text.empty() ? "" : ", ") + std::string(name);
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
     }
     return text;
 }
 
 /// Refuses what is not in `available`.
-void requireName(const char* option, const std::string& name, std::initializer_list<const char*> available) {
+void requireName(const char* option, const std::string& name, const std::vector<std::string>& available) {
     if (std::find(available.begin(), available.end(), name) == available.end()) {
         refuse(option, quote(name) + " is not known; there are: " + join(available));
     }
+}
+
+template <class Value> std::vector<std::string> namesOf(std::span<const Value> values) {
+    std::vector<std::string> names;
+    for (const Value value : values) {
+        names.emplace_back(toString(value));
+    }
+    return names;
 }
 
 /// An option whose text `parse` reads; it calls refuse() for what it cannot use.
@@ -290,7 +297,9 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
     addParsed(
         parser, "--count",
         [&options](const std::string& name) {
-            requireName("--count", name, {"query", "query-any", "atomic", "subgroup", "compute", "cpu", "auto"});
+            std::vector<std::string> known = namesOf(countingMethods());
+            known.emplace_back("auto");
+            requireName("--count", name, known);
             options.count = countingMethodFromName(name);
         },
         "how fragments are counted: query, query-any, atomic, subgroup, compute, cpu (the host, no Vulkan), auto (the "
@@ -299,7 +308,7 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
     addParsed(
         parser, "--projection",
         [&options](const std::string& name) {
-            requireName("--projection", name, {"view", "two-view", "dominant-axis", "conservative"});
+            requireName("--projection", name, namesOf(projections()));
             options.projection = projectionFromName(name);
         },
         "how a mesh becomes fragments: view (through the camera), two-view (and once more from the side), "
