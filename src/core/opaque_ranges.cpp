@@ -19,9 +19,9 @@ constexpr double kNormalisationError = 8.0 / (1 << 24);
 
 } // namespace
 
-OpaqueRanges::OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largestTerm)
-    : domain_(domain), entryMargin_(kEntryMargin + kNormalisationError * static_cast<double>(table.size()) *
-                                                       largestTerm / (domain.hi - domain.lo)),
+OpaqueRanges::OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largest)
+    : domain_(domain), entryMargin_(kEntryMargin + kNormalisationError * static_cast<double>(table.size()) * largest /
+                                                       (domain.hi - domain.lo)),
       opaqueBefore_(table.size() + 1, 0), certainBefore_(table.size() + 1, 0) {
     const double safe = threshold - kOpacityMargin;
     const double certain = threshold > 0 ? threshold + kOpacityMargin : 0;

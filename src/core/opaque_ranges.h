@@ -3,11 +3,19 @@
 
 #include "voxtact/data.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace voxtact {
+
+/// The largest magnitude, in the image's units, of what a device adds in single precision to get from a texel to the
+/// normalised scalar. `intercept` and `texel`: of the line that makes a value of a stored texel.
+[[nodiscard]] inline double largestTerm(double intercept, double texel, const ValueRange& domain) noexcept {
+    return std::max({std::abs(intercept), std::abs(texel), std::abs(domain.lo), std::abs(domain.hi)});
+}
 
 /// Which scalars of a transfer function's table can look up an opacity of at least a threshold, on the safe side:
 /// mayBeOpaque() is false only where no sampler, whatever the precision of its weights, returns an opaque sample for
@@ -15,10 +23,9 @@ namespace voxtact {
 /// them. Kept as prefix counts over the table's entries, so that a question costs two look-ups.
 class OpaqueRanges {
   public:
-    /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque. `largestTerm`
-    /// is the largest magnitude, in the image's units, of what a device adds in single precision to get from a texel to
-    /// the normalised scalar: with a domain that is narrow beside it, the scalar is off by more than an entry.
-    OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largestTerm = 0);
+    /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque. `largest` is
+    /// largestTerm(): with a domain that is narrow beside it, the scalar is off by more than an entry.
+    OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largest = 0);
 
     /// Whether a scalar of the closed range (in the image's own units) may be opaque.
     [[nodiscard]] bool mayBeOpaque(const ValueRange& range) const noexcept;

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "detect/batch.h"
-#include "core/method_table.h"
-#include "core/projection.h"
-#include "core/text.h"
-#include "core/try.h"
+
+#include "core/batch_check.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 namespace voxtact {
 
@@ -18,47 +13,6 @@ namespace {
 
 Error refuse(std::string text) {
     return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
-
-/// Width and height of a viewport; 64 bits, so that what is asked for can be beyond every limit.
-using Extent = std::array<std::uint64_t, 2>;
-
-/// `what` begins the error text and says how large it is.
-Result<void> checkLimits(const ContextImpl& context, const Extent& extent, const std::string& what) {
-    const VkPhysicalDeviceLimits& limits = context.limits;
-    const std::uint32_t mostX = std::min(limits.maxViewportDimensions[0], limits.maxFramebufferWidth);
-    const std::uint32_t mostY = std::min(limits.maxViewportDimensions[1], limits.maxFramebufferHeight);
-    if (extent[0] > mostX || extent[1] > mostY) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     what +
-                         ", the device's limit (maxViewportDimensions, maxFramebufferWidth "
-                         "and Height) is " +
-                         std::to_string(mostX) + "x" + std::to_string(mostY)};
-    }
-    return {};
-}
-
-Result<void> checkView(const ContextImpl& context, const View& view) {
-    const std::string size = std::to_string(view.width) + "x" + std::to_string(view.height);
-    if (view.width == 0 || view.height == 0) {
-        return refuse("the viewport is " + size + ", it needs at least one pixel");
-    }
-    VOXTACT_TRY(checkLimits(context, {view.width, view.height}, "the viewport is " + size));
-    if (const Result<Mat4> world_from_clip = inverse(view.clip_from_world); !world_from_clip.ok()) {
-        return refuse("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
-    }
-    return {};
-}
-
-/// What the projection `dominant-axis` asks of an item.
-Result<void> checkDominant(const ContextImpl& context, const DetectorDesc& desc, const BatchItem& item,
-                           const std::string& which) {
-    if (rowOf(desc.method).coverage == Coverage::Rasteriser) {
-        VOXTACT_TRY(checkStorage(item, "the projection dominant-axis"));
-    }
-    const Grid& grid = item.volume->grid();
-    const std::uint64_t side = dominantSide(grid, desc.samplesPerVoxel);
-    return checkLimits(context, {side, side}, which + ": " + dominantNeeds(grid, desc.samplesPerVoxel));
 }
 
 /// What of an item was never uploaded; null: all was.
@@ -72,48 +26,42 @@ const char* missingUpload(const BatchItem& item) {
     return item.transferFunction->impl().uploaded ? nullptr : "the transfer function";
 }
 
-Result<void> checkItem(const ContextImpl& context, const BatchItem& item, const std::string& which) {
-    if (item.mesh == nullptr || item.volume == nullptr || item.transferFunction == nullptr) {
-        return refuse(which + ": mesh, volume or transferFunction is null");
-    }
-    if (&item.mesh->impl().context != &context || &item.volume->impl().context != &context ||
-        &item.transferFunction->impl().context != &context) {
-        return refuse(which + ": mesh, volume or transferFunction belongs to another Context");
-    }
-    if (const char* what = missingUpload(item); what != nullptr) {
-        return neverUploaded(which + ": " + what);
-    }
-    for (std::size_t pose = 0; pose < item.world_from_object.size(); ++pose) {
-        // The text is made for a bad pose only: this is the hot loop of recording.
-        if (Result<void> checked = checkAffine(item.world_from_object[pose], {}); !checked.ok()) {
-            return checkAffine(item.world_from_object[pose], which + ", pose " + std::to_string(pose));
+struct DeviceSide {
+    const ContextImpl& context;
+    bool readsVertices; ///< vertices are pulled from a storage buffer
+
+    [[nodiscard]] Result<void> checkExtent(const WideExtent& extent, const std::string& what) const {
+        const VkPhysicalDeviceLimits& limits = context.limits;
+        const std::uint32_t mostX = std::min(limits.maxViewportDimensions[0], limits.maxFramebufferWidth);
+        const std::uint32_t mostY = std::min(limits.maxViewportDimensions[1], limits.maxFramebufferHeight);
+        if (extent[0] <= mostX && extent[1] <= mostY) {
+            return {};
         }
+        return Error{ErrorCode::LimitExceeded, 0,
+                     what +
+                         ", the device's limit (maxViewportDimensions, maxFramebufferWidth "
+                         "and Height) is " +
+                         std::to_string(mostX) + "x" + std::to_string(mostY)};
     }
-    return {};
-}
+
+    [[nodiscard]] Result<void> checkItem(const BatchItem& item, const std::string& which) const {
+        if (&item.mesh->impl().context != &context || &item.volume->impl().context != &context ||
+            &item.transferFunction->impl().context != &context) {
+            return refuse(which + ": mesh, volume or transferFunction belongs to another Context");
+        }
+        if (const char* what = missingUpload(item); what != nullptr) {
+            return neverUploaded(which + ": " + what);
+        }
+        return readsVertices ? checkStorage(item, "the projection dominant-axis") : Result<void>();
+    }
+};
 
 } // namespace
 
 Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch) {
-    if (!(batch.threshold >= 0 && batch.threshold <= 1)) {
-        return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
-    }
-    if (usesView(desc.projection)) {
-        VOXTACT_TRY(checkView(context, batch.view));
-    }
-    std::uint64_t pairs = 0;
-    for (std::size_t i = 0; i < batch.items.size(); ++i) {
-        const std::string which = "batch item " + std::to_string(i);
-        VOXTACT_TRY(checkItem(context, batch.items[i], which));
-        if (rowOf(desc.projection).voxelGrid) {
-            VOXTACT_TRY(checkDominant(context, desc, batch.items[i], which));
-        }
-        pairs += batch.items[i].world_from_object.size();
-    }
-    if (pairs > std::numeric_limits<std::uint32_t>::max()) {
-        return refuse("the batch has " + std::to_string(pairs) + " pairs, more than 32 bits can number");
-    }
-    return static_cast<std::uint32_t>(pairs);
+    const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
+    return checkBatch(desc.projection, desc.samplesPerVoxel, batch,
+                      DeviceSide{context, rasterised && rowOf(desc.projection).voxelGrid});
 }
 
 std::uint32_t groupsOf(const Mesh& mesh) noexcept {

@@ -38,12 +38,12 @@ std::string labelOf(const DetectorDesc& desc, std::uint32_t pairs) {
            std::to_string(pairs) + " pairs";
 }
 
-/// What normalising a sample adds in single precision, at most, in the image's units.
-double largestTerm(const VolumeImpl& volume, const ValueRange& domain) {
-    double largest = std::max({std::abs(volume.valueIntercept), std::abs(domain.lo), std::abs(domain.hi)});
+/// The largest term of a texel, in the image's units.
+double largestTexel(const VolumeImpl& volume) {
     if (volume.storedUnit > 0) {
-        return std::max(largest, std::abs(volume.valueSlope)); // of a normalised texel
+        return volume.valueSlope; // of a normalised texel
     }
+    double largest = 0;
     for (const ValueRange& range : *volume.boundary) {
         largest = std::max({largest, std::abs(range.lo), std::abs(range.hi)});
     }
@@ -219,7 +219,8 @@ Boundary Detector::boundaryFor(const BatchItem& item, double threshold) const no
         return Boundary::Range;
     }
     try {
-        const OpaqueRanges opaque(function.table, function.domain, threshold, largestTerm(volume, function.domain));
+        const OpaqueRanges opaque(function.table, function.domain, threshold,
+                                  largestTerm(volume.valueIntercept, largestTexel(volume), function.domain));
         const bool anyOpaque =
             std::ranges::any_of(*volume.boundary, [&](const ValueRange& range) { return opaque.mayBeOpaque(range); });
         return anyOpaque ? Boundary::Range : Boundary::Clamp;

@@ -57,7 +57,7 @@ struct Tally {
 TEST(Agreement, RandomScenes) {
     std::mt19937_64 random(testSeed());
     Tally tally;
-    for (int round = 0; round < 1500; ++round) {
+    for (std::size_t round = 0; round < randomCases(1500, 4); ++round) {
         const std::uint64_t seed = random();
         std::mt19937_64 local(seed);
         const RandomScene scene = makeRandomScene(local, 4);

@@ -53,7 +53,7 @@ TEST(Projections, DominantAxisIsTheReference) {
     std::mt19937_64 random(testSeed());
     std::uint64_t survivors = 0;
     std::size_t hits = 0;
-    for (int round = 0; round < 500; ++round) {
+    for (std::size_t round = 0; round < randomCases(500, 4); ++round) {
         const std::uint64_t seed = random();
         std::mt19937_64 local(seed);
         const RandomScene scene = makeRandomScene(local, 4);

@@ -93,4 +93,9 @@ struct Scenario {
     bool keepsObjects = false; ///< that were there before, and those that it makes
 };
 
+/// For GoogleTest, which would print its bytes.
+inline void PrintTo(const Scenario& scenario, std::ostream* out) {
+    *out << scenario.name;
+}
+
 } // namespace voxtact::test

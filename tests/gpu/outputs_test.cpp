@@ -101,7 +101,8 @@ TEST_F(OutputsTest, ComputeIsTheHostBitForBit) {
     BlockingDetector compute = detectorOf(CountingMethod::Compute, kAll);
     cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range, .outputs = kAll}));
     std::uint64_t contacts = 0;
-    for (int round = 0; (round < 20 || contacts < 2000) && round < 200 && !HasFailure(); ++round) {
+    const std::size_t scenes = randomCases(20, 3);
+    for (std::size_t round = 0; (round < scenes || contacts < 2000) && round < 200 && !HasFailure(); ++round) {
         const std::uint64_t seed = random();
         std::mt19937_64 local(seed);
         const RandomScene scene = smallScene(local, 3);

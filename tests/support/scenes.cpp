@@ -149,6 +149,10 @@ std::uint64_t testSeed() {
     return seed;
 }
 
+std::size_t randomCases(std::size_t whole, std::size_t part) {
+    return std::getenv("VOXTACT_TEST_LONG") != nullptr ? whole : whole / part;
+}
+
 std::span<const ControlPoint> byteRamp() {
     static constexpr std::array kRamp{ControlPoint{0, 0}, ControlPoint{255, 1}};
     return kRamp;

@@ -2,6 +2,7 @@
 // Spaces, grids, transfer functions, opaque ranges and the checks of host data.
 #include "core/boundary.h"
 #include "core/opaque_ranges.h"
+#include "core/pair_transform.h"
 #include "voxtact/answers.h"
 
 #include <gmock/gmock.h>
@@ -163,6 +164,8 @@ TEST(TransferFunctions, TableEntriesAreAtTheMiddle) {
 TEST(TransferFunctions, StepsAndConstants) {
     constexpr ControlPoint kStep[] = {{2, 0.25}, {2, 0.75}};
     EXPECT_THAT(sampleTable({kStep, {0, 4}, 4}).value(), ElementsAre(0.25F, 0.25F, 0.75F, 0.75F));
+    // At the step itself its upper side holds.
+    EXPECT_THAT(sampleTable({kStep, {0, 4}, 3}).value(), ElementsAre(0.25F, 0.75F, 0.75F));
     constexpr ControlPoint kConstant[] = {{100, 0.5}};
     EXPECT_THAT(sampleTable({kConstant, {0, 4}, 2}).value(), ElementsAre(0.5F, 0.5F));
 }
@@ -267,6 +270,13 @@ VolumeView bytesView(const Grid& grid, const std::vector<std::uint8_t>& voxels) 
     return {grid, ScalarType::UInt8, std::as_bytes(std::span(voxels))};
 }
 
+TEST(ItemConstants, TakeAValueToTheTransferFunctionsDomain) {
+    const shader::ItemConstants constants = itemConstants(2, 10, {4, 12}, 0.25);
+    EXPECT_EQ(constants.scalarScale, 0.25F);
+    EXPECT_EQ(constants.scalarBias, 0.75F);
+    EXPECT_EQ(constants.threshold, 0.25F);
+}
+
 TEST(Boundaries, MergedRangesOfTheFaces) {
     Grid grid;
     grid.size = {4, 4, 4};
@@ -280,6 +290,10 @@ TEST(Boundaries, MergedRangesOfTheFaces) {
     EXPECT_EQ(boundaryRanges(bytesView(grid, voxels))[0].hi, 50);
     grid.size = {1, 1, 64};
     EXPECT_EQ(boundaryRanges(bytesView(grid, voxels))[0].hi, 200) << "everything is boundary";
+    grid.size = {2, 2, 2};
+    voxels.assign(8, 10);
+    voxels[7] = 90; // the far corner of every cell that it is in
+    EXPECT_EQ(boundaryRanges(bytesView(grid, voxels))[0].hi, 90);
 }
 
 TEST(VolumeChecks, BadOnesAreRefused) {

@@ -140,9 +140,7 @@ CountingMethod conservativeMethod(const Session& session, const AutoLimits& limi
 }
 
 std::string noDeviceNote(const Error& reason) {
-    const bool named = reason.text.find("mesa-vulkan-drivers") != std::string::npos;
-    return "auto chose cpu, the host: " + reason.text +
-           (named ? "" : " (a software driver is in Debian's package mesa-vulkan-drivers)");
+    return "auto chose cpu, the host: " + reason.text;
 }
 
 } // namespace voxtact::app

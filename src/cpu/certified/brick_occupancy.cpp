@@ -15,12 +15,12 @@ constexpr double kPlace = 1.0 / 64;
 /// A normalised texel of 16 bits.
 constexpr double kLargestTexel = 65535;
 
-/// What normalising a sample adds in single precision, at most, in the image's units.
-double largestTerm(const VolumeImpl& volume, const ValueRange& domain) {
-    double largest = std::max({std::abs(volume.storedIntercept), std::abs(domain.lo), std::abs(domain.hi)});
+/// The largest term of a texel, in the image's units.
+double largestTexel(const VolumeImpl& volume) {
     if (volume.image.type != Stored::Float) {
-        return std::max(largest, kLargestTexel);
+        return kLargestTexel;
     }
+    double largest = 0;
     for (const std::vector<float>* ends : {&volume.bricks.lo, &volume.bricks.hi}) {
         for (const float value : *ends) {
             largest = std::max(largest, std::abs(static_cast<double>(value)));
@@ -36,7 +36,8 @@ BrickOccupancy::BrickOccupancy(const Volume& volume, const TransferFunction& fun
     : size_(volume.impl().image.size) {
     const VolumeImpl& image = volume.impl();
     const TransferFunctionImpl& table = function.impl();
-    const OpaqueRanges opaque(table.table, table.domain, threshold, largestTerm(image, table.domain));
+    const OpaqueRanges opaque(table.table, table.domain, threshold,
+                              largestTerm(image.storedIntercept, largestTexel(image), table.domain));
     sums_ = BrickSums<std::uint32_t>(image.bricks.count, [&](std::size_t brick) {
         const double lo = static_cast<double>(image.bricks.lo[brick]) - tolerance + image.storedIntercept;
         const double hi = static_cast<double>(image.bricks.hi[brick]) + tolerance + image.storedIntercept;
