@@ -155,7 +155,7 @@ TEST_F(ConservativeTest, ATriangleWithCertainAndOpenCellsCountsOnce) {
     const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
     const std::array positions{0.1F, 0.1F, 0.47F, 0.9F, 0.1F, 0.47F, 0.1F, 0.9F, 0.47F};
     const std::array<std::uint32_t, 3> indices{0, 1, 2};
-    const std::array poses{identity()};
+    const std::vector<Mat4> poses{identity()};
     for (const bool clusters : {false, true}) {
         const Sides sides(context(), queue(), halves.view(), {points, {0, 255}, kDefaultTableSize},
                           {positions, indices}, clusters);
