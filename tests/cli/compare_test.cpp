@@ -152,7 +152,7 @@ TEST_F(CompareTest, SweepsOfTrianglesAndFragments) {
     EXPECT_TRUE(std::is_sorted(fragments.begin(), fragments.end()));
     output({"make", "mesh", "builtin:scalpel:500", path("own.stl")});
     const Arguments own{"compare",  "--volume", "builtin:head:32", "--mesh",    path("own.stl"),
-                        "--number",  "4",        "--oracle",        "0",         "--size",
+                        "--number", "4",        "--oracle",        "0",         "--size",
                         "64x64",    "--sweep",  "triangles",       "--methods", "query,cpu",
                         "--format", "text",     "--cache",         "off"};
     EXPECT_THAT(output(own), HasSubstr("no sweep of triangles"));

@@ -84,8 +84,8 @@ TEST_F(MakeTest, PosesAreTheSameEverywhere) {
     // Written down once: another machine, compiler or library must give the same bits.
     writeNifti(path("box.nii"), {});
     writeText(path("triangle.obj"), "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
-    const auto lines = linesOf(output(
-        {"make", "poses", "--volume", path("box.nii"), "--mesh", path("triangle.obj"), "--number", "2", "--seed", "1"}));
+    const auto lines = linesOf(output({"make", "poses", "--volume", path("box.nii"), "--mesh", path("triangle.obj"),
+                                       "--number", "2", "--seed", "1"}));
     ASSERT_EQ(lines.size(), 4U);
     EXPECT_EQ(lines[2], kFirst);
     EXPECT_EQ(lines[3], kSecond);

@@ -25,8 +25,8 @@ class StreamTest : public CliTest {
     static std::string poses(int count) {
         std::string text;
         for (const std::string& line :
-             linesOf(output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
-                             std::to_string(count), "--seed", "7"}))) {
+             linesOf(output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500",
+                             "--number", std::to_string(count), "--seed", "7"}))) {
             text += line.starts_with("#") ? "" : line + "\n";
         }
         return text;
