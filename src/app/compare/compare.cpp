@@ -3,14 +3,16 @@
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
 #include "core/try.h"
-#include "lab/compare_output.h"
-#include "lab/compare_run.h"
-#include "lab/report.h"
+#include "lab/compare/compare_output.h"
+#include "lab/compare/compare_run.h"
+#include "lab/report/report.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

@@ -2,11 +2,13 @@
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
 #include "core/try.h"
-#include "lab/compare_localize.h"
+#include "lab/compare/compare_localize.h"
 
 #include <CLI/CLI.hpp>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

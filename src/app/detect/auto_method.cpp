@@ -4,7 +4,7 @@
 #include "app/detect/detect_run.h"
 #include "app/detect/speed_cache.h"
 #include "core/try.h"
-#include "lab/host_speed.h"
+#include "lab/measure/host_speed.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
 
@@ -12,6 +12,8 @@
 #include <cmath>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 
