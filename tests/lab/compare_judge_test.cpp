@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who must agree with whom, on made-up numbers.
-#include "lab/compare/compare_agreement.h"
+#include "lab/compare/agreement.h"
+#include "lab/engines/scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

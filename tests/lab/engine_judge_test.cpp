@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What compare --localize and bench --certified make of answers that differ.
-#include "lab/bench/bench_run.h"
-#include "lab/compare/compare_localize.h"
+#include "lab/bench/bench.h"
+#include "lab/compare/localize.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What voxtact bench --paper says, of made-up measurements.
-#include "lab/paper/paper_output.h"
+#include "lab/measure/numbers.h"
+#include "lab/paper/paper.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/options/shared_options.h"
-#include "lab/bench/bench_run.h"
+#include "lab/bench/bench.h"
 #include "lab/paper/paper.h"
 
 #include <string>

@@ -4,7 +4,7 @@
 #include "app/render/presets.h"
 #include "app/render/view.h"
 #include "core/try.h"
-#include "lab/paper/paper_output.h"
+#include "lab/paper/paper.h"
 #include "lab/report/report.h"
 
 #include <nlohmann/json.hpp>

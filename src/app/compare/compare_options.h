@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/options/shared_options.h"
-#include "lab/compare/compare_settings.h"
+#include "lab/compare/compare.h"
 
 #include <cstdint>
 #include <filesystem>

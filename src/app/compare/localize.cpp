@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "lab/compare/localize.h"
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
 #include "core/try.h"
-#include "lab/compare/compare_localize.h"
 
 #include <CLI/CLI.hpp>
 

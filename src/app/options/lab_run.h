@@ -4,8 +4,7 @@
 #include "app/options/open_session.h"
 #include "app/options/output_paths.h"
 #include "app/output/progress.h"
-#include "lab/compare/compare_settings.h"
-#include "lab/measure/machine.h"
+#include "lab/engines/scene.h"
 
 /// What the commands that measure hand to the lab.
 namespace voxtact::app {

@@ -6,6 +6,11 @@
 
 namespace voxtact::lab {
 
+BatchItem Work::onDevice() const {
+    return {&*mesh->device, &*volume->device, &*volume->deviceFunction, poses,
+            volume->deviceLabels ? &*volume->deviceLabels : nullptr};
+}
+
 std::vector<std::uint64_t> Pass::counts() const {
     std::vector<std::uint64_t> counts;
     std::ranges::transform(pairs, std::back_inserter(counts), &PairAnswer::count);

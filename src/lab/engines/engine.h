@@ -31,6 +31,8 @@ struct Work {
     /// All of a scene, which must outlive it.
     explicit Work(const Scene& scene) : Work(*scene.volume, *scene.mesh, scene.poses, scene.view) {}
 
+    /// For a detector of the device.
+    [[nodiscard]] BatchItem onDevice() const;
     [[nodiscard]] Work at(std::span<const Mat4> others) const { return {*volume, *mesh, others, view}; }
 };
 

@@ -18,12 +18,6 @@ EngineFacts factsOf(const DetectorDesc& desc) {
             .certified = desc.projection == Projection::Conservative};
 }
 
-BatchItem itemOf(const Work& work) {
-    const VolumePart& volume = *work.volume;
-    return {&*work.mesh->device, &*volume.device, &*volume.deviceFunction, work.poses,
-            volume.deviceLabels ? &*volume.deviceLabels : nullptr};
-}
-
 class DeviceEngine final : public Engine {
   public:
     DeviceEngine(const Session& session, Detector detector)
@@ -56,7 +50,7 @@ Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
     const auto all = static_cast<std::uint32_t>(work.poses.size());
     const Result<PairPipeline*> pipe = pipeline(feeding.batch == 0 ? all : feeding.batch, feeding.frames);
     VOXTACT_TRY(pipe);
-    const BatchItem item = itemOf(work);
+    const BatchItem item = work.onDevice();
     Pass pass;
     pass.pairs.reserve(work.poses.size());
     double gpu = 0;
@@ -82,7 +76,7 @@ class BlockingEngine final : public Engine {
         : Engine(factsOf(detector.detector().desc())), detector_(std::move(detector)) {}
 
     Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
-        const BatchItem item = itemOf(work);
+        const BatchItem item = work.onDevice();
         Result<BatchAnswer> answer = detector_.detect({{&item, 1}, work.view, work.volume->threshold});
         VOXTACT_TRY(answer);
         return Pass{.wallMilliseconds = answer->wallMilliseconds,

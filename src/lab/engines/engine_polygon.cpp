@@ -12,10 +12,6 @@ namespace voxtact::lab {
 
 namespace {
 
-BatchItem itemOf(const Work& work) {
-    return {&*work.mesh->device, &*work.volume->device, &*work.volume->deviceFunction, work.poses};
-}
-
 /// What the ways share.
 struct PolygonParts {
     Localizer localizer;
@@ -31,7 +27,7 @@ class PolygonEngine final : public Engine {
           parts_(std::move(parts)) {}
 
     Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
-        const BatchItem item = itemOf(work);
+        const BatchItem item = work.onDevice();
         const LocalizeAids aids{&parts_->tree, [this](const Box& box) { return parts_->bricks.mayBeOpaque(box); }};
         Result<LocalizedTriangles> answer =
             parts_->localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way_, aids);
@@ -60,7 +56,7 @@ class FragmentEngine final : public Engine {
 
     Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
         const Stopwatch watch;
-        const BatchItem item = itemOf(work);
+        const BatchItem item = work.onDevice();
         const Result<std::vector<shader::TracedFragment>> fragments =
             trace_.survivors({{&item, 1}, work.view, work.volume->threshold});
         VOXTACT_TRY(fragments);

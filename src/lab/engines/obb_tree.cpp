@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/obb_tree.h"
-#include "lab/engines/principal_axes.h"
+
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,66 +13,136 @@ namespace voxtact {
 
 namespace {
 
+using glm::dmat3;
+using glm::dvec3;
+using Triangles = std::span<const std::uint32_t>;
+
 /// Covers, relative to the box, the rounding of projections and of axes that are not quite at right angles.
 constexpr double kOutward = 0x1p-40;
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+dvec3 wide(const Vec3& vector) {
+    return {vector[0], vector[1], vector[2]};
 }
 
-template <class Visit>
-void visitVertices(const MeshView& mesh, std::span<const std::uint32_t> triangles, Visit&& visit) {
+dvec3 cornerOf(const MeshView& mesh, std::uint32_t triangle, std::size_t corner) {
+    return wide(vertexOf(mesh, triangle, corner));
+}
+
+template <class Visit> void visitVertices(const MeshView& mesh, Triangles triangles, Visit&& visit) {
     for (const std::uint32_t triangle : triangles) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            visit(vertexOf(mesh, triangle, corner));
+            visit(cornerOf(mesh, triangle, corner));
         }
     }
 }
 
-void fitBox(const MeshView& mesh, std::span<const std::uint32_t> triangles, ObbNode& node) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    node.axes = principalAxes(mesh, triangles);
-    Vec3 lo{kInfinity, kInfinity, kInfinity};
-    Vec3 hi{-kInfinity, -kInfinity, -kInfinity};
-    visitVertices(mesh, triangles, [&](const Vec3& vertex) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double at = dot(node.axes[axis], vertex);
-            lo[axis] = std::min(lo[axis], at);
-            hi[axis] = std::max(hi[axis], at);
-        }
-    });
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t row = 0; row < 3; ++row) {
-            node.centre[row] += (lo[axis] + hi[axis]) / 2 * node.axes[axis][row];
+/// By area, with the sum 1; alike where no triangle has any.
+std::vector<double> weightsOf(const MeshView& mesh, Triangles triangles) {
+    std::vector<double> weights;
+    weights.reserve(triangles.size());
+    for (const std::uint32_t triangle : triangles) {
+        const dvec3 at = cornerOf(mesh, triangle, 0);
+        // No float is so large or small that its fourth power is not a double.
+        weights.push_back(glm::length(glm::cross(cornerOf(mesh, triangle, 1) - at, cornerOf(mesh, triangle, 2) - at)) /
+                          2);
+    }
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : weights) {
+        weight = total > 0 ? weight / total : 1 / static_cast<double>(triangles.size());
+    }
+    return weights;
+}
+
+dmat3 covarianceOf(const MeshView& mesh, Triangles triangles) {
+    const std::vector<double> weights = weightsOf(mesh, triangles);
+    dvec3 mean(0);
+    std::size_t corners = 0;
+    visitVertices(mesh, triangles, [&](const dvec3& vertex) { mean += weights[corners++ / 3] / 3 * vertex; });
+    dmat3 covariance(0);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const double weight = weights[i] / 12;
+        dvec3 sum(0);
+        visitVertices(mesh, triangles.subspan(i, 1), [&](const dvec3& vertex) {
+            sum += vertex - mean;
+            covariance += glm::outerProduct(weight * (vertex - mean), vertex - mean);
+        });
+        // The integral over a triangle with the corners p, q, r and the centroid m is
+        // area / 12 * (9 m m' + p p' + q q' + r r').
+        covariance += glm::outerProduct(weight * sum, sum);
+    }
+    return covariance;
+}
+
+/// Turns the plane of axes p and q so that the symmetric matrix has a zero at (p, q) (Golub, Van Loan, "Matrix
+/// Computations", section 8.5). The columns of `turned` follow.
+void rotate(dmat3& matrix, dmat3& turned, glm::length_t p, glm::length_t q) {
+    const double ratio = (matrix[q][q] - matrix[p][p]) / (2 * matrix[p][q]);
+    const double tangent = std::copysign(1 / (std::abs(ratio) + std::hypot(ratio, 1.0)), ratio);
+    const double cosine = 1 / std::hypot(tangent, 1.0);
+    const double sine = tangent * cosine;
+    const auto turn = [&](auto& a, auto& b) {
+        const auto old = a;
+        a = cosine * a - sine * b;
+        b = sine * old + cosine * b;
+    };
+    for (glm::length_t i = 0; i < 3; ++i) {
+        turn(matrix[i][p], matrix[i][q]);
+    }
+    turn(matrix[p], matrix[q]);
+    turn(turned[p], turned[q]);
+}
+
+/// Columns: the directions in which some triangles spread, each triangle with the weight of its area (section 4 of the
+/// paper, but of the surface itself and not of its convex hull). The eigenvectors of the covariance, by Jacobi's
+/// method: it converges quadratically, so that a few sweeps do, and whatever is left when it stops makes a box larger,
+/// not wrong.
+dmat3 principalAxes(const MeshView& mesh, Triangles triangles) {
+    constexpr int kSweeps = 12;
+    constexpr double kNothing = 0x1p-50;
+    dmat3 matrix = covarianceOf(mesh, triangles);
+    dmat3 turned(1);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        for (const auto& [p, q] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
+            if (std::abs(matrix[p][q]) > kNothing * (std::abs(matrix[p][p]) + std::abs(matrix[q][q]))) {
+                rotate(matrix, turned, p, q);
+            }
         }
     }
+    return turned;
+}
+
+void fitBox(const MeshView& mesh, Triangles triangles, ObbNode& node) {
+    const dmat3 axes = principalAxes(mesh, triangles);
+    dvec3 lo(std::numeric_limits<double>::infinity());
+    dvec3 hi(-lo);
+    visitVertices(mesh, triangles, [&](const dvec3& vertex) {
+        lo = glm::min(lo, vertex * axes);
+        hi = glm::max(hi, vertex * axes);
+    });
+    const dvec3 centre = axes * ((lo + hi) / 2.0);
     // Sides are measured from the centre as it is rounded.
     double farthest = 0; // squared
-    visitVertices(mesh, triangles, [&](const Vec3& vertex) {
-        const Vec3 from{vertex[0] - node.centre[0], vertex[1] - node.centre[1], vertex[2] - node.centre[2]};
-        farthest = std::max(farthest, dot(from, from));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            node.half[axis] = std::max(node.half[axis], std::abs(dot(node.axes[axis], from)));
-        }
+    dvec3 half(0);
+    visitVertices(mesh, triangles, [&](const dvec3& vertex) {
+        farthest = std::max(farthest, glm::dot(vertex - centre, vertex - centre));
+        half = glm::max(half, glm::abs((vertex - centre) * axes));
     });
-    for (double& half : node.half) {
-        half += std::sqrt(farthest) * kOutward;
+    half += std::sqrt(farthest) * kOutward;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto axis = static_cast<glm::length_t>(i);
+        node.axes[i] = {axes[axis][0], axes[axis][1], axes[axis][2]};
+        node.centre[i] = centre[axis];
+        node.half[i] = half[axis];
     }
 }
 
 class Builder {
   public:
-    explicit Builder(const MeshView& mesh) : mesh_(mesh), centroids_(mesh.indices.size() / 3) {
-        for (std::uint32_t triangle = 0; triangle < centroids_.size(); ++triangle) {
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                const Vec3 vertex = vertexOf(mesh, triangle, corner);
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    centroids_[triangle][axis] += vertex[axis] / 3;
-                }
-            }
-        }
+    explicit Builder(const MeshView& mesh) : mesh_(mesh), centroids_(mesh.indices.size() / 3, dvec3(0)) {
         tree_.triangles.resize(centroids_.size());
         std::iota(tree_.triangles.begin(), tree_.triangles.end(), 0U);
+        std::size_t corners = 0;
+        visitVertices(mesh, tree_.triangles, [&](const dvec3& vertex) { centroids_[corners++ / 3] += vertex / 3.0; });
         tree_.nodes.reserve(2 * centroids_.size() - 1);
     }
 
@@ -104,19 +175,19 @@ class Builder {
     /// Puts the left child's triangles first. Returns their number: neither 0 nor all.
     std::uint32_t split(const ObbNode& node, std::span<std::uint32_t> triangles) const {
         std::array<std::size_t, 3> byLength{0, 1, 2};
-        std::stable_sort(byLength.begin(), byLength.end(),
-                         [&](std::size_t a, std::size_t b) { return node.half[a] > node.half[b]; });
+        std::ranges::stable_sort(byLength, std::greater{}, [&](std::size_t axis) { return node.half[axis]; });
         for (const std::size_t axis : byLength) {
-            const Vec3& along = node.axes[axis];
+            const auto at = [&, along = wide(node.axes[axis])](std::uint32_t triangle) {
+                return glm::dot(along, centroids_[triangle]);
+            };
             double mean = 0;
             for (const std::uint32_t triangle : triangles) {
-                mean += dot(along, centroids_[triangle]) / static_cast<double>(triangles.size());
+                mean += at(triangle) / static_cast<double>(triangles.size());
             }
-            const auto middle = std::stable_partition(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
-                return dot(along, centroids_[triangle]) < mean;
-            });
-            if (middle != triangles.begin() && middle != triangles.end()) {
-                return static_cast<std::uint32_t>(middle - triangles.begin());
+            const auto right = std::ranges::stable_partition(
+                triangles, [&](double where) { return where < mean; }, at);
+            if (!right.empty() && right.size() < triangles.size()) {
+                return static_cast<std::uint32_t>(triangles.size() - right.size());
             }
         }
         return static_cast<std::uint32_t>(triangles.size() / 2);
@@ -135,14 +206,68 @@ class Builder {
     }
 
     const MeshView& mesh_;
-    std::vector<Vec3> centroids_;
+    std::vector<dvec3> centroids_;
     ObbTree tree_;
+};
+
+/// Of the sums below, relative to the sum of the magnitudes of what goes into them: some thirty roundings of 2^-53.
+constexpr double kError = 0x1p-46;
+/// Beside what underflows.
+constexpr double kTiny = 1e-290;
+
+/// A parallelepiped and a box along the axes, relative to the box's centre.
+struct Meeting {
+    dvec3 offset;    ///< from the box's centre to the parallelepiped's
+    dmat3 edges;     ///< half of them
+    dvec3 half;      ///< of the box
+    dvec3 magnitude; ///< along each axis, of everything that went into these
+
+    Meeting(const ObbNode& node, const Mat4& matrix, const Box& box) : half(wide(box.hi) / 2.0 - wide(box.lo) / 2.0) {
+        const dvec3 translated(matrix[12], matrix[13], matrix[14]);
+        const dmat3 linear(matrix[0], matrix[1], matrix[2], matrix[4], matrix[5], matrix[6], matrix[8], matrix[9],
+                           matrix[10]);
+        const dmat3 magnitudes(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
+        const dvec3 centre = wide(node.centre);
+        offset = translated + linear * centre - (wide(box.lo) / 2.0 + wide(box.hi) / 2.0);
+        magnitude =
+            glm::abs(translated) + glm::abs(wide(box.lo)) + glm::abs(wide(box.hi)) + magnitudes * glm::abs(centre);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const dvec3 edge = node.half[i] * wide(node.axes[i]);
+            edges[static_cast<glm::length_t>(i)] = linear * edge;
+            magnitude += magnitudes * glm::abs(edge);
+        }
+    }
+
+    /// Whether a plane across `axis`, whose own rounding does not matter, is certainly between them.
+    [[nodiscard]] bool separatedAlong(const dvec3& axis) const {
+        const dvec3 across = glm::abs(axis * edges);
+        const double reach =
+            kTiny + glm::dot(glm::abs(axis), half + kError * magnitude) + across[0] + across[1] + across[2];
+        return std::abs(glm::dot(axis, offset)) > reach;
+    }
 };
 
 } // namespace
 
 ObbTree makeObbTree(const MeshView& mesh) {
     return Builder(mesh).build();
+}
+
+bool obbMeetsBox(const ObbNode& node, const Mat4& texture_from_object, const Box& box) noexcept {
+    const Meeting meeting(node, texture_from_object, box);
+    const dmat3 units(1);
+    for (glm::length_t i = 0; i < 3; ++i) {
+        if (meeting.separatedAlong(units[i]) ||
+            meeting.separatedAlong(glm::cross(meeting.edges[(i + 1) % 3], meeting.edges[(i + 2) % 3]))) {
+            return false;
+        }
+        for (glm::length_t edge = 0; edge < 3; ++edge) {
+            if (meeting.separatedAlong(glm::cross(units[i], meeting.edges[edge]))) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 } // namespace voxtact

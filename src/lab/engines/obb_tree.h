@@ -9,6 +9,11 @@
 
 namespace voxtact {
 
+[[nodiscard]] inline Vec3 vertexOf(const MeshView& mesh, std::uint32_t triangle, std::size_t corner) noexcept {
+    const float* at = mesh.positions.data() + std::size_t{3} * mesh.indices[std::size_t{3} * triangle + corner];
+    return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+}
+
 inline constexpr std::uint32_t kObbLeafTriangles = 1;
 
 /// A box at any angle around some triangles, in object space: centre + sum of s[i] * half[i] * axes[i], s in [-1,1].
@@ -29,9 +34,9 @@ struct ObbTree {
     std::vector<std::uint32_t> triangles; ///< numbers in the mesh, each once
 };
 
-/// Top down: the axes of each box by principalAxes(), split at the mean of the centroids along its longest side, or a
-/// shorter one, and in halves where all centroids are alike (Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996,
-/// section 4). The same mesh gives the same tree. Expects a mesh that checkMesh() accepts.
+/// Top down: the axes of each box where its triangles spread, by area; split at the mean of the centroids along its
+/// longest side, or a shorter one, and in halves where all centroids are alike (Gottschalk, Lin, Manocha, "OBBTree",
+/// SIGGRAPH 1996, section 4). The same mesh gives the same tree. Expects a mesh that checkMesh() accepts.
 [[nodiscard]] ObbTree makeObbTree(const MeshView& mesh);
 
 /// Whether a node's box under an affine matrix, which may stretch and shear, meets a closed box (lo <= hi); "texture"

@@ -3,6 +3,9 @@
 
 #include "core/try.h"
 
+#include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,29 +17,15 @@ namespace {
 /// Of a cosine: what rounding in a file's header leaves.
 constexpr double kRightAngle = 1e-5;
 
-/// The unit vectors along the axes of a grid.
-struct Axes {
-    std::array<Vec3, 3> along{};
-    bool mirrored = false; ///< they are left-handed
-};
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Result<Axes> axesOf(const Grid& grid) {
-    Axes axes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::copy_n(grid.direction.begin() + static_cast<std::ptrdiff_t>(3 * axis), 3, axes.along[axis].begin());
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Vec3& one = axes.along[axis];
-        if (std::abs(dot(one, one) - 1) > kRightAngle || std::abs(dot(one, axes.along[(axis + 1) % 3])) > kRightAngle) {
+/// Columns: the unit vectors along the axes of a grid.
+Result<glm::dmat3> axesOf(const Grid& grid) {
+    const glm::dmat3 axes = glm::make_mat3(grid.direction.data());
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        if (std::abs(glm::dot(axes[axis], axes[axis]) - 1) > kRightAngle ||
+            std::abs(glm::dot(axes[axis], axes[(axis + 1) % 3])) > kRightAngle) {
             return Error{ErrorCode::Unsupported, 0, "the axes of the grid are not at right angles"};
         }
     }
-    const auto& [x, y, z] = axes.along;
-    axes.mirrored = dot({x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]}, z) < 0;
     return axes;
 }
 
@@ -74,14 +63,12 @@ std::vector<std::uint32_t> voxelsOfCells(const Grid& grid, std::size_t axis, dou
 }
 
 /// From the outermost corner of the grid, along its axes; the first of them backwards where they are mirrored.
-Mat4 worldFromCells(const Grid& grid, const Axes& axes) {
-    const double first = axes.mirrored ? grid.size[0] - 0.5 : -0.5;
-    const Vec3 corner = transformPoint(worldFromIndex(grid), {first, -0.5, -0.5});
-    Mat4 matrix = translation(corner);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t row = 0; row < 3; ++row) {
-            matrix[4 * axis + row] = axes.along[axis][row] * (axis == 0 && axes.mirrored ? -1 : 1);
-        }
+Mat4 worldFromCells(const Grid& grid, const glm::dmat3& axes, bool mirrored) {
+    const double first = mirrored ? grid.size[0] - 0.5 : -0.5;
+    Mat4 matrix = translation(transformPoint(worldFromIndex(grid), {first, -0.5, -0.5}));
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 along = axes[axis] * (axis == 0 && mirrored ? -1.0 : 1.0);
+        std::copy_n(glm::value_ptr(along), 3, matrix.begin() + 4 * axis);
     }
     return matrix;
 }
@@ -98,8 +85,9 @@ bool IsOpaque::operator()(double value) const {
 }
 
 Result<OpaqueCells> opaqueCells(const VolumeView& volume, const TransferFunctionDesc& function, double threshold) {
-    const Result<Axes> axes = axesOf(volume.grid);
+    const Result<glm::dmat3> axes = axesOf(volume.grid);
     VOXTACT_TRY(axes);
+    const bool mirrored = glm::determinant(*axes) < 0;
     Result<std::vector<float>> table = sampleTable(function);
     VOXTACT_TRY(table);
     const IsOpaque isOpaque(std::move(*table), function.domain, threshold);
@@ -107,10 +95,10 @@ Result<OpaqueCells> opaqueCells(const VolumeView& volume, const TransferFunction
     OpaqueCells cells;
     cells.side = *std::ranges::min_element(spacing);
     cells.resampled = *std::ranges::max_element(spacing) > cells.side * (1 + kRightAngle);
-    cells.world_from_cells = worldFromCells(volume.grid, *axes);
+    cells.world_from_cells = worldFromCells(volume.grid, *axes, mirrored);
     std::array<std::vector<std::uint32_t>, 3> voxels;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        voxels[axis] = voxelsOfCells(volume.grid, axis, cells.side, axis == 0 && axes->mirrored);
+        voxels[axis] = voxelsOfCells(volume.grid, axis, cells.side, axis == 0 && mirrored);
         cells.size[axis] = static_cast<std::uint32_t>(voxels[axis].size());
     }
     cells.opaque.reserve(voxels[0].size() * voxels[1].size() * voxels[2].size());

@@ -2,7 +2,6 @@
 #include "lab/engines/scene.h"
 
 #include "core/try.h"
-#include "lab/compare/compare_agreement.h"
 
 #include <algorithm>
 
@@ -33,6 +32,15 @@ Result<void> uploadVoxels(const Session& session, const VolumeOptions& options, 
 }
 
 } // namespace
+
+std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total) {
+    std::vector<std::uint32_t> numbers;
+    const std::uint32_t taken = std::min(count, total);
+    for (std::uint32_t i = 0; i < taken; ++i) {
+        numbers.push_back(static_cast<std::uint32_t>(std::uint64_t{i} * total / taken));
+    }
+    return numbers;
+}
 
 Scene Scene::withPoses(std::uint32_t count) const {
     Scene some{volume, mesh, {}, {}, posesFrom, view};

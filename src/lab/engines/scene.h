@@ -6,6 +6,7 @@
 #include "voxtact/cpu.h"
 #include "voxtact/detector.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +14,12 @@
 #include <vector>
 
 namespace voxtact::lab {
+
+/// How the data that options name get here: a path, or builtin:NAME.
+struct Loaders {
+    std::function<Result<VolumeData>(const std::string& source)> volume;
+    std::function<Result<MeshData>(const std::string& source)> mesh;
+};
 
 /// A volume and how it is seen: in host memory, and what the engines have made
 /// of it.
@@ -60,6 +67,9 @@ struct Scene {
     [[nodiscard]] Scene withPoses(std::uint32_t count) const;
     void leaveDevice() const;
 };
+
+/// `count` numbers below `total`, spread evenly; all of them when there are no more.
+[[nodiscard]] std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total);
 
 /// Makes what the host engine needs, once.
 [[nodiscard]] Result<void> makeHost(VolumePart& volume);

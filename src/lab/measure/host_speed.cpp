@@ -2,8 +2,9 @@
 #include "lab/measure/host_speed.h"
 
 #include "core/try.h"
-#include "lab/compare/compare_result.h"
 #include "lab/engines/engine.h"
+#include "lab/measure/numbers.h"
+#include "lab/measure/rounds.h"
 
 #include <algorithm>
 #include <vector>
@@ -19,16 +20,19 @@ Result<double> medianSeconds(Engine& host, const MeasureScene& scene, std::uint3
     MeshPart mesh{.name = {}, .data = scene.mesh};
     VOXTACT_TRY(makeHost(volume));
     VOXTACT_TRY(makeReady(nullptr, mesh));
+    const Work work{volume, mesh, scene.world_from_object, scene.view};
     std::vector<double> seconds;
-    // The first one, which makes the threads and the table of opaque bricks, does not count.
-    for (std::uint32_t i = 0; i <= std::max(repetitions, 1U); ++i) {
-        const Result<Pass> pass = host.run({volume, mesh, scene.world_from_object, scene.view}, {});
+    // The warm-up makes the threads and the table of opaque bricks.
+    Timed pairs{.take = [&](const Turn& turn) -> Result<double> {
+        const Result<Pass> pass = host.run(work, {});
         VOXTACT_TRY(pass);
-        if (i > 0) {
+        if (turn.round > 0) {
             seconds.push_back(pass->wallMilliseconds / 1000);
         }
-    }
-    return std::max(spreadOf(std::move(seconds)).median, 1e-9);
+        return pass->wallMilliseconds;
+    }};
+    VOXTACT_TRY(takeRounds({&pairs, 1}, {.repeats = std::max(repetitions, 1U), .warmUp = true}));
+    return std::max(medianOf(seconds), 1e-9);
 }
 
 } // namespace

@@ -5,11 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
+#include <map>
 #include <ostream>
 #include <string_view>
-#include <utility>
 
 namespace voxtact::lab {
 
@@ -43,42 +41,6 @@ std::string listItems(const std::vector<std::string>& sentences) {
     return out;
 }
 
-struct Page {
-    std::string_view name;
-    std::string_view title;
-    std::string_view body;
-    std::string_view script;
-};
-
-Page pageOf(ReportKind kind) {
-    return kind == ReportKind::Paper
-               ? Page{"voxtact bench --paper", "The paper's measurements, made again", kPaperBody, kPaperScript}
-               : Page{"voxtact compare", "The same pairs by every method", kCompareBody, kCompareScript};
-}
-
-/// What stands for `name` in the frame; nothing for a name that is not known.
-std::string partFor(std::string_view name, const Page& page, const std::vector<std::string>& summary,
-                    const Json& data) {
-    if (name == "SUMMARY") {
-        return listItems(summary);
-    }
-    if (name == "DATA") {
-        return inScript(data);
-    }
-    if (name == "LICENCE") {
-        return escaped(kChartLicence);
-    }
-    const std::array<std::pair<std::string_view, std::string_view>, 7> texts{{{"NAME", page.name},
-                                                                              {"TITLE", page.title},
-                                                                              {"BODY", page.body},
-                                                                              {"SCRIPT", page.script},
-                                                                              {"STYLE", kReportStyle},
-                                                                              {"COMMON", kReportCommon},
-                                                                              {"LIBRARY", kChartLibrary}}};
-    const auto* const found = std::ranges::find(texts, name, &std::pair<std::string_view, std::string_view>::first);
-    return found == texts.end() ? std::string() : std::string(found->second);
-}
-
 } // namespace
 
 Result<void> reportPossible() {
@@ -92,12 +54,24 @@ Result<void> reportPossible() {
 
 Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,
                          const Json& data) {
-    const Page page = pageOf(kind);
+    const bool paper = kind == ReportKind::Paper;
+    const std::map<std::string_view, std::string> parts{
+        {"NAME", paper ? "voxtact bench --paper" : "voxtact compare"},
+        {"TITLE", paper ? "The paper's measurements, made again" : "The same pairs by every method"},
+        {"SUMMARY", listItems(summary)},
+        {"BODY", std::string(paper ? kPaperBody : kCompareBody)},
+        {"DATA", inScript(data)},
+        {"STYLE", std::string(kReportStyle)},
+        {"LIBRARY", std::string(kChartLibrary)},
+        {"LICENCE", escaped(kChartLicence)},
+        {"COMMON", std::string(kReportCommon)},
+        {"SCRIPT", std::string(paper ? kPaperScript : kCompareScript)}};
     // The frame has {{NAME}} where a part belongs.
     std::string_view rest = kReportFrame;
     for (std::size_t open = rest.find("{{"); open != std::string_view::npos; open = rest.find("{{")) {
         const std::size_t close = rest.find("}}", open);
-        out << rest.substr(0, open) << partFor(rest.substr(open + 2, close - open - 2), page, summary, data);
+        const auto part = parts.find(rest.substr(open + 2, close - open - 2));
+        out << rest.substr(0, open) << (part == parts.end() ? std::string() : part->second);
         rest.remove_prefix(close + 2);
     }
     out << rest;

@@ -180,10 +180,9 @@ const report = (() => {
     return axis;
   }
 
-  function toDataset(method, points) {
-    const { colour, mark } = look(method);
+  function toDataset(label, points, { colour, mark } = look(label)) {
     return {
-      label: method,
+      label,
       data: points,
       borderColor: colour,
       backgroundColor: colour,
@@ -191,7 +190,7 @@ const report = (() => {
       pointRadius: 5,
       pointBorderWidth: 2,
       borderWidth: 2,
-      borderDash: method === 'query-any' ? [5, 4] : [],
+      borderDash: label === 'query-any' ? [5, 4] : [],
       tension: 0,
     };
   }
@@ -282,58 +281,65 @@ const report = (() => {
     });
   }
 
-  // One line a method; `divide` turns the time of a batch into the time that is shown.
-  function datasets(series, xOf, divide) {
+  // One line a method, with a point a series.
+  function linesOf(series, pointOf) {
     const lines = new Map();
     for (const s of series) {
-      if (s.method === 'oracle') continue;
-      const by = divide(s);
-      const point = { x: xOf(s), y: s.wall_ms.median / by, low: s.wall_ms.p10 / by, high: s.wall_ms.p90 / by,
-        gpu: s.gpu_ms ? s.gpu_ms.median / by : null, rate: s.pairs_per_s };
-      if (!(point.x > 0) || !(point.y > 0)) continue;
-      if (!lines.has(s.method)) lines.set(s.method, []);
-      lines.get(s.method).push(point);
+      const point = pointOf(s);
+      if (s.method === 'oracle' || !(point.x > 0) || !(point.y > 0)) continue;
+      lines.set(s.method, [...(lines.get(s.method) ?? []), point]);
     }
     return [...lines].map(([method, points]) => toDataset(method, points.sort((a, b) => a.x - b.x)));
+  }
+
+  // `divide` turns the time of a batch into the time that is shown.
+  const timesOf = (series, xOf, divide) => linesOf(series, (s) => {
+    const by = divide(s);
+    return { x: xOf(s), y: s.wall_ms.median / by, low: s.wall_ms.p10 / by, high: s.wall_ms.p90 / by,
+      gpu: s.gpu_ms ? s.gpu_ms.median / by : null, rate: s.pairs_per_s };
+  });
+  const ticksOf = (values) => [...new Set(values)].sort((a, b) => a - b);
+  function addPair(parent) {
+    const pair = element('div', undefined, 'pair');
+    parent.appendChild(pair);
+    return pair;
   }
 
   function drawBatches(parent) {
     const all = data.series.filter((s) => s.sweep === 'batch');
     if (all.length === 0) return;
-    const ticks = [...new Set(all.map((s) => s.batch))].sort((a, b) => a - b);
+    const chart = { xTitle: 'pairs in a batch', yTitle: 'wall time of a batch, ms', xTicks: ticksOf(all.map((s) => s.batch)) };
     parent.appendChild(element('h2', 'Time against batch size'));
     parent.appendChild(element('p', 'Median wall time; the whiskers are the 10th and 90th percentile of the samples. Lower is better. ' +
       'query-any answers only yes or no.', 'muted'));
-    const pair = element('div', undefined, 'pair');
-    parent.appendChild(pair);
-    const one = all.filter((s) => s.mode === 'sync');
+    const pair = addPair(parent);
     const many = all.filter((s) => s.mode === 'pipelined');
     const charts = [
-      drawChart(pair, { title: 'Each pair waited for', text: 'One submission and one wait a pair: the paper\'s way.',
-        xTitle: 'pairs in a batch', yTitle: 'wall time of a batch, ms', xTicks: ticks, sets: datasets(one, (s) => s.batch, () => 1) }),
-      drawChart(pair, { title: 'Pipelined', text: 'One submission a batch, three in flight (cpu: one call a batch).',
-        xTitle: 'pairs in a batch', yTitle: 'wall time of a batch, ms', xTicks: ticks, sets: datasets(many, (s) => s.batch, () => 1) }),
+      drawChart(pair, { ...chart, title: 'Each pair waited for', text: 'One submission and one wait a pair: the paper\'s way.',
+        sets: timesOf(all.filter((s) => s.mode === 'sync'), (s) => s.batch, () => 1) }),
+      drawChart(pair, { ...chart, title: 'Pipelined', text: 'One submission a batch, three in flight (cpu: one call a batch).',
+        sets: timesOf(many, (s) => s.batch, () => 1) }),
     ];
     // The same range on both, so that they can be compared.
     const range = { min: Math.min(...charts.map((c) => c.scales.y.min)), max: Math.max(...charts.map((c) => c.scales.y.max)) };
-    for (const chart of charts) {
-      Object.assign(chart.options.scales.y, range);
-      chart.update();
+    for (const drawn of charts) {
+      Object.assign(drawn.options.scales.y, range);
+      drawn.update();
     }
-    drawChart(parent, { title: 'Pipelined, for one pair', text: 'The same times divided by the pairs: what a batch saves.',
-      xTitle: 'pairs in a batch', yTitle: 'wall time of a pair, ms', xTicks: ticks, sets: datasets(many, (s) => s.batch, (s) => s.batch) });
+    drawChart(parent, { ...chart, title: 'Pipelined, for one pair', text: 'The same times divided by the pairs: what a batch saves.',
+      yTitle: 'wall time of a pair, ms', sets: timesOf(many, (s) => s.batch, (s) => s.batch) });
   }
 
   function drawSweep(parent, sweep, heading, text, xTitle, xOf, onTicks) {
     const series = data.series.filter((s) => s.sweep === sweep);
     if (series.length === 0) return;
     parent.appendChild(element('h2', heading));
-    const xTicks = onTicks ? [...new Set(series.map(xOf))].sort((a, b) => a - b) : undefined;
+    const xTicks = onTicks ? ticksOf(series.map(xOf)) : undefined;
     drawChart(parent, { title: `${series[0].batch} pairs a submission`, text, xTitle, yTitle: 'wall time of a pair, ms', xTicks,
-      sets: datasets(series, xOf, (s) => s.batch) });
+      sets: timesOf(series, xOf, (s) => s.batch) });
   }
 
   Chart.defaults.font.family = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
   return { data, byId, element, look, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
-    toDataset, drawChart, drawBarChart, drawBatches, drawSweep };
+    toDataset, linesOf, ticksOf, addPair, drawChart, drawBarChart, drawBatches, drawSweep };
 })();

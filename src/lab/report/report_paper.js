@@ -2,7 +2,7 @@
 'use strict';
 (() => {
   const { data, byId, element, look, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
-    drawBarChart, drawChart, drawSweep, toDataset } = report;
+    drawBarChart, drawChart, drawSweep, linesOf, ticksOf, addPair, toDataset } = report;
   const clocks = [
     { key: 'gpu', name: 'by GPU timestamps', text: 'Time on the device.' },
     { key: 'wall', name: 'by the wall clock', text: 'From the submission to the end of the wait; recording apart.' },
@@ -95,42 +95,29 @@
       sets: parts.map(([label, key, colour]) => barsBy(label, colour, (name) => first(name)?.[key]?.median ?? null)) });
   }
 
-  function drawCollision(parent, clock) {
-    const known = methods.filter((method) => names.some((name) => rowOf(name, method)?.[clock.key]?.collision_ms));
+  // Medians of `key` by each method, with whiskers from `low` to `high` of their spreads.
+  function drawSpreads(parent, clock, key, [low, high], chart) {
+    const spread = (name, method) => rowOf(name, method)?.[clock.key]?.[key];
+    const known = methods.filter((method) => names.some((name) => spread(name, method)));
     if (known.length === 0) return;
-    drawBarChart(parent, { title: 'Collision', logarithmic: true, labels: names, yTitle: 'ms a pair, median',
-      text: `The detection of one pair by each method, ${clock.name}; the whiskers are the 10th and 90th percentile.`,
-      sets: known.map((method) => {
-        const spread = (name) => rowOf(name, method)?.[clock.key]?.collision_ms;
-        const set = barsBy(method, look(method).colour, (name) => spread(name)?.median ?? null);
-        return { ...set, low: names.map((name) => spread(name)?.p10), high: names.map((name) => spread(name)?.p90) };
-      }) });
-  }
-
-  function drawPercent(parent, clock, key, chart) {
-    const known = methods.filter((method) => names.some((name) => rowOf(name, method)?.[clock.key]?.[key]));
-    if (known.length === 0) return;
-    drawBarChart(parent, { ...chart, labels: names,
-      band: { low: least, high: most, text: `the paper's overhead: ${least} to ${most} %` },
-      sets: known.map((method) => {
-        const spread = (name) => rowOf(name, method)?.[clock.key]?.[key];
-        const set = barsBy(method, look(method).colour, (name) => spread(name)?.median ?? null);
-        return { ...set, low: names.map((name) => spread(name)?.low), high: names.map((name) => spread(name)?.high) };
-      }) });
+    drawBarChart(parent, { ...chart, labels: names, sets: known.map((method) => ({
+      ...barsBy(method, look(method).colour, (name) => spread(name, method)?.median ?? null),
+      low: names.map((name) => spread(name, method)?.[low]), high: names.map((name) => spread(name, method)?.[high]) })) });
   }
 
   function drawCharts() {
     const parent = byId('charts');
     const clock = clocks.find((c) => data.tables.some((row) => row[c.key]?.volume_ms)) ?? clocks[1];
     parent.appendChild(element('h2', 'Frames and what detection adds'));
-    const pair = element('div', undefined, 'pair');
-    parent.appendChild(pair);
+    const pair = addPair(parent);
     drawFrames(pair, clock);
-    drawCollision(pair, clock);
+    drawSpreads(pair, clock, 'collision_ms', ['p10', 'p90'], { title: 'Collision', logarithmic: true, yTitle: 'ms a pair, median',
+      text: `The detection of one pair by each method, ${clock.name}; the whiskers are the 10th and 90th percentile.` });
     const whiskers = `Medians, ${clock.name}; the whiskers are the confidence interval.`;
-    drawPercent(parent, clock, 'overhead_percent', { title: 'Overhead', yTitle: '(total - rendering) / rendering, %',
+    const band = { low: least, high: most, text: `the paper's overhead: ${least} to ${most} %` };
+    drawSpreads(parent, clock, 'overhead_percent', ['low', 'high'], { band, title: 'Overhead', yTitle: '(total - rendering) / rendering, %',
       text: `Frames with the detection in them against frames without, round by round. ${whiskers}` });
-    drawPercent(parent, clock, 'collision_percent', { title: 'Collision, in percent of the rendering', logarithmic: true,
+    drawSpreads(parent, clock, 'collision_percent', ['low', 'high'], { band, title: 'Collision, in percent of the rendering', logarithmic: true,
       yTitle: 'collision / rendering, %',
       text: `The detection alone over the picture alone: the overhead if nothing else differed. ${whiskers}` });
     drawSweep(parent, 'voxels', 'Time against the volume\'s size',
@@ -143,15 +130,9 @@
     drawRates(parent);
   }
 
-  function rates(series) {
-    const lines = new Map();
-    for (const s of series) {
-      const rate = (time) => 1000 * s.batch / time;
-      const point = { x: s.batch, y: rate(s.wall_ms.median), low: rate(s.wall_ms.p90), high: rate(s.wall_ms.p10) };
-      lines.set(s.method, [...(lines.get(s.method) ?? []), point]);
-    }
-    return [...lines].map(([method, points]) => toDataset(method, points.sort((a, b) => a.x - b.x)));
-  }
+  const rateOf = (s, time) => 1000 * s.batch / time;
+  const rates = (series) => linesOf(series, (s) => ({
+    x: s.batch, y: rateOf(s, s.wall_ms.median), low: rateOf(s, s.wall_ms.p90), high: rateOf(s, s.wall_ms.p10) }));
 
   function drawRates(parent) {
     const all = data.series.filter((s) => s.sweep === 'batch');
@@ -159,16 +140,15 @@
     parent.appendChild(element('h2', 'Pairs a second'));
     parent.appendChild(element('p', `In ${names[0]}. The paper publishes ${grouped(data.published.pairs_per_s)} a second, yes or no, on its own hardware.`,
       'muted'));
-    const xTicks = [...new Set(all.map((s) => s.batch))].sort((a, b) => a - b);
     drawChart(parent, { title: 'Batches', text: 'One submission a batch, three in flight (cpu: one call a batch); by the wall clock.',
-      xTitle: 'pairs in a batch', yTitle: 'pairs a second', xTicks, sets: rates(all.filter((s) => s.mode === 'pipelined')), unit: 'pairs/s' });
+      xTitle: 'pairs in a batch', yTitle: 'pairs a second', xTicks: ticksOf(all.map((s) => s.batch)), sets: rates(all.filter((s) => s.mode === 'pipelined')), unit: 'pairs/s' });
     const alone = all.filter((s) => s.mode === 'sync' && s.batch === 1);
     if (alone.length === 0) return;
     drawBarChart(parent, { title: 'Each pair waited for', logarithmic: true, labels: alone.map((s) => s.method), yTitle: 'pairs a second',
       text: 'One submission and one wait a pair: the paper\'s way.', band: { low: data.published.pairs_per_s, high: data.published.pairs_per_s * 1.02,
         text: 'the paper' },
-      sets: [{ label: 'pairs a second', colour: '#0072b2', values: alone.map((s) => 1000 / s.wall_ms.median),
-        low: alone.map((s) => 1000 / s.wall_ms.p90), high: alone.map((s) => 1000 / s.wall_ms.p10) }] });
+      sets: [{ label: 'pairs a second', colour: '#0072b2', values: alone.map((s) => rateOf(s, s.wall_ms.median)),
+        low: alone.map((s) => rateOf(s, s.wall_ms.p90)), high: alone.map((s) => rateOf(s, s.wall_ms.p10)) }] });
   }
 
   function fillPolygons() {
@@ -189,14 +169,12 @@
     const parent = byId('integration');
     if (!data.integration || data.integration.length === 0) return;
     parent.appendChild(element('h2', 'A new transfer function'));
-    const sets = clocks.filter((clock) => data.integration.some((point) => point[`${clock.key}_ms`])).map((clock, i) => ({
-      label: clock.key === 'gpu' ? 'GPU' : 'wall', borderColor: ['#0072b2', '#d55e00'][i], backgroundColor: ['#0072b2', '#d55e00'][i],
-      pointStyle: ['circle', 'rect'][i], pointRadius: 5, pointBorderWidth: 2, borderWidth: 2,
-      data: data.integration.filter((point) => point[`${clock.key}_ms`]).map((point) => {
-        const spread = point[`${clock.key}_ms`];
+    const looks = { gpu: { label: 'GPU', colour: '#0072b2', mark: 'circle' }, wall: { label: 'wall', colour: '#d55e00', mark: 'rect' } };
+    const sets = Object.entries(looks).map(([key, look]) => toDataset(look.label,
+      data.integration.filter((point) => point[`${key}_ms`]).map((point) => {
+        const spread = point[`${key}_ms`];
         return { x: point.entries, y: spread.median, low: spread.p10, high: spread.p90 };
-      }),
-    }));
+      }), look)).filter((set) => set.data.length > 0);
     drawChart(parent, { title: 'The pre-integrated table', xTitle: 'entries a side', yTitle: 'ms, median',
       text: `GPU: the pass that makes it; wall: with the integrals on the host, the submission and the wait. The paper needed ` +
         `${data.published.preintegration_ms} ms for 256 × 256.`,
