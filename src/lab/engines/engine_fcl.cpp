@@ -9,14 +9,14 @@ namespace {
 
 class FclEngine final : public Engine {
   public:
-    FclEngine(EngineFacts facts, std::unique_ptr<FclPeer> peer) : Engine(std::move(facts)), peer_(std::move(peer)) {}
+    FclEngine(EngineFacts facts, FclPeer peer) : Engine(std::move(facts)), peer_(std::move(peer)) {}
 
     Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
         Pass pass;
         pass.pairs.reserve(work.poses.size());
         const Stopwatch watch;
         for (const Mat4& pose : work.poses) {
-            const bool hit = peer_->touches(pose);
+            const bool hit = peer_(pose);
             pass.pairs.push_back({.hit = hit, .count = hit ? 1U : 0U});
         }
         pass.wallMilliseconds = watch.milliseconds();
@@ -24,7 +24,7 @@ class FclEngine final : public Engine {
     }
 
   private:
-    std::unique_ptr<FclPeer> peer_;
+    FclPeer peer_;
 };
 
 } // namespace

@@ -33,34 +33,27 @@ template <class Scalar> fcl::Transform3<Scalar> transformOf(const FclMatrix& mat
     return out;
 }
 
-template <class Scalar> class Peer final : public FclPeer {
-  public:
-    Peer(std::span<const float> positions, std::span<const std::uint32_t> indices, const FclVolume& volume)
-        : octree_(volume.tree), world_from_tree_(transformOf<Scalar>(volume.world_from_tree)) {
-        const auto vertex = [positions](std::uint32_t index) {
-            const float* at = positions.data() + 3 * std::size_t{index};
-            return fcl::Vector3<Scalar>(static_cast<Scalar>(at[0]), static_cast<Scalar>(at[1]),
-                                        static_cast<Scalar>(at[2]));
-        };
-        mesh_.beginModel(static_cast<int>(indices.size() / 3));
-        for (std::size_t i = 0; i < indices.size(); i += 3) {
-            mesh_.addTriangle(vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2]));
-        }
-        mesh_.endModel();
+template <class Scalar>
+FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices) {
+    const auto vertex = [positions](std::uint32_t index) {
+        const float* at = positions.data() + 3 * std::size_t{index};
+        return fcl::Vector3<Scalar>(static_cast<Scalar>(at[0]), static_cast<Scalar>(at[1]), static_cast<Scalar>(at[2]));
+    };
+    const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSS<Scalar>>>();
+    mesh->beginModel(static_cast<int>(indices.size() / 3));
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        mesh->addTriangle(vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2]));
     }
-
-    bool touches(const FclMatrix& world_from_object) const override {
+    mesh->endModel();
+    const auto octree = std::make_shared<fcl::OcTree<Scalar>>(volume.tree);
+    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
         const fcl::CollisionRequest<Scalar> request(1, false);
         fcl::CollisionResult<Scalar> result;
-        fcl::collide(&mesh_, transformOf<Scalar>(world_from_object), &octree_, world_from_tree_, request, result);
+        fcl::collide(mesh.get(), transformOf<Scalar>(world_from_object), octree.get(), transformOf<Scalar>(matrix),
+                     request, result);
         return result.isCollision();
-    }
-
-  private:
-    fcl::BVHModel<fcl::OBBRSS<Scalar>> mesh_;
-    fcl::OcTree<Scalar> octree_;
-    fcl::Transform3<Scalar> world_from_tree_;
-};
+    };
+}
 
 } // namespace
 
@@ -96,12 +89,10 @@ std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::strin
     return std::make_shared<const FclVolume>(FclVolume{std::move(tree), cells.world_from_tree});
 }
 
-std::unique_ptr<FclPeer> makeFclPeer(const FclVolume& volume, std::span<const float> positions,
-                                     std::span<const std::uint32_t> indices, FclScalar scalar) {
-    if (scalar == FclScalar::Float) {
-        return std::make_unique<Peer<float>>(positions, indices, volume);
-    }
-    return std::make_unique<Peer<double>>(positions, indices, volume);
+FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices,
+                    FclScalar scalar) {
+    return scalar == FclScalar::Float ? makePeer<float>(volume, positions, indices)
+                                      : makePeer<double>(volume, positions, indices);
 }
 
 } // namespace voxtact::lab

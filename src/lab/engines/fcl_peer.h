@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,23 +31,15 @@ struct FclCells {
 
 enum class FclScalar { Float, Double };
 
-/// A mesh (BVHModel of OBBRSS) against an octree. One thread.
-class FclPeer {
-  public:
-    FclPeer() = default;
-    FclPeer(const FclPeer&) = delete;
-    FclPeer& operator=(const FclPeer&) = delete;
-    virtual ~FclPeer() = default;
-    /// Whether they collide at a rigid pose.
-    [[nodiscard]] virtual bool touches(const FclMatrix& world_from_object) const = 0;
-};
+/// Whether a mesh (BVHModel of OBBRSS) collides with an octree at a rigid pose. One thread.
+using FclPeer = std::function<bool(const FclMatrix& world_from_object)>;
 
 /// The octree, which peers share. Null, with the reason in `why`, where FCL is not built in, and beyond the 65,536
 /// cells a side that OctoMap has keys for.
 struct FclVolume;
 [[nodiscard]] std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why);
 /// Three numbers a vertex, three vertices a triangle.
-[[nodiscard]] std::unique_ptr<FclPeer> makeFclPeer(const FclVolume& volume, std::span<const float> positions,
-                                                   std::span<const std::uint32_t> indices, FclScalar scalar);
+[[nodiscard]] FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions,
+                                  std::span<const std::uint32_t> indices, FclScalar scalar);
 
 } // namespace voxtact::lab

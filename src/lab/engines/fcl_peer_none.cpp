@@ -15,9 +15,9 @@ std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& /*cells*/, std::s
     return nullptr;
 }
 
-std::unique_ptr<FclPeer> makeFclPeer(const FclVolume& /*volume*/, std::span<const float> /*positions*/,
-                                     std::span<const std::uint32_t> /*indices*/, FclScalar /*scalar*/) {
-    return nullptr;
+FclPeer makeFclPeer(const FclVolume& /*volume*/, std::span<const float> /*positions*/,
+                    std::span<const std::uint32_t> /*indices*/, FclScalar /*scalar*/) {
+    return {};
 }
 
 } // namespace voxtact::lab
