@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -184,10 +185,10 @@ class Builder {
             for (const std::uint32_t triangle : triangles) {
                 mean += at(triangle) / static_cast<double>(triangles.size());
             }
-            const auto right = std::ranges::stable_partition(
-                triangles, [&](double where) { return where < mean; }, at);
-            if (!right.empty() && right.size() < triangles.size()) {
-                return static_cast<std::uint32_t>(triangles.size() - right.size());
+            const auto middle = std::stable_partition(triangles.begin(), triangles.end(),
+                                                      [&](std::uint32_t triangle) { return at(triangle) < mean; });
+            if (middle != triangles.begin() && middle != triangles.end()) {
+                return static_cast<std::uint32_t>(middle - triangles.begin());
             }
         }
         return static_cast<std::uint32_t>(triangles.size() / 2);
