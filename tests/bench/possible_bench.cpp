@@ -7,7 +7,7 @@
 //
 // VOXTACT_BENCH_VOLUME names the volume (a file) where voxtact::io is built, VOXTACT_BENCH_POSES the poses a scene,
 // VOXTACT_BENCH_RAMP the ramp "lo hi" in the volume's unit, VOXTACT_BENCH_THREADS the threads.
-#include "lab/random_poses.h"
+#include "lab/measure/random_poses.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
@@ -119,7 +119,7 @@ void measureOnset(const Subject& subject, const MeshView& view, std::uint32_t co
     const auto touches = [&](const Mat4& pose) -> Result<bool> {
         return ask(detector, subject, mesh, {&pose, 1})[0].hit;
     };
-    measure(subject, view, take(app::onsetPoses(subject.data.grid, view, count, kSeed, touches)), name + ", onset");
+    measure(subject, view, take(lab::onsetPoses(subject.data.grid, view, count, kSeed, touches)), name + ", onset");
 }
 
 /// A rectangle in index space, in the plane `at` of an axis; corners on eighths of a voxel.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A lost device is remembered: every later call that reaches it says so.
-#include "lab/localize.h"
-#include "lab/trace.h"
+#include "lab/engines/localize.h"
+#include "lab/engines/trace.h"
 #include "pretend_driver.h"
 #include "scenarios.h"
 #include "sweep.h"

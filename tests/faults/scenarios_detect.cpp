@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every counting method, projection and output, blocking; the lists of survivors, and the queries of triangles; the
 // self-test and the measuring.
-#include "lab/localize.h"
-#include "lab/trace.h"
+#include "lab/engines/localize.h"
+#include "lab/engines/trace.h"
 #include "scenarios.h"
 
 #include <sstream>

@@ -4,7 +4,7 @@
 #include "gpu_fixture.h"
 
 #include "cpu/random_scene.h"
-#include "lab/trace.h"
+#include "lab/engines/trace.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"

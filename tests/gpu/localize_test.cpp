@@ -4,8 +4,8 @@
 
 #include "cpu/certified/brick_occupancy.h"
 #include "cpu/random_scene.h"
-#include "lab/localize.h"
-#include "lab/trace.h"
+#include "lab/engines/localize.h"
+#include "lab/engines/trace.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"

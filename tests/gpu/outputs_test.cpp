@@ -7,7 +7,7 @@
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
-#include "lab/trace.h"
+#include "lab/engines/trace.h"
 #include "support/contact_scenes.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who must agree with whom, on made-up numbers.
-#include "lab/compare_agreement.h"
+#include "lab/compare/agreement.h"
+#include "lab/engines/scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +9,10 @@
 namespace voxtact::test {
 namespace {
 
-using app::DifferingFragment;
-using app::FragmentCheck;
-using app::NamedCounts;
-using app::Verdict;
+using lab::DifferingFragment;
+using lab::FragmentCheck;
+using lab::NamedCounts;
+using lab::Verdict;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -19,7 +20,7 @@ const std::vector<std::uint32_t> kPoses{10, 11, 12};
 
 TEST(CompareJudge, EqualCountsAgree) {
     const std::vector<NamedCounts> group{{"query", {0, 5, 9}}, {"atomic", {0, 5, 9}}, {"subgroup", {0, 5, 9}}};
-    const Verdict verdict = app::judgeEqual(group, kPoses);
+    const Verdict verdict = lab::judgeEqual(group, kPoses);
     EXPECT_EQ(verdict.rule, "query = atomic = subgroup");
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.compared, 3U);
@@ -28,7 +29,7 @@ TEST(CompareJudge, EqualCountsAgree) {
 
 TEST(CompareJudge, OneFragmentIsADisagreement) {
     const std::vector<NamedCounts> group{{"compute", {7, 5, 9}}, {"cpu", {7, 4, 12}}};
-    const Verdict verdict = app::judgeEqual(group, kPoses);
+    const Verdict verdict = lab::judgeEqual(group, kPoses);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.differing, 2U);
     EXPECT_EQ(verdict.largest, 3U);
@@ -38,24 +39,24 @@ TEST(CompareJudge, OneFragmentIsADisagreement) {
 
 TEST(CompareJudge, OneMethodAloneIsNotChecked) {
     const std::vector<NamedCounts> group{{"cpu", {7, 4, 12}}};
-    const Verdict verdict = app::judgeEqual(group, kPoses);
+    const Verdict verdict = lab::judgeEqual(group, kPoses);
     EXPECT_FALSE(verdict.failed());
     EXPECT_NE(verdict.unchecked, "");
     EXPECT_EQ(verdict.compared, 0U);
 }
 
 TEST(CompareJudge, HitsAreZeroOrNot) {
-    EXPECT_FALSE(app::judgeHits({"query-any", {0, 1, 77}}, {"query", {0, 5, 9}}, kPoses).failed());
-    const Verdict miss = app::judgeHits({"query-any", {0, 0, 1}}, {"query", {0, 5, 9}}, kPoses);
+    EXPECT_FALSE(lab::judgeHits({"query-any", {0, 1, 77}}, {"query", {0, 5, 9}}, kPoses).failed());
+    const Verdict miss = lab::judgeHits({"query-any", {0, 0, 1}}, {"query", {0, 5, 9}}, kPoses);
     ASSERT_TRUE(miss.failed());
     EXPECT_EQ(miss.first->pose, 11U);
     EXPECT_EQ(miss.first->text, "query-any misses, query 5");
-    EXPECT_EQ(app::judgeHits({"query-any", {1, 1, 1}}, {"query", {0, 5, 9}}, kPoses).first->text,
+    EXPECT_EQ(lab::judgeHits({"query-any", {1, 1, 1}}, {"query", {0, 5, 9}}, kPoses).first->text,
               "query-any hits, query 0");
 }
 
 TEST(CompareJudge, GroupsMayDifferAndAreTold) {
-    const Verdict verdict = app::tellDifference({"query", {7, 5, 9}}, {"cpu", {6, 5, 12}}, kPoses);
+    const Verdict verdict = lab::tellDifference({"query", {7, 5, 9}}, {"cpu", {6, 5, 12}}, kPoses);
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.differing, 2U);
     EXPECT_EQ(verdict.largest, 3U);
@@ -84,35 +85,35 @@ FragmentCheck checkOf(std::uint32_t pose, const std::vector<const char*>& reason
 
 TEST(CompareJudge, FragmentsWithAReasonAgree) {
     const std::vector<FragmentCheck> checks{checkOf(1, {}), checkOf(2, {"coverage", "opacity", "opacity"})};
-    const Verdict verdict = app::judgeFragments(checks);
+    const Verdict verdict = lab::judgeFragments(checks);
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.compared, 203U);
     EXPECT_EQ(verdict.differing, 3U);
-    EXPECT_THAT(app::countReasons(checks), ElementsAre(1, 0, 2, 0));
+    EXPECT_THAT(lab::countReasons(checks), ElementsAre(1, 0, 2, 0));
 }
 
 TEST(CompareJudge, AFragmentWithoutAReasonIsADisagreement) {
     const std::vector<FragmentCheck> checks{checkOf(1, {"coverage"}), checkOf(2, {"opacity", "none"})};
-    const Verdict verdict = app::judgeFragments(checks);
+    const Verdict verdict = lab::judgeFragments(checks);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.first->pose, 2U);
     EXPECT_THAT(verdict.first->text, HasSubstr("triangle 42 at pixel 3,4"));
-    EXPECT_THAT(app::countReasons(checks), ElementsAre(1, 0, 1, 1));
+    EXPECT_THAT(lab::countReasons(checks), ElementsAre(1, 0, 1, 1));
 }
 
 TEST(CompareJudge, AListThatIsNotWhatWasCountedIsADisagreement) {
     std::vector<FragmentCheck> checks{checkOf(5, {})};
     checks[0].counted = 101;
-    const Verdict verdict = app::judgeFragments(checks);
+    const Verdict verdict = lab::judgeFragments(checks);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.first->pose, 5U);
     EXPECT_EQ(verdict.first->text, "the device lists 100 fragments and counts 101");
 }
 
 TEST(CompareJudge, SamplesAreSpread) {
-    EXPECT_THAT(app::spreadEvenly(4, 100), ElementsAre(0, 25, 50, 75));
-    EXPECT_THAT(app::spreadEvenly(9, 3), ElementsAre(0, 1, 2));
-    EXPECT_THAT(app::spreadEvenly(0, 3), ElementsAre());
+    EXPECT_THAT(lab::spreadEvenly(4, 100), ElementsAre(0, 25, 50, 75));
+    EXPECT_THAT(lab::spreadEvenly(9, 3), ElementsAre(0, 1, 2));
+    EXPECT_THAT(lab::spreadEvenly(0, 3), ElementsAre());
 }
 
 } // namespace

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // What compare --localize and bench --certified make of answers that differ.
-#include "lab/bench_run.h"
-#include "lab/compare_localize.h"
+#include "lab/bench/bench.h"
+#include "lab/compare/localize.h"
 
 #include <gtest/gtest.h>
 
 namespace voxtact::test {
 namespace {
 
-using app::BenchRow;
-using app::LocalizeResult;
-using app::LocalizeWay;
+using lab::BenchRow;
+using lab::LocalizeResult;
+using lab::LocalizeWay;
 
 LocalizeWay way(const std::string& name, bool byView, std::vector<std::vector<TouchedTriangle>> found) {
     LocalizeWay made{.name = name, .byView = byView, .found = std::move(found)};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the median of a distribution is, from samples: the sign test, with binomial numbers worked out by hand.
-#include "lab/compare_result.h"
+#include "lab/measure/numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace voxtact::test {
 namespace {
 
-using app::MedianInterval;
-using app::medianInterval;
+using lab::MedianInterval;
+using lab::medianInterval;
 
 /// 1, 2, ..., count, the last first.
 std::vector<double> descending(std::size_t count) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OBB trees: what the boxes hold, what the descent keeps, and meshes that have no directions of their own.
-#include "lab/obb_tree.h"
-#include "lab/principal_axes.h"
+#include "lab/engines/obb_tree.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cubes that an octree has of a volume: where they are, and what they say.
-#include "lab/opaque_cells.h"
+#include "lab/engines/opaque_cells.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace voxtact::test {
 namespace {
 
-using app::OpaqueCells;
-using app::opaqueCells;
+using lab::OpaqueCells;
+using lab::opaqueCells;
 
 constexpr double kThreshold = 0.5;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What voxtact bench --paper says, of made-up measurements.
-#include "lab/paper_output.h"
+#include "lab/measure/numbers.h"
+#include "lab/paper/paper.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +13,8 @@
 namespace voxtact::test {
 namespace {
 
-using app::PaperColumns;
-using app::PaperResult;
+using lab::PaperColumns;
+using lab::PaperResult;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -59,14 +60,14 @@ PaperResult measured() {
 
 void addTheRest(PaperResult& result) {
     result.series = {
-        {.sweep = app::Sweep::Batch,
+        {.sweep = lab::Sweep::Batch,
          .method = "atomic",
-         .mode = app::Mode::Pipelined,
+         .mode = lab::Mode::Pipelined,
          .batch = 1024,
          .fragments = std::nullopt,
          .wall = {512, 256, 300},
          .gpu = {}},
-        {.sweep = app::Sweep::Fragments, .method = "query", .fragments = std::nullopt, .wall = {0.001}, .gpu = {}}};
+        {.sweep = lab::Sweep::Fragments, .method = "query", .fragments = std::nullopt, .wall = {0.001}, .gpu = {}}};
     result.polygons = {
         {.name = "polygon", .triangles = 70, .missed = 30, .wrong = 2, .queries = 24544, .wall = {40, 41, 45}},
         {.name = "leaf", .unchecked = "no queries"}};
@@ -77,13 +78,13 @@ void addTheRest(PaperResult& result) {
 
 std::string written(const PaperResult& result, io::Format format) {
     std::ostringstream out;
-    app::writePaper(out, format, result);
+    lab::writePaper(out, format, result);
     return out.str();
 }
 
 TEST(PaperOutput, SaysWhatDetectionAdds) {
     EXPECT_THAT(
-        app::paperSummary(measured()),
+        lab::paperSummary(measured()),
         ElementsAre(
             "query and atomic count the same, on every pose of every scene; every frame that was timed gave these "
             "counts",
@@ -105,7 +106,7 @@ TEST(PaperOutput, SaysWhatDetectionAdds) {
 TEST(PaperOutput, SaysTheRestWhereItIsThere) {
     PaperResult result = measured();
     addTheRest(result);
-    const auto summary = app::paperSummary(result);
+    const auto summary = lab::paperSummary(result);
     EXPECT_THAT(
         std::vector(summary.begin() + 8, summary.end()),
         ElementsAre("the fastest in batches is atomic with 1,024 pairs a submission (pipelined): 3,413 pairs a "
@@ -119,14 +120,14 @@ TEST(PaperOutput, SaysTheRestWhereItIsThere) {
 TEST(PaperOutput, ADisagreementComesFirst) {
     PaperResult result = measured();
     result.disagreement = "v1s1, pose 3: atomic in a frame counts 1, before it was 2";
-    EXPECT_EQ(app::paperSummary(result).front(), "DISAGREEMENT: " + result.disagreement);
-    EXPECT_EQ(app::paperJson(result)["agrees"], false);
+    EXPECT_EQ(lab::paperSummary(result).front(), "DISAGREEMENT: " + result.disagreement);
+    EXPECT_EQ(lab::paperJson(result)["agrees"], false);
 }
 
 TEST(PaperOutput, JsonHasEverything) {
     PaperResult result = measured();
     addTheRest(result);
-    const Json json = app::paperJson(result);
+    const Json json = lab::paperJson(result);
     const Json& overhead = json["tables"][0]["gpu"]["overhead_percent"];
     // Of seven samples from 10 to 16 %, all: 2/128.
     EXPECT_EQ(overhead["median"], 13.0);
@@ -151,11 +152,11 @@ TEST(PaperOutput, JsonHasEverything) {
 
 TEST(PaperOutput, WithoutTimestampsThereIsNoTableOfTheGpu) {
     PaperResult result = measured();
-    for (app::PaperRow& row : result.rows) {
+    for (lab::PaperRow& row : result.rows) {
         row.gpu = {};
     }
     EXPECT_THAT(written(result, io::Format::Text), AllOf(Not(HasSubstr("# By GPU")), HasSubstr("# By wall clock")));
-    EXPECT_TRUE(app::paperJson(result)["tables"][0]["gpu"].is_null());
+    EXPECT_TRUE(lab::paperJson(result)["tables"][0]["gpu"].is_null());
 }
 
 TEST(PaperOutput, TextAndCsvHaveTheRestToo) {
@@ -175,11 +176,11 @@ TEST(PaperOutput, TextAndCsvHaveTheRestToo) {
 }
 
 TEST(PaperOutput, ShortNumbers) {
-    EXPECT_EQ(app::shortNumber(0), "0");
-    EXPECT_EQ(app::shortNumber(0.012345), "0.0123");
-    EXPECT_EQ(app::shortNumber(-1.2345), "-1.23");
-    EXPECT_EQ(app::shortNumber(12345.6), "12346");
-    EXPECT_EQ(app::shortNumber(1e-30), "0");
+    EXPECT_EQ(lab::shortNumber(0), "0");
+    EXPECT_EQ(lab::shortNumber(0.012345), "0.0123");
+    EXPECT_EQ(lab::shortNumber(-1.2345), "-1.23");
+    EXPECT_EQ(lab::shortNumber(12345.6), "12346");
+    EXPECT_EQ(lab::shortNumber(1e-30), "0");
 }
 
 } // namespace

@@ -9,6 +9,8 @@
 
 namespace voxtact::app {
 
+using namespace lab;
+
 namespace {
 
 constexpr const char* kFooter =

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/options/shared_options.h"
-#include "lab/bench_run.h"
-#include "lab/paper.h"
+#include "lab/bench/bench.h"
+#include "lab/paper/paper.h"
 
 #include <string>
 #include <vector>
@@ -14,8 +14,8 @@ struct BenchOptions {
     bool certified = false; ///< one of the three is meant
     bool outputs = false;
     bool paper = false;
-    BenchSettings settings;           ///< of --certified and --outputs
-    PaperSettings paperSettings;      ///< of --paper
+    lab::BenchSettings settings;      ///< of --certified and --outputs
+    lab::PaperSettings paperSettings; ///< of --paper
     std::vector<std::string> volumes; ///< none: the mode's own scene
     MeshOptions meshes;               ///< the same
     TransferFunctionOptions transferFunction;

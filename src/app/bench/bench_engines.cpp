@@ -6,6 +6,8 @@
 
 namespace voxtact::app {
 
+using namespace lab;
+
 namespace {
 
 Result<VolumePart> loadBenchVolume(const BenchOptions& options, const std::string& source) {

@@ -4,12 +4,14 @@
 #include "app/render/presets.h"
 #include "app/render/view.h"
 #include "core/try.h"
-#include "lab/paper_output.h"
-#include "lab/report.h"
+#include "lab/paper/paper.h"
+#include "lab/report/report.h"
 
 #include <nlohmann/json.hpp>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

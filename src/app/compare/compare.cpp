@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include "lab/compare/compare.h"
 #include "app/commands.h"
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
 #include "core/try.h"
-#include "lab/compare_output.h"
-#include "lab/compare_run.h"
-#include "lab/report.h"
+#include "lab/compare/output.h"
+#include "lab/report/report.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

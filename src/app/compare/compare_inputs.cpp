@@ -3,10 +3,12 @@
 
 #include "app/options/inputs.h"
 #include "core/try.h"
-#include "lab/random_poses.h"
+#include "lab/measure/random_poses.h"
 #include "voxtact/io.h"
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

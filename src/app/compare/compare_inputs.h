@@ -2,12 +2,12 @@
 #pragma once
 
 #include "app/compare/compare_options.h"
-#include "lab/scene.h"
+#include "lab/engines/scene.h"
 
 namespace voxtact::app {
 
 /// What the options name.
-[[nodiscard]] Result<Scene> readScene(const CompareOptions& options);
+[[nodiscard]] Result<lab::Scene> readScene(const CompareOptions& options);
 
 /// `voxtact compare --localize`.
 [[nodiscard]] Outcome runLocalize(const CompareOptions& given, const CLI::App& parser);

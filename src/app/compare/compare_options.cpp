@@ -10,6 +10,8 @@
 
 namespace voxtact::app {
 
+using namespace lab;
+
 namespace {
 
 std::vector<std::string> partsOf(const std::string& list) {

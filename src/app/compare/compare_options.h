@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/options/shared_options.h"
-#include "lab/compare_settings.h"
+#include "lab/compare/compare.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace voxtact::app {
 
 struct CompareOptions {
-    CompareSettings settings;
+    lab::CompareSettings settings;
     std::vector<std::string> volumes;
     MeshOptions meshes;
     TransferFunctionOptions transferFunction;

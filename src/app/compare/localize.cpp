@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "lab/compare/localize.h"
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
 #include "core/try.h"
-#include "lab/compare_localize.h"
 
 #include <CLI/CLI.hpp>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "app/detect/speed_cache.h"
 #include "core/method_table.h"
 #include "core/try.h"
-#include "lab/host_speed.h"
+#include "lab/measure/host_speed.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
 
@@ -13,6 +13,8 @@
 #include <cmath>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

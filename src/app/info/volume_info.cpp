@@ -3,7 +3,7 @@
 
 #include "core/try.h"
 #include "core/voxel_visit.h"
-#include "lab/opaque_cells.h"
+#include "lab/engines/opaque_cells.h"
 #include "voxtact/broad_phase.h"
 
 #include <algorithm>
@@ -12,6 +12,8 @@
 #include <numbers>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

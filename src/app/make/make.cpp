@@ -5,7 +5,7 @@
 #include "app/output/standard_streams.h"
 #include "core/text.h"
 #include "core/try.h"
-#include "lab/random_poses.h"
+#include "lab/measure/random_poses.h"
 #include "voxtact/io.h"
 
 #include <CLI/CLI.hpp>
@@ -13,6 +13,8 @@
 #include <ostream>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "app/options/shared_options.h"
 #include "app/version.h"
 #include "core/try.h"
-#include "lab/report.h"
+#include "lab/report/report.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +13,8 @@
 #include <cmath>
 
 namespace voxtact::app {
+
+using namespace lab;
 
 namespace {
 

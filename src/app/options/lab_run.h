@@ -4,17 +4,16 @@
 #include "app/options/open_session.h"
 #include "app/options/output_paths.h"
 #include "app/output/progress.h"
-#include "lab/compare_settings.h"
-#include "lab/machine.h"
+#include "lab/engines/scene.h"
 
 /// What the commands that measure hand to the lab.
 namespace voxtact::app {
 
 /// The command line that gives the same run, quoted for a shell; without the options in `without`.
 [[nodiscard]] std::string commandLine(const CLI::App& parser, const std::vector<std::string>& without = {});
-[[nodiscard]] Provenance provenanceOf(const CLI::App& parser);
+[[nodiscard]] lab::Provenance provenanceOf(const CLI::App& parser);
 /// loadVolume() and loadMesh(), files as they are.
-[[nodiscard]] Loaders loaders();
+[[nodiscard]] lab::Loaders loaders();
 
 /// --time-limit, in seconds; `seconds` has the default.
 void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help);
@@ -23,7 +22,7 @@ void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help);
 class ShownSteps {
   public:
     ShownSteps(bool wanted, std::string title) : wanted_(wanted), title_(std::move(title)) {}
-    [[nodiscard]] Steps steps();
+    [[nodiscard]] lab::Steps steps();
 
   private:
     bool wanted_;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "lab/compare/compare.h"
+
+#include "core/try.h"
+#include "lab/measure/numbers.h"
+
+#include <algorithm>
+#include <map>
+
+namespace voxtact::lab {
+
+namespace {
+
+constexpr std::size_t kCountBatch = 1024;
+constexpr const char* kOracle = "oracle";
+
+/// The oracle's time is that of its checks: one thread, one pose after the other.
+void addOracleSeries(const Scene& scene, CompareResult& result) {
+    if (!result.oracleMilliseconds) {
+        return;
+    }
+    double fragments = 0;
+    for (const FragmentCheck& check : result.fragmentChecks) {
+        fragments += static_cast<double>(check.byOracle);
+    }
+    const auto poses = static_cast<std::uint32_t>(result.fragmentChecks.size());
+    result.series.push_back({.sweep = Sweep::Batch,
+                             .method = kOracle,
+                             .mode = Mode::Sync,
+                             .batch = 1,
+                             .width = scene.view.width,
+                             .height = scene.view.height,
+                             .triangles = result.triangles,
+                             .pairs = poses,
+                             .fragments = fragments / poses,
+                             .wall = {*result.oracleMilliseconds},
+                             .gpu = {},
+                             .voxels = scene.volume->data.grid.size});
+}
+
+} // namespace
+
+const char* toString(Sweep sweep) noexcept {
+    constexpr std::array kNames{"batch", "triangles", "fragments", "voxels"};
+    return kNames[static_cast<std::size_t>(sweep)];
+}
+
+const char* toString(Mode mode) noexcept {
+    return mode == Mode::Sync ? "sync" : "pipelined";
+}
+
+double Series::pairsPerSecond() const {
+    const double median = wall.empty() ? 0 : medianOf(wall);
+    return median > 0 ? 1000.0 * batch / median : 0;
+}
+
+std::optional<double> Series::fragmentsPerSecond() const {
+    return fragments ? std::optional(pairsPerSecond() * *fragments) : std::nullopt;
+}
+
+bool Series::counts() const {
+    return method != toString(CountingMethod::QueryAny) && method != kOracle;
+}
+
+const Series* fastestOf(std::span<const Series> all, const std::function<bool(const Series&)>& wanted) {
+    const Series* best = nullptr;
+    for (const Series& series : all) {
+        if (series.sweep == Sweep::Batch && !series.wall.empty() && series.counts() && wanted(series) &&
+            (best == nullptr || series.pairsPerSecond() > best->pairsPerSecond())) {
+            best = &series;
+        }
+    }
+    return best;
+}
+
+const Verdict* CompareResult::firstFailure() const {
+    const auto found = std::ranges::find_if(verdicts, &Verdict::failed);
+    return found == verdicts.end() ? nullptr : &*found;
+}
+
+Result<Engines> makeMethodEngines(const Session& session, const CompareSettings& settings, CompareResult& result) {
+    Engines engines;
+    std::map<CountingMethod, std::string> reasons;
+    static_cast<void>(availableMethods(
+        session, [&](CountingMethod method, const std::string& reason) { reasons.emplace(method, reason); }));
+    for (const CountingMethod method : countingMethods()) {
+        if (!settings.methods.empty() && std::ranges::find(settings.methods, method) == settings.methods.end()) {
+            continue;
+        }
+        const bool there = !reasons.contains(method);
+        result.methods.push_back({toString(method), there, reasons[method], toString(defaultFilter(method)),
+                                  exactness(method) == Exactness::Exact});
+        if (!there) {
+            result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + reasons[method]);
+            continue;
+        }
+        MadeEngine engine = makeMethodEngine(session, method);
+        VOXTACT_TRY(engine);
+        engines.push_back(std::move(*engine));
+    }
+    if (engines.empty()) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
+    }
+    return engines;
+}
+
+Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work) {
+    std::vector<NamedCounts> all;
+    const auto batch = static_cast<std::uint32_t>(std::min(kCountBatch, work.poses.size()));
+    for (const std::unique_ptr<Engine>& engine : engines) {
+        const Result<Pass> pass = engine->run(work, {batch, 1});
+        VOXTACT_TRY(pass);
+        all.push_back({engine->name(), pass->counts()});
+    }
+    return all;
+}
+
+Result<void> compare(const CompareSettings& settings, const Scene& scene, const Session& session, const Steps& steps,
+                     CompareResult& result) {
+    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
+    result.poseNumbers = scene.poseNumbers;
+    result.triangles = scene.mesh->triangles();
+    VOXTACT_TRY(makeReady(session, {}, *scene.volume));
+    VOXTACT_TRY(makeReady(&session, *scene.mesh));
+    const Result<Engines> engines = makeMethodEngines(session, settings, result);
+    VOXTACT_TRY(engines);
+    std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, scene.poses.size());
+    for (const Sweep sweep : settings.sweeps) {
+        total += stepsOf(sweep, settings.repeats);
+    }
+    steps.begin(total);
+    Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(scene));
+    VOXTACT_TRY(counts);
+    result.counts = std::move(*counts);
+    result.verdicts = judgeCounts(result.counts, scene.poseNumbers);
+    steps.step();
+    VOXTACT_TRY(checkFragments(session, settings.oraclePoses, scene, result, steps.step));
+    for (const Sweep sweep : settings.sweeps) {
+        if (result.firstFailure() != nullptr && !settings.keepGoing) {
+            break;
+        }
+        VOXTACT_TRY(timeSweep(sweep, session, settings, scene, *engines, result, steps.step));
+        if (sweep == Sweep::Batch) {
+            addOracleSeries(scene, result);
+        }
+    }
+    return {};
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/compare/agreement.h"
+#include "lab/engines/engine.h"
+
+namespace voxtact::lab {
+
+/// What grows from point to point; each is a chart of the report.
+enum class Sweep { Batch, Triangles, Fragments, Voxels };
+inline constexpr std::array<Sweep, 4> kSweeps{Sweep::Batch, Sweep::Triangles, Sweep::Fragments, Sweep::Voxels};
+[[nodiscard]] const char* toString(Sweep sweep) noexcept;
+
+/// What `voxtact compare` measures, and how long.
+struct CompareSettings {
+    std::vector<CountingMethod> methods; ///< empty: every one
+    std::uint32_t oraclePoses = 32;
+    std::vector<Sweep> sweeps;
+    std::uint32_t repeats = 7;
+    double timeLimit = 15; ///< seconds, of each sweep
+    bool keepGoing = false;
+    Loaders load; ///< for the sweeps of triangles and voxels
+};
+
+/// How pairs reach the method: each submitted and waited for alone (the paper's way), or batches in flight.
+enum class Mode { Sync, Pipelined };
+[[nodiscard]] const char* toString(Mode mode) noexcept;
+
+/// The times of one method at one point of a sweep.
+struct Series {
+    Sweep sweep = Sweep::Batch;
+    std::string method;
+    Mode mode = Mode::Sync;
+    std::uint32_t batch = 1; ///< the times are of so many pairs
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t triangles = 0;
+    std::uint32_t pairs = 0;         ///< measured in a sample
+    std::optional<double> fragments; ///< survivors of a pair, on average
+    std::vector<double> wall;        ///< ms of a batch, a sample each
+    std::vector<double> gpu;         ///< the same; empty where there is no GPU time
+    std::array<std::uint32_t, 3> voxels{};
+
+    [[nodiscard]] double pairsPerSecond() const;
+    [[nodiscard]] std::optional<double> fragmentsPerSecond() const;
+    /// Whether it answers more than yes or no, and is no judge.
+    [[nodiscard]] bool counts() const;
+};
+/// The fastest that counts, of those that `wanted` accepts; null where there is none.
+[[nodiscard]] const Series* fastestOf(std::span<const Series> all, const std::function<bool(const Series&)>& wanted);
+
+struct MethodEntry {
+    std::string name;
+    bool available = true;
+    std::string reason; ///< why not
+    std::string filter;
+    bool exact = true; ///< false: zero or not zero
+};
+
+/// Everything that the outputs say.
+struct CompareResult {
+    Machine machine;
+    std::vector<MethodEntry> methods;
+    std::vector<std::uint32_t> poseNumbers;
+    std::vector<NamedCounts> counts;
+    std::vector<Verdict> verdicts;
+    std::vector<FragmentCheck> fragmentChecks;
+    std::optional<double> oracleMilliseconds; ///< of a pose, on average
+    std::vector<Series> series;
+    std::vector<std::string> notes;
+    std::uint32_t triangles = 0;
+
+    [[nodiscard]] const Verdict* firstFailure() const;
+};
+
+/// The same pairs by every method: verified first, then timed, unless a verdict failed and the run is not to go on.
+/// `result` has the machine.
+[[nodiscard]] Result<void> compare(const CompareSettings& settings, const Scene& scene, const Session& session,
+                                   const Steps& steps, CompareResult& result);
+
+/// An engine for each method that is wanted and can be had; the others are told in `result`. Unsupported where there is
+/// none.
+[[nodiscard]] Result<Engines> makeMethodEngines(const Session& session, const CompareSettings& settings,
+                                                CompareResult& result);
+/// Counts every pose by every method.
+[[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work);
+
+/// The device's fragments against the oracle's, on so many of the poses, spread evenly. Adds to `result` the checks,
+/// the verdicts and the oracle's counts and time.
+[[nodiscard]] Result<void> checkFragments(const Session& session, std::uint32_t poses, const Scene& scene,
+                                          CompareResult& result, const std::function<void()>& step);
+
+/// Times one sweep and adds its series to `result`. Batches are of the scene; the others verify the counts of each
+/// point first, and time nothing where they are wrong and the run is not to go on:
+///   triangles  builtin meshes of several sizes; another mesh is told in the notes
+///   fragments  viewports of several sizes
+///   voxels     a builtin volume of half to twice as many voxels a side; another volume is told in the notes, and so
+///              are sizes that the device or the builtin cannot have. Mesh, poses, camera and transfer function stay.
+[[nodiscard]] Result<void> timeSweep(Sweep sweep, const Session& session, const CompareSettings& settings,
+                                     const Scene& scene, const Engines& engines, CompareResult& result,
+                                     const std::function<void()>& step);
+/// Steps that a sweep calls `step` for.
+[[nodiscard]] std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept;
+
+} // namespace voxtact::lab

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "lab/compare/localize.h"
+
+#include "core/try.h"
+#include "lab/measure/rounds.h"
+#include "oracle/oracle.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace voxtact::lab {
+
+namespace {
+
+bool before(const TouchedTriangle& a, const TouchedTriangle& b) {
+    return a.triangle < b.triangle;
+}
+
+/// The ways, as many as there are in LocalizeResult::ways; null where one cannot be had. The last is certified.
+Result<Engines> makeWays(const Session& session, const Scene& scene, LocalizeResult& result) {
+    Result<Engines> ways = makePolygonEngines(session, *scene.volume, *scene.mesh,
+                                              result.machine.eightBitFilter ? cpu::kEightBitFilterError : 0);
+    MadeEngine certified = makeHostEngine({.projection = Projection::Conservative, .outputs = {.triangles = true}});
+    if (!ways.ok() || !certified.ok()) {
+        return ways.ok() ? certified.error() : ways.error();
+    }
+    for (const std::unique_ptr<Engine>& way : *ways) {
+        result.ways.push_back({.name = way->name()});
+    }
+    LocalizeWay fragments{.name = "fragments"};
+    MadeEngine traced = makeFragmentEngine(session);
+    if (!traced.ok() && traced.error().code != ErrorCode::Unsupported) {
+        return traced.error();
+    }
+    if (!traced.ok()) {
+        fragments.unchecked = traced.error().text;
+        result.notes.push_back("no way fragments on this device: " + fragments.unchecked);
+    }
+    result.ways.push_back(std::move(fragments));
+    result.ways.push_back({.name = "certified", .byView = false});
+    ways->push_back(traced.ok() ? std::move(*traced) : nullptr);
+    ways->push_back(std::move(*certified));
+    return ways;
+}
+
+/// What the bounds say of one triangle alone.
+Result<std::string> certifiedOf(Engine& certified, const Work& work, std::uint32_t triangle) {
+    const MeshData& whole = work.mesh->data;
+    MeshPart alone;
+    alone.data.indices = {0, 1, 2};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        const float* const vertex =
+            whole.positions.data() + 3 * std::size_t{whole.indices[3 * std::size_t{triangle} + corner]};
+        alone.data.positions.insert(alone.data.positions.end(), vertex, vertex + 3);
+    }
+    VOXTACT_TRY(makeReady(nullptr, alone));
+    const Result<Pass> pass = certified.run({*work.volume, alone, work.poses, work.view}, {});
+    VOXTACT_TRY(pass);
+    const PairAnswer& pair = pass->pairs.front();
+    return std::string(pair.hit ? "certain" : pair.possible ? "possible" : "none");
+}
+
+void addTo(std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>& value) {
+    if (value) {
+        sum = sum.value_or(0) + *value;
+    }
+}
+
+/// One way on one pose. What it found is kept once.
+Result<void> findOne(Engine& engine, const Work& work, bool keep, LocalizeWay& way) {
+    Result<Pass> pass = engine.run(work, {});
+    VOXTACT_TRY(pass);
+    way.wall.push_back(pass->wallMilliseconds);
+    if (pass->gpuMilliseconds) {
+        way.gpu.push_back(*pass->gpuMilliseconds);
+    }
+    if (keep) {
+        addTo(way.queries, pass->queries);
+        addTo(way.boxes, pass->boxes);
+        way.triangles += pass->triangles.size();
+        way.found.push_back(std::move(pass->triangles));
+    }
+    return {};
+}
+
+/// Every way on a pose.
+Result<void> findByAll(const Engines& engines, const Work& work, bool keep, std::vector<LocalizeWay>& ways) {
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+        if (engines[i] == nullptr) {
+            continue;
+        }
+        VOXTACT_TRY(findOne(*engines[i], work, keep, ways[i]));
+    }
+    return {};
+}
+
+/// Every way on every pose; before the rounds, on the first one, one whose results go nowhere.
+Result<void> findAll(const Engines& engines, const CompareSettings& settings, const Scene& scene,
+                     LocalizeResult& result, const std::function<void()>& step) {
+    const Work work(scene);
+    std::vector<LocalizeWay> unkept = result.ways;
+    VOXTACT_TRY(findByAll(engines, work.at(work.poses.first(1)), true, unkept));
+    const auto aRound = [&](const Turn& turn) -> Result<double> {
+        for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
+            VOXTACT_TRY(findByAll(engines, work.at(work.poses.subspan(pose, 1)), turn.round == 1, result.ways));
+            step();
+        }
+        return 0.0;
+    };
+    Timed ways{.take = aRound};
+    const Result<std::uint64_t> rounds =
+        takeRounds({&ways, 1}, {.repeats = settings.repeats, .limit = settings.timeLimit * 1000});
+    VOXTACT_TRY(rounds);
+    if (*rounds < settings.repeats) {
+        result.notes.push_back(std::to_string(*rounds) + " of " + std::to_string(settings.repeats) +
+                               " rounds of which triangles touch: more would not fit in the time for them");
+    }
+    return {};
+}
+
+/// What the way of most queries found that is not certified: the other ones are the same, or the run fails.
+Result<void> listWrong(Engine& certified, const Scene& scene, LocalizeResult& result) {
+    const Work work(scene);
+    for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
+        std::vector<TouchedTriangle> extra;
+        std::ranges::set_difference(result.ways.front().found[pose], result.ways.back().found[pose],
+                                    std::back_inserter(extra), before);
+        for (const TouchedTriangle& triangle : extra) {
+            Result<std::string> known = certifiedOf(certified, work.at(work.poses.subspan(pose, 1)), triangle.triangle);
+            VOXTACT_TRY(known);
+            result.wrong.push_back({scene.poseNumbers[pose], triangle.triangle, triangle.count, std::move(*known)});
+        }
+    }
+    return {};
+}
+
+/// Counts what each way misses and has too much, against the certified set.
+void holdAgainstCertified(LocalizeResult& result) {
+    const LocalizeWay& certified = result.ways.back();
+    for (LocalizeWay& way : result.ways) {
+        for (std::size_t pose = 0; pose < way.found.size(); ++pose) {
+            std::vector<TouchedTriangle> both;
+            std::ranges::set_intersection(certified.found[pose], way.found[pose], std::back_inserter(both), before);
+            way.missed += certified.found[pose].size() - both.size();
+            way.wrong += way.found[pose].size() - both.size();
+        }
+    }
+}
+
+std::string textOf(const std::vector<TouchedTriangle>& found, std::uint32_t triangle) {
+    const auto at = std::ranges::lower_bound(found, triangle, {}, &TouchedTriangle::triangle);
+    return std::to_string(at == found.end() || at->triangle != triangle ? 0 : at->count);
+}
+
+/// The first pose and triangle on which a way of the view has other fragments than the first of them.
+void findDisagreement(LocalizeResult& result) {
+    const LocalizeWay& first = result.ways.front();
+    for (std::size_t pose = 0; pose < first.found.size(); ++pose) {
+        for (const LocalizeWay& way : result.ways) {
+            if (!way.byView || !way.unchecked.empty()) {
+                continue;
+            }
+            std::vector<TouchedTriangle> apart;
+            std::ranges::set_symmetric_difference(first.found[pose], way.found[pose], std::back_inserter(apart),
+                                                  [](const TouchedTriangle& a, const TouchedTriangle& b) {
+                                                      return std::pair(a.triangle, a.count) <
+                                                             std::pair(b.triangle, b.count);
+                                                  });
+            if (apart.empty()) {
+                continue;
+            }
+            const std::uint32_t triangle = apart.front().triangle;
+            result.failedPose = result.poseNumbers[pose];
+            result.failure = "triangle " + std::to_string(triangle) + ": " + first.name + " " +
+                             textOf(first.found[pose], triangle) + ", " + way.name + " " +
+                             textOf(way.found[pose], triangle) + " fragments";
+            return;
+        }
+    }
+}
+
+} // namespace
+
+void judgeLocalize(LocalizeResult& result) {
+    holdAgainstCertified(result);
+    findDisagreement(result);
+}
+
+std::string disagreementOf(const LocalizeResult& result) {
+    return result.failedPose ? "polygon = leaf = leaf-bricks = fragments: disagreement on pose " +
+                                   std::to_string(*result.failedPose) + ": " + result.failure
+                             : std::string();
+}
+
+Result<void> localize(const Session& session, const CompareSettings& settings, const Scene& scene,
+                      LocalizeResult& result, const std::function<void()>& step) {
+    result.poseNumbers = scene.poseNumbers;
+    result.triangles = scene.mesh->triangles();
+    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
+    VOXTACT_TRY(makeReady(session, {}, *scene.volume));
+    VOXTACT_TRY(makeReady(&session, *scene.mesh));
+    const Result<Engines> engines = makeWays(session, scene, result);
+    VOXTACT_TRY(engines);
+    VOXTACT_TRY(findAll(*engines, settings, scene, result, step));
+    judgeLocalize(result);
+    return listWrong(*engines->back(), scene, result);
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "lab/compare/output.h"
+
+#include <cmath>
+
+namespace voxtact::lab {
+
+namespace {
+
+Json verdictJson(const Verdict& verdict) {
+    Json json{{"rule", verdict.rule},
+              {"required", verdict.required},
+              {"checked", verdict.unchecked.empty()},
+              {"agrees", !verdict.failed()},
+              {"unit", verdict.unit},
+              {"compared", verdict.compared},
+              {"differing", verdict.differing},
+              {"largest_difference", verdict.largest},
+              {"detail", verdict.detail}};
+    if (!verdict.unchecked.empty()) {
+        json["why_not"] = verdict.unchecked;
+    }
+    if (verdict.first) {
+        json["pose"] = verdict.first->pose;
+        json["text"] = verdict.first->text;
+    }
+    return json;
+}
+
+Json fragmentJson(const DifferingFragment& fragment) {
+    // What is far away is infinite, and JSON has no word for it.
+    const auto real = [](double value) { return std::isfinite(value) ? Json(rounded(value)) : Json(); };
+    return {{"pose", fragment.pose},
+            {"triangle", fragment.triangle},
+            {"x", fragment.x},
+            {"y", fragment.y},
+            {"on", fragment.onDevice ? "device" : "oracle"},
+            {"reason", fragment.reason},
+            {"edge_distance_px", real(fragment.edgeDistance)},
+            {"domain_distance", real(fragment.domainDistance)},
+            {"opacity", real(fragment.opacity)},
+            {"opacity_low", real(fragment.opacityLow)},
+            {"opacity_high", real(fragment.opacityHigh)}};
+}
+
+Json oracleJson(const CompareResult& result) {
+    const std::array<std::uint64_t, 4> reasons = countReasons(result.fragmentChecks);
+    Json json{{"poses", result.fragmentChecks.size()},
+              {"ms_a_pose", result.oracleMilliseconds ? Json(rounded(*result.oracleMilliseconds)) : Json()},
+              {"by_reason", Json::object()},
+              {"checks", Json::array()},
+              {"differing", Json::array()}};
+    for (std::size_t i = 0; i < reasons.size(); ++i) {
+        json["by_reason"][kReasons.at(i)] = reasons.at(i);
+    }
+    for (const FragmentCheck& check : result.fragmentChecks) {
+        json["checks"].push_back({{"pose", check.pose},
+                                  {"device", check.onDevice},
+                                  {"oracle", check.byOracle},
+                                  {"differing", check.differing.size()}});
+        for (const DifferingFragment& fragment : check.differing) {
+            json["differing"].push_back(fragmentJson(fragment));
+        }
+    }
+    return json;
+}
+
+Json methodJson(const MethodEntry& method) {
+    return {{"method", method.name},
+            {"available", method.available},
+            {"reason", method.reason},
+            {"filter", method.filter},
+            {"exact", method.exact}};
+}
+
+} // namespace
+
+Row rowOf(const Series& series) {
+    return Row()
+        .add("sweep", toString(series.sweep))
+        .add("method", series.method)
+        .add("mode", toString(series.mode))
+        .add("batch", series.batch)
+        .add("width", series.width)
+        .add("height", series.height)
+        .add("triangles", series.triangles)
+        .member("pairs_a_sample", series.pairs)
+        .add({"fragments", "fragments_a_pair"}, series.fragments)
+        .add({"samples", ""}, series.wall.size())
+        .add("wall_ms", series.wall, {"_median", "_p10", "_p90"})
+        .add("gpu_ms", series.gpu, {"_median"})
+        .add("pairs_per_s", series.pairsPerSecond())
+        .add("fragments_per_s", series.fragmentsPerSecond())
+        .add({"voxels", ""}, sizeText(series.voxels));
+}
+
+io::Table seriesTable(const std::vector<Series>& series) {
+    return tableOf(series, rowOf, rowOf({}).cells());
+}
+
+Json seriesJson(const std::vector<Series>& series, const Machine& machine) {
+    return arrayOf(series, [&](const Series& one) {
+        return rowOf(one).member("machine", machineJson(machine)).member("voxels", one.voxels).json();
+    });
+}
+
+Json sceneJson(const Scene& scene) {
+    return {{"volume", scene.volume->name},
+            {"voxels", scene.volume->data.grid.size},
+            {"voxel_type", toString(scene.volume->data.type)},
+            {"mesh", scene.mesh->name},
+            {"triangles", scene.mesh->triangles()},
+            {"poses", scene.poses.size()},
+            {"poses_from", scene.posesFrom},
+            {"width", scene.view.width},
+            {"height", scene.view.height},
+            {"threshold", scene.volume->threshold}};
+}
+
+Json compareJson(const Scene& scene, const CompareResult& result) {
+    Json json = headJson(result.machine);
+    json["scene"] = sceneJson(scene);
+    json["summary"] = summarize(result);
+    json["agrees"] = result.firstFailure() == nullptr;
+    json["methods"] = arrayOf(result.methods, methodJson);
+    json["agreement"] = arrayOf(result.verdicts, verdictJson);
+    json["oracle"] = oracleJson(result);
+    json["poses"] = result.poseNumbers;
+    json["counts"] = Json::object();
+    for (const NamedCounts& counts : result.counts) {
+        json["counts"][counts.method] = counts.counts;
+    }
+    json["series"] = seriesJson(result.series, result.machine);
+    json["notes"] = allNotes({result.machine, {}, result.notes});
+    return json;
+}
+
+void writeCompare(std::ostream& out, io::Format format, const Scene& scene, const CompareResult& result) {
+    if (format == io::Format::Json) {
+        writeJson(out, compareJson(scene, result));
+        return;
+    }
+    io::writeTable(out, format, seriesTable(result.series));
+    writeFindings(out, {result.machine, summarize(result), result.notes});
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/compare/compare.h"
+#include "lab/measure/columns.h"
+
+namespace voxtact::lab {
+
+[[nodiscard]] Json sceneJson(const Scene& scene);
+[[nodiscard]] Row rowOf(const Series& series);
+/// One row a series.
+[[nodiscard]] io::Table seriesTable(const std::vector<Series>& series);
+[[nodiscard]] Json seriesJson(const std::vector<Series>& series, const Machine& machine);
+
+/// What was found, in plain English, a sentence each: the agreement, then the speed.
+[[nodiscard]] std::vector<std::string> summarize(const CompareResult& result);
+/// The whole result as one object.
+[[nodiscard]] Json compareJson(const Scene& scene, const CompareResult& result);
+/// One row a series for CSV and text.
+void writeCompare(std::ostream& out, io::Format format, const Scene& scene, const CompareResult& result);
+
+} // namespace voxtact::lab

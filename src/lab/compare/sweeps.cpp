@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "core/try.h"
+#include "lab/compare/compare.h"
+#include "lab/measure/numbers.h"
+#include "lab/measure/rounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace voxtact::lab {
+
+namespace {
+
+constexpr std::array<std::uint32_t, 4> kBatches{1, 16, 256, 1024};
+/// Pairs of a point in the sweeps of triangles, fragments and voxels.
+constexpr std::uint32_t kSweepPairs = 8;
+constexpr double kGoldenRatio = 0.6180339887498949;
+constexpr std::array<std::uint32_t, 6> kTriangles{256, 1024, 4096, 16384, 65536, 200000};
+constexpr std::array<std::uint32_t, 6> kSides{64, 128, 256, 512, 1024, 2048};
+/// Voxels a side of the volume, in quarters of the given one's.
+constexpr std::array<std::uint32_t, 5> kQuarters{2, 3, 4, 6, 8};
+constexpr std::uint32_t kFramesInFlight = 3;
+constexpr std::size_t kWarmUpPairs = 16;
+/// A sample is cut so that this many fit.
+constexpr double kSamplesInShare = 3;
+/// Of the time limit; describe() says it in words.
+constexpr double kLongestSample = 0.25;
+
+/// A measurement that is repeated: what, by whom, and where its samples go.
+struct Point {
+    Engine* engine = nullptr;
+    Work work;
+    Feeding feeding{};
+    Series series;
+};
+
+Point makePoint(Sweep sweep, Engine& engine, const Work& work, Mode mode, std::uint32_t batch) {
+    Point point{.engine = &engine, .work = work, .series = {}};
+    point.feeding = mode == Mode::Sync ? Feeding{1, 1} : Feeding{batch, kFramesInFlight};
+    point.series = {.sweep = sweep,
+                    .method = engine.name(),
+                    .mode = mode,
+                    .batch = batch,
+                    .width = work.view.width,
+                    .height = work.view.height,
+                    .triangles = work.mesh->triangles(),
+                    .pairs = static_cast<std::uint32_t>(work.poses.size()),
+                    .fragments = std::nullopt,
+                    .wall = {},
+                    .gpu = {},
+                    .voxels = work.volume->data.grid.size};
+    return point;
+}
+
+Result<double> takeSample(Point& point) {
+    const Result<Pass> pass = point.engine->run(point.work, point.feeding);
+    VOXTACT_TRY(pass);
+    const auto pairs = static_cast<double>(point.work.poses.size());
+    Series& series = point.series;
+    if (series.counts()) {
+        const std::vector<std::uint64_t> counts = pass->counts();
+        series.fragments = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})) / pairs;
+    }
+    const double batches = pairs / series.batch;
+    series.wall.push_back(pass->wallMilliseconds / batches);
+    if (pass->gpuMilliseconds) {
+        series.gpu.push_back(*pass->gpuMilliseconds / batches);
+    }
+    return pass->wallMilliseconds;
+}
+
+std::string describe(const Series& series) {
+    return "no time of " + series.method + " for batches of " + std::to_string(series.batch) + " (" +
+           std::to_string(series.triangles) + " triangles, " + std::to_string(series.width) + "x" +
+           std::to_string(series.height) + ", " + sizeText(series.voxels) +
+           " voxels): one would take more than a quarter of the sweep's time";
+}
+
+/// Everything is made and touched once. Cuts a sample that would take too long, to whole batches; where even one batch
+/// would, there is none, and a note.
+Result<double> warmUp(Point& point, double share, double most, CompareResult& result) {
+    Work some = point.work;
+    some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
+    // The first pass may make pipelines: only the second one says how long a batch takes.
+    VOXTACT_TRY(point.engine->run(some, point.feeding));
+    const Result<Pass> pass = point.engine->run(some, point.feeding);
+    VOXTACT_TRY(pass);
+    const double aBatch = pass->wallMilliseconds / static_cast<double>(some.poses.size()) * point.series.batch;
+    const std::size_t all = point.work.poses.size() / point.series.batch;
+    const auto fitting = static_cast<std::size_t>(std::min(share / kSamplesInShare / aBatch, static_cast<double>(all)));
+    point.work.poses = point.work.poses.first(std::max<std::size_t>(fitting, 1) * point.series.batch);
+    point.series.pairs = static_cast<std::uint32_t>(point.work.poses.size());
+    if (aBatch > most) {
+        result.notes.push_back(describe(point.series));
+        return kNoLimit;
+    }
+    return aBatch;
+}
+
+/// Each point has its share of the time.
+Result<void> measure(std::vector<Point>& points, const CompareSettings& settings, CompareResult& result,
+                     const std::function<void()>& step) {
+    const double limit = settings.timeLimit * 1000;
+    const double share = limit / static_cast<double>(points.size());
+    std::vector<Timed> things;
+    for (Point& point : points) {
+        things.push_back({.take =
+                              [&point, &result, share, limit](const Turn& turn) {
+                                  return turn.round == 0 ? warmUp(point, share, limit * kLongestSample, result)
+                                                         : takeSample(point);
+                              },
+                          .limit = share});
+    }
+    VOXTACT_TRY(takeRounds(things, {.repeats = settings.repeats, .warmUp = true, .step = step}));
+    return {};
+}
+
+/// A query says nothing of how many: the fragments are those of its neighbours.
+void shareFragments(std::vector<Point>& points) {
+    for (Point& point : points) {
+        Series& own = point.series;
+        const auto found = std::ranges::find_if(points, [&own](const Point& other) {
+            const Series& series = other.series;
+            return series.fragments && series.triangles == own.triangles && series.width == own.width &&
+                   series.voxels == own.voxels;
+        });
+        if (!own.fragments && found != points.end()) {
+            own.fragments = found->series.fragments;
+        }
+    }
+}
+
+/// The series of points that were measured, in the order of mode and batch.
+void collect(std::vector<Point>& points, CompareResult& result) {
+    shareFragments(points);
+    std::ranges::stable_sort(points, {}, [](const Point& p) { return std::pair(p.series.mode, p.series.batch); });
+    for (Point& point : points) {
+        if (!point.series.wall.empty()) {
+            result.series.push_back(std::move(point.series));
+        }
+    }
+}
+
+/// `count` poses, again from the start where there are no more: one pose repeated would be cache-warm. In an order
+/// whose every beginning is spread over all of them, so that a part of a path of poses is not one end of it.
+std::vector<Mat4> cycled(std::span<const Mat4> poses, std::size_t count) {
+    auto step = static_cast<std::size_t>(std::lround(static_cast<double>(poses.size()) * kGoldenRatio));
+    while (std::gcd(step, poses.size()) != 1) {
+        ++step;
+    }
+    std::vector<Mat4> out;
+    out.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        out.push_back(poses[i * step % poses.size()]);
+    }
+    return out;
+}
+
+/// Pairs that wait for each other do not care how many there are: measured once, over all poses.
+Series scaled(Series series, std::uint32_t batch) {
+    series.batch = batch;
+    for (std::vector<double>* const times : {&series.wall, &series.gpu}) {
+        std::ranges::for_each(*times, [batch](double& time) { time *= batch; });
+    }
+    return series;
+}
+
+Result<void> timeBatches(const CompareSettings& settings, const Engines& engines, const Work& work,
+                         CompareResult& result, const std::function<void()>& step) {
+    std::array<std::vector<Mat4>, kBatches.size()> poses;
+    const std::vector<Mat4> one = cycled(work.poses, work.poses.size());
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < kBatches.size(); ++i) {
+        const std::size_t batch = kBatches[i];
+        const std::size_t batches = (std::max(work.poses.size(), batch) + batch - 1) / batch;
+        poses[i] = cycled(work.poses, batches * batch);
+        for (const std::unique_ptr<Engine>& engine : engines) {
+            points.push_back(makePoint(Sweep::Batch, *engine, work.at(poses[i]), Mode::Pipelined, kBatches[i]));
+        }
+    }
+    for (const std::unique_ptr<Engine>& engine : engines) {
+        points.push_back(makePoint(Sweep::Batch, *engine, work.at(one), Mode::Sync, 1));
+    }
+    VOXTACT_TRY(measure(points, settings, result, step));
+    for (std::size_t i = points.size() - engines.size(), end = points.size(); i < end; ++i) {
+        for (std::size_t batch = 1; batch < kBatches.size(); ++batch) {
+            Point copy = points[i];
+            copy.series = scaled(points[i].series, kBatches[batch]);
+            points.push_back(std::move(copy));
+        }
+    }
+    collect(points, result);
+    return {};
+}
+
+/// What the other sweeps hold against each other, each with all engines.
+struct Swept {
+    std::shared_ptr<VolumePart> volume;
+    std::shared_ptr<MeshPart> mesh;
+    View view;
+    std::string where; ///< says which point it is
+};
+
+/// What makes them needs.
+struct Sweeping {
+    const Session& session;
+    const CompareSettings& settings;
+    const Scene& scene;
+    CompareResult& result;
+    const std::function<void()>& step;
+
+    void note(const std::string& text) const { result.notes.push_back(text); }
+};
+
+/// A builtin of another size: "builtin:head:128" as "builtin:head:64".
+std::string resized(const std::string& source, std::uint32_t size) {
+    return source.substr(0, source.find(':', std::string_view("builtin:").size())) + ":" + std::to_string(size);
+}
+
+Result<std::vector<Swept>> sizedMeshes(const Sweeping& of) {
+    std::vector<Swept> points;
+    if (!of.scene.mesh->name.starts_with("builtin:")) {
+        of.note("no sweep of triangles: the mesh is not a builtin one, which can be had in any size");
+        return points;
+    }
+    for (const std::uint32_t triangles : kTriangles) {
+        Result<MeshData> data = of.settings.load.mesh(resized(of.scene.mesh->name, triangles));
+        if (!data.ok()) {
+            of.note("no point of " + std::to_string(triangles) + " triangles: " + data.error().text);
+            continue;
+        }
+        const auto mesh = std::make_shared<MeshPart>(MeshPart{.name = {}, .data = std::move(*data)});
+        VOXTACT_TRY(makeReady(&of.session, *mesh));
+        points.push_back({of.scene.volume, mesh, of.scene.view, std::to_string(triangles) + " triangles"});
+    }
+    return points;
+}
+
+Result<std::vector<Swept>> sizedViewports(const Sweeping& of) {
+    std::vector<Swept> points;
+    const VkExtent2D most = of.session.context.maxViewport();
+    for (const std::uint32_t side : kSides) {
+        View view = of.scene.view;
+        view.width = side;
+        view.height = static_cast<std::uint32_t>(
+            std::max(1L, std::lround(static_cast<double>(side) * of.scene.view.height / of.scene.view.width)));
+        if (view.width > most.width || view.height > most.height || view.height > cpu::kMaxViewport) {
+            continue;
+        }
+        points.push_back({of.scene.volume, of.scene.mesh, view,
+                          "--size " + std::to_string(view.width) + "x" + std::to_string(view.height)});
+    }
+    return points;
+}
+
+/// The volume of so many voxels a side, ready; null, and a note, where it cannot be had.
+Result<std::shared_ptr<VolumePart>> sizedVolume(const Sweeping& of, std::uint32_t side) {
+    const VolumePart& like = *of.scene.volume;
+    const auto sized = std::make_shared<VolumePart>(VolumePart{.name = resized(like.name, side),
+                                                               .data = {},
+                                                               .points = like.points,
+                                                               .domain = like.domain,
+                                                               .tableSize = like.tableSize,
+                                                               .threshold = like.threshold});
+    Result<VolumeData> data = of.settings.load.volume(sized->name);
+    if (!data.ok()) {
+        of.note("no point of " + sized->name + ": " + data.error().text);
+        return std::shared_ptr<VolumePart>();
+    }
+    sized->data = std::move(*data);
+    if (const Result<void> ready = makeReady(of.session, {}, *sized); !ready.ok()) {
+        const Error& why = ready.error();
+        if (why.code != ErrorCode::LimitExceeded && why.code != ErrorCode::OutOfMemory) {
+            return why;
+        }
+        of.note("no point of " + sized->name + ": " + why.text);
+        return std::shared_ptr<VolumePart>();
+    }
+    // In both engines by now, and as many bytes as either.
+    sized->data.voxels = {};
+    return sized;
+}
+
+Result<std::vector<Swept>> sizedVolumes(const Sweeping& of) {
+    std::vector<Swept> points;
+    if (!of.scene.volume->name.starts_with("builtin:")) {
+        of.note("no sweep of voxels: the volume is not a builtin one, which can be had in any size");
+        return points;
+    }
+    for (const std::uint32_t quarters : kQuarters) {
+        const Result<std::shared_ptr<VolumePart>> sized =
+            sizedVolume(of, of.scene.volume->data.grid.size[0] * quarters / 4);
+        VOXTACT_TRY(sized);
+        of.step();
+        if (*sized != nullptr) {
+            points.push_back({*sized, of.scene.mesh, of.scene.view, sizeText((*sized)->data.grid.size) + " voxels"});
+        }
+    }
+    return points;
+}
+
+/// The counts of a point agree before it is timed: adds the verdicts that failed.
+Result<void> verify(Sweep sweep, const Engines& engines, const Work& work, std::span<const std::uint32_t> poses,
+                    const std::string& where, CompareResult& result) {
+    const Result<std::vector<NamedCounts>> counts = countAll(engines, work);
+    VOXTACT_TRY(counts);
+    for (Verdict& verdict : judgeCounts(*counts, poses)) {
+        if (verdict.failed()) {
+            verdict.rule += " (" + where + ")";
+            verdict.sweep = toString(sweep);
+            result.verdicts.push_back(std::move(verdict));
+        }
+    }
+    return {};
+}
+
+/// Verifies all points, and times them.
+Result<void> timeSwept(Sweep sweep, const std::vector<Swept>& swept, const Engines& engines, const Sweeping& of) {
+    const Scene some = of.scene.withPoses(kSweepPairs);
+    std::vector<Point> points;
+    for (const Swept& one : swept) {
+        const Work work{*one.volume, *one.mesh, some.poses, one.view};
+        VOXTACT_TRY(verify(sweep, engines, work, some.poseNumbers, one.where, of.result));
+        for (const std::unique_ptr<Engine>& engine : engines) {
+            points.push_back(
+                makePoint(sweep, *engine, work, Mode::Pipelined, static_cast<std::uint32_t>(work.poses.size())));
+        }
+    }
+    if (points.empty() || (of.result.firstFailure() != nullptr && !of.settings.keepGoing)) {
+        return {};
+    }
+    VOXTACT_TRY(measure(points, of.settings, of.result, of.step));
+    collect(points, of.result);
+    return {};
+}
+
+} // namespace
+
+std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept {
+    // A volume takes longer to make than to be measured on.
+    return std::uint64_t{repeats} + 1 + (sweep == Sweep::Voxels ? kQuarters.size() : 0);
+}
+
+Result<void> timeSweep(Sweep sweep, const Session& session, const CompareSettings& settings, const Scene& scene,
+                       const Engines& engines, CompareResult& result, const std::function<void()>& step) {
+    if (sweep == Sweep::Batch) {
+        return timeBatches(settings, engines, Work(scene), result, step);
+    }
+    const Sweeping of{session, settings, scene, result, step};
+    const Result<std::vector<Swept>> points = sweep == Sweep::Triangles   ? sizedMeshes(of)
+                                              : sweep == Sweep::Fragments ? sizedViewports(of)
+                                                                          : sizedVolumes(of);
+    VOXTACT_TRY(points);
+    return timeSwept(sweep, *points, engines, of);
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "lab/engines/engine.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace voxtact::lab {
+
+BatchItem Work::onDevice() const {
+    return {&*mesh->device, &*volume->device, &*volume->deviceFunction, poses,
+            volume->deviceLabels ? &*volume->deviceLabels : nullptr};
+}
+
+std::vector<std::uint64_t> Pass::counts() const {
+    std::vector<std::uint64_t> counts;
+    std::ranges::transform(pairs, std::back_inserter(counts), &PairAnswer::count);
+    return counts;
+}
+
+void Engine::holdAgainst(std::size_t engine, bool sameCounts) {
+    facts_.ratioTo = engine;
+    facts_.sameCounts = sameCounts;
+}
+
+std::string questionOf(bool yesNo, const Outputs& outputs) {
+    return yesNo               ? "yes/no"
+           : outputs.triangles ? "count, triangles"
+           : outputs.bounds    ? "count, bounds"
+           : outputs.labels    ? "count, labels"
+           : outputs.contacts  ? "count, contacts"
+                               : "count";
+}
+
+MadeEngine makeMethodEngine(const Session& session, CountingMethod method) {
+    return method == CountingMethod::Cpu
+               ? makeHostEngine()
+               : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});
+}
+
+std::vector<CountingMethod>
+availableMethods(const Session& session, const std::function<void(CountingMethod, const std::string& reason)>& why) {
+    const auto supports = session.context.methods();
+    std::vector<CountingMethod> methods;
+    for (const CountingMethod method : countingMethods()) {
+        const auto support = std::ranges::find(supports, method, &MethodSupport::method);
+        const bool known = support != supports.end();
+        if (method == CountingMethod::Cpu || (known && support->available)) {
+            methods.push_back(method);
+        } else {
+            why(method, known ? support->reason : "this version has it not");
+        }
+    }
+    return methods;
+}
+
+} // namespace voxtact::lab

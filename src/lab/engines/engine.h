@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/engines/scene.h"
+
+#include <functional>
+
+namespace voxtact::lab {
+
+struct EngineFacts {
+    std::string name{};        ///< "cpu", "compute", "query", "fcl-float", "polygon"
+    std::string projection{};  ///< "conservative", "view"; "octree" for FCL
+    std::string question{};    ///< "yes/no", "count", "count, labels"
+    std::uint32_t threads = 1; ///< of the host; 0: the device's work
+    bool certified = false;    ///< must answer as every other certified engine does
+    std::size_t ratioTo = 0;   ///< number of the engine that its times are held against; not after it
+    bool sameCounts = false;   ///< must count as that one does
+};
+
+/// Pairs to answer: a mesh at poses against a volume. The parts must be ready
+/// for the engine that is asked.
+struct Work {
+    const VolumePart* volume = nullptr;
+    const MeshPart* mesh = nullptr;
+    std::span<const Mat4> poses;
+    View view;
+
+    Work() = default;
+    Work(const VolumePart& of, const MeshPart& with, std::span<const Mat4> at, const View& seen)
+        : volume(&of), mesh(&with), poses(at), view(seen) {}
+    /// All of a scene, which must outlive it.
+    explicit Work(const Scene& scene) : Work(*scene.volume, *scene.mesh, scene.poses, scene.view) {}
+
+    /// For a detector of the device.
+    [[nodiscard]] BatchItem onDevice() const;
+    [[nodiscard]] Work at(std::span<const Mat4> others) const { return {*volume, *mesh, others, view}; }
+};
+
+/// How the pairs of a work reach an engine.
+struct Feeding {
+    std::uint32_t batch = 0;  ///< pairs a submission or call; 0: all
+    std::uint32_t frames = 1; ///< submissions in flight; 1: each is waited for
+};
+
+/// The answers to a work.
+struct Pass {
+    double wallMilliseconds = 0;
+    std::optional<double> gpuMilliseconds{};
+    std::vector<PairAnswer> pairs{};          ///< in the order of the poses; none of an
+                                              ///< engine that finds triangles
+    std::vector<TouchedTriangle> triangles{}; ///< of an engine that finds them
+    std::optional<std::uint64_t> queries{};   ///< that it took
+    std::optional<std::uint64_t> boxes{};     ///< nodes of its tree that were tested
+
+    [[nodiscard]] std::vector<std::uint64_t> counts() const;
+};
+
+/// One way to answer.
+/// Thread-safety: none; one thread at a time.
+class Engine {
+  public:
+    explicit Engine(EngineFacts facts) : facts_(std::move(facts)) {}
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+    virtual ~Engine() = default;
+
+    [[nodiscard]] const EngineFacts& facts() const noexcept { return facts_; }
+    [[nodiscard]] const std::string& name() const noexcept { return facts_.name; }
+    void holdAgainst(std::size_t engine, bool sameCounts);
+    [[nodiscard]] virtual Result<Pass> run(const Work& work, const Feeding& feeding) = 0;
+
+  private:
+    EngineFacts facts_;
+};
+
+using Engines = std::vector<std::unique_ptr<Engine>>;
+using MadeEngine = Result<std::unique_ptr<Engine>>;
+
+/// What an engine answers: yes or no, or the count and the output beside it.
+[[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
+
+/// The host.
+[[nodiscard]] MadeEngine makeHostEngine(const cpu::DetectorDesc& desc = {});
+/// A method of the device; what it is given must outlive it.
+[[nodiscard]] MadeEngine makeDeviceEngine(const Session& session, const DetectorDesc& desc);
+/// The same by the blocking convenience, all pairs in one submission, whatever
+/// the feeding.
+[[nodiscard]] MadeEngine makeBlockingEngine(const Session& session, const DetectorDesc& desc);
+/// A counting method by its own filter, on the device or, for cpu, the host.
+[[nodiscard]] MadeEngine makeMethodEngine(const Session& session, CountingMethod method);
+/// FCL, for this mesh against the octree of this volume, which must be there.
+[[nodiscard]] std::unique_ptr<Engine> makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar);
+/// The octree, or nothing and a note that says why there is none. In both cases
+/// the note is what to tell of FCL.
+[[nodiscard]] std::string makeOctree(VolumePart& volume);
+
+/// The paper's ways to find the triangles that touch, one pose a run: an
+/// occlusion query a triangle, and two with one a leaf of an OBB tree. For this
+/// volume and mesh, which are ready and must outlive them. `tolerance`: what
+/// the device's filter is off by, in stored units.
+[[nodiscard]] Result<Engines> makePolygonEngines(const Session& session, const VolumePart& volume, const MeshPart& mesh,
+                                                 double tolerance);
+/// The same triangles by the fragments of one pass. Unsupported where the
+/// device cannot list them.
+[[nodiscard]] MadeEngine makeFragmentEngine(const Session& session);
+
+/// Which methods the device can do, and cpu. `why` hears of the others.
+[[nodiscard]] std::vector<CountingMethod>
+availableMethods(const Session& session, const std::function<void(CountingMethod, const std::string& reason)>& why);
+
+} // namespace voxtact::lab

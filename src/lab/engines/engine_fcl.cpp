@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "lab/engines/engine.h"
+#include "lab/engines/opaque_cells.h"
+#include "lab/measure/stopwatch.h"
+
+namespace voxtact::lab {
+
+namespace {
+
+class FclEngine final : public Engine {
+  public:
+    FclEngine(EngineFacts facts, FclPeer peer) : Engine(std::move(facts)), peer_(std::move(peer)) {}
+
+    Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
+        Pass pass;
+        pass.pairs.reserve(work.poses.size());
+        const Stopwatch watch;
+        for (const Mat4& pose : work.poses) {
+            const bool hit = peer_(pose);
+            pass.pairs.push_back({.hit = hit, .count = hit ? 1U : 0U});
+        }
+        pass.wallMilliseconds = watch.milliseconds();
+        return pass;
+    }
+
+  private:
+    FclPeer peer_;
+};
+
+} // namespace
+
+std::unique_ptr<Engine> makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar) {
+    EngineFacts facts{.name = scalar == FclScalar::Float ? "fcl-float" : "fcl-double",
+                      .projection = "octree",
+                      .question = questionOf(true, {})};
+    return std::make_unique<FclEngine>(std::move(facts),
+                                       makeFclPeer(*volume.fcl, mesh.data.positions, mesh.data.indices, scalar));
+}
+
+std::string makeOctree(VolumePart& volume) {
+    const Result<OpaqueCells> cells = opaqueCells(volume.data.view(), volume.transferFunction(), volume.threshold);
+    if (fclVersion().empty() || !cells.ok()) {
+        return "FCL: " + (cells.ok() ? "not built in" : cells.error().text);
+    }
+    Vec3 origin{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto before = cells->size[axis] / 2; // whole cells: the octree's origin is between two of them
+        origin[axis] = before * cells->side;
+    }
+    std::string why;
+    volume.fcl = makeFclVolume(
+        {cells->size, cells->side, &cells->opaque, multiply(cells->world_from_cells, translation(origin))}, why);
+    return volume.fcl == nullptr ? "FCL: " + why
+                                 : fclVersion() + ": BVHModel of OBBRSS against an octree of opaque voxels" +
+                                       (cells->resampled ? ", which are no cubes: cells of the smallest "
+                                                           "spacing, each "
+                                                           "with the value of the voxel at its centre"
+                                                         : "");
+}
+
+} // namespace voxtact::lab

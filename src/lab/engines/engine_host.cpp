@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/try.h"
+#include "lab/engines/engine.h"
+#include "lab/measure/stopwatch.h"
+
+#include <algorithm>
+
+namespace voxtact::lab {
+
+namespace {
+
+class HostEngine final : public Engine {
+  public:
+    HostEngine(EngineFacts facts, cpu::Detector detector) : Engine(std::move(facts)), detector_(std::move(detector)) {}
+
+    Result<Pass> run(const Work& work, const Feeding& feeding) override;
+
+  private:
+    cpu::Detector detector_;
+};
+
+Result<Pass> HostEngine::run(const Work& work, const Feeding& feeding) {
+    const VolumePart& volume = *work.volume;
+    const std::size_t batch = feeding.batch == 0 ? work.poses.size() : feeding.batch;
+    Pass pass;
+    pass.pairs.reserve(work.poses.size());
+    const Stopwatch watch;
+    for (std::size_t first = 0; first < work.poses.size(); first += batch) {
+        const cpu::BatchItem item{&*work.mesh->host, &*volume.host, &*volume.hostFunction,
+                                  work.poses.subspan(first, std::min(batch, work.poses.size() - first)),
+                                  volume.labels.values.empty() ? nullptr : &volume.labels};
+        Result<BatchAnswer> answer = detector_.detect({{&item, 1}, work.view, volume.threshold});
+        VOXTACT_TRY(answer);
+        pass.pairs.insert(pass.pairs.end(), answer->pairs.begin(), answer->pairs.end());
+        pass.triangles.insert(pass.triangles.end(), answer->triangles.begin(), answer->triangles.end());
+    }
+    pass.wallMilliseconds = watch.milliseconds();
+    return pass;
+}
+
+} // namespace
+
+MadeEngine makeHostEngine(const cpu::DetectorDesc& desc) {
+    Result<cpu::Detector> detector = cpu::Detector::create(desc);
+    VOXTACT_TRY(detector);
+    EngineFacts facts{.name = toString(CountingMethod::Cpu),
+                      .projection = toString(desc.projection),
+                      .question = questionOf(desc.stopAtFirst, desc.outputs),
+                      .threads = detector->threads(),
+                      .certified = desc.projection == Projection::Conservative};
+    return MadeEngine(std::make_unique<HostEngine>(std::move(facts), std::move(*detector)));
+}
+
+} // namespace voxtact::lab

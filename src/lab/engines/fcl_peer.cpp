@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "lab/engines/fcl_peer.h"
+
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/octree/octree.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+#include <octomap/octomap.h>
+
+namespace voxtact::lab {
+
+struct FclVolume {
+    std::shared_ptr<const octomap::OcTree> tree;
+    FclMatrix world_from_tree{};
+};
+
+namespace {
+
+/// OctoMap's keys: cell 32768 begins at the origin.
+constexpr std::uint32_t kOriginKey = 32768;
+constexpr std::uint32_t kKeys = 65536;
+/// Log odds of a cell that is certainly occupied.
+constexpr float kOccupied = 3;
+
+template <class Scalar> fcl::Transform3<Scalar> transformOf(const FclMatrix& matrix) {
+    fcl::Transform3<Scalar> out = fcl::Transform3<Scalar>::Identity();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            out.matrix()(row, column) = static_cast<Scalar>(matrix[static_cast<std::size_t>(4 * column + row)]);
+        }
+    }
+    return out;
+}
+
+template <class Scalar>
+FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices) {
+    const auto vertex = [positions](std::uint32_t index) {
+        const float* at = positions.data() + 3 * std::size_t{index};
+        return fcl::Vector3<Scalar>(static_cast<Scalar>(at[0]), static_cast<Scalar>(at[1]), static_cast<Scalar>(at[2]));
+    };
+    const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSS<Scalar>>>();
+    mesh->beginModel(static_cast<int>(indices.size() / 3));
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        mesh->addTriangle(vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2]));
+    }
+    mesh->endModel();
+    const auto octree = std::make_shared<fcl::OcTree<Scalar>>(volume.tree);
+    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
+        const fcl::CollisionRequest<Scalar> request(1, false);
+        fcl::CollisionResult<Scalar> result;
+        fcl::collide(mesh.get(), transformOf<Scalar>(world_from_object), octree.get(), transformOf<Scalar>(matrix),
+                     request, result);
+        return result.isCollision();
+    };
+}
+
+} // namespace
+
+std::string fclVersion() {
+    return std::string("FCL ") + FCL_VERSION;
+}
+
+std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why) {
+    std::array<std::uint32_t, 3> first{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (cells.size[axis] > kKeys) {
+            why = "the octree would have more than 65536 cells a side";
+            return nullptr;
+        }
+        first[axis] = kOriginKey - cells.size[axis] / 2;
+    }
+    auto tree = std::make_shared<octomap::OcTree>(cells.side);
+    std::size_t cell = 0;
+    for (std::uint32_t z = 0; z < cells.size[2]; ++z) {
+        for (std::uint32_t y = 0; y < cells.size[1]; ++y) {
+            for (std::uint32_t x = 0; x < cells.size[0]; ++x, ++cell) {
+                if ((*cells.occupied)[cell]) {
+                    const octomap::OcTreeKey key(static_cast<octomap::key_type>(first[0] + x),
+                                                 static_cast<octomap::key_type>(first[1] + y),
+                                                 static_cast<octomap::key_type>(first[2] + z));
+                    tree->setNodeValue(key, kOccupied, true);
+                }
+            }
+        }
+    }
+    tree->updateInnerOccupancy();
+    tree->prune();
+    return std::make_shared<const FclVolume>(FclVolume{std::move(tree), cells.world_from_tree});
+}
+
+FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices,
+                    FclScalar scalar) {
+    return scalar == FclScalar::Float ? makePeer<float>(volume, positions, indices)
+                                      : makePeer<double>(volume, positions, indices);
+}
+
+} // namespace voxtact::lab

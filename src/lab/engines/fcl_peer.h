@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What people use today, to compare with: the Flexible Collision Library, a mesh of triangles against an octree of
+/// the opaque voxels. Part of the program where FCL and OctoMap are found when it is built. Of plain types alone: FCL's
+/// headers take minutes to compile, and are not compiled again because one of ours has changed.
+namespace voxtact::lab {
+
+/// Column-major, as Mat4.
+using FclMatrix = std::array<double, 16>;
+
+/// Cubes, x fastest. Cell (i, j, k) is from (i, j, k) * side to one side further on.
+struct FclCells {
+    std::array<std::uint32_t, 3> size{};
+    double side = 0;
+    const std::vector<bool>* occupied = nullptr;
+    /// From the space whose origin is the cell at half of each size, rounded down; rigid.
+    FclMatrix world_from_tree{};
+};
+
+/// "FCL 0.7.0", or nothing where it is not built in.
+[[nodiscard]] std::string fclVersion();
+
+enum class FclScalar { Float, Double };
+
+/// Whether a mesh (BVHModel of OBBRSS) collides with an octree at a rigid pose. One thread.
+using FclPeer = std::function<bool(const FclMatrix& world_from_object)>;
+
+/// The octree, which peers share. Null, with the reason in `why`, where FCL is not built in, and beyond the 65,536
+/// cells a side that OctoMap has keys for.
+struct FclVolume;
+[[nodiscard]] std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why);
+/// Three numbers a vertex, three vertices a triangle.
+[[nodiscard]] FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions,
+                                  std::span<const std::uint32_t> indices, FclScalar scalar);
+
+} // namespace voxtact::lab

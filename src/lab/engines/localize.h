@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/engines/obb_tree.h"
+#include "voxtact/detector.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace voxtact {
+
+struct LocalizerImpl;
+
+/// The paper's two ways to say which triangles touch: an occlusion query a triangle (section 3),
+/// or one for the set of triangles in a leaf of an OBB tree (section 6).
+enum class Localization {
+    Polygon,    ///< each triangle of the mesh
+    Leaf,       ///< each leaf of an OBB tree that meets the volume's box together with every node above it
+    LeafBricks, ///< the same, where the box of each node in texture space must also hold something opaque
+};
+
+[[nodiscard]] const char* toString(Localization way) noexcept;
+
+/// What the ways that go through a tree need of the host.
+struct LocalizeAids {
+    const ObbTree* tree = nullptr; ///< of the batch's mesh; for Leaf and LeafBricks
+    /// For LeafBricks: false only where no sample of a box of texture space, within [0,1]^3, is opaque.
+    std::function<bool(const Box& texture)> mayBeOpaque;
+};
+
+struct LocalizedTriangles {
+    std::vector<TouchedTriangle> triangles; ///< by triangle; pair 0
+    std::uint64_t queries = 0;
+    std::uint64_t boxes = 0;     ///< nodes of the tree that were tested
+    double wallMilliseconds = 0; ///< from the tree's root to the results in host memory
+    double gpuMilliseconds = 0;  ///< of that, device time; 0 where the queue has no timestamps
+};
+
+/// Finds the triangles of a pair that have survivors by the projection `view`, one query a triangle. What the finer
+/// ways to localise are compared with. Blocks. Needs occlusionQueryPrecise.
+///
+/// The trees are asked in double about what the device does in float: the volume's box, and those of the nodes, are
+/// made larger by half a voxel. A triangle thinner than the rasteriser's sub-pixels can have a fragment whose
+/// coordinate is extrapolated farther than that, in the volume while the triangle is not: it has a query by Polygon
+/// only.
+/// Thread-safety: none; one thread at a time.
+class Localizer {
+  public:
+    [[nodiscard]] static Result<Localizer> create(const Context& context, Filter filter, const QueueAccess& queue);
+    Localizer(Localizer&&) noexcept;
+    Localizer& operator=(Localizer&&) noexcept;
+    ~Localizer();
+
+    /// Of a batch of one pair. InvalidArgument where an aid is missing, or the tree is of another number of triangles.
+    [[nodiscard]] Result<LocalizedTriangles> triangles(const Batch& batch, Localization way,
+                                                       const LocalizeAids& aids = {});
+
+  private:
+    explicit Localizer(std::unique_ptr<LocalizerImpl> impl) noexcept;
+    std::unique_ptr<LocalizerImpl> impl_;
+};
+
+} // namespace voxtact

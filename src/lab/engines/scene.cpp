@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "lab/engines/scene.h"
+
+#include "core/try.h"
+
+#include <algorithm>
+
+namespace voxtact::lab {
+
+namespace {
+
+Result<void> uploadTable(const Session& session, VolumePart& volume) {
+    Result<TransferFunction> table =
+        TransferFunction::upload(session.context, session.device.queueAccess(), volume.transferFunction());
+    VOXTACT_TRY(table);
+    volume.deviceFunction.emplace(std::move(*table));
+    return {};
+}
+
+Result<void> uploadVoxels(const Session& session, const VolumeOptions& options, VolumePart& volume) {
+    const QueueAccess queue = session.device.queueAccess();
+    Result<Volume> image = Volume::upload(session.context, queue, volume.data.view(), options);
+    VOXTACT_TRY(image);
+    volume.device.emplace(std::move(*image));
+    if (volume.labels.values.empty()) {
+        return {};
+    }
+    Result<LabelMap> labels = LabelMap::upload(session.context, queue, volume.labels);
+    VOXTACT_TRY(labels);
+    volume.deviceLabels.emplace(std::move(*labels));
+    return {};
+}
+
+} // namespace
+
+std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total) {
+    std::vector<std::uint32_t> numbers;
+    const std::uint32_t taken = std::min(count, total);
+    for (std::uint32_t i = 0; i < taken; ++i) {
+        numbers.push_back(static_cast<std::uint32_t>(std::uint64_t{i} * total / taken));
+    }
+    return numbers;
+}
+
+Scene Scene::withPoses(std::uint32_t count) const {
+    Scene some{volume, mesh, {}, {}, posesFrom, view};
+    for (const std::uint32_t index : spreadEvenly(count, static_cast<std::uint32_t>(poses.size()))) {
+        some.poses.push_back(poses[index]);
+        some.poseNumbers.push_back(poseNumbers[index]);
+    }
+    return some;
+}
+
+void Scene::leaveDevice() const {
+    volume->deviceLabels.reset();
+    volume->deviceFunction.reset();
+    volume->device.reset();
+    mesh->device.reset();
+}
+
+Result<void> makeHost(VolumePart& volume) {
+    if (volume.host) {
+        return {};
+    }
+    Result<cpu::Volume> host = cpu::Volume::create(volume.data.view());
+    VOXTACT_TRY(host);
+    Result<cpu::TransferFunction> table = cpu::TransferFunction::create(volume.transferFunction());
+    VOXTACT_TRY(table);
+    volume.host.emplace(std::move(*host));
+    volume.hostFunction.emplace(std::move(*table));
+    return {};
+}
+
+Result<void> upload(const Session& session, const VolumeOptions& options, VolumePart& volume) {
+    Result<void> voxels = uploadVoxels(session, options, volume);
+    return voxels.ok() ? uploadTable(session, volume) : voxels;
+}
+
+Result<void> makeReady(const Session& session, const VolumeOptions& options, VolumePart& volume) {
+    VOXTACT_TRY(uploadVoxels(session, options, volume));
+    if (Result<void> table = uploadTable(session, volume); !table.ok()) {
+        return table.error().code == ErrorCode::LimitExceeded
+                   ? Error{ErrorCode::InvalidArgument, 0, "--tf-size: " + table.error().text}
+                   : table.error();
+    }
+    return makeHost(volume);
+}
+
+Result<void> makeReady(const Session* session, MeshPart& mesh) {
+    if (session != nullptr) {
+        Result<Mesh> device = Mesh::upload(session->context, session->device.queueAccess(), mesh.data.view(),
+                                           {.name = mesh.data.name.c_str(), .clusters = true});
+        VOXTACT_TRY(device);
+        mesh.device.emplace(std::move(*device));
+    }
+    if (mesh.host) {
+        return {};
+    }
+    Result<cpu::Mesh> host = cpu::Mesh::create(mesh.data.view());
+    VOXTACT_TRY(host);
+    mesh.host.emplace(std::move(*host));
+    return {};
+}
+
+Result<void> checkViewport(const Session& session, const VkExtent2D& size) {
+    const VkExtent2D most = session.context.maxViewport();
+    if (size.width <= most.width && size.height <= most.height &&
+        std::max(size.width, size.height) <= cpu::kMaxViewport) {
+        return {};
+    }
+    return Error{ErrorCode::InvalidArgument, 0,
+                 "--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) + " is beyond what '" +
+                     session.device.physical().name + "' can do"};
+}
+
+} // namespace voxtact::lab

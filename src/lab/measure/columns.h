@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/text/table.h"
+#include "lab/measure/machine.h"
+#include "lab/measure/numbers.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <initializer_list>
+#include <iosfwd>
+#include <optional>
+
+/// What text, CSV and JSON are made of.
+namespace voxtact::lab {
+
+using Json = nlohmann::ordered_json;
+
+/// A value of all formats. Real numbers are rounded(); an optional that has nothing is nothing.
+template <class Value> [[nodiscard]] io::Cell cellOf(const Value& value) {
+    if constexpr (std::floating_point<Value>) {
+        return rounded(value);
+    } else if constexpr (std::unsigned_integral<Value>) {
+        return std::uint64_t{value};
+    } else {
+        return std::string(value);
+    }
+}
+template <class Value> [[nodiscard]] io::Cell cellOf(const std::optional<Value>& value) {
+    return value ? cellOf(*value) : io::Cell();
+}
+/// Of one thing: null where there are no samples.
+[[nodiscard]] Json spreadJson(const std::vector<double>& samples);
+
+/// What a value is called in text and CSV, and in JSON; nothing: it is not there.
+struct Names {
+    std::string column;
+    std::string member;
+
+    Names(const char* both) : column(both), member(both) {}
+    Names(const char* inColumns, const char* inJson) : column(inColumns), member(inJson) {}
+};
+
+/// A row: cells with the names of columns for text and CSV, an object for JSON.
+class Row {
+  public:
+    template <class Value> Row& add(const Names& names, const Value& value) { return addCell(names, cellOf(value)); }
+    /// Columns for some of a spread, by what follows the name in theirs: "_p10", "_p90", "_min", "_max"; of the
+    /// median "_median" or nothing. One object of everything in JSON. Nothing where there are no samples.
+    Row& add(const Names& names, const std::vector<double>& samples, std::initializer_list<const char*> parts);
+    /// In JSON alone.
+    Row& member(const char* name, Json value);
+
+    [[nodiscard]] const io::NamedCells& cells() const noexcept { return cells_; }
+    [[nodiscard]] const Json& json() const noexcept { return json_; }
+
+  private:
+    Row& addCell(const Names& names, io::Cell cell);
+
+    io::NamedCells cells_;
+    Json json_ = Json::object();
+};
+
+/// Rows that have the same columns. `none`: a row for the columns' names, where there may be no rows.
+[[nodiscard]] io::Table tableOf(std::vector<io::NamedCells> rows, const io::NamedCells& none = {});
+template <class Things, class RowOf>
+[[nodiscard]] io::Table tableOf(const Things& things, RowOf rowOf, const io::NamedCells& none = {}) {
+    std::vector<io::NamedCells> rows;
+    std::ranges::transform(things, std::back_inserter(rows), [&](const auto& thing) { return rowOf(thing).cells(); });
+    return tableOf(std::move(rows), none);
+}
+template <class Things, class JsonOf> [[nodiscard]] Json arrayOf(const Things& things, JsonOf jsonOf) {
+    Json array = Json::array();
+    for (const auto& thing : things) {
+        array.push_back(jsonOf(thing));
+    }
+    return array;
+}
+
+/// What was found, for people: each output ends with it.
+struct Findings {
+    const Machine& machine;
+    std::vector<std::string> sentences; ///< in plain English
+    std::vector<std::string> notes;     ///< beside the machine's
+};
+
+[[nodiscard]] Json machineJson(const Machine& machine);
+/// The members that every output begins with.
+[[nodiscard]] Json headJson(const Machine& machine);
+/// Those of the machine, then these.
+[[nodiscard]] std::vector<std::string> allNotes(const Findings& findings);
+void writeJson(std::ostream& out, const Json& json);
+/// Comment lines: the sentences, what it was measured on, and the notes.
+void writeFindings(std::ostream& out, const Findings& findings);
+
+} // namespace voxtact::lab

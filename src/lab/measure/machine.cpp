@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "lab/measure/machine.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace voxtact::lab {
+
+namespace {
+
+std::string cpuName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
+            return line.substr(line.find(": ") + 2);
+        }
+    }
+    return "unknown";
+}
+
+void describeDriver(const Session& session, Machine& machine) {
+    // The function that an instance gives for a name is the one of that name.
+    const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+        session.instance.getInstanceProcAddr()(session.instance.handle(), "vkGetPhysicalDeviceProperties2"));
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    getProperties(session.device.physical().handle, &properties);
+    machine.driver = driver.driverName;
+    machine.driverVersion = driver.driverInfo;
+    machine.llvmpipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+}
+
+bool floatFilterForced() {
+    const char* const tuning = std::getenv("GALLIVM_PERF");
+    return tuning != nullptr && std::string_view(tuning).find("no_aos_sampling") != std::string_view::npos;
+}
+
+bool isHopper(const std::string& name) {
+    return name.find("H100") != std::string::npos || name.find("H200") != std::string::npos;
+}
+
+} // namespace
+
+Machine describeHost(const Provenance& provenance) {
+    Machine machine;
+    machine.provenance = provenance;
+    machine.cpu = cpuName();
+    machine.cpuThreads = std::max(1U, std::thread::hardware_concurrency());
+    return machine;
+}
+
+Machine describeMachine(const Session& session, ScalarType type, const Provenance& provenance) {
+    const PhysicalDevice& physical = session.device.physical();
+    Machine machine = describeHost(provenance);
+    machine.device = physical.name;
+    machine.deviceType = deviceTypeName(physical.type);
+    machine.api = apiVersionText(physical.apiVersion);
+    describeDriver(session, machine);
+    machine.eightBitFilter = machine.llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
+    machine.filter =
+        machine.eightBitFilter
+            ? "llvmpipe filters a uint8 volume in 8-bit arithmetic (GALLIVM_PERF=no_aos_sampling: in float)"
+        : machine.llvmpipe ? "llvmpipe filters this volume in float"
+                           : "the device's sampler; its weights may have as few as 8 fraction bits";
+    if (machine.llvmpipe) {
+        machine.notes.emplace_back("llvmpipe is a rasteriser on the CPU: the methods of the device and cpu share the "
+                                   "same cores");
+        machine.notes.emplace_back("a query counts one draw, so query and query-any split a batch into a draw a pair; "
+                                   "atomic and subgroup draw a batch at once");
+    }
+    if (isHopper(physical.name)) {
+        machine.notes.emplace_back("on this card only two TPCs (4 of 132 multiprocessors) run vertex and fragment "
+                                   "shaders: every time of query, query-any, atomic and subgroup is of a small part of "
+                                   "it, and compute is not held back");
+    }
+    if (!session.device.hasTimestamps()) {
+        machine.notes.emplace_back("the queue has no timestamps: there is no GPU time");
+    }
+    return machine;
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/session.h"
+#include "voxtact/data.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace voxtact::lab {
+
+// What src/device has: sessions and their commands.
+using namespace app;
+
+/// What made the numbers, and what makes them again.
+struct Provenance {
+    std::string version;
+    std::string gitRevision;
+    std::string command;
+};
+
+/// How far long work is.
+struct Steps {
+    std::function<void(std::uint64_t total)> begin; ///< before the first
+    std::function<void()> step;
+    std::function<void(const std::string& what)> doing; ///< what the following steps are
+};
+
+/// What the numbers were measured on.
+struct Machine {
+    Provenance provenance;
+    std::string device;
+    std::string deviceType;
+    std::string driver;
+    std::string driverVersion;
+    std::string api;
+    std::string cpu;
+    std::uint32_t cpuThreads = 0;
+    bool llvmpipe = false;
+    bool eightBitFilter = false;    ///< the sampler filters this volume in 8-bit arithmetic
+    std::string filter;             ///< the arithmetic of the hardware filter, in words
+    std::vector<std::string> notes; ///< what to know when reading the times
+};
+
+/// Without a device.
+[[nodiscard]] Machine describeHost(const Provenance& provenance);
+[[nodiscard]] Machine describeMachine(const Session& session, ScalarType type, const Provenance& provenance);
+
+} // namespace voxtact::lab

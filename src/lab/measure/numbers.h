@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What is made of samples, and how numbers are written.
+namespace voxtact::lab {
+
+/// Repeated measurements of one thing.
+struct Spread {
+    double median = 0;
+    double min = 0;
+    double max = 0;
+    double p10 = 0;
+    double p90 = 0;
+};
+
+/// Linear between the two nearest ranks. `samples` must not be empty.
+[[nodiscard]] Spread spreadOf(std::vector<double> samples);
+[[nodiscard]] double medianOf(const std::vector<double>& samples);
+
+/// Where the median of the distribution that samples come from is, whatever that distribution is.
+struct MedianInterval {
+    double low = 0;
+    double high = 0;
+    double confidence = 0; ///< reached, 0..1: at least what was asked for
+};
+
+/// From the smallest interval between two samples of mirrored ranks whose confidence, by the sign test, is
+/// `confidence`. Nothing where there are too few samples: six for 0.95.
+[[nodiscard]] std::optional<MedianInterval> medianInterval(std::vector<double> samples, double confidence);
+
+/// Six significant digits: more would be noise. 0 for what is not finite.
+[[nodiscard]] double rounded(double value);
+/// Three significant digits, without an exponent.
+[[nodiscard]] std::string shortNumber(double value);
+/// 12,345
+[[nodiscard]] std::string grouped(std::uint64_t value);
+/// "181x217x181"
+[[nodiscard]] std::string sizeText(const std::array<std::uint32_t, 3>& voxels);
+/// "a, b and c"
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+} // namespace voxtact::lab

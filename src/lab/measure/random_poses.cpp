@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "lab/measure/random_poses.h"
+
+#include "core/try.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace voxtact::lab {
+
+namespace {
+
+constexpr double kMargin = 0.1; ///< of the box's side
+/// Starts for each pose around the onset.
+constexpr std::uint64_t kTries = 100;
+/// How exactly the onset is found, in voxels.
+constexpr double kOnsetError = 1.0 / 64;
+
+/// The generator is fixed by the standard; std::uniform_real_distribution is not.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+    /// [0, 1), 53 bits.
+    double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+    double between(double lo, double hi) { return lo + (hi - lo) * unit(); }
+    std::size_t below(std::size_t end) { return static_cast<std::size_t>(unit() * static_cast<double>(end)); }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+struct DiscPoint {
+    double x = 0;
+    double y = 0;
+    double squared = 0;
+};
+
+DiscPoint inUnitDisc(Random& random) {
+    DiscPoint point;
+    do {
+        point.x = random.between(-1, 1);
+        point.y = random.between(-1, 1);
+        point.squared = point.x * point.x + point.y * point.y;
+    } while (point.squared >= 1 || point.squared == 0);
+    return point;
+}
+
+/// Uniform over all rotations (Marsaglia 1972). Square roots only: sine and cosine differ from library to library.
+Mat4 randomRotation(Random& random) {
+    const DiscPoint a = inUnitDisc(random);
+    const DiscPoint b = inUnitDisc(random);
+    const double scale = std::sqrt((1 - a.squared) / b.squared);
+    const double x = a.x;
+    const double y = a.y;
+    const double z = b.x * scale;
+    const double w = b.y * scale;
+    Mat4 rotation = identity();
+    rotation[0] = 1 - 2 * (y * y + z * z);
+    rotation[1] = 2 * (x * y + w * z);
+    rotation[2] = 2 * (x * z - w * y);
+    rotation[4] = 2 * (x * y - w * z);
+    rotation[5] = 1 - 2 * (x * x + z * z);
+    rotation[6] = 2 * (y * z + w * x);
+    rotation[8] = 2 * (x * z + w * y);
+    rotation[9] = 2 * (y * z - w * x);
+    rotation[10] = 1 - 2 * (x * x + y * y);
+    return rotation;
+}
+
+/// A random rotation, and a random vertex of the mesh at a random point of the volume's box made larger by `margin`.
+Mat4 randomPose(const Mat4& world_from_texture, const MeshView& mesh, double margin, Random& random) {
+    Mat4 world_from_object = randomRotation(random);
+    const std::size_t vertex = random.below(mesh.positions.size() / 3) * 3;
+    const Vec3 turned = transformPoint(
+        world_from_object, {mesh.positions[vertex], mesh.positions[vertex + 1], mesh.positions[vertex + 2]});
+    Vec3 texture{};
+    for (double& coordinate : texture) {
+        coordinate = random.between(-margin, 1 + margin);
+    }
+    const Vec3 target = transformPoint(world_from_texture, texture);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        world_from_object[12 + axis] = target[axis] - turned[axis];
+    }
+    return world_from_object;
+}
+
+Mat4 movedBy(const Mat4& pose, const Vec3& direction, double length) {
+    Mat4 out = pose;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out[12 + axis] += direction[axis] * length;
+    }
+    return out;
+}
+
+double diagonal(const Vec3& lo, const Vec3& hi) {
+    return std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
+}
+
+/// As far as a mesh that touches a volume can have to go to leave it.
+double farthest(const Grid& grid, const MeshView& mesh) {
+    Vec3 lo{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
+    Vec3 hi = lo;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        lo[i % 3] = std::min(lo[i % 3], static_cast<double>(mesh.positions[i]));
+        hi[i % 3] = std::max(hi[i % 3], static_cast<double>(mesh.positions[i]));
+    }
+    double sides = 0; // no diagonal of the volume is longer, sheared or not
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sides += grid.size[axis] * grid.spacing[axis];
+    }
+    return diagonal(lo, hi) + sides;
+}
+
+} // namespace
+
+std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count, std::uint64_t seed) {
+    const Mat4 world_from_texture = worldFromTexture(grid);
+    Random random(seed);
+    std::vector<Mat4> poses;
+    poses.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        poses.push_back(randomPose(world_from_texture, mesh, kMargin, random));
+    }
+    return poses;
+}
+
+Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count, std::uint64_t seed,
+                                     const std::function<Result<bool>(const Mat4&)>& touches) {
+    const Mat4 world_from_texture = worldFromTexture(grid);
+    const double voxel = *std::ranges::min_element(grid.spacing);
+    const double most = farthest(grid, mesh);
+    Random random(seed);
+    std::vector<Mat4> poses;
+    for (std::uint64_t tries = 0; poses.size() < count; ++tries) {
+        if (tries == kTries * count) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "no poses around the onset of contact: of " + std::to_string(tries) + " random poses only " +
+                             std::to_string(poses.size()) + " touch"};
+        }
+        const Mat4 start = randomPose(world_from_texture, mesh, 0, random);
+        const Vec3 direction = transformPoint(randomRotation(random), {0, 0, 1});
+        double inside = 0;
+        double outside = most;
+        const Result<bool> begins = touches(start);
+        VOXTACT_TRY(begins);
+        while (*begins && outside - inside > voxel * kOnsetError) {
+            const double middle = (inside + outside) / 2;
+            const Result<bool> hit = touches(movedBy(start, direction, middle));
+            VOXTACT_TRY(hit);
+            (*hit ? inside : outside) = middle;
+        }
+        if (*begins) {
+            const double length = inside + voxel * random.between(-kOnsetInside, kOnsetOutside);
+            poses.push_back(movedBy(start, direction, length));
+        }
+    }
+    return poses;
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/result.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+
+namespace voxtact::lab {
+
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// A turn of something that is timed.
+struct Turn {
+    std::uint64_t round = 0; ///< from 1; 0: the warm-up, of which no time is kept
+    bool backwards = false;  ///< the round is taken from its last to its first
+};
+
+/// Something that is timed: an engine with its work, a frame, a pass.
+struct Timed {
+    /// Runs once, checks what comes out, and keeps the sample where it belongs. Returns the sample's ms; kNoLimit of a
+    /// warm-up: it takes too long to be timed at all.
+    std::function<Result<double>(const Turn& turn)> take;
+    /// ms of its samples, of which there is one at least: it is left out once another would not fit.
+    double limit = kNoLimit;
+    double spent = 0; ///< ms of its samples so far
+    bool finished = false;
+};
+
+/// How things are timed: a sample of each in turn, and again, so that what else the machine does falls on all alike.
+struct Rounds {
+    std::uint32_t repeats = 1;
+    bool warmUp = false;     ///< a round before the others
+    double limit = kNoLimit; ///< ms of the rounds, of which there is one at least: fewer are taken where another
+                             ///< would not fit
+    /// Rounds after which the things are what they were, poses for example. Every other round is taken backwards, and
+    /// so that the same one comes the other way round next time. 0: no round is.
+    std::uint64_t cycle = 0;
+    std::function<void()> step{}; ///< after each round, taken or not
+    std::function<bool()> stop{}; ///< asked before each sample: whether to take no further one, a check having failed
+};
+
+/// Takes the rounds of things that were verified. Returns how many were taken, without the warm-up.
+[[nodiscard]] Result<std::uint64_t> takeRounds(std::span<Timed> things, const Rounds& rounds);
+
+} // namespace voxtact::lab

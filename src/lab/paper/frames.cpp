@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "lab/paper/frames.h"
+
+#include "core/try.h"
+#include "device/timed_commands.h"
+#include "gpu/barriers.h"
+#include "lab/measure/stopwatch.h"
+
+#include <algorithm>
+#include <map>
+
+namespace voxtact::lab {
+
+namespace {
+
+/// Timestamps of a frame, by their numbers: around everything, and those of Target::timestamps.
+constexpr std::uint32_t kFrameBegins = 0;
+constexpr std::uint32_t kPictureBegins = 1;
+constexpr std::uint32_t kMeshDone = 2;
+constexpr std::uint32_t kVolumeDone = 3;
+constexpr std::uint32_t kFrameEnds = 4;
+constexpr std::uint32_t kFrameStamps = 5;
+
+constexpr ImageUse kDrawnTo{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+
+/// What a picture needs beside what the detection has.
+struct PictureParts {
+    Renderer renderer;
+    RenderTransferFunction function;
+    RenderBricks bricks;
+    MeshNormals normals;
+    RenderTargets targets;
+    Image image; ///< that is drawn to
+};
+
+Result<PictureParts> makePicture(const Session& session, const Scene& scene, const std::vector<ColourPoint>& colours) {
+    const VolumePart& volume = *scene.volume;
+    const QueueAccess queue = session.device.queueAccess();
+    Result<Renderer> renderer = Renderer::create(session.context);
+    VOXTACT_TRY(renderer);
+    RenderTransferFunctionDesc desc;
+    desc.opacity = {volume.points, volume.domain};
+    desc.colours = colours;
+    desc.step = *std::ranges::min_element(volume.data.grid.spacing) / 2;
+    Result<RenderTransferFunction> function = RenderTransferFunction::upload(*renderer, queue, desc);
+    VOXTACT_TRY(function);
+    Result<RenderBricks> bricks = RenderBricks::create(*renderer, *volume.device);
+    VOXTACT_TRY(bricks);
+    Result<MeshNormals> normals = MeshNormals::upload(*renderer, queue, scene.mesh->data.view());
+    VOXTACT_TRY(normals);
+    Result<RenderTargets> targets = RenderTargets::create(*renderer, {scene.view.width, scene.view.height});
+    VOXTACT_TRY(targets);
+    Result<Image> image = makeImage(session.context.impl(),
+                                    {.type = VK_IMAGE_TYPE_2D,
+                                     .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = RendererDesc{}.colorFormat,
+                                     .extent = {scene.view.width, scene.view.height, 1},
+                                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+                                    "the frame", "frame");
+    VOXTACT_TRY(image);
+    return PictureParts{std::move(*renderer), std::move(*function), std::move(*bricks),
+                        std::move(*normals),  std::move(*targets),  std::move(*image)};
+}
+
+Result<Results> makeResults(const Session& session) {
+    return Results::create(session.context, {.maxPairs = 1,
+                                             .readBack = true,
+                                             .timestamps = session.device.hasTimestamps(),
+                                             .queueFamily = session.device.queueAccess().family});
+}
+
+} // namespace
+
+struct FrameLoop::State {
+    const Session& session;
+    const Scene& scene;
+    PictureParts picture;
+    Results results;
+    std::map<CountingMethod, Detector> detectors{};
+    std::unique_ptr<Engine> host{};
+    TimedCommands commands; ///< ends first, and waits then
+
+    Result<void> record(FramePart part, CountingMethod method, const Mat4& pose);
+    Result<void> cmdPicture(VkCommandBuffer buffer, const Mat4& pose);
+    Result<void> cmdDetect(VkCommandBuffer buffer, CountingMethod method, const Mat4& pose);
+    Result<std::uint64_t> detectOnHost(const Mat4& pose);
+    Result<void> readTimes(FramePart part, bool onDevice, FrameSample& sample);
+};
+
+Result<void> FrameLoop::State::cmdPicture(VkCommandBuffer buffer, const Mat4& pose) {
+    voxtact::Scene drawn;
+    drawn.volume = &*scene.volume->device;
+    drawn.transferFunction = &picture.function;
+    drawn.bricks = &picture.bricks;
+    drawn.mesh = &*scene.mesh->device;
+    drawn.normals = &picture.normals;
+    drawn.world_from_object = pose;
+    drawn.clip_from_world = scene.view.clip_from_world;
+    Target where;
+    where.view = picture.image.view.get();
+    where.extent = picture.targets.extent();
+    where.targets = &picture.targets;
+    where.timestamps = commands.timestamps();
+    where.firstTimestamp = kPictureBegins;
+    return picture.renderer.cmdRender(buffer, drawn, where);
+}
+
+Result<void> FrameLoop::State::cmdDetect(VkCommandBuffer buffer, CountingMethod method, const Mat4& pose) {
+    const BatchItem item = Work(scene).at({&pose, 1}).onDevice();
+    Result<void> recorded =
+        detectors.at(method).cmdDetect(buffer, {{&item, 1}, scene.view, kDefaultThreshold}, results);
+    return recorded.ok() ? results.cmdReadBack(buffer) : recorded;
+}
+
+Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, const Mat4& pose) {
+    const Result<VkCommandBuffer> buffer = commands.begin();
+    VOXTACT_TRY(buffer);
+    commands.cmdStamp(kFrameBegins);
+    // What the last frame drew is lost, and was read by nobody.
+    barrier(session.context.impl(), *buffer, picture.image.image.get(),
+            {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kDrawnTo);
+    if (part != FramePart::Detection) {
+        VOXTACT_TRY(cmdPicture(*buffer, pose));
+    }
+    if (part != FramePart::Rendering && method != CountingMethod::Cpu) {
+        VOXTACT_TRY(cmdDetect(*buffer, method, pose));
+    }
+    commands.cmdStamp(kFrameEnds);
+    return commands.end();
+}
+
+Result<std::uint64_t> FrameLoop::State::detectOnHost(const Mat4& pose) {
+    const Result<Pass> pass = host->run(Work(scene).at({&pose, 1}), {});
+    return pass.ok() ? Result<std::uint64_t>(pass->pairs.front().count) : pass.error();
+}
+
+Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSample& sample) {
+    if (commands.timestamps() == VK_NULL_HANDLE) {
+        return {};
+    }
+    struct Reading {
+        std::optional<double>& time;
+        std::uint32_t from;
+        std::uint32_t to;
+        bool wanted;
+    };
+    const bool drawn = part != FramePart::Detection;
+    // While the host detects, a frame is not what is submitted alone.
+    const bool whole = part != FramePart::Both || onDevice;
+    for (const Reading& reading :
+         {Reading{sample.mesh, kPictureBegins, kMeshDone, drawn}, Reading{sample.volume, kMeshDone, kVolumeDone, drawn},
+          Reading{sample.all, kFrameBegins, kFrameEnds, whole}}) {
+        if (!reading.wanted) {
+            continue;
+        }
+        const Result<std::optional<double>> time = commands.between(reading.from, reading.to);
+        VOXTACT_TRY(time);
+        reading.time = *time;
+    }
+    if (part == FramePart::Detection) {
+        const Result<double> time = results.gpuMilliseconds();
+        VOXTACT_TRY(time);
+        sample.detection = *time;
+    }
+    return {};
+}
+
+FrameLoop::FrameLoop(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+FrameLoop::FrameLoop(FrameLoop&&) noexcept = default;
+FrameLoop& FrameLoop::operator=(FrameLoop&&) noexcept = default;
+FrameLoop::~FrameLoop() = default;
+
+Result<FrameLoop> FrameLoop::create(const Session& session, const Scene& scene,
+                                    const std::vector<ColourPoint>& colours) {
+    Result<PictureParts> picture = makePicture(session, scene, colours);
+    VOXTACT_TRY(picture);
+    Result<Results> results = makeResults(session);
+    VOXTACT_TRY(results);
+    Result<TimedCommands> commands = TimedCommands::create(session, kFrameStamps);
+    VOXTACT_TRY(commands);
+    return FrameLoop(std::unique_ptr<State>(new State{.session = session,
+                                                      .scene = scene,
+                                                      .picture = std::move(*picture),
+                                                      .results = std::move(*results),
+                                                      .commands = std::move(*commands)}));
+}
+
+Result<void> FrameLoop::add(CountingMethod method) {
+    if (method == CountingMethod::Cpu) {
+        MadeEngine host = makeHostEngine();
+        VOXTACT_TRY(host);
+        state_->host = std::move(*host);
+        return {};
+    }
+    Result<Detector> detector =
+        Detector::create(state_->session.context, {.method = method, .filter = defaultFilter(method)});
+    VOXTACT_TRY(detector);
+    state_->detectors.emplace(method, std::move(*detector));
+    return {};
+}
+
+Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const Mat4& world_from_object) {
+    const bool onHost = part != FramePart::Rendering && method == CountingMethod::Cpu;
+    const bool onDevice = part != FramePart::Rendering && !onHost;
+    const bool submits = part != FramePart::Detection || onDevice;
+    if (submits) {
+        VOXTACT_TRY(state_->record(part, method, world_from_object));
+    }
+    FrameSample sample;
+    const Stopwatch watch;
+    if (submits) {
+        VOXTACT_TRY(state_->commands.submit());
+    }
+    if (onHost) {
+        const Result<std::uint64_t> count = state_->detectOnHost(world_from_object);
+        VOXTACT_TRY(count);
+        sample.count = *count;
+    }
+    if (submits) {
+        VOXTACT_TRY(state_->commands.wait());
+    }
+    sample.wall = watch.milliseconds();
+    if (onDevice) {
+        const Result<std::span<const PairResult>> read = state_->results.read();
+        VOXTACT_TRY(read);
+        sample.count = unpack(read->front()).count;
+    }
+    if (submits) {
+        VOXTACT_TRY(state_->readTimes(part, onDevice, sample));
+    }
+    return sample;
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/paper/paper.h"
+
+/// The parts of a run of measurePaper().
+namespace voxtact::lab {
+
+/// One of the paper's scenes, in host memory.
+struct PaperInput {
+    PaperScene facts;
+    Scene scene;
+};
+
+/// v1s1, v1s2, v2s1, v2s2: each with poses of which all touch, as the host counts, and the camera of both picture and
+/// detection.
+[[nodiscard]] Result<std::vector<PaperInput>> loadPaperScenes(const PaperSettings& settings);
+/// Replaces the poses of the scene by the first `count` random ones that touch, as the host counts in its view. `name`
+/// is for the error where there are too few.
+[[nodiscard]] Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::string& name,
+                                          Scene& scene);
+
+/// Adds the rows of a scene: a line of the paper's tables for each method that the device can do, and `cpu`. The counts
+/// of every pose are verified first, and those of every frame that is timed; where one is wrong,
+/// PaperResult::disagreement says so and no time is taken any more. Adds the scene too.
+///
+/// A round takes of each method the detection alone and a frame with it, next to each other, and in their middle one
+/// frame without; the next round takes them the other way round. There are `settings.repetitions` rounds, fewer where
+/// they do not fit in `seconds`, at least one; the notes say so.
+[[nodiscard]] Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, double seconds,
+                                             const PaperInput& input, PaperResult& result,
+                                             const std::function<void()>& step);
+[[nodiscard]] std::uint64_t paperSceneSteps(const PaperSettings& settings);
+
+/// What grows from point to point, which triangles touch, and the making of the pre-integrated table. `v1s1` is the
+/// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
+/// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
+/// fills `disagreement`, unless there is one already, and goes no further. The samples are cut to fit in `seconds`.
+[[nodiscard]] Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, double seconds,
+                                          const Scene& v1s1, PaperResult& result, const Steps& steps);
+[[nodiscard]] std::uint64_t paperSweepSteps(const PaperSettings& settings);
+
+/// The making of the pre-integrated table, in several sizes: a warm-up, then rounds that make each size once, every
+/// time of a function that has changed. `step` is called once for the warm-up and once a round.
+[[nodiscard]] Result<std::vector<IntegrationPoint>> timeIntegration(const Session& session, std::uint32_t repetitions,
+                                                                    const std::function<void()>& step);
+
+} // namespace voxtact::lab

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "lab/paper/parts.h"
+
+#include "core/try.h"
+
+#include <algorithm>
+#include <array>
+
+namespace voxtact::lab {
+
+namespace {
+
+/// Of the sweep of voxels, and its voxels a side: half to twice as many are 128 to 512.
+constexpr const char* kVolume = "builtin:head";
+constexpr std::uint32_t kVoxels = 256;
+constexpr std::array<ControlPoint, 2> kOpacity{{{40, 0}, {80, 1}}};
+constexpr ValueRange kDomain{0, 255};
+/// Of those of the scene: a query a polygon takes its time.
+constexpr std::uint32_t kPolygonPoses = 4;
+/// Each gets the same share of the time: the four sweeps, and the polygons.
+constexpr double kParts = kSweeps.size() + 1.0;
+
+CompareSettings settingsFor(const PaperSettings& settings, double seconds) {
+    CompareSettings out;
+    out.repeats = settings.repetitions;
+    out.timeLimit = seconds / kParts;
+    out.load = settings.load;
+    return out;
+}
+
+/// The builtin head with the mesh and the viewport of the scene.
+Result<Scene> headOf(const PaperSettings& settings, const Scene& v1s1) {
+    Scene head{std::make_shared<VolumePart>(), v1s1.mesh, {}, {}, {}, v1s1.view};
+    VolumePart& volume = *head.volume;
+    volume.name = std::string(kVolume) + ":" + std::to_string(kVoxels / settings.scale);
+    volume.points = {kOpacity.begin(), kOpacity.end()};
+    volume.domain = kDomain;
+    Result<VolumeData> data = settings.load.volume(volume.name);
+    VOXTACT_TRY(data);
+    volume.data = std::move(*data);
+    head.view.clip_from_world = framingCamera(volume.data.grid, head.view.width, head.view.height);
+    const auto poses = static_cast<std::uint32_t>(v1s1.poses.size());
+    VOXTACT_TRY(chooseTouching(poses, settings.seed, kVolume, head));
+    return head;
+}
+
+std::string nameOf(Sweep sweep) {
+    return sweep == Sweep::Batch ? "sweep of batches" : std::string("sweep of ") + toString(sweep);
+}
+
+/// Counts every pose, and where the methods agree times them; as `voxtact compare` does.
+Result<void> timeAll(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
+                     const Scene& v1s1, CompareResult& result, const Steps& steps) {
+    steps.doing(nameOf(Sweep::Batch));
+    const Result<Engines> engines = makeMethodEngines(session, settings, result);
+    VOXTACT_TRY(engines);
+    const Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(v1s1));
+    VOXTACT_TRY(counts);
+    result.verdicts = judgeCounts(*counts, v1s1.poseNumbers);
+    steps.step();
+    for (const Sweep sweep : {Sweep::Batch, Sweep::Triangles, Sweep::Fragments}) {
+        if (result.firstFailure() != nullptr) {
+            return {};
+        }
+        steps.doing(nameOf(sweep));
+        VOXTACT_TRY(timeSweep(sweep, session, settings, v1s1, *engines, result, steps.step));
+    }
+    if (result.firstFailure() != nullptr) {
+        return {};
+    }
+    steps.doing(nameOf(Sweep::Voxels));
+    const Result<Scene> head = headOf(paper, v1s1);
+    VOXTACT_TRY(head);
+    return timeSweep(Sweep::Voxels, session, settings, *head, *engines, result, steps.step);
+}
+
+Result<void> sweep(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
+                   const Scene& v1s1, PaperResult& result, const Steps& steps) {
+    VOXTACT_TRY(makeReady(session, {}, *v1s1.volume));
+    VOXTACT_TRY(makeReady(&session, *v1s1.mesh));
+    CompareResult compared;
+    VOXTACT_TRY(timeAll(session, paper, settings, v1s1, compared, steps));
+    if (const Verdict* failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
+        result.disagreement = failure->rule + ": disagreement on pose " + std::to_string(failure->first->pose) + ": " +
+                              failure->first->text;
+    }
+    result.series = std::move(compared.series);
+    result.notes.insert(result.notes.end(), compared.notes.begin(), compared.notes.end());
+    return {};
+}
+
+/// Which triangles touch, on a few poses.
+Result<void> findPolygons(const Session& session, const CompareSettings& settings, const Scene& v1s1,
+                          PaperResult& result, const std::function<void()>& step) {
+    LocalizeResult found;
+    found.machine = result.machine;
+    VOXTACT_TRY(localize(session, settings, v1s1.withPoses(kPolygonPoses), found, step));
+    if (result.disagreement.empty()) {
+        result.disagreement = disagreementOf(found);
+    }
+    result.polygons = std::move(found.ways);
+    result.polygonTriangles = found.triangles;
+    result.polygonPoses = static_cast<std::uint32_t>(found.poseNumbers.size());
+    result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+    return {};
+}
+
+} // namespace
+
+std::uint64_t paperSweepSteps(const PaperSettings& settings) {
+    std::uint64_t steps = 1;
+    for (const Sweep sweep : kSweeps) {
+        steps += stepsOf(sweep, settings.repetitions);
+    }
+    const std::uint64_t poses = std::min(kPolygonPoses, settings.poses);
+    return steps + poses * settings.repetitions + settings.repetitions + 1;
+}
+
+Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, double seconds, const Scene& v1s1,
+                            PaperResult& result, const Steps& steps) {
+    const CompareSettings how = settingsFor(settings, seconds);
+    if (Result<void> done = sweep(session, settings, how, v1s1, result, steps);
+        !done.ok() || !result.disagreement.empty()) {
+        return done;
+    }
+    steps.doing("which triangles touch");
+    if (Result<void> done = findPolygons(session, how, v1s1, result, steps.step);
+        !done.ok() || !result.disagreement.empty()) {
+        return done;
+    }
+    steps.doing("the pre-integrated table");
+    Result<std::vector<IntegrationPoint>> integration = timeIntegration(session, settings.repetitions, steps.step);
+    VOXTACT_TRY(integration);
+    result.integration = std::move(*integration);
+    return {};
+}
+
+} // namespace voxtact::lab

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// How things are timed: in which order, how often, and what ends it.
+#include "lab/measure/rounds.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace voxtact::test {
+namespace {
+
+using lab::kNoLimit;
+using lab::Rounds;
+using lab::takeRounds;
+using lab::Timed;
+using lab::Turn;
+using testing::ElementsAre;
+
+/// Things that say when they are taken: "a1" is the first one in round 1, "b2-" the second in round 2, backwards.
+class RoundsTest : public testing::Test {
+  protected:
+    Timed thing(char name, double milliseconds, double limit = kNoLimit) {
+        return {.take = [this, name, milliseconds](const Turn& turn) -> Result<double> {
+                    taken_.push_back(name + std::to_string(turn.round) + (turn.backwards ? "-" : ""));
+                    return milliseconds;
+                },
+                .limit = limit};
+    }
+    std::uint64_t take(std::vector<Timed> things, const Rounds& rounds) {
+        const Result<std::uint64_t> count = takeRounds(things, rounds);
+        EXPECT_TRUE(count.ok());
+        return count.ok() ? *count : 0;
+    }
+
+    std::vector<std::string> taken_;
+};
+
+TEST_F(RoundsTest, EachIsTakenOnceARound) {
+    int steps = 0;
+    EXPECT_EQ(take({thing('a', 1), thing('b', 1)}, {.repeats = 2, .step = [&steps] { ++steps; }}), 2U);
+    EXPECT_THAT(taken_, ElementsAre("a1", "b1", "a2", "b2"));
+    EXPECT_EQ(steps, 2);
+}
+
+TEST_F(RoundsTest, TheWarmUpIsNoRound) {
+    // What it takes is not counted: both samples of 4 ms fit.
+    EXPECT_EQ(take({thing('a', 4, 8)}, {.repeats = 3, .warmUp = true}), 3U);
+    EXPECT_THAT(taken_, ElementsAre("a0", "a1", "a2"));
+}
+
+TEST_F(RoundsTest, WhatTakesTooLongIsLeftOut) {
+    EXPECT_EQ(take({thing('a', kNoLimit), thing('b', 5, 12), thing('c', 20, 12)}, {.repeats = 4, .warmUp = true}), 4U);
+    EXPECT_THAT(taken_, ElementsAre("a0", "b0", "c0", "b1", "c1", "b2")) << "one sample at least, and none beyond";
+}
+
+TEST_F(RoundsTest, APoseThatComesAgainIsTakenTheOtherWayRound) {
+    // Two poses: rounds 1 and 3 have the first one, 2 and 4 the second.
+    take({thing('a', 1), thing('b', 1)}, {.repeats = 4, .cycle = 2});
+    EXPECT_THAT(taken_, ElementsAre("b1-", "a1-", "a2", "b2", "a3", "b3", "b4-", "a4-"));
+}
+
+TEST_F(RoundsTest, NoRoundBeginsThatWouldNotFit) {
+    int steps = 0;
+    EXPECT_EQ(take({thing('a', 1)}, {.repeats = 3, .limit = -1, .step = [&steps] { ++steps; }}), 1U);
+    EXPECT_THAT(taken_, ElementsAre("a1")) << "one at least";
+    EXPECT_EQ(steps, 3) << "progress ends";
+}
+
+TEST_F(RoundsTest, AFailedCheckEndsIt) {
+    EXPECT_EQ(take({thing('a', 1), thing('b', 1)}, {.repeats = 3, .stop = [this] { return taken_.size() == 3; }}), 2U);
+    EXPECT_THAT(taken_, ElementsAre("a1", "b1", "a2"));
+}
+
+TEST_F(RoundsTest, AnErrorEndsIt) {
+    std::vector<Timed> things{thing('a', 1), thing('b', 1)};
+    things[0].take = [](const Turn&) -> Result<double> { return Error{ErrorCode::File, 0, "no"}; };
+    const Result<std::uint64_t> count = takeRounds(things, {.repeats = 3});
+    ASSERT_FALSE(count.ok());
+    EXPECT_EQ(count.error().text, "no");
+    EXPECT_TRUE(taken_.empty());
+}
+
+} // namespace
+} // namespace voxtact::test
