@@ -29,7 +29,9 @@ Result<void> loadLoader() {
     const std::lock_guard lock(volkMutex());
     if (vkCreateInstance == nullptr && volkInitialize() != VK_SUCCESS) {
         return Error{ErrorCode::Unsupported, 0,
-                     "the Vulkan loader libvulkan.so.1 cannot be loaded; install Debian's package libvulkan1"};
+                     "the Vulkan loader libvulkan.so.1 cannot be loaded; install Debian's package libvulkan1, and "
+                     "mesa-vulkan-drivers for a driver that runs on "
+                     "the CPU"};
     }
     return {};
 }

@@ -19,8 +19,8 @@ class BenchTest : public CliDeviceTest {
   protected:
     /// A scene that takes a moment, and what is added.
     static Arguments bench(const std::string& poses, const std::string& repetitions, const Arguments& more = {}) {
-        Arguments all{"bench",    "--certified", "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:500",
-                      "--number", poses,         "--repetitions", repetitions};
+        Arguments all{"bench",  "--progress",          "never",    "--certified", "--volume",      "builtin:head:32",
+                      "--mesh", "builtin:scalpel:500", "--number", poses,         "--repetitions", repetitions};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }

@@ -35,6 +35,8 @@ class CompareTest : public CliDeviceTest {
                       "2",
                       "--cache",
                       "off",
+                      "--progress",
+                      "never",
                       "--time-limit",
                       "240"};
         all.insert(all.end(), more.begin(), more.end());

@@ -28,7 +28,8 @@ class PaperTest : public CliDeviceTest {
         return all;
     }
     static Arguments withSweeps(const std::string& repetitions) {
-        return {"bench", "--paper", "--scale", "8", "--size", "48x48", "--number", "2", "--repetitions", repetitions};
+        return {"bench",  "--paper", "--progress", "never", "--scale",       "8",
+                "--size", "48x48",   "--number",   "2",     "--repetitions", repetitions};
     }
     static Json json(const Arguments& more = {}, const std::string& repetitions = "2") {
         Arguments all = paper({"--format", "json"}, repetitions);
