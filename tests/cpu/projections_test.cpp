@@ -53,7 +53,8 @@ TEST(Projections, DominantAxisIsTheReference) {
     std::mt19937_64 random(testSeed());
     std::uint64_t survivors = 0;
     std::size_t hits = 0;
-    for (std::size_t round = 0; round < randomCases(500, 4); ++round) {
+    const std::size_t rounds = randomCases(500, 4);
+    for (std::size_t round = 0; round < rounds; ++round) {
         const std::uint64_t seed = random();
         std::mt19937_64 local(seed);
         const RandomScene scene = makeRandomScene(local, 4);
@@ -73,8 +74,8 @@ TEST(Projections, DominantAxisIsTheReference) {
             ASSERT_EQ(first[i], expected[i] > 0 ? 1U : 0U) << "round " << round << ", scene " << seed;
         }
     }
-    std::cout << hits << " pairs of 2000 with a survivor, " << survivors << " survivors\n";
-    EXPECT_GT(hits, 200U) << "a test that hits nothing proves nothing";
+    std::cout << hits << " pairs of " << 4 * rounds << " with a survivor, " << survivors << " survivors\n";
+    EXPECT_GT(hits, 4 * rounds / 10) << "a test that hits nothing proves nothing";
 }
 
 TEST(Projections, DominantAxisIsTheReferenceBeyondReason) {

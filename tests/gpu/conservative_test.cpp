@@ -89,15 +89,16 @@ class FewKindsOfImage {
 };
 
 TEST_F(ConservativeTest, IsTheHostBitForBitOnRandomCases) {
-    const std::uint64_t wanted = randomCases(300, 2);
     constexpr std::uint64_t kTypes = 4;
+    const std::uint64_t ofEach = randomCases(75, 3);
+    const std::uint64_t wanted = kTypes * ofEach;
     const std::uint64_t seed = testSeed();
     BlockingDetector device = detector(kDevice);
     cpu::Detector host = hostDetector();
     std::size_t hits = 0;
     std::size_t possible = 0;
     std::uint64_t cases = 0;
-    FewKindsOfImage few(wanted / kTypes);
+    FewKindsOfImage few(ofEach);
     for (std::uint64_t number = 0; cases < wanted && !HasFailure(); ++number) {
         const CertifiedCase c = makeCertifiedCase(seed, number);
         const cpu::OraclePair pair = c.scene.pair();

@@ -25,7 +25,7 @@ constexpr std::array kOldNames{
 
 bool isOf(std::span<const std::string> arguments, const std::array<std::string_view, 2>& command) {
     const std::size_t words = command[1].empty() ? 1 : 2;
-    return arguments.size() >= words && std::equal(arguments.begin(), arguments.begin() + words, command.begin());
+    return arguments.size() >= words && std::ranges::equal(arguments.first(words), std::span(command).first(words));
 }
 
 } // namespace

@@ -108,6 +108,7 @@ Verdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint
 
 Verdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<const std::uint32_t> poses) {
     Verdict verdict;
+    verdict.hits = true;
     verdict.rule = any.method + " hits where " + exact.method + " does";
     verdict.compared = poses.size();
     for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -29,6 +29,7 @@ struct Disagreement {
 struct Verdict {
     std::string rule;            ///< "query = atomic = subgroup"
     std::string unit = "poses";  ///< what is counted below
+    bool hits = false;           ///< compared is whether they hit, not how often
     bool required = true;        ///< a difference is a disagreement; otherwise it is only told
     std::string unchecked;       ///< why there was nothing to compare; empty: it was compared
     std::uint64_t compared = 0;  ///< units

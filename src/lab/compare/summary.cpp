@@ -52,8 +52,7 @@ std::string sentenceOf(const Verdict& verdict) {
     }
     const std::string where = (verdict.compared == 1 ? "the one pose" : "all " + plural(verdict.compared, "poses"));
     if (verdict.differing == 0) {
-        const bool hits = verdict.rule.find(" hits where ") != std::string::npos;
-        return hits ? verdict.rule + ", on " + where : membersOf(verdict.rule) + " count the same on " + where;
+        return verdict.hits ? verdict.rule + ", on " + where : membersOf(verdict.rule) + " count the same on " + where;
     }
     return membersOf(verdict.rule) + " differ on " + grouped(verdict.differing) + " of " +
            plural(verdict.compared, "poses") + ", by at most " + plural(verdict.largest, "fragments") + " (" +
