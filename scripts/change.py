@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How many places does a change take? Applies tests/change/method.patch, a counting method that is none, to a copy of
-the sources, and counts its files.
+"""How many files does a change take? Applies tests/change/method.patch, a dummy counting method, to a copy of the
+sources, and counts its files.
 
 usage: change.py [--build]
 

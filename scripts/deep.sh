@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What takes too long for every change: the tests under the address and undefined-behaviour sanitizers and under the
-# thread sanitizer, every fuzz target for a minute, every mutant, a copy with a counting method more. All of it runs, and the status is 1 if any part failed.
+# thread sanitizer, every fuzz target for a minute, every mutant, all random cases of the tests, and a copy of the sources
+# with one more counting method. All of it runs, and the status is 1 if any part failed.
 # Under the thread sanitizer the tiers of the host alone: lavapipe's own threads are not built with it.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
@@ -19,6 +20,7 @@ ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0} sanitized asan '^(unit|cpu|io|fuzz|
 sanitized tsan '^(unit|cpu|io|fuzz)$' || failed+=(tsan)
 scripts/fuzz.sh 60 || failed+=(fuzz)
 scripts/mutate.py || failed+=(mutate)
+{ VOXTACT_TEST_LONG=1 ctest --preset release -j "$(nproc)" -L '^(cpu|gpu)$'; } || failed+=(long)
 scripts/change.py --build || failed+=(change)
 
 if [ ${#failed[@]} -gt 0 ]; then

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 /// What is known of each counting method and of each projection: a row each, in the order of their numbers. Checks,
 /// requirements, options, the program and the lab read it here. docs/change.md says what else a new row needs.
@@ -102,6 +103,17 @@ static_assert(detail::isInOrder(kProjectionTable, [](const ProjectionRow& row) {
 /// Whether a method answers in a projection, on a device that has what both need.
 [[nodiscard]] constexpr bool answers(CountingMethod method, Projection projection) noexcept {
     return !rowOf(projection).certified || rowOf(method).certified;
+}
+
+/// The methods of a kind that know how many: they must count the same on every pose.
+[[nodiscard]] inline std::vector<CountingMethod> methodsThatCount(Coverage coverage) {
+    std::vector<CountingMethod> methods;
+    for (const MethodRow& row : kMethodTable) {
+        if (row.coverage == coverage && row.exactness == Exactness::Exact) {
+            methods.push_back(row.method);
+        }
+    }
+    return methods;
 }
 
 /// "query, atomic and subgroup": the names of the methods for which `wanted` holds, with a word before the last.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_fixture.h"
+#include "core/method_table.h"
 
 #include <cstring>
 #include <optional>
@@ -79,18 +80,18 @@ std::uint64_t GpuTest::survivors(const Mesh& mesh, const Volume& volume, const T
                                  const View& view, double threshold, const Mat4& world_from_object) const {
     const BatchItem item{&mesh, &volume, &function, std::span(&world_from_object, 1)};
     const PairAnswer query = detectOne({.method = CountingMethod::Query}, item, view, threshold);
-    const PairAnswer atomic = detectOne({.method = CountingMethod::Atomic}, item, view, threshold);
     const PairAnswer any = detectOne({.method = CountingMethod::QueryAny}, item, view, threshold);
-    const PairAnswer subgroup = detectOne({.method = CountingMethod::Subgroup}, item, view, threshold);
     const PairAnswer compute =
         detectOne({.method = CountingMethod::Compute, .filter = Filter::Exact}, item, view, threshold);
-    EXPECT_EQ(query.count, atomic.count);
-    EXPECT_EQ(query.count, subgroup.count);
+    for (const CountingMethod method : methodsThatCount(Coverage::Rasteriser)) {
+        const PairAnswer answer = detectOne({.method = method}, item, view, threshold);
+        EXPECT_EQ(answer.count, query.count) << toString(method);
+        EXPECT_EQ(answer.method, method);
+    }
     EXPECT_EQ(query.count, compute.count) << "compute";
     EXPECT_EQ(any.hit, query.hit);
     EXPECT_EQ(query.exactness, Exactness::Exact);
     EXPECT_EQ(any.exactness, Exactness::LowerBound);
-    EXPECT_EQ(atomic.method, CountingMethod::Atomic);
     return query.count;
 }
 

@@ -2,6 +2,7 @@
 // The outputs beside the counts in the projections that have no test of their own for them: two-view, dominant-axis.
 #include "gpu_fixture.h"
 
+#include "core/method_table.h"
 #include "support/scenes.h"
 #include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
@@ -66,7 +67,7 @@ TEST_P(ProjectionOutputsTest, AreTheSameOnDeviceAndHost) {
             EXPECT_EQ(compute.bounds[pair]->hi, host.bounds[pair]->hi) << seed;
         }
     }
-    for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Subgroup}) {
+    for (const CountingMethod method : methodsThatCount(Coverage::Rasteriser)) {
         const BatchAnswer raster = take(
             detector({.method = method, .projection = GetParam(), .outputs = kOutputs, .samplesPerVoxel = kSamples})
                 .detect({{&item, 1}, view, kDefaultThreshold}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The projections two-view and dominant-axis by every method: what they see that a view does not, counts that are known
 // beforehand, and what is refused.
+#include "core/method_table.h"
 #include "gpu/scene_impl.h"
 #include "gpu_fixture.h"
 #include "support/scenes.h"
@@ -18,9 +19,12 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr CountingMethod kRasterMethods[] = {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Subgroup};
-constexpr CountingMethod kCountingMethods[] = {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Subgroup,
-                                               CountingMethod::Compute};
+/// Of the device.
+std::vector<CountingMethod> countingOnes() {
+    std::vector<CountingMethod> methods = methodsThatCount(Coverage::Rasteriser);
+    methods.push_back(CountingMethod::Compute);
+    return methods;
+}
 
 /// World x, y and z in [0,1] fill the view volume.
 View boxView(std::uint32_t side) {
@@ -42,7 +46,7 @@ class ProjectionsTest : public GpuTest {
         desc.method = CountingMethod::QueryAny;
         const PairAnswer any = detectOne(desc, item, view);
         std::uint64_t first = 0;
-        for (const CountingMethod method : kCountingMethods) {
+        for (const CountingMethod method : countingOnes()) {
             desc.method = method;
             desc.filter = defaultFilter(method);
             const PairAnswer answer = detectOne(desc, item, view);
@@ -95,7 +99,7 @@ TEST_F(ProjectionsTest, TwoViewIsTheViewAndTheSideView) {
     const BatchItem item{&scalpel, &volume, &function, poses};
     const View view{framingCamera(head.grid, 200, 160), 200, 160};
     const View side{sideView(view.clip_from_world), 200, 160};
-    for (const CountingMethod method : kCountingMethods) {
+    for (const CountingMethod method : countingOnes()) {
         DetectorDesc desc{.method = method, .filter = defaultFilter(method)};
         std::vector<std::uint64_t> expected = counts(desc, item, view);
         const std::vector<std::uint64_t> second = counts(desc, item, side);
@@ -188,7 +192,7 @@ TEST_F(ProjectionsTest, ItemsOfDifferentVolumesShareABatch) {
     const BatchItem items[] = {
         {&mesh, &small, &function, poses}, {&mesh, &large, &function, {}}, {&mesh, &large, &function, poses}};
     constexpr std::uint64_t kExpected[] = {64, 0, 32, 960, 0, 480};
-    for (const CountingMethod method : kCountingMethods) {
+    for (const CountingMethod method : countingOnes()) {
         BlockingDetector one = detector({.method = method, .projection = Projection::DominantAxis});
         const BatchAnswer answer = take(one.detect({items, {}, 0.5}));
         ASSERT_EQ(answer.pairs.size(), std::size(kExpected));
@@ -215,7 +219,7 @@ TEST_F(ProjectionsTest, MeshesOfTheCallersAreReadAsStorage) {
     const Mesh readable = take(Mesh::wrap(context(), wrapped));
     wrapped.storage = false;
     const Mesh unreadable = take(Mesh::wrap(context(), wrapped));
-    for (const CountingMethod method : kRasterMethods) {
+    for (const CountingMethod method : methodsThatCount(Coverage::Rasteriser)) {
         BlockingDetector one = detector({.method = method, .projection = Projection::DominantAxis});
         const BatchItem good{&readable, &volume, &function, std::span(&pose, 1)};
         EXPECT_EQ(take(one.detect({std::span(&good, 1), {}, 0.5})).pairs[0].count, 64U);
@@ -242,7 +246,7 @@ TEST_F(ProjectionsTest, BadOnesAreRefused) {
     const Volume volume = upload(makeBytes(unitGrid(1, 1, 2000), [](auto...) { return 255.0; }));
     const Mat4 pose = identity();
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
-    for (const CountingMethod method : kCountingMethods) {
+    for (const CountingMethod method : countingOnes()) {
         DetectorDesc desc{.method = method, .projection = Projection::DominantAxis, .samplesPerVoxel = 16};
         BlockingDetector fine = detector(desc);
         const Result<BatchAnswer> answer = fine.detect({std::span(&item, 1), {}, 0.5});

@@ -38,7 +38,7 @@ the volume's size, the triangles, the viewport and the pairs in a batch, as voxt
 touch, by one query a polygon and by better ways; and the making of the pre-integrated table. --data DIR: a folder with
 any of volumes/mrhead_256.nii.gz, volumes/bonsai_256x256x128.nrrd and meshes/armadillo_49998.ply, which then stand for
 v1, v2 and s2; else builtins do, with transfer functions that make as many of their voxels opaque. It needs a device, and
-has 7 poses and 7 repetitions unless told otherwise.
+takes 7 poses and, as far as they fit in --time-limit, 7 repetitions unless told otherwise.
 
 Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,

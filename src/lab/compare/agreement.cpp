@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/agreement.h"
 
+#include "core/method_table.h"
 #include "lab/measure/numbers.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::optional<std::string> faultOf(const FragmentCheck& check) {
     return fault == check.differing.end() ? std::nullopt : std::optional(fragmentText(*fault));
 }
 
-std::vector<NamedCounts> groupOf(std::span<const NamedCounts> counts, std::initializer_list<CountingMethod> methods) {
+std::vector<NamedCounts> groupOf(std::span<const NamedCounts> counts, std::span<const CountingMethod> methods) {
     std::vector<NamedCounts> group;
     for (const CountingMethod method : methods) {
         std::ranges::copy_if(counts, std::back_inserter(group),
@@ -41,27 +42,35 @@ std::vector<NamedCounts> groupOf(std::span<const NamedCounts> counts, std::initi
     return group;
 }
 
+/// Of methods of which none was run.
+Verdict noneRun(Coverage coverage) {
+    std::string rule;
+    for (const CountingMethod method : methodsThatCount(coverage)) {
+        rule += (rule.empty() ? "" : " = ") + std::string(toString(method));
+    }
+    return notChecked(rule, "none of them was run");
+}
+
 } // namespace
 
 std::vector<NamedCounts> rasterGroup(std::span<const NamedCounts> counts) {
-    return groupOf(counts, {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Subgroup});
+    return groupOf(counts, methodsThatCount(Coverage::Rasteriser));
 }
 
 std::vector<NamedCounts> exactGroup(std::span<const NamedCounts> counts) {
-    return groupOf(counts, {CountingMethod::Compute, CountingMethod::Cpu});
+    return groupOf(counts, methodsThatCount(Coverage::Computed));
 }
 
 std::vector<Verdict> judgeCounts(const std::vector<NamedCounts>& counts, std::span<const std::uint32_t> poses) {
     const std::vector<NamedCounts> raster = rasterGroup(counts);
     const std::vector<NamedCounts> exact = exactGroup(counts);
-    const std::vector<NamedCounts> any = groupOf(counts, {CountingMethod::QueryAny});
+    const std::vector<NamedCounts> any = groupOf(counts, std::array{CountingMethod::QueryAny});
     std::vector<Verdict> verdicts;
-    verdicts.push_back(raster.empty() ? notChecked("query = atomic = subgroup", "none of them was run")
-                                      : judgeEqual(raster, poses));
+    verdicts.push_back(raster.empty() ? noneRun(Coverage::Rasteriser) : judgeEqual(raster, poses));
     if (!any.empty() && !raster.empty()) {
         verdicts.push_back(judgeHits(any.front(), raster.front(), poses));
     }
-    verdicts.push_back(exact.empty() ? notChecked("compute = cpu", "none of them was run") : judgeEqual(exact, poses));
+    verdicts.push_back(exact.empty() ? noneRun(Coverage::Computed) : judgeEqual(exact, poses));
     if (!raster.empty() && !exact.empty()) {
         verdicts.push_back(tellDifference(raster.front(), exact.back(), poses));
     }

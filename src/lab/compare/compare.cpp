@@ -59,7 +59,8 @@ std::optional<double> Series::fragmentsPerSecond() const {
 }
 
 bool Series::counts() const {
-    return method != toString(CountingMethod::QueryAny) && method != kOracle;
+    const auto known = countingMethodFromName(method); // the oracle is none
+    return known && exactness(*known) == Exactness::Exact;
 }
 
 const Series* fastestOf(std::span<const Series> all, const std::function<bool(const Series&)>& wanted) {

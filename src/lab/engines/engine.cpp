@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/engine.h"
 
+#include "core/method_table.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -32,9 +34,8 @@ std::string questionOf(bool yesNo, const Outputs& outputs) {
 }
 
 MadeEngine makeMethodEngine(const Session& session, CountingMethod method) {
-    return method == CountingMethod::Cpu
-               ? makeHostEngine()
-               : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});
+    return rowOf(method).host ? makeHostEngine()
+                              : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});
 }
 
 std::vector<CountingMethod>
@@ -44,7 +45,7 @@ availableMethods(const Session& session, const std::function<void(CountingMethod
     for (const CountingMethod method : countingMethods()) {
         const auto support = std::ranges::find(supports, method, &MethodSupport::method);
         const bool known = support != supports.end();
-        if (method == CountingMethod::Cpu || (known && support->available)) {
+        if (rowOf(method).host || (known && support->available)) {
             methods.push_back(method);
         } else {
             why(method, known ? support->reason : "this version has it not");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper/frames.h"
 
+#include "core/method_table.h"
 #include "core/try.h"
 #include "device/timed_commands.h"
 #include "gpu/barriers.h"
@@ -123,7 +124,7 @@ Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, con
     if (part != FramePart::Detection) {
         VOXTACT_TRY(cmdPicture(*buffer, pose));
     }
-    if (part != FramePart::Rendering && method != CountingMethod::Cpu) {
+    if (part != FramePart::Rendering && !rowOf(method).host) {
         VOXTACT_TRY(cmdDetect(*buffer, method, pose));
     }
     commands.cmdStamp(kFrameEnds);
@@ -187,7 +188,7 @@ Result<FrameLoop> FrameLoop::create(const Session& session, const Scene& scene,
 }
 
 Result<void> FrameLoop::add(CountingMethod method) {
-    if (method == CountingMethod::Cpu) {
+    if (rowOf(method).host) {
         MadeEngine host = makeHostEngine();
         VOXTACT_TRY(host);
         state_->host = std::move(*host);
@@ -201,7 +202,7 @@ Result<void> FrameLoop::add(CountingMethod method) {
 }
 
 Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const Mat4& world_from_object) {
-    const bool onHost = part != FramePart::Rendering && method == CountingMethod::Cpu;
+    const bool onHost = part != FramePart::Rendering && rowOf(method).host;
     const bool onDevice = part != FramePart::Rendering && !onHost;
     const bool submits = part != FramePart::Detection || onDevice;
     if (submits) {

@@ -133,7 +133,7 @@ std::string pairsPerSecond(double milliseconds) {
 
 void addPairs(const PaperResult& result, std::vector<std::string>& sentences) {
     const auto found = extremes(result, [](const PaperRow& row) {
-        const bool counts = row.scene == 0 && row.method != toString(CountingMethod::QueryAny);
+        const bool counts = row.scene == 0 && exactness(*countingMethodFromName(row.method)) == Exactness::Exact;
         return counts ? row.wall.collision : std::vector<double>();
     });
     const std::string there = "; published: " + grouped(static_cast<std::uint64_t>(published::kPairsPerSecond)) +
