@@ -69,7 +69,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", action="store_true")
     arguments = parser.parse_args()
-    scratch = ROOT / "build" / "change"
+    # Apart from each other: a test does the one while the other builds for minutes.
+    scratch = ROOT / "build" / ("change-build" if arguments.build else "change")
     shutil.rmtree(scratch, ignore_errors=True)
     copy_sources(scratch)
     # The copy lies in a checkout, of which git would take it for a part.
