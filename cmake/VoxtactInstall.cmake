@@ -12,8 +12,8 @@ set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
 file(GLOB voxtact_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/voxtact/*.h")
 set(voxtact_io_headers "${PROJECT_SOURCE_DIR}/include/voxtact/io.h")
 set(voxtact_cpu_headers "${PROJECT_SOURCE_DIR}/include/voxtact/cpu.h")
-set(voxtact_render_headers "${PROJECT_SOURCE_DIR}/include/voxtact/render.h")
-set(voxtact_samples_headers "${PROJECT_SOURCE_DIR}/include/voxtact/builtin.h")
+set(voxtact_render_headers "${PROJECT_SOURCE_DIR}/include/voxtact/looks.h" "${PROJECT_SOURCE_DIR}/include/voxtact/render.h")
+set(voxtact_samples_headers "${PROJECT_SOURCE_DIR}/include/voxtact/samples.h")
 list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers} ${voxtact_render_headers}
      ${voxtact_samples_headers})
 

@@ -75,7 +75,7 @@ def main():
     copy_sources(scratch)
     # The copy lies in a checkout, of which git would take it for a part.
     run("git", "apply", PATCH, cwd=scratch, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(scratch.parent)})
-    if f'"{METHOD}"' not in (scratch / "src" / "core" / "method_table.h").read_text():
+    if f'"{METHOD}"' not in (scratch / "src" / "core" / "method" / "method_table.h").read_text():
         fail("git left the patch out")
     files = [line.split()[1] for line in PATCH.read_text().splitlines() if line.startswith("+++ ")]
     if len(files) > MOST_FILES:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ranges of the stored values of bricks (src/core/bricks.h), a work group a brick: of all the corners of its cells,
+// The ranges of the stored values of bricks (src/core/volume/bricks.h), a work group a brick: of all the corners of its cells,
 // and of those of the cells one farther out too. A NaN counts for neither end: every sample that it has a part in is
 // NaN, which is never opaque. A brick of nothing else has an empty range, +inf to -inf.
 #version 460

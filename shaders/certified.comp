@@ -12,7 +12,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #endif
 #include "shared.h"
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"

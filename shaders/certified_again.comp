@@ -14,7 +14,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #define SMALL_PROGRAM
 #include "shared.h"
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"

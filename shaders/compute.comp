@@ -11,7 +11,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #endif
 #include "shared.h"
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(constant_id = VOXTACT_CONSTANT_EXACT_FILTER) const bool kExactFilter = true;

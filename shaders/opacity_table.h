@@ -10,7 +10,8 @@
 namespace voxtact::shader {
 #endif
 
-/// The table's extremes (core/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that name.
+/// The table's extremes (core/transfer/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that
+/// name.
 struct OpacityTable {
     int size;
     int levels;

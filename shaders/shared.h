@@ -141,7 +141,7 @@ struct CertifiedOpen {
 #define VOXTACT_SET_LABELS 4 // with outputs beside the counts
 // Bindings of VOXTACT_SET_VOLUME, beside the image at 0.
 #define VOXTACT_BINDING_BRICKS 1
-// Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/table_extremes.h.
+// Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/transfer/table_extremes.h.
 #define VOXTACT_BINDING_EXTREMES 1
 // Bindings of VOXTACT_SET_PAIRS.
 #define VOXTACT_BINDING_TRANSFORMS 0
@@ -167,7 +167,7 @@ struct CertifiedOpen {
 #define VOXTACT_COMPUTE_GROUP 64
 // Those of the brick pass.
 #define VOXTACT_BRICK_GROUP 64
-// A brick is 2^VOXTACT_BRICK_SHIFT cells a side: src/core/bricks.h.
+// A brick is 2^VOXTACT_BRICK_SHIFT cells a side: src/core/volume/bricks.h.
 #define VOXTACT_BRICK_SHIFT 3
 
 #ifdef __cplusplus

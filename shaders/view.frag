@@ -31,7 +31,7 @@ layout(location = 1) flat in uint pair;
 #endif
 
 #if defined(COUNT_ATOMIC) || defined(COUNT_SUBGROUP)
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffer Results { PairResult results[]; };
 #include "count.glsl"
 #endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/export.h"
+#include "voxtact/error.h"
 #include "voxtact/methods.h"
-#include "voxtact/result.h"
 
 #include <vulkan/vulkan_core.h>
 

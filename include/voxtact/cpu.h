@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/answers.h"
 #include "voxtact/data.h"
-#include "voxtact/edit.h"
-#include "voxtact/labels.h"
+#include "voxtact/results.h"
 
 #include <memory>
 #include <span>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/export.h"
-#include "voxtact/result.h"
+#include "voxtact/error.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// Plain host data: spaces, images, transfer functions, triangle meshes. No Vulkan here.
@@ -191,5 +191,64 @@ struct MeasureScene {
 
 /// Refuses NaN or infinite elements and a last row other than 0 0 0 1. `what` begins the error text ("pose 3").
 [[nodiscard]] VOXTACT_API Result<void> checkAffine(const Mat4& matrix, const std::string& what);
+
+/// A box of voxels.
+struct VoxelBox {
+    std::array<std::uint32_t, 3> first{}; ///< the lowest corner
+    std::array<std::uint32_t, 3> size{};  ///< voxels along each axis; 0: empty
+};
+
+/// The voxels whose centre is at most a distance (mm) from a point, by exact arithmetic on these and the grid.
+struct Ball {
+    Vec3 centre{};     ///< world, mm
+    double radius = 0; ///< mm; not negative
+};
+
+/// What an edit changes.
+using VoxelRegion = std::variant<VoxelBox, Ball>;
+
+/// The least box with all voxels of a region that lie in the grid; a Ball may reach over the grid's faces and be empty.
+/// Refuses a VoxelBox that leaves the grid, and a Ball that is not finite or has a negative radius.
+[[nodiscard]] VOXTACT_API Result<VoxelBox> voxelBounds(const VoxelRegion& region, const Grid& grid);
+
+/// A label map: which structure each voxel belongs to. Looked up at the nearest voxel, never interpolated; outside of
+/// the map's own grid the label is 0.
+struct LabelData {
+    Grid grid;                          ///< where its voxels are
+    std::vector<std::uint16_t> indices; ///< of each voxel, x fastest: the number of its label in `values`
+    std::vector<std::int32_t> values;   ///< the labels, ascending, each once; 0 is always among them
+};
+
+/// Refuses what checkVolume() refuses, float voxels that are not whole numbers within +-2^24, and more than 65536
+/// different labels (LimitExceeded). O(voxels + the labels' range).
+[[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const VolumeView& volume);
+
+/// Number of the label of a world point in `values`; that of 0 outside of the grid. The voxel along an axis with n of
+/// them is floor(n * texture coordinate): half way between two centres it is the upper one, and at 1 the last one.
+/// Expects what makeLabels() returns.
+[[nodiscard]] VOXTACT_API std::uint32_t labelAt(const LabelData& labels, const Vec3& world) noexcept;
+
+/// Two boxes that overlap: their numbers, `first` < `second`.
+struct BoxPair {
+    std::uint32_t first = 0;  ///< number of a box in the first span
+    std::uint32_t second = 0; ///< in the same span, or in the second one
+    /// By `first`, then by `second`.
+    // clang-tidy 14 takes the 0 that the compiler writes for a null pointer.
+    auto operator<=>(const BoxPair&) const = default; // NOLINT(modernize-use-nullptr)
+};
+
+/// The broad phase: all pairs of closed boxes that share a point, sorted; touching counts. Sweep and prune along the
+/// axis on which the centres vary most (Cohen et al., "I-COLLIDE", 1995, section 3). A box with a NaN or with
+/// lo > hi overlaps nothing. O(n log n + overlaps along the axis).
+[[nodiscard]] VOXTACT_API Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> boxes);
+
+/// The same between two sets: `first` is a number in `left`, `second` one in `right`.
+[[nodiscard]] VOXTACT_API Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> left,
+                                                                        std::span<const Box> right);
+
+/// The box of a box's eight corners under an affine matrix, rounded outward (what is exact stays exact): for the world
+/// box of a mesh at a pose (world_from_object), or of a volume (world_from_texture of the box [0,1]^3). A box that
+/// overlaps nothing, and a matrix that is not finite, give a box that overlaps nothing.
+[[nodiscard]] VOXTACT_API Box transformBox(const Mat4& b_from_a, const Box& box) noexcept;
 
 } // namespace voxtact

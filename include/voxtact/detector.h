@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/answers.h"
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
+#include "voxtact/results.h"
 #include "voxtact/scene.h"
 
 #include <optional>
@@ -105,10 +105,10 @@ class Results {
     /// uint of its own.
     [[nodiscard]] VOXTACT_API BufferRange triangleMask() const noexcept;
     /// Four uints: contacts that were found, low and high word; the room; 0. Then the list, of ContactResult in
-    /// contact_result.h: as many as were found, or as there is room for.
+    /// device_results.h: as many as were found, or as there is room for.
     [[nodiscard]] VOXTACT_API BufferRange contacts() const noexcept;
     /// Six uints for each pair; all 0 where it has no survivor. Decoded by uintBitsToFloat(VOXTACT_BOUND_BITS(word)),
-    /// of contact_result.h, they are -lo.x, -lo.y, -lo.z, hi.x, hi.y and hi.z of its box; world, mm.
+    /// of device_results.h, they are -lo.x, -lo.y, -lo.z, hi.x, hi.y and hi.z of its box; world, mm.
     [[nodiscard]] VOXTACT_API BufferRange bounds() const noexcept;
     /// A uint for each label of the label map of each pair, by number: its survivors, modulo 2^32. Those of a pair
     /// begin after as many as the pairs before it have labels.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/export.h"
+#include "voxtact/error.h"
 
 #include <cstdint>
 #include <optional>

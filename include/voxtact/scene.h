@@ -3,8 +3,6 @@
 
 #include "voxtact/context.h"
 #include "voxtact/data.h"
-#include "voxtact/edit.h"
-#include "voxtact/labels.h"
 
 #include <optional>
 

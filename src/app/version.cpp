@@ -17,7 +17,7 @@ const char* gitRevision() noexcept {
 
 std::string versionText() {
     return std::string("voxtact ") + kVersion + "\ngit revision " + kGitRevision + "\nVulkan headers " +
-           apiVersionText(VK_HEADER_VERSION_COMPLETE) + "\nglslang " + kGlslangVersion + "\n";
+           device::apiVersionText(VK_HEADER_VERSION_COMPLETE) + "\nglslang " + kGlslangVersion + "\n";
 }
 
 } // namespace voxtact::app

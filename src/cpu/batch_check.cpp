@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/batch_check.h"
 
-#include "core/batch_check.h"
+#include "core/batch/batch_check.h"
 
 namespace voxtact::cpu {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/outputs.h"
-#include "core/output_pair.h"
-#include "core/pair_transform.h"
-#include "core/sort_contacts.h"
+#include "core/batch/output_pair.h"
+#include "core/batch/sort_contacts.h"
+#include "core/geometry/pair_transform.h"
 #include "cpu/raster/lone_triangle.h"
 #include "cpu/raster/scalar_sample.h"
 

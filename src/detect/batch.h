@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/pair_transform.h"
+#include "core/geometry/pair_transform.h"
 #include "gpu/context_impl.h"
 #include "voxtact/detector.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "core/certified_constants.h"
-#include "core/enum_check.h"
-#include "core/guard.h"
-#include "core/live.h"
-#include "core/method_table.h"
-#include "core/opaque_ranges.h"
-#include "core/projection.h"
-#include "core/try.h"
+#include "core/base/enum_check.h"
+#include "core/base/guard.h"
+#include "core/base/live.h"
+#include "core/base/try.h"
+#include "core/geometry/projection.h"
+#include "core/method/certified_constants.h"
+#include "core/method/method_table.h"
+#include "core/transfer/opaque_ranges.h"
 #include "detect/batch.h"
+#include "detect/certified.h"
 #include "detect/compute.h"
-#include "detect/conservative.h"
 #include "detect/outputs.h"
 #include "detect/recording.h"
 #include "detect/view.h"
@@ -22,7 +22,7 @@
 
 namespace voxtact {
 
-using AnyPass = std::variant<ViewPass, ComputePass, ConservativePass>;
+using AnyPass = std::variant<ViewPass, ComputePass, CertifiedPass>;
 
 struct DetectorImpl {
     ContextImpl& context;
@@ -151,7 +151,7 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         VOXTACT_TRY(checkDesc(c, desc));
         VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =
-            rowOf(desc.projection).certified                    ? withPass(c, desc, ConservativePass::create(c, desc))
+            rowOf(desc.projection).certified                    ? withPass(c, desc, CertifiedPass::create(c, desc))
             : rowOf(desc.method).coverage == Coverage::Computed ? withPass(c, desc, ComputePass::create(c, desc))
                                                                 : withPass(c, desc, ViewPass::create(c, desc));
         VOXTACT_TRY(impl);

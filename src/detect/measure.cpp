@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/enum_check.h"
-#include "core/guard.h"
-#include "core/try.h"
+#include "core/base/enum_check.h"
+#include "core/base/guard.h"
+#include "core/base/try.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>

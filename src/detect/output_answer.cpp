@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/sort_contacts.h"
+#include "core/batch/sort_contacts.h"
 #include "detect/output_store.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/output_pair.h"
+#include "core/batch/output_pair.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
 #include "detect/output_store.h"

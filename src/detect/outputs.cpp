@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "detect/outputs.h"
-#include "core/method_table.h"
-#include "core/output_pair.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/batch/output_pair.h"
+#include "core/method/method_table.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "detect/recording.h"
-#include "core/certified_constants.h"
-#include "core/method_table.h"
-#include "core/projection.h"
+#include "core/geometry/projection.h"
+#include "core/method/certified_constants.h"
+#include "core/method/method_table.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
 #include "gpu/barriers.h"

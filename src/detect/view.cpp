@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "detect/view.h"
-#include "core/method_table.h"
-#include "core/projection.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/geometry/projection.h"
+#include "core/method/method_table.h"
 #include "detect/batch.h"
 #include "detect/outputs.h"
 #include "gpu/barriers.h"

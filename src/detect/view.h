@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/pipeline.h"

@@ -3,7 +3,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// Passes the result of a create on. What a failed one leaves in its handle is nothing to destroy.
 template <class Handle> VkResult createdOrNull(VkResult result, Handle& handle) noexcept {
@@ -13,4 +13,4 @@ template <class Handle> VkResult createdOrNull(VkResult result, Handle& handle) 
     return result;
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

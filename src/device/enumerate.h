@@ -3,7 +3,7 @@
 
 #include "device/vulkan_device.h"
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// All that one of Vulkan's lists holds: `list(count, elements)` is asked for their number, and then for them, anew
 /// where there are more by then. `what` begins the text of the error.
@@ -25,4 +25,4 @@ template <class Element, class List> Result<std::vector<Element>> enumerate(std:
     return all;
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "device/pair_pipeline.h"
 
-#include "core/batch_cutter.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/batch/batch_cutter.h"
 #include "device/created.h"
 
 #include <algorithm>
 #include <chrono>
 #include <limits>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 namespace {
 
@@ -239,4 +239,4 @@ Result<void> PairPipeline::run(const Batch& batch, const Events& events) {
     return done;
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/batch_pace.h"
+#include "core/batch/batch_pace.h"
 #include "device/vulkan_device.h"
 #include "voxtact/detector.h"
 
@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// The answer for one pair and the time of its submission divided by the pairs in it.
 struct TimedAnswer {
@@ -62,4 +62,4 @@ class PairPipeline {
     std::unique_ptr<State> state_;
 };
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -8,7 +8,7 @@
 #include <exception>
 #include <utility>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 bool pipelineBlobFits(std::string_view blob, const PhysicalDevice& device) {
     VkPipelineCacheHeaderVersionOne header{};
@@ -83,4 +83,4 @@ void PipelineCache::save() const {
     }
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// Where a pipeline cache is kept from run to run. Both empty: nowhere.
 struct PipelineStore {
@@ -41,4 +41,4 @@ class PipelineCache {
 /// Whether a blob begins with the header (version one) that this device's driver writes.
 [[nodiscard]] bool pipelineBlobFits(std::string_view blob, const PhysicalDevice& device);
 
-} // namespace voxtact::app
+} // namespace voxtact::device

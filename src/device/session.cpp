@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "device/session.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevice& physical, PipelineStore store,
                               LogCallback log) {
@@ -18,4 +18,4 @@ Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevi
     return Session{instance, std::move(*device), std::move(pipelines), std::move(*context)};
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

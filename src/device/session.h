@@ -5,7 +5,7 @@
 #include "device/vulkan_device.h"
 #include "voxtact/context.h"
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// voxtact on a device. The context ends before its pipeline cache, that before the device, and that before the
 /// instance.
@@ -20,4 +20,4 @@ struct Session {
 [[nodiscard]] Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevice& physical,
                                             PipelineStore store, LogCallback log);
 
-} // namespace voxtact::app
+} // namespace voxtact::device

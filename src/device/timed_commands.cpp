@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "device/timed_commands.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "device/created.h"
 
 #include <array>
 #include <limits>
 #include <vector>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 namespace {
 
@@ -202,4 +202,4 @@ Result<std::optional<double>> TimedCommands::between(std::uint32_t from, std::ui
     return std::optional(static_cast<double>((ticks[1] - ticks[0]) & state_->clock.mask) * state_->clock.milliseconds);
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// A function of the instance's: the one that it gives for a name is the one of that name.
 template <class Function> Function instanceFunction(const Session& session, const char* name) {
@@ -45,4 +45,4 @@ class TimedCommands {
     std::unique_ptr<State> state_;
 };
 
-} // namespace voxtact::app
+} // namespace voxtact::device

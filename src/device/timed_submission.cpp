@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "device/timed_submission.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <chrono>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 namespace {
 
@@ -44,4 +44,4 @@ Result<TimedSubmission::Times> TimedSubmission::run(const std::function<Result<v
     return times;
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

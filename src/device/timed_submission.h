@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// Commands that are recorded, submitted and waited for, timed by both clocks.
 /// Thread-safety: none; one thread at a time.
@@ -29,4 +29,4 @@ class TimedSubmission {
     TimedCommands commands_;
 };
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_device.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "device/created.h"
 #include "device/enumerate.h"
 #include "device/vulkan_instance.h"
@@ -12,7 +12,7 @@
 #include <cstring>
 #include <optional>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 namespace {
 
@@ -304,4 +304,4 @@ bool VulkanDevice::hasTimestamps() const noexcept {
     return state_->timestamps;
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

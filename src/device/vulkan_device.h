@@ -18,7 +18,7 @@
 /// A Vulkan instance and device of our own, for the program and the tests (target voxtact_device). Every function is
 /// called through a table that belongs to its instance or device, never through volk's global pointers, so any number
 /// of them live in one process.
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// "VK_ERROR_DEVICE_LOST"; the number for a result without a name here.
 [[nodiscard]] std::string vkResultName(VkResult result);
@@ -118,4 +118,4 @@ class VulkanDevice {
     std::shared_ptr<State> state_;
 };
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_instance.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "device/enumerate.h"
 
 #include "device/created.h"
@@ -10,7 +10,7 @@
 #include <array>
 #include <cstring>
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 namespace {
 
@@ -249,4 +249,4 @@ std::shared_ptr<const ValidationMessages> VulkanInstance::messages() const noexc
     return state_->messages;
 }
 
-} // namespace voxtact::app
+} // namespace voxtact::device

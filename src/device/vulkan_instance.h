@@ -3,7 +3,7 @@
 
 #include "device/vulkan_device.h"
 
-namespace voxtact::app {
+namespace voxtact::device {
 
 /// The instance's functions, looked up for this instance.
 struct InstanceFunctions {
@@ -32,4 +32,4 @@ struct VulkanInstance::State {
     std::shared_ptr<ValidationMessages> messages = std::make_shared<ValidationMessages>();
 };
 
-} // namespace voxtact::app
+} // namespace voxtact::device

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/bricks.h"
-#include "core/bricks.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/volume/bricks.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/pipeline.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/scene_impl.h"
-#include "voxtact/edit.h"
+#include "voxtact/data.h"
 
 namespace voxtact {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
-#include "core/live.h"
-#include "core/method_table.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/live.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
 #include "gpu/layouts.h"

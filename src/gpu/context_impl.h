@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/shared_impl.h"
+#include "core/base/shared_impl.h"
 #include "gpu/device_functions.h"
 #include "gpu/memory.h"
 #include "gpu/requirements.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
-#include "core/live.h"
-#include "core/output_pair.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/live.h"
+#include "core/base/try.h"
+#include "core/batch/output_pair.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/image_limits.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/layouts.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
 

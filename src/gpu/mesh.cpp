@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/clusters.h"
-#include "core/guard.h"
-#include "core/live.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/live.h"
+#include "core/base/try.h"
+#include "core/geometry/clusters.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/pipeline.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "gpu/debug.h"
 
 #include <array>

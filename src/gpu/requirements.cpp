@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/requirements.h"
-#include "core/guard.h"
-#include "core/method_table.h"
+#include "core/base/guard.h"
+#include "core/method/method_table.h"
 
 #include <algorithm>
 #include <array>

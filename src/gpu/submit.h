@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "gpu/memory.h"
 #include "voxtact/context.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Edits of a volume in place: through a scratch buffer of one slice, or from a buffer of the caller's.
-#include "core/edit_rows.h"
-#include "core/guard.h"
-#include "core/live.h"
-#include "core/try.h"
-#include "core/voxel_value.h"
+#include "core/base/guard.h"
+#include "core/base/live.h"
+#include "core/base/try.h"
+#include "core/volume/edit_rows.h"
+#include "core/volume/voxel_value.h"
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"

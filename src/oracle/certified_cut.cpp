@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace voxtact::cpu::certified {
+namespace voxtact::oracle::certified {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::array<Corners, 2> halves(const Corners& triangle) {
     return {Corners{a, middle(a, b), c}, Corners{middle(a, b), b, c}};
 }
 
-} // namespace voxtact::cpu::certified
+} // namespace voxtact::oracle::certified

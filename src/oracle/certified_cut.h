@@ -8,7 +8,7 @@
 #include <vector>
 
 /// Triangles cut at axis-aligned planes and into pieces, for the certified oracle. Index space.
-namespace voxtact::cpu::certified {
+namespace voxtact::oracle::certified {
 
 using Corners = std::array<Vec3, 3>;
 /// Convex, its corners in order; a segment and a point are polygons too.
@@ -37,4 +37,4 @@ struct Region {
 /// In the middle of the longest edge.
 [[nodiscard]] std::array<Corners, 2> halves(const Corners& triangle);
 
-} // namespace voxtact::cpu::certified
+} // namespace voxtact::oracle::certified

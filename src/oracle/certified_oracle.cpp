@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/certified_oracle.h"
-#include "core/guard.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "oracle/certified_cut.h"
 #include "oracle/certified_sample.h"
 
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace voxtact::cpu {
+namespace voxtact::oracle {
 
 namespace {
 
@@ -134,7 +134,7 @@ class Search {
         : scene_(scene), triangle_(triangle), margin_(2 * triangle.error), outer_(certified::shrunk(region, -margin_)),
           inner_(certified::shrunk(region, margin_)) {}
 
-    CertifiedTriangle run() {
+    JudgedTriangle run() {
         if (std::isfinite(triangle_.error) && !certified::meet(certified::boundsOf(triangle_.corners), outer_)) {
             return {};
         }
@@ -293,10 +293,10 @@ class Search {
     std::vector<Piece> pieces_; ///< grows behind: all large pieces are looked at before the smaller ones
     Known lowest_{{}, kInfinity};
     Known highest_{{}, -kInfinity};
-    CertifiedTriangle found_;
+    JudgedTriangle found_;
 };
 
-CertifiedTriangle decide(const Scene& scene, const Placed& triangle, const Region& region) {
+JudgedTriangle decide(const Scene& scene, const Placed& triangle, const Region& region) {
     return Search(scene, triangle, region).run();
 }
 
@@ -320,7 +320,7 @@ Certainty decideCell(const Scene& scene, const Placed& triangle, const Cell& cel
     return certain ? Certainty::Certain : Certainty::Undecided;
 }
 
-std::vector<CertifiedCell> cellsOf(const Scene& scene, const Placed& triangle, double margin) {
+std::vector<JudgedCell> cellsOf(const Scene& scene, const Placed& triangle, double margin) {
     const Region bounds = certified::shrunk(certified::boundsOf(triangle.corners), -2 * margin - kCellMargin);
     const bool placed = triangle.error <= kMostError;
     Cell first{};
@@ -333,7 +333,7 @@ std::vector<CertifiedCell> cellsOf(const Scene& scene, const Placed& triangle, d
         first[axis] = static_cast<std::int64_t>(lo);
         last[axis] = static_cast<std::int64_t>(hi);
     }
-    std::vector<CertifiedCell> out;
+    std::vector<JudgedCell> out;
     Cell cell{};
     for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2]) {
         for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1]) {
@@ -380,8 +380,8 @@ Result<CertifiedOracle> certifiedOracle(const OraclePair& pair, double resolutio
     });
 }
 
-Result<std::vector<CertifiedCell>> certifiedCells(const OraclePair& pair, std::uint32_t triangle, double margin) {
-    return guard([&]() -> Result<std::vector<CertifiedCell>> {
+Result<std::vector<JudgedCell>> certifiedCells(const OraclePair& pair, std::uint32_t triangle, double margin) {
+    return guard([&]() -> Result<std::vector<JudgedCell>> {
         const Result<Scene> scene = prepare(pair, kOracleResolution);
         VOXTACT_TRY(scene);
         if (triangle >= pair.mesh.indices.size() / 3) {
@@ -395,4 +395,4 @@ Result<std::vector<CertifiedCell>> certifiedCells(const OraclePair& pair, std::u
     });
 }
 
-} // namespace voxtact::cpu
+} // namespace voxtact::oracle

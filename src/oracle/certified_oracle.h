@@ -15,7 +15,7 @@
 ///
 /// It shares with everybody the floats of the table, of the threshold and of the vertices, and the doubles of
 /// textureFromWorld() and the pose; what it rounds itself is in its bounds.
-namespace voxtact::cpu {
+namespace voxtact::oracle {
 
 enum class Certainty : std::uint32_t {
     None,     ///< beyond doubt no opaque point
@@ -27,7 +27,7 @@ enum class Certainty : std::uint32_t {
 /// Pieces of a triangle no longer than this many voxels are not divided.
 inline constexpr double kOracleResolution = 1.0 / 512;
 
-struct CertifiedTriangle {
+struct JudgedTriangle {
     Certainty certainty = Certainty::None;
     Vec3 witness{}; ///< texture space, of an opaque point; only where certain
     /// The proof is the intermediate value theorem, between two points on either side of opaque values: the witness is
@@ -36,13 +36,13 @@ struct CertifiedTriangle {
 };
 
 struct CertifiedOracle {
-    Certainty certainty = Certainty::None;    ///< of the pair: certain if a triangle is, none if all are
-    std::vector<CertifiedTriangle> triangles; ///< of the mesh, in order
+    Certainty certainty = Certainty::None; ///< of the pair: certain if a triangle is, none if all are
+    std::vector<JudgedTriangle> triangles; ///< of the mesh, in order
 };
 
 /// A voxel cell of the image: [i, i+1] in index space along each axis, i from -1 to n-1. The outermost ones are cut by
 /// the domain.
-struct CertifiedCell {
+struct JudgedCell {
     std::array<std::int64_t, 3> cell{};
     Certainty certainty = Certainty::None;
 };
@@ -59,7 +59,7 @@ inline constexpr double kCellMargin = 0x1p-9;
 /// cells it has none, not even in the cell enlarged by `margin`. A point in a face between cells is in neither
 /// beyond doubt. Refuses what certifiedOracle() refuses, a triangle that the mesh does not have and a margin that is
 /// not within 0 to 1.
-[[nodiscard]] Result<std::vector<CertifiedCell>> certifiedCells(const OraclePair& pair, std::uint32_t triangle,
-                                                                double margin = kCellMargin);
+[[nodiscard]] Result<std::vector<JudgedCell>> certifiedCells(const OraclePair& pair, std::uint32_t triangle,
+                                                             double margin = kCellMargin);
 
-} // namespace voxtact::cpu
+} // namespace voxtact::oracle

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-namespace voxtact::cpu::certified {
+namespace voxtact::oracle::certified {
 
 namespace {
 
@@ -215,4 +215,4 @@ std::optional<double> Opacity::opaqueBetween(double lo, double hi) const {
     return {};
 }
 
-} // namespace voxtact::cpu::certified
+} // namespace voxtact::oracle::certified

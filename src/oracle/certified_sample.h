@@ -11,7 +11,7 @@
 
 /// The look-ups of the certified oracle, as bounds: double precision, with everything that it rounds counted in.
 /// Places are in index space, voxel i's centre at i; cell i of an axis is [i, i+1], from -1 to n-1.
-namespace voxtact::cpu::certified {
+namespace voxtact::oracle::certified {
 
 /// Distance of 1 to the next double.
 inline constexpr double kRounding = 0x1p-52;
@@ -74,4 +74,4 @@ class Opacity {
     double threshold_;
 };
 
-} // namespace voxtact::cpu::certified
+} // namespace voxtact::oracle::certified

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/oracle.h"
-#include "core/guard.h"
-#include "core/projection.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/geometry/projection.h"
 #include "oracle/oracle_raster.h"
 #include "oracle/oracle_sample.h"
 
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace voxtact::cpu {
+namespace voxtact::oracle {
 
 namespace {
 
@@ -41,8 +41,8 @@ Result<void> checkView(const View& view) {
     if (view.width == 0 || view.height == 0) {
         return refuse("the viewport is " + size + ", it needs at least one pixel");
     }
-    if (view.width > kMaxViewport || view.height > kMaxViewport) {
-        return refuse("the viewport is " + size + ", the limit is " + std::to_string(kMaxViewport) + " a side",
+    if (view.width > cpu::kMaxViewport || view.height > cpu::kMaxViewport) {
+        return refuse("the viewport is " + size + ", the limit is " + std::to_string(cpu::kMaxViewport) + " a side",
                       ErrorCode::LimitExceeded);
     }
     if (const Result<Mat4> world_from_clip = inverse(view.clip_from_world); !world_from_clip.ok()) {
@@ -334,4 +334,4 @@ Result<Evidence> oracleEvidence(const OraclePair& pair, const OracleFragment& fr
     return all->front();
 }
 
-} // namespace voxtact::cpu
+} // namespace voxtact::oracle

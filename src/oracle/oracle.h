@@ -10,7 +10,7 @@
 /// The oracle: the paper's fragment program on a plain double-precision rasteriser, written apart from the engine and
 /// from shaders/exact.h. Slow and simple: one triangle after the other, one pixel of its bounding box after the other,
 /// nothing skipped. It shares two roundings with everybody: the opacities of the table and the threshold are floats.
-namespace voxtact::cpu {
+namespace voxtact::oracle {
 
 /// One pair, as data, seen once. (Two-view: twice, the second time through sideView().)
 struct OraclePair {
@@ -85,4 +85,4 @@ struct Tolerance {
 [[nodiscard]] Result<std::vector<Evidence>>
 oracleEvidence(const OraclePair& pair, std::span<const OracleFragment> fragments, const Tolerance& tolerance);
 
-} // namespace voxtact::cpu
+} // namespace voxtact::oracle

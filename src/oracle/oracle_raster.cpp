@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace voxtact::cpu::oracle {
+namespace voxtact::oracle {
 
 namespace {
 
@@ -379,4 +379,4 @@ double planeError(const Polygon& polygon, const View& view) {
     return kPlaneRoundings * kFloatRounding * (longestEdge(polygon) + anchor) / thinnest;
 }
 
-} // namespace voxtact::cpu::oracle
+} // namespace voxtact::oracle

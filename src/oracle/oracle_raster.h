@@ -9,7 +9,7 @@
 #include <vector>
 
 /// The geometry of the oracle: clipping, snapping, coverage, and how far from all that another rasteriser can be.
-namespace voxtact::cpu::oracle {
+namespace voxtact::oracle {
 
 /// The relative error of one rounding to float.
 inline constexpr double kFloatRounding = 1.0 / 16777216;
@@ -88,4 +88,4 @@ enum class ViewVolume : std::uint32_t { True, Widened, Narrowed };
 /// corners before or after snapping.
 [[nodiscard]] double planeError(const Polygon& polygon, const View& view);
 
-} // namespace voxtact::cpu::oracle
+} // namespace voxtact::oracle

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-namespace voxtact::cpu::oracle {
+namespace voxtact::oracle {
 
 namespace {
 
@@ -176,4 +176,4 @@ ValueRange opacityRange(const VolumeView& volume, const Table& table, const Text
     return range;
 }
 
-} // namespace voxtact::cpu::oracle
+} // namespace voxtact::oracle

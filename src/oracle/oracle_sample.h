@@ -7,7 +7,7 @@
 #include <vector>
 
 /// The look-ups of the oracle, at a point and over all that a tolerance reaches.
-namespace voxtact::cpu::oracle {
+namespace voxtact::oracle {
 
 struct Table {
     std::vector<float> entries;
@@ -29,4 +29,4 @@ struct SampleTolerance {
 [[nodiscard]] ValueRange opacityRange(const VolumeView& volume, const Table& table, const TextureBox& box,
                                       const SampleTolerance& tolerance);
 
-} // namespace voxtact::cpu::oracle
+} // namespace voxtact::oracle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/table_extremes.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/transfer/table_extremes.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
-#include "core/live.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/live.h"
+#include "core/base/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"

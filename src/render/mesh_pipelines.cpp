@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "gpu/pipeline.h"
 #include "render/render_impl.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/pair_transform.h"
-#include "core/text.h"
+#include "core/base/text.h"
+#include "core/geometry/pair_transform.h"
 #include "render/render_impl.h"
 
 namespace voxtact {

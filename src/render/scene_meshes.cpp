@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/pair_transform.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/geometry/pair_transform.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 

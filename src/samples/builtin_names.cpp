@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "samples/builtin_name.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <charconv>
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "samples/edge_split.h"
 #include "samples/loft.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "samples/builtin_head.h"
 #include "samples/builtin_name.h"
 #include "samples/builtin_vessels.h"
 #include "samples/value_noise.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 
-#include "core/try.h"
-#include "voxtact/builtin.h"
+#include "core/base/try.h"
+#include "voxtact/samples.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // Sweep and prune against looking at all pairs, for 10,000 cubes in a cube of side 1000: sparse (side 10: a box
 // overlaps 0.08 others), and dense (side 100: 68 others). Both find the same pairs, or nothing is timed.
 #include "support/scenes.h"
-#include "voxtact/broad_phase.h"
+#include "voxtact/data.h"
 
 #include <benchmark/benchmark.h>
 

@@ -4,8 +4,8 @@
 // timed. VOXTACT_BENCH_VOLUME names another volume (a file) where voxtact::io is built.
 #include "cpu/raster/reference.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 #ifdef VOXTACT_BENCH_IO
 #include "voxtact/io.h"
 #endif

@@ -9,8 +9,8 @@
 // VOXTACT_BENCH_RAMP the ramp "lo hi" in the volume's unit, VOXTACT_BENCH_THREADS the threads.
 #include "lab/measure/random_poses.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 #ifdef VOXTACT_BENCH_IO
 #include "voxtact/io.h"
 #endif

@@ -8,13 +8,13 @@
 namespace voxtact::test {
 namespace {
 
-using app::PhysicalDevice;
+using device::PhysicalDevice;
 using testing::AllOf;
 using testing::HasSubstr;
 
-PhysicalDevice device(std::uint32_t index, const char* name, VkPhysicalDeviceType type,
-                      std::uint32_t version = VK_API_VERSION_1_3) {
-    PhysicalDevice device;
+device::PhysicalDevice device(std::uint32_t index, const char* name, VkPhysicalDeviceType type,
+                              std::uint32_t version = VK_API_VERSION_1_3) {
+    device::PhysicalDevice device;
     device.index = index;
     device.name = name;
     device.type = type;
@@ -22,20 +22,20 @@ PhysicalDevice device(std::uint32_t index, const char* name, VkPhysicalDeviceTyp
     return device;
 }
 
-std::uint32_t chosen(const std::vector<PhysicalDevice>& devices, const char* wanted) {
-    const auto result = app::chooseDevice(devices, wanted);
+std::uint32_t chosen(const std::vector<device::PhysicalDevice>& devices, const char* wanted) {
+    const auto result = device::chooseDevice(devices, wanted);
     EXPECT_TRUE(result.ok());
     return result.ok() ? result->index : ~0U;
 }
 
-std::string refusal(const std::vector<PhysicalDevice>& devices, const char* wanted) {
-    const auto result = app::chooseDevice(devices, wanted);
+std::string refusal(const std::vector<device::PhysicalDevice>& devices, const char* wanted) {
+    const auto result = device::chooseDevice(devices, wanted);
     EXPECT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::InvalidArgument);
     return result.error().text;
 }
 
-const std::vector<PhysicalDevice> kMachine{
+const std::vector<device::PhysicalDevice> kMachine{
     device(0, "llvmpipe (LLVM 15.0.6, 256 bits)", VK_PHYSICAL_DEVICE_TYPE_CPU),
     device(1, "Intel(R) UHD Graphics", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
     device(2, "NVIDIA GeForce A", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),

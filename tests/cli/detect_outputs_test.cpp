@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What voxtact detect says beside the counts: columns, files, names. By the host, against the library itself.
 #include "cli_fixture.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
 #include "voxtact/io.h"
+#include "voxtact/samples.h"
 
 #include <nlohmann/json.hpp>
 

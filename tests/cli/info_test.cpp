@@ -2,7 +2,7 @@
 // voxtact info: what it says of volumes and meshes whose content is known. No device is needed.
 #include "app/info/mesh_info.h"
 #include "cli_fixture.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // The engine against the reference, bit for bit: whatever it skips, and whatever instructions it uses.
 #include "cpu/random_scene.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 #include <hwy/targets.h>

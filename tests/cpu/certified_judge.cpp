@@ -11,7 +11,7 @@ namespace voxtact::test {
 
 namespace {
 
-using cpu::Certainty;
+using oracle::Certainty;
 
 /// The oracle may be undecided, which allows anything.
 void judgePair(const PairAnswer& pair, Certainty oracle, std::ostream& out) {
@@ -36,7 +36,7 @@ void judgePair(const PairAnswer& pair, Certainty oracle, std::ostream& out) {
 }
 
 /// The survivors of each triangle.
-std::vector<std::uint64_t> judgeTriangles(const EngineSays& engine, const cpu::CertifiedOracle& oracle,
+std::vector<std::uint64_t> judgeTriangles(const EngineSays& engine, const oracle::CertifiedOracle& oracle,
                                           std::ostream& out) {
     std::vector<std::uint64_t> counts(oracle.triangles.size());
     std::uint64_t sum = 0;
@@ -108,9 +108,9 @@ double displacement(const CertifiedCase& c, std::size_t triangle) {
 std::vector<CellCount> countCells(const CertifiedCase& c) {
     std::vector<CellCount> out(c.scene.mesh.indices.size() / 3);
     for (std::size_t triangle = 0; triangle < out.size(); ++triangle) {
-        const double margin = std::min(cpu::kCellMargin + displacement(c, triangle), 1.0);
-        for (const cpu::CertifiedCell& cell :
-             take(cpu::certifiedCells(c.scene.pair(), static_cast<std::uint32_t>(triangle), margin))) {
+        const double margin = std::min(oracle::kCellMargin + displacement(c, triangle), 1.0);
+        for (const oracle::JudgedCell& cell :
+             take(oracle::certifiedCells(c.scene.pair(), static_cast<std::uint32_t>(triangle), margin))) {
             ++out[triangle].possible;
             out[triangle].certain += cell.certainty == Certainty::Certain ? 1U : 0U;
         }
@@ -134,7 +134,7 @@ Result<EngineSays> askEngine(cpu::Detector& detector, const CertifiedCase& c) {
     return EngineSays{answer->pairs.at(0), std::move(answer->triangles)};
 }
 
-std::string complaints(const EngineSays& engine, const cpu::CertifiedOracle& oracle,
+std::string complaints(const EngineSays& engine, const oracle::CertifiedOracle& oracle,
                        const std::vector<CellCount>& cells) {
     std::ostringstream out;
     judgePair(engine.pair, oracle.certainty, out);

@@ -28,7 +28,7 @@ struct EngineSays {
 [[nodiscard]] Result<EngineSays> askEngine(cpu::Detector& detector, const CertifiedCase& c);
 
 /// Everything that is wrong with it, a line each; empty when nothing is. `cells`: none, or of each triangle.
-[[nodiscard]] std::string complaints(const EngineSays& engine, const cpu::CertifiedOracle& oracle,
+[[nodiscard]] std::string complaints(const EngineSays& engine, const oracle::CertifiedOracle& oracle,
                                      const std::vector<CellCount>& cells);
 
 } // namespace voxtact::test

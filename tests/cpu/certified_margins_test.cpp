@@ -17,7 +17,7 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::Certainty;
+using oracle::Certainty;
 
 /// Voxel space is world space and object space. Opacity is value / 255, within half an entry.
 OracleScene byteScene(std::uint32_t side, const VoxelFunction& value) {
@@ -30,8 +30,8 @@ OracleScene byteScene(std::uint32_t side, const VoxelFunction& value) {
 
 /// What the engine says of a scene, which the oracle is sure of.
 PairAnswer ask(const OracleScene& scene, Certainty oracle, std::uint32_t threads = 1) {
-    EXPECT_EQ(take(cpu::certifiedOracle(scene.pair())).certainty, oracle);
-    const cpu::OraclePair pair = scene.pair();
+    EXPECT_EQ(take(oracle::certifiedOracle(scene.pair())).certainty, oracle);
+    const oracle::OraclePair pair = scene.pair();
     const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
     const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));

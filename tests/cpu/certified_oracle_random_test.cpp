@@ -16,9 +16,9 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::Certainty;
-using cpu::CertifiedOracle;
-using cpu::CertifiedTriangle;
+using oracle::Certainty;
+using oracle::CertifiedOracle;
+using oracle::JudgedTriangle;
 
 /// Texture space; far more than the places computed here are off.
 constexpr double kNear = 1e-7;
@@ -160,7 +160,7 @@ Vec3 mostOpaque(const CertifiedCase& c, const Triangle& triangle, std::mt19937_6
     return pointOf(triangle, best);
 }
 
-void checkTriangle(const CertifiedCase& c, std::size_t number, const CertifiedTriangle& found, std::mt19937_64& random,
+void checkTriangle(const CertifiedCase& c, std::size_t number, const JudgedTriangle& found, std::mt19937_64& random,
                    Tally& tally) {
     const Triangle triangle = triangleOf(c, number);
     ++tally.triangles[found.certainty];
@@ -187,7 +187,7 @@ TEST(CertifiedOracleRandom, NoSampleContradicts) {
         SCOPED_TRACE("case " + std::to_string(number));
         const CertifiedCase c = makeCertifiedCase(seed, number);
         const auto start = std::chrono::steady_clock::now();
-        const CertifiedOracle oracle = take(cpu::certifiedOracle(c.scene.pair()));
+        const CertifiedOracle oracle = take(oracle::certifiedOracle(c.scene.pair()));
         spent += std::chrono::steady_clock::now() - start;
         ++tally.pairs[oracle.certainty];
         for (std::size_t triangle = 0; triangle < oracle.triangles.size(); ++triangle) {
@@ -224,12 +224,12 @@ TEST(CertifiedOracleRandom, NoSampleContradictsTheCells) {
     std::size_t sampled = 0;
     for (std::uint64_t number = 0; number < 500; ++number) {
         const CertifiedCase c = makeCertifiedCase(seed, number);
-        const CertifiedOracle oracle = take(cpu::certifiedOracle(c.scene.pair()));
+        const CertifiedOracle oracle = take(oracle::certifiedOracle(c.scene.pair()));
         for (std::uint32_t triangle = 0; triangle < oracle.triangles.size(); ++triangle) {
             SCOPED_TRACE("case " + std::to_string(number) + ", triangle " + std::to_string(triangle));
             std::map<std::array<std::int64_t, 3>, Certainty> cells;
             std::size_t certainHere = 0;
-            for (const cpu::CertifiedCell& cell : take(cpu::certifiedCells(c.scene.pair(), triangle))) {
+            for (const oracle::JudgedCell& cell : take(oracle::certifiedCells(c.scene.pair(), triangle))) {
                 cells[cell.cell] = cell.certainty;
                 certainHere += cell.certainty == Certainty::Certain ? 1U : 0U;
             }
@@ -259,8 +259,8 @@ TEST(CertifiedOracleRandom, ACoarserOneIsAtMostUndecided) {
     std::size_t fewer = 0;
     for (std::uint64_t number = 0; number < 2000; ++number) {
         const CertifiedCase c = makeCertifiedCase(seed, number);
-        const CertifiedOracle fine = take(cpu::certifiedOracle(c.scene.pair()));
-        const CertifiedOracle coarse = take(cpu::certifiedOracle(c.scene.pair(), 2));
+        const CertifiedOracle fine = take(oracle::certifiedOracle(c.scene.pair()));
+        const CertifiedOracle coarse = take(oracle::certifiedOracle(c.scene.pair(), 2));
         for (std::size_t i = 0; i < fine.triangles.size(); ++i) {
             const Certainty rough = coarse.triangles[i].certainty;
             fewer += rough != fine.triangles[i].certainty ? 1U : 0U;

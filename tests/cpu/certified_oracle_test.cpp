@@ -16,12 +16,12 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::Certainty;
-using cpu::CertifiedCell;
-using cpu::certifiedCells;
-using cpu::CertifiedOracle;
-using cpu::certifiedOracle;
-using cpu::CertifiedTriangle;
+using oracle::Certainty;
+using oracle::certifiedCells;
+using oracle::CertifiedOracle;
+using oracle::certifiedOracle;
+using oracle::JudgedCell;
+using oracle::JudgedTriangle;
 using testing::HasSubstr;
 
 CertifiedOracle ask(const OracleScene& scene) {
@@ -58,7 +58,7 @@ TEST(CertifiedOracle, PlateAcrossARamp) {
         scene.world_from_object = alongX(step);
         const CertifiedOracle above = ask(scene);
         EXPECT_EQ(above.certainty, Certainty::Certain) << step;
-        for (const CertifiedTriangle& triangle : above.triangles) {
+        for (const JudgedTriangle& triangle : above.triangles) {
             EXPECT_EQ(triangle.certainty, Certainty::Certain);
             EXPECT_NEAR(triangle.witness[0], kIsoTexture + step / 8, 1e-14);
         }
@@ -109,16 +109,16 @@ TEST(CertifiedOracle, CellsOfATent) {
     scene.world_from_object = translation({0, 0, 3.7 / 9 - 0.5});
     EXPECT_TRUE(take(certifiedCells(scene.pair(), 0)).empty());
     std::set<std::array<std::int64_t, 3>> seen;
-    for (const CertifiedCell& cell : take(certifiedCells(scene.pair(), 1))) {
+    for (const JudgedCell& cell : take(certifiedCells(scene.pair(), 1))) {
         EXPECT_EQ(cell.certainty, Certainty::Certain);
         seen.insert(cell.cell);
     }
     EXPECT_EQ(seen, (std::set<std::array<std::int64_t, 3>>{{3, 4, 3}, {4, 4, 3}, {3, 5, 3}, {4, 5, 3}}));
     // In the plane between two layers of cells it is in neither beyond doubt.
     scene.world_from_object = translation({0, 0, 3.5 / 9 - 0.5});
-    const std::vector<CertifiedCell> between = take(certifiedCells(scene.pair(), 1));
+    const std::vector<JudgedCell> between = take(certifiedCells(scene.pair(), 1));
     EXPECT_EQ(between.size(), 8U);
-    for (const CertifiedCell& cell : between) {
+    for (const JudgedCell& cell : between) {
         EXPECT_EQ(cell.certainty, Certainty::Undecided);
     }
 }
@@ -127,7 +127,7 @@ TEST(CertifiedOracle, CellsAtTheDomainsBoundary) {
     OracleScene scene;
     scene.volume = makeUnitImage(2, [](auto, auto, auto) { return 255; });
     addTriangle(scene.mesh, {-1, -1, 0.3}, {3, -1, 0.3}, {-1, 3, 0.3});
-    std::vector<CertifiedCell> cells = take(certifiedCells(scene.pair(), 0));
+    std::vector<JudgedCell> cells = take(certifiedCells(scene.pair(), 0));
     ASSERT_EQ(cells.size(), 9U); // three cells an axis, of half a voxel, one and half a voxel
     EXPECT_EQ(cells.front().cell, (std::array<std::int64_t, 3>{-1, -1, 0}));
     EXPECT_EQ(cells.back().cell, (std::array<std::int64_t, 3>{1, 1, 0}));
@@ -135,7 +135,7 @@ TEST(CertifiedOracle, CellsAtTheDomainsBoundary) {
     scene.world_from_object = translation({0, 0, 0.45 - 1.0 / 2048});
     cells = take(certifiedCells(scene.pair(), 0));
     EXPECT_EQ(std::count_if(cells.begin(), cells.end(),
-                            [](const CertifiedCell& cell) { return cell.certainty == Certainty::Certain; }),
+                            [](const JudgedCell& cell) { return cell.certainty == Certainty::Certain; }),
               9);
     EXPECT_EQ(cells.size(), 18U);
     scene.world_from_object = translation({0, 0, 0.75});
@@ -152,7 +152,7 @@ TEST(CertifiedOracle, OnlyTheDomainCounts) {
         scene.world_from_object = translation({voxels / 4, 0, 0});
         return ask(scene);
     };
-    for (const CertifiedTriangle& triangle : moved(-1e-6).triangles) {
+    for (const JudgedTriangle& triangle : moved(-1e-6).triangles) {
         EXPECT_EQ(triangle.certainty, Certainty::Certain);
         EXPECT_NEAR(triangle.witness[0], 1, 1e-6);
     }
@@ -202,13 +202,13 @@ TEST(CertifiedOracle, ANarrowPeakIsProvenByCrossingIt) {
     double value = 0;
     OracleScene scene = peak(value);
     addTriangle(scene.mesh, {0.1, 0.1, 0.3}, {0.9, 0.2, 0.4}, {0.3, 0.9, 0.5});
-    const CertifiedTriangle triangle = ask(scene).triangles.front();
+    const JudgedTriangle triangle = ask(scene).triangles.front();
     EXPECT_EQ(triangle.certainty, Certainty::Certain);
     EXPECT_TRUE(triangle.crossing);
     EXPECT_NEAR(triangle.witness[0], (value / 32 + 0.5) / 8, 1e-12);
-    const std::vector<CertifiedCell> cells = take(certifiedCells(scene.pair(), 0));
+    const std::vector<JudgedCell> cells = take(certifiedCells(scene.pair(), 0));
     EXPECT_FALSE(cells.empty());
-    for (const CertifiedCell& cell : cells) {
+    for (const JudgedCell& cell : cells) {
         EXPECT_EQ(cell.cell[0], 3);
         EXPECT_EQ(cell.certainty, Certainty::Certain);
     }
@@ -276,7 +276,7 @@ TEST(CertifiedOracle, ObliqueGrid) {
     const CertifiedOracle above = shifted(1e-6);
     ASSERT_EQ(above.certainty, Certainty::Certain);
     EXPECT_NEAR(above.triangles[0].witness[0], (kIsoPlane + 1e-6 + 0.5) / 8, 1e-12);
-    for (const CertifiedCell& cell : take(certifiedCells(scene.pair(), 0))) {
+    for (const JudgedCell& cell : take(certifiedCells(scene.pair(), 0))) {
         EXPECT_EQ(cell.cell[0], 3);
     }
 }
@@ -311,7 +311,7 @@ TEST(CertifiedOracle, HugeCoordinatesAreUndecidedOrOutside) {
     EXPECT_EQ(oracle.triangles[1].certainty, Certainty::None);
     scene.world_from_object[0] = std::numeric_limits<double>::max();
     scene.world_from_object[4] = -std::numeric_limits<double>::max();
-    for (const CertifiedTriangle& triangle : ask(scene).triangles) {
+    for (const JudgedTriangle& triangle : ask(scene).triangles) {
         EXPECT_EQ(triangle.certainty, Certainty::Undecided);
     }
     EXPECT_EQ(take(certifiedCells(scene.pair(), 0)).size(), 125U);

@@ -10,11 +10,11 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::certified::Cell;
-using cpu::certified::Corners;
-using cpu::certified::Field;
-using cpu::certified::Opacity;
-using cpu::certified::Polygon;
+using oracle::certified::Cell;
+using oracle::certified::Corners;
+using oracle::certified::Field;
+using oracle::certified::Opacity;
+using oracle::certified::Polygon;
 
 using Weights = std::array<double, 3>;
 
@@ -162,16 +162,16 @@ TEST(CertifiedParts, SlabsOfATriangleAddUpToIt) {
         const Polygon whole(corners.begin(), corners.end());
         double sum = 0;
         for (int x = 0; x < 4; ++x) {
-            const Polygon part = cpu::certified::slab(whole, 0, x / 4.0, (x + 1) / 4.0);
+            const Polygon part = oracle::certified::slab(whole, 0, x / 4.0, (x + 1) / 4.0);
             for (int y = 0; y < 3; ++y) {
-                sum += area(cpu::certified::slab(part, 1, y / 3.0, (y + 1) / 3.0));
+                sum += area(oracle::certified::slab(part, 1, y / 3.0, (y + 1) / 3.0));
             }
         }
         EXPECT_NEAR(sum, area(whole), 1e-12);
-        const auto halves = cpu::certified::halves(corners);
+        const auto halves = oracle::certified::halves(corners);
         for (const Corners& half : halves) {
             EXPECT_NEAR(area({half.begin(), half.end()}), area(whole) / 2, 1e-12);
-            EXPECT_LE(cpu::certified::longestEdge(half), cpu::certified::longestEdge(corners));
+            EXPECT_LE(oracle::certified::longestEdge(half), oracle::certified::longestEdge(corners));
         }
     }
 }

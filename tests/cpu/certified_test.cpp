@@ -21,7 +21,7 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::Certainty;
+using oracle::Certainty;
 using testing::HasSubstr;
 
 /// Triangles against volumes, in all parts together.
@@ -41,7 +41,7 @@ struct Share {
     std::size_t possible = 0;
     std::size_t undecided = 0;
 
-    void add(const EngineSays& engine, const cpu::CertifiedOracle& oracle) {
+    void add(const EngineSays& engine, const oracle::CertifiedOracle& oracle) {
         ++cases;
         hits += engine.pair.hit ? 1U : 0U;
         possible += engine.pair.possible ? 1U : 0U;
@@ -57,7 +57,7 @@ std::ostream& operator<<(std::ostream& out, const Share& share) {
 /// A mesh in a face of the domain is in it or not by rounding alone, and no engine can say.
 class Tally {
   public:
-    void add(const CertifiedCase& c, const EngineSays& engine, const cpu::CertifiedOracle& oracle) {
+    void add(const CertifiedCase& c, const EngineSays& engine, const oracle::CertifiedOracle& oracle) {
         kinds_[static_cast<std::size_t>(c.kind)].add(engine, oracle);
         (c.onset ? onset_ : elsewhere_).add(engine, oracle);
         if (c.farOrigin) {
@@ -88,7 +88,7 @@ class Tally {
 
 /// False: no answer, and there will be none for other cases.
 bool runCase(cpu::Detector& detector, std::uint64_t seed, std::uint64_t number, const CertifiedCase& c, Tally& tally) {
-    const Result<cpu::CertifiedOracle> oracle = cpu::certifiedOracle(c.scene.pair());
+    const Result<oracle::CertifiedOracle> oracle = oracle::certifiedOracle(c.scene.pair());
     const Result<EngineSays> engine = askEngine(detector, c);
     if (!oracle.ok() || !engine.ok()) {
         ADD_FAILURE() << "seed " << seed << ", case " << number << ": "
@@ -102,7 +102,7 @@ bool runCase(cpu::Detector& detector, std::uint64_t seed, std::uint64_t number, 
 }
 
 void describe(cpu::Detector& detector, const CertifiedCase& c) {
-    const Result<cpu::CertifiedOracle> oracle = cpu::certifiedOracle(c.scene.pair());
+    const Result<oracle::CertifiedOracle> oracle = oracle::certifiedOracle(c.scene.pair());
     const Result<EngineSays> engine = askEngine(detector, c);
     if (!oracle.ok() || !engine.ok()) {
         return;
@@ -202,7 +202,7 @@ TEST(CertifiedExtremes, APoseBeyondFloatsIsNotCalledACertainMiss) {
                 corner[axis] = 0;
             }
             addTriangle(c.scene.mesh, corners[0], corners[1], corners[2]);
-            const cpu::CertifiedOracle oracle = take(cpu::certifiedOracle(c.scene.pair()));
+            const oracle::CertifiedOracle oracle = take(oracle::certifiedOracle(c.scene.pair()));
             EXPECT_EQ(oracle.certainty, Certainty::Certain);
             EXPECT_EQ(complaints(take(askEngine(detector, c)), oracle, {}), "");
         }
@@ -214,7 +214,7 @@ TEST(CertifiedExtremes, WhatDependsOnDenormalsIsPossible) {
         cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
     for (const DenormalScene& denormal : denormalScenes()) {
         SCOPED_TRACE(denormal.name);
-        const cpu::CertifiedOracle oracle = take(cpu::certifiedOracle(denormal.scene.scene.pair()));
+        const oracle::CertifiedOracle oracle = take(oracle::certifiedOracle(denormal.scene.scene.pair()));
         EXPECT_EQ(oracle.certainty, Certainty::Certain);
         const EngineSays says = take(askEngine(detector, denormal.scene));
         EXPECT_EQ(complaints(says, oracle, {}), "");
@@ -252,8 +252,8 @@ INSTANTIATE_TEST_SUITE_P(Parts, Certified, testing::Range<std::size_t>(0, kParts
 
 /// What an honest engine says of a pair whose triangles the oracle finds to be: certain, none, undecided.
 struct Trial {
-    cpu::CertifiedOracle oracle{Certainty::Certain,
-                                {{Certainty::Certain, {}, false}, {}, {Certainty::Undecided, {}, false}}};
+    oracle::CertifiedOracle oracle{Certainty::Certain,
+                                   {{Certainty::Certain, {}, false}, {}, {Certainty::Undecided, {}, false}}};
     std::vector<CellCount> cells{{3, 4}, {0, 0}, {0, 2}};
     EngineSays engine{{.hit = true, .count = 5, .method = CountingMethod::Cpu, .projection = Projection::Conservative},
                       {{.pair = 0, .triangle = 0, .count = 4}, {.pair = 0, .triangle = 2, .count = 1}}};
@@ -352,7 +352,7 @@ TEST(CertifiedJudge, ComplainsOfWrongCounts) {
 }
 
 /// An engine that finds what the oracle is certain of.
-EngineSays honest(const cpu::CertifiedOracle& oracle, const std::vector<CellCount>& cells) {
+EngineSays honest(const oracle::CertifiedOracle& oracle, const std::vector<CellCount>& cells) {
     EngineSays out{{.method = CountingMethod::Cpu, .projection = Projection::Conservative}, {}};
     for (std::uint32_t triangle = 0; triangle < cells.size(); ++triangle) {
         if (cells[triangle].certain > 0) {
@@ -376,7 +376,7 @@ TEST(CertifiedJudge, NoticesWhatIsForgedInRandomCases) {
     for (std::uint64_t number = 0; number < 1000; ++number) {
         SCOPED_TRACE("case " + std::to_string(number));
         const CertifiedCase c = makeCertifiedCase(seed, number);
-        const cpu::CertifiedOracle oracle = cpu::certifiedOracle(c.scene.pair()).value();
+        const oracle::CertifiedOracle oracle = oracle::certifiedOracle(c.scene.pair()).value();
         const std::vector<CellCount> cells = countCells(c);
         const EngineSays good = honest(oracle, cells);
         EXPECT_EQ(complaints(good, oracle, cells), "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A volume edited in place is the volume that is created from the edited voxels.
-#include "core/edit_rows.h"
-#include "core/voxel_value.h"
+#include "core/volume/edit_rows.h"
+#include "core/volume/voxel_value.h"
 #include "cpu/engine_fixture.h"
 #include "cpu/random_scene.h"
 #include "cpu/scene/scene_impl.h"

@@ -6,7 +6,7 @@
 
 #include "cpu/engine_fixture.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gtest/gtest.h>
 

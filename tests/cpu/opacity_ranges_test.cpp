@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What opacities a range of entry coordinates has, against the table's piecewise linear opacity in double: "may" is
 // never false for what is, "certainly" never true for what is not, to the last bit of the threshold.
-#include "core/table_extremes.h"
+#include "core/transfer/table_extremes.h"
 #include "opacity_ranges.h"
 #include "support/scenes.h"
 

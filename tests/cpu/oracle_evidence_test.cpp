@@ -13,12 +13,12 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::Doubt;
-using cpu::Evidence;
-using cpu::oracleEvidence;
-using cpu::OracleFragment;
-using cpu::oracleSurvivors;
-using cpu::Tolerance;
+using oracle::Doubt;
+using oracle::Evidence;
+using oracle::oracleEvidence;
+using oracle::OracleFragment;
+using oracle::oracleSurvivors;
+using oracle::Tolerance;
 
 constexpr Tolerance kNearZero{1e-9, 1e-9, 0};
 
@@ -215,7 +215,7 @@ TEST(OracleEvidence, AgreesWithTheSurvivorsEverywhere) {
     std::mt19937 random(testSeed(4711));
     for (int round = 0; round < 6; ++round) {
         const OracleScene scene = awkwardScene(random, 60, 24);
-        const cpu::OraclePair pair = scene.pair();
+        const oracle::OraclePair pair = scene.pair();
         const std::vector<OracleFragment> survivors = oracleSurvivors(pair).value();
         std::vector<OracleFragment> all;
         for (std::uint32_t triangle = 0; triangle < 60; ++triangle) {
@@ -239,7 +239,7 @@ TEST(OracleEvidence, AgreesWithTheSurvivorsEverywhere) {
 
 /// Every fragment on which the oracle and the other disagree must be in doubt. Returns how many there are.
 std::size_t expectDoubtWhereTheyDiffer(const OracleScene& scene, const Tolerance& tolerance, std::mt19937& random) {
-    const cpu::OraclePair pair = scene.pair();
+    const oracle::OraclePair pair = scene.pair();
     const std::vector<OracleFragment> mine = oracleSurvivors(pair).value();
     const std::vector<OracleFragment> others = otherSurvivors(pair, tolerance, random);
     std::vector<OracleFragment> differing;

@@ -12,7 +12,7 @@ namespace voxtact::test {
 
 namespace {
 
-using cpu::OracleFragment;
+using oracle::OracleFragment;
 
 struct Vertex {
     float clip[4];
@@ -27,7 +27,7 @@ struct Corner {
 
 class Other {
   public:
-    Other(const cpu::OraclePair& pair, const cpu::Tolerance& tolerance, std::mt19937& random)
+    Other(const oracle::OraclePair& pair, const oracle::Tolerance& tolerance, std::mt19937& random)
         : pair_(pair), tolerance_(tolerance), random_(random), table_(sampleTable(pair.transferFunction).value()),
           clip_from_object_(multiply(pair.view.clip_from_world, pair.world_from_object)),
           texture_from_object_(multiply(textureFromWorld(pair.volume.grid).value(), pair.world_from_object)) {}
@@ -224,8 +224,8 @@ class Other {
         return a + weight * (table_[static_cast<std::size_t>(below) + 1] - a);
     }
 
-    const cpu::OraclePair& pair_;
-    cpu::Tolerance tolerance_;
+    const oracle::OraclePair& pair_;
+    oracle::Tolerance tolerance_;
     std::mt19937& random_;
     std::vector<float> table_;
     Mat4 clip_from_object_;
@@ -235,8 +235,8 @@ class Other {
 
 } // namespace
 
-std::vector<cpu::OracleFragment> otherSurvivors(const cpu::OraclePair& pair, const cpu::Tolerance& tolerance,
-                                                std::mt19937& random) {
+std::vector<oracle::OracleFragment> otherSurvivors(const oracle::OraclePair& pair, const oracle::Tolerance& tolerance,
+                                                   std::mt19937& random) {
     return Other(pair, tolerance, random).survivors();
 }
 

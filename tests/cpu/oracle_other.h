@@ -11,7 +11,7 @@ namespace voxtact::test {
 /// Another honest rasteriser, written apart from the oracle: single precision, no clipping at the sides of the view
 /// volume, and as wrong as the tolerance allows: corners, weights and values are off at random. Returns the survivors,
 /// sorted.
-std::vector<cpu::OracleFragment> otherSurvivors(const cpu::OraclePair& pair, const cpu::Tolerance& tolerance,
-                                                std::mt19937& random);
+std::vector<oracle::OracleFragment> otherSurvivors(const oracle::OraclePair& pair, const oracle::Tolerance& tolerance,
+                                                   std::mt19937& random);
 
 } // namespace voxtact::test

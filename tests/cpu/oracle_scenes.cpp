@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oracle_scenes.h"
 
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <cmath>
 #include <cstdio>

@@ -21,7 +21,7 @@ struct OracleScene {
     Mat4 world_from_object = identity();
     double threshold = 0.5;
 
-    [[nodiscard]] cpu::OraclePair pair() const {
+    [[nodiscard]] oracle::OraclePair pair() const {
         return {mesh.view(), volume.view(), {points, domain, tableSize}, view, world_from_object, threshold};
     }
 };

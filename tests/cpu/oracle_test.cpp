@@ -12,11 +12,11 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::Doubt;
-using cpu::Evidence;
-using cpu::oracleEvidence;
-using cpu::OracleFragment;
-using cpu::oracleSurvivors;
+using oracle::Doubt;
+using oracle::Evidence;
+using oracle::oracleEvidence;
+using oracle::OracleFragment;
+using oracle::oracleSurvivors;
 using testing::HasSubstr;
 
 VolumeData opaqueImage() {

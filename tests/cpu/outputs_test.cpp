@@ -90,7 +90,7 @@ struct Judged {
 };
 
 /// The engine's weights are exact.
-constexpr cpu::Tolerance kEngine{.weight = 0};
+constexpr oracle::Tolerance kEngine{.weight = 0};
 
 /// Whether a triangle goes far beyond the viewport, or behind the eye. The engine cuts it at its guard band, and what
 /// single precision makes of a cut there is more than the oracle's tolerance of a corner.
@@ -111,17 +111,17 @@ bool reachesFar(const RandomScene& scene, std::uint32_t triangle) {
 }
 
 /// All pixels of a triangle that has another count than the oracle's.
-Judged judge(const cpu::OraclePair& pair, std::uint32_t triangle) {
-    std::vector<cpu::OracleFragment> fragments;
+Judged judge(const oracle::OraclePair& pair, std::uint32_t triangle) {
+    std::vector<oracle::OracleFragment> fragments;
     for (std::uint32_t y = 0; y < pair.view.height; ++y) {
         for (std::uint32_t x = 0; x < pair.view.width; ++x) {
             fragments.push_back({triangle, x, y});
         }
     }
     Judged judged;
-    for (const cpu::Evidence& evidence : take(cpu::oracleEvidence(pair, fragments, kEngine))) {
-        judged.certain += evidence.doubt == cpu::Doubt::None && evidence.survives ? 1U : 0U;
-        judged.doubtful += evidence.doubt != cpu::Doubt::None ? 1U : 0U;
+    for (const oracle::Evidence& evidence : take(oracle::oracleEvidence(pair, fragments, kEngine))) {
+        judged.certain += evidence.doubt == oracle::Doubt::None && evidence.survives ? 1U : 0U;
+        judged.doubtful += evidence.doubt != oracle::Doubt::None ? 1U : 0U;
     }
     return judged;
 }
@@ -134,10 +134,10 @@ TEST(CpuOutputs, TrianglesAreTheOracles) {
         const std::uint64_t seed = random();
         std::mt19937_64 local(seed);
         const RandomScene scene = oracleScene(local, 48, 40);
-        const cpu::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
-                                   scene.view,        scene.poses[0],      scene.threshold};
+        const oracle::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
+                                      scene.view,        scene.poses[0],      scene.threshold};
         std::map<std::uint32_t, std::uint64_t> counts;
-        for (const cpu::OracleFragment& fragment : take(cpu::oracleSurvivors(pair))) {
+        for (const oracle::OracleFragment& fragment : take(oracle::oracleSurvivors(pair))) {
             --counts[fragment.triangle];
         }
         std::map<std::uint32_t, std::uint64_t> mine;
@@ -179,15 +179,15 @@ TEST(CpuOutputs, LabelsAreThoseOfTheOraclesFragments) {
                     << "scene " << seed;
             }
         }
-        const cpu::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
-                                   scene.view,        scene.poses[0],      scene.threshold};
-        const std::vector<cpu::OracleFragment> fragments = take(cpu::oracleSurvivors(pair));
+        const oracle::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
+                                      scene.view,        scene.poses[0],      scene.threshold};
+        const std::vector<oracle::OracleFragment> fragments = take(oracle::oracleSurvivors(pair));
         std::map<std::int32_t, std::int64_t> more;
         std::uint64_t doubtful = 0;
-        for (const cpu::Evidence& each : take(cpu::oracleEvidence(pair, fragments, kEngine))) {
+        for (const oracle::Evidence& each : take(oracle::oracleEvidence(pair, fragments, kEngine))) {
             const Vec3 world = transformPoint(worldFromTexture(scene.volume.grid), each.coordinate);
             --more[host.labels.values[labelAt(host.labels, world)]];
-            doubtful += each.doubt == cpu::Doubt::None ? 0U : 1U;
+            doubtful += each.doubt == oracle::Doubt::None ? 0U : 1U;
         }
         if (doubtful > fragments.size() / 100) {
             continue; // the threshold is where much of the volume is

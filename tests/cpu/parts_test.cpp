@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What the engine is made of: opaque sets, occupancy, row spans, clusters.
-#include "core/clusters.h"
-#include "core/opaque_ranges.h"
-#include "core/pair_transform.h"
+#include "core/geometry/clusters.h"
+#include "core/geometry/pair_transform.h"
+#include "core/transfer/opaque_ranges.h"
 #include "cpu/engine_fixture.h"
 #include "cpu/random_scene.h"
 #include "cpu/raster/occupancy.h"
 #include "cpu/raster/row_spans.h"
 #include "cpu/raster/scalar_sample.h"
 #include "cpu/thread_pool.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <atomic>

@@ -5,7 +5,7 @@
 #include "cpu/random_scene.h"
 #include "cpu/raster/reference.h"
 #include "oracle/oracle.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
@@ -125,14 +125,14 @@ TEST(Projections, DominantAxisIsTheOracleUpToRounding) {
         desc.samplesPerVoxel = randomSamples(local, scene.volume.grid);
         const auto counts = engineCounts(scene, desc, {});
         for (std::size_t i = 0; i < counts.size(); ++i) {
-            const std::size_t oracle = take(cpu::oracleSurvivors({scene.mesh.view(),
-                                                                  scene.volume.view(),
-                                                                  scene.transferFunction(),
-                                                                  {},
-                                                                  scene.poses[i],
-                                                                  scene.threshold,
-                                                                  Projection::DominantAxis,
-                                                                  desc.samplesPerVoxel}))
+            const std::size_t oracle = take(oracle::oracleSurvivors({scene.mesh.view(),
+                                                                     scene.volume.view(),
+                                                                     scene.transferFunction(),
+                                                                     {},
+                                                                     scene.poses[i],
+                                                                     scene.threshold,
+                                                                     Projection::DominantAxis,
+                                                                     desc.samplesPerVoxel}))
                                            .size();
             const std::uint64_t difference =
                 std::max<std::uint64_t>(counts[i], oracle) - std::min<std::uint64_t>(counts[i], oracle);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/random_scene.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <cmath>

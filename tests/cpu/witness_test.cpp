@@ -16,7 +16,7 @@ namespace voxtact::test {
 namespace {
 
 std::vector<Contact> contactsOf(const OracleScene& scene) {
-    const cpu::OraclePair pair = scene.pair();
+    const oracle::OraclePair pair = scene.pair();
     const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
     const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
@@ -88,7 +88,7 @@ TEST(Witness, IsAsOpaqueAsTheThresholdInEveryCase) {
                 for (double& coordinate : at) {
                     coordinate = std::clamp(coordinate, 0.0, 1.0);
                 }
-                EXPECT_NEAR(contact.value, cpu::oracle::sampleVolume(image, at), 0.01 * width + 1e-5 * terms);
+                EXPECT_NEAR(contact.value, oracle::sampleVolume(image, at), 0.01 * width + 1e-5 * terms);
             }
             ++contacts;
         }

@@ -32,13 +32,13 @@ class VolkUnderFaults {
 };
 
 std::string makeDevice(Play& play, bool validate) {
-    const app::VulkanInstance instance =
-        play.askFirst("VulkanInstance::create", [&] { return app::VulkanInstance::create({.validate = validate}); });
-    const std::vector<app::PhysicalDevice> devices =
+    const device::VulkanInstance instance =
+        play.askFirst("VulkanInstance::create", [&] { return device::VulkanInstance::create({.validate = validate}); });
+    const std::vector<device::PhysicalDevice> devices =
         play.askFirst("VulkanInstance::devices", [&] { return instance.devices(); });
-    const app::PhysicalDevice chosen = play.quietly([&] { return app::chooseDevice(devices, {}); });
-    const app::VulkanDevice device =
-        play.askFirst("VulkanDevice::create", [&] { return app::VulkanDevice::create(instance, chosen); });
+    const device::PhysicalDevice chosen = play.quietly([&] { return device::chooseDevice(devices, {}); });
+    const device::VulkanDevice device =
+        play.askFirst("VulkanDevice::create", [&] { return device::VulkanDevice::create(instance, chosen); });
     const ContextDesc& desc = device.contextDesc();
     return device.physical().name + " " + std::to_string(devices.size()) + " " +
            std::to_string(desc.enabledInstanceExtensions.size()) + " " +

@@ -3,8 +3,7 @@
 #include "contact.h"
 #include "pretend_state.h"
 #include "shared.h"
-#include "voxtact/contact_result.h"
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
 
 #include <algorithm>
 #include <bit>

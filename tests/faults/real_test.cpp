@@ -22,7 +22,7 @@ class RealSweep : public GpuTest {
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        const app::VulkanDevice& device = gpu().device;
+        const device::VulkanDevice& device = gpu().device;
         table_.emplace(gpu().instance.getInstanceProcAddr(),
                        [&device] { device.table().vkDeviceWaitIdle(device.handle()); });
         below_.load(gpu().instance.getInstanceProcAddr(), gpu().instance.handle(), device.handle(), false);

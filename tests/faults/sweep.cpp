@@ -107,7 +107,7 @@ SweepReport sweep(const std::string& name, const std::function<Pass(const std::o
         judge(pass, clean, wrong);
         for (const std::string& text : wrong) {
             report.failures.push_back(name + ", call " + std::to_string(fault.call) + " " + pass.failed + " with " +
-                                      app::vkResultName(fault.result) + (fault.late ? " late: " : ": ") + text);
+                                      device::vkResultName(fault.result) + (fault.late ? " late: " : ": ") + text);
         }
     }
     return report;

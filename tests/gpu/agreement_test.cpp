@@ -3,8 +3,8 @@
 #include "gpu_fixture.h"
 #include "support/scenes.h"
 
-#include "voxtact/builtin.h"
 #include "voxtact/io.h"
+#include "voxtact/samples.h"
 
 #include <numeric>
 

@@ -6,8 +6,8 @@
 #include "cpu/denormal_scenes.h"
 #include "cpu/spike_scene.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
@@ -101,7 +101,7 @@ TEST_F(ConservativeTest, IsTheHostBitForBitOnRandomCases) {
     FewKindsOfImage few(ofEach);
     for (std::uint64_t number = 0; cases < wanted && !HasFailure(); ++number) {
         const CertifiedCase c = makeCertifiedCase(seed, number);
-        const cpu::OraclePair pair = c.scene.pair();
+        const oracle::OraclePair pair = c.scene.pair();
         if (!few.take(pair.volume)) {
             continue;
         }
@@ -233,7 +233,7 @@ TEST_F(ConservativeTest, TheWitnessOfASpikeIsTheHosts) {
     cpu::Detector host = take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = kOutputs}));
     for (const bool falling : {false, true}) {
         const SpikeScene spike = spikeScene(ScalarType::UInt8, falling, 0); // as head:48 a kind of image
-        const cpu::OraclePair pair = spike.scene.pair();
+        const oracle::OraclePair pair = spike.scene.pair();
         const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, true);
         const std::span poses(&pair.world_from_object, 1);
         const BatchItem item = sides.item(poses);
@@ -254,7 +254,7 @@ TEST_F(ConservativeTest, WhatDependsOnDenormalsIsPossible) {
     BlockingDetector device = detector(kDevice);
     cpu::Detector host = hostDetector();
     for (const DenormalScene& denormal : denormalScenes()) {
-        const cpu::OraclePair pair = denormal.scene.scene.pair();
+        const oracle::OraclePair pair = denormal.scene.scene.pair();
         const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, true);
         const std::span poses(&pair.world_from_object, 1);
         const BatchItem item = sides.item(poses);

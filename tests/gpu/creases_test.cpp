@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Meshes split at their creases. Needs no device.
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/render.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

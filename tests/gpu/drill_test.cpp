@@ -6,8 +6,8 @@
 #include "oracle/certified_oracle.h"
 #include "raw_vulkan.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 
 #include <iostream>
 
@@ -88,13 +88,13 @@ TEST_F(DrillTest, TheHitIsGoneWhenTheOracleSaysSo) {
         const PairAnswer onDevice = take(device.detect({{&item, 1}, {}, kDefaultThreshold})).pairs.at(0);
         const BatchAnswer onHost = take(host.detect({{&hostItem, 1}, {}, kDefaultThreshold}));
         const PairAnswer seen = take(samples.detect({{&item, 1}, view, kDefaultThreshold})).pairs.at(0);
-        const cpu::OraclePair pair{scalpel.view(), data.view(), table, view, pose, kDefaultThreshold};
-        const cpu::Certainty oracle = take(cpu::certifiedOracle(pair)).certainty;
+        const oracle::OraclePair pair{scalpel.view(), data.view(), table, view, pose, kDefaultThreshold};
+        const oracle::Certainty oracle = take(oracle::certifiedOracle(pair)).certainty;
 
         EXPECT_EQ(onDevice.count, onHost.pairs[0].count) << steps;
         EXPECT_EQ(onDevice.possible, onHost.pairs[0].possible) << steps;
-        if (oracle != cpu::Certainty::Undecided && !onDevice.possible) {
-            EXPECT_EQ(onDevice.hit, oracle == cpu::Certainty::Certain) << steps;
+        if (oracle != oracle::Certainty::Undecided && !onDevice.possible) {
+            EXPECT_EQ(onDevice.hit, oracle == oracle::Certainty::Certain) << steps;
         }
         // Samples see less than bounds, never more.
         EXPECT_TRUE(!seen.hit || onDevice.hit || onDevice.possible) << steps;

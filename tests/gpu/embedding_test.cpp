@@ -16,9 +16,9 @@ constexpr ValueRange kBytes{0, 255};
 class EmbeddingTest : public GpuTest {
   protected:
     /// A device of its own, as an embedder has.
-    app::VulkanDevice makeDevice() {
+    device::VulkanDevice makeDevice() {
         const auto devices = take(gpu().instance.devices());
-        return take(app::VulkanDevice::create(gpu().instance, take(app::chooseDevice(devices, {}))));
+        return take(device::VulkanDevice::create(gpu().instance, take(device::chooseDevice(devices, {}))));
     }
 };
 
@@ -55,7 +55,7 @@ struct Scene {
 };
 
 TEST_F(EmbeddingTest, ACommandBufferThatAlreadyHoldsOtherWork) {
-    const app::VulkanDevice device = makeDevice();
+    const device::VulkanDevice device = makeDevice();
     const Context context = take(Context::create(device.contextDesc()));
     RawVulkan raw(device);
     for (const MethodSupport& support : context.methods()) {
@@ -88,7 +88,7 @@ TEST_F(EmbeddingTest, ACommandBufferThatAlreadyHoldsOtherWork) {
 }
 
 TEST_F(EmbeddingTest, OneCommandBufferSubmittedTwice) {
-    const app::VulkanDevice device = makeDevice();
+    const device::VulkanDevice device = makeDevice();
     const Context context = take(Context::create(device.contextDesc()));
     RawVulkan raw(device);
     Scene scene(context);
@@ -108,7 +108,7 @@ TEST_F(EmbeddingTest, OneCommandBufferSubmittedTwice) {
 }
 
 TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
-    const app::VulkanDevice device = makeDevice();
+    const device::VulkanDevice device = makeDevice();
     const Context context = take(Context::create(device.contextDesc()));
     RawVulkan raw(device);
 
@@ -182,7 +182,7 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
 TEST_F(EmbeddingTest, FramesInFlightAreReadWithoutAStall) {
     constexpr std::uint32_t kFrames = 3;
     constexpr std::uint64_t kTotal = 12;
-    const app::VulkanDevice device = makeDevice();
+    const device::VulkanDevice device = makeDevice();
     const Context context = take(Context::create(device.contextDesc()));
     RawVulkan raw(device);
     Scene scene(context);
@@ -231,9 +231,10 @@ TEST_F(EmbeddingTest, FramesInFlightAreReadWithoutAStall) {
 
 TEST_F(EmbeddingTest, TwoContextsInOneProcess) {
     // Two instances, two devices, used in turn.
-    const app::VulkanInstance instance = take(app::VulkanInstance::create({.validate = true}));
+    const device::VulkanInstance instance = take(device::VulkanInstance::create({.validate = true}));
     const auto devices = take(instance.devices());
-    const app::VulkanDevice other = take(app::VulkanDevice::create(instance, take(app::chooseDevice(devices, {}))));
+    const device::VulkanDevice other =
+        take(device::VulkanDevice::create(instance, take(device::chooseDevice(devices, {}))));
     const Context otherContext = take(Context::create(other.contextDesc()));
     const Context* contexts[] = {&context(), &otherContext};
     const QueueAccess queues[] = {queue(), other.queueAccess()};
@@ -328,7 +329,7 @@ TEST_F(EmbeddingTest, TheCallersAllocatorAndLogAreUsed) {
     callbacks.pfnFree = &countedFree;
     std::vector<std::string> lines;
     {
-        const app::VulkanDevice device = makeDevice();
+        const device::VulkanDevice device = makeDevice();
         ContextDesc desc = device.contextDesc();
         desc.allocator = &callbacks;
         desc.logUser = &lines;

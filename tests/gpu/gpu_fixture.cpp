@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu_fixture.h"
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 
 #include <cstring>
 #include <optional>
@@ -12,19 +12,19 @@ namespace {
 bool requireDevice = false; // set once by main()
 
 Result<TestDevice> makeDevice() {
-    Result<app::VulkanInstance> instance = app::VulkanInstance::create({.validate = true});
+    Result<device::VulkanInstance> instance = device::VulkanInstance::create({.validate = true});
     if (!instance.ok()) {
         return instance.error();
     }
-    const Result<std::vector<app::PhysicalDevice>> devices = instance->devices();
+    const Result<std::vector<device::PhysicalDevice>> devices = instance->devices();
     if (!devices.ok()) {
         return devices.error();
     }
-    const Result<app::PhysicalDevice> chosen = app::chooseDevice(*devices, {});
+    const Result<device::PhysicalDevice> chosen = device::chooseDevice(*devices, {});
     if (!chosen.ok()) {
         return chosen.error();
     }
-    Result<app::VulkanDevice> device = app::VulkanDevice::create(*instance, *chosen);
+    Result<device::VulkanDevice> device = device::VulkanDevice::create(*instance, *chosen);
     if (!device.ok()) {
         return device.error();
     }

@@ -10,8 +10,8 @@ namespace voxtact::test {
 
 /// A device with validation and synchronization validation on, shared by the tests of one process.
 struct TestDevice {
-    app::VulkanInstance instance;
-    app::VulkanDevice device;
+    device::VulkanInstance instance;
+    device::VulkanDevice device;
     Context context;
     QueueAccess queue;
 };

@@ -3,14 +3,14 @@
 // by fragment.
 #include "gpu_fixture.h"
 
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 #include "cpu/random_scene.h"
 #include "lab/engines/trace.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
 #include "voxtact/io.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <array>
@@ -124,25 +124,25 @@ class HostAgreementTest : public GpuTest {
                                          const std::string& which) {
         const BothSides sides(context(), queue(), scene);
         const BatchItem item{&sides.mesh, &sides.volume, &sides.function, std::span(&scene.poses[pose], 1)};
-        std::vector<cpu::OracleFragment> device;
+        std::vector<oracle::OracleFragment> device;
         for (const shader::TracedFragment& fragment :
              take(trace.survivors({std::span(&item, 1), scene.view, scene.threshold}))) {
             device.push_back({fragment.triangle, fragment.x, fragment.y});
         }
         std::ranges::sort(device);
-        const cpu::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
-                                   scene.view,        scene.poses[pose],   scene.threshold};
-        const std::vector<cpu::OracleFragment> oracle = take(cpu::oracleSurvivors(pair));
+        const oracle::OraclePair pair{scene.mesh.view(), scene.volume.view(), scene.transferFunction(),
+                                      scene.view,        scene.poses[pose],   scene.threshold};
+        const std::vector<oracle::OracleFragment> oracle = take(oracle::oracleSurvivors(pair));
         // What a clipped triangle covers twice differs too: the second of two equal fragments has no partner.
-        std::vector<cpu::OracleFragment> differing;
+        std::vector<oracle::OracleFragment> differing;
         std::ranges::set_symmetric_difference(device, oracle, std::back_inserter(differing));
-        cpu::Tolerance tolerance;
-        tolerance.value = scene.volume.type == ScalarType::UInt8 ? cpu::kEightBitFilterError : 0;
-        const std::vector<cpu::Evidence> evidence = take(cpu::oracleEvidence(pair, differing, tolerance));
+        oracle::Tolerance tolerance;
+        tolerance.value = scene.volume.type == ScalarType::UInt8 ? oracle::kEightBitFilterError : 0;
+        const std::vector<oracle::Evidence> evidence = take(oracle::oracleEvidence(pair, differing, tolerance));
         for (std::size_t i = 0; i < differing.size(); ++i) {
             ++reasons_[evidence[i].doubt];
             const bool oracles = std::ranges::binary_search(oracle, differing[i]);
-            EXPECT_NE(evidence[i].doubt, cpu::Doubt::None)
+            EXPECT_NE(evidence[i].doubt, oracle::Doubt::None)
                 << which << ": triangle " << differing[i].triangle << " at (" << differing[i].x << ", "
                 << differing[i].y << "), only " << (oracles ? "the oracle's" : "the device's") << "; edge "
                 << evidence[i].edgeDistance << " px, domain " << evidence[i].domainDistance << ", opacity "
@@ -155,12 +155,12 @@ class HostAgreementTest : public GpuTest {
     void report() const {
         std::cout << "survivors of the oracle: " << compared_;
         for (const auto& [doubt, count] : reasons_) {
-            std::cout << ", differ by " << cpu::toString(doubt) << ": " << count;
+            std::cout << ", differ by " << oracle::toString(doubt) << ": " << count;
         }
         std::cout << "\n";
     }
 
-    std::map<cpu::Doubt, std::uint64_t> reasons_;
+    std::map<oracle::Doubt, std::uint64_t> reasons_;
     std::uint64_t compared_ = 0;
 };
 

@@ -4,8 +4,8 @@
 #include "own_image.h"
 #include "render_fixture.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <array>
@@ -96,7 +96,7 @@ struct Frame {
 
 /// What one frame in flight has for itself.
 struct Slot {
-    Slot(const app::VulkanDevice& device, const Renderer& renderer)
+    Slot(const device::VulkanDevice& device, const Renderer& renderer)
         : image(device, kExtent), targets(take(RenderTargets::create(renderer, kExtent))) {}
 
     OwnImage image;

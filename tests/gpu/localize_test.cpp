@@ -8,8 +8,8 @@
 #include "lab/engines/trace.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/io.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <iostream>
@@ -51,7 +51,7 @@ class LocalizeTest : public GpuTest {
         const TransferFunction function = take(TransferFunction::upload(context(), queue(), scene.transferFunction()));
         const cpu::BrickOccupancy bricks(take(cpu::Volume::create(scene.volume.view())),
                                          take(cpu::TransferFunction::create(scene.transferFunction())), scene.threshold,
-                                         scene.volume.type == ScalarType::UInt8 ? cpu::kEightBitFilterError : 0);
+                                         scene.volume.type == ScalarType::UInt8 ? oracle::kEightBitFilterError : 0);
         const ObbTree tree = makeObbTree(scene.mesh.view());
         const LocalizeAids aids{&tree, [&bricks](const Box& box) { return bricks.mayBeOpaque(box); }};
         FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));

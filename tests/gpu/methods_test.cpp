@@ -2,7 +2,7 @@
 // Which methods a device can do, and the self-test.
 #include "gpu_fixture.h"
 #include "interception.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
@@ -19,10 +19,10 @@ using testing::HasSubstr;
 class MethodsTest : public GpuTest {
   protected:
     /// A second device, with features taken away.
-    app::VulkanDevice deviceWithout(const std::function<void(FeatureRequest&)>& adjust) {
+    device::VulkanDevice deviceWithout(const std::function<void(FeatureRequest&)>& adjust) {
         const auto devices = take(gpu().instance.devices());
-        const auto chosen = take(app::chooseDevice(devices, {}));
-        return take(app::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
+        const auto chosen = take(device::chooseDevice(devices, {}));
+        return take(device::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
     }
 };
 
@@ -37,7 +37,7 @@ TEST_F(MethodsTest, SelfTestTrustsEveryMethod) {
 }
 
 TEST_F(MethodsTest, QueryNeedsPreciseQueries) {
-    const app::VulkanDevice device =
+    const device::VulkanDevice device =
         deviceWithout([](FeatureRequest& request) { request.features2.features.occlusionQueryPrecise = VK_FALSE; });
     const Context context = take(Context::create(device.contextDesc()));
     EXPECT_FALSE(context.supports(CountingMethod::Query));
@@ -53,7 +53,7 @@ TEST_F(MethodsTest, QueryNeedsPreciseQueries) {
 }
 
 TEST_F(MethodsTest, AtomicNeedsFragmentStores) {
-    const app::VulkanDevice device =
+    const device::VulkanDevice device =
         deviceWithout([](FeatureRequest& request) { request.features2.features.fragmentStoresAndAtomics = VK_FALSE; });
     const Context context = take(Context::create(device.contextDesc()));
     EXPECT_FALSE(context.supports(CountingMethod::Atomic));
@@ -69,7 +69,7 @@ TEST_F(MethodsTest, AtomicNeedsFragmentStores) {
 }
 
 TEST_F(MethodsTest, ComputeNeedsInt64) {
-    const app::VulkanDevice device =
+    const device::VulkanDevice device =
         deviceWithout([](FeatureRequest& request) { request.features2.features.shaderInt64 = VK_FALSE; });
     const Context context = take(Context::create(device.contextDesc()));
     const Result<Detector> detector = Detector::create(context, {.method = CountingMethod::Compute});
@@ -147,7 +147,7 @@ TEST_F(MethodsTest, ConservativeNeedsIeeeFloats) {
 }
 
 TEST_F(MethodsTest, RequiredFeaturesAreNamedWhenMissing) {
-    const app::VulkanDevice device =
+    const device::VulkanDevice device =
         deviceWithout([](FeatureRequest& request) { request.vulkan13.dynamicRendering = VK_FALSE; });
     const Result<Context> context = Context::create(device.contextDesc());
     ASSERT_FALSE(context.ok());
@@ -179,7 +179,7 @@ TEST_F(MethodsTest, MeasuresTheChosenMethodsByTheChosenFilter) {
 }
 
 TEST_F(MethodsTest, MeasuresNothingThatIsNotThere) {
-    const app::VulkanDevice device =
+    const device::VulkanDevice device =
         deviceWithout([](FeatureRequest& request) { request.features2.features.fragmentStoresAndAtomics = VK_FALSE; });
     const Context context = take(Context::create(device.contextDesc()));
     constexpr std::array kMethods{CountingMethod::Query, CountingMethod::Atomic};

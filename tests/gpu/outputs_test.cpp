@@ -487,10 +487,10 @@ TEST_F(OutputsTest, LabelMapsOfAnotherContext) {
 
 TEST_F(OutputsTest, TheRasterMethodsNeedTheirFeatures) {
     const auto devices = take(gpu().instance.devices());
-    const auto chosen = take(app::chooseDevice(devices, {}));
+    const auto chosen = take(device::chooseDevice(devices, {}));
     const auto expectRefused = [&](const std::function<void(FeatureRequest&)>& adjust, const char* feature) {
-        const app::VulkanDevice device =
-            take(app::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
+        const device::VulkanDevice device =
+            take(device::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
         const Context context = take(Context::create(device.contextDesc()));
         const Result<Detector> query =
             Detector::create(context, {.method = CountingMethod::Query, .outputs = {.triangles = true}});

@@ -3,7 +3,7 @@
 
 namespace voxtact::test {
 
-OwnImage::OwnImage(const app::VulkanDevice& device, VkExtent2D extent)
+OwnImage::OwnImage(const device::VulkanDevice& device, VkExtent2D extent)
     : raw(device), extent_(extent),
       view_(raw.makeImage(VK_IMAGE_TYPE_2D, VK_FORMAT_R8G8B8A8_UNORM, {extent.width, extent.height, 1},
                           std::vector<std::byte>(bytes()), VK_IMAGE_LAYOUT_GENERAL,

@@ -9,7 +9,7 @@ namespace voxtact::test {
 /// An embedder's own image, in layout GENERAL, and the embedder's Vulkan code beside it.
 class OwnImage {
   public:
-    OwnImage(const app::VulkanDevice& device, VkExtent2D extent);
+    OwnImage(const device::VulkanDevice& device, VkExtent2D extent);
 
     [[nodiscard]] std::size_t bytes() const { return std::size_t{4} * extent_.width * extent_.height; }
     [[nodiscard]] Target target(RenderTargets& targets) const;

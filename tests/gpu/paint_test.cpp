@@ -3,7 +3,7 @@
 #include "gpu_fixture.h"
 #include "own_image.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
@@ -445,10 +445,10 @@ TEST_F(PaintRefusalTest, TrianglesThatCannotBe) {
 
 TEST_F(PaintRefusalTest, WithoutGeometryShader) {
     const auto devices = take(gpu().instance.devices());
-    const auto chosen = take(app::chooseDevice(devices, {}));
+    const auto chosen = take(device::chooseDevice(devices, {}));
     const auto adjust = [](FeatureRequest& request) { request.features2.features.geometryShader = VK_FALSE; };
-    const app::VulkanDevice device =
-        take(app::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
+    const device::VulkanDevice device =
+        take(device::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
     const Context context = take(Context::create(device.contextDesc()));
     const Renderer renderer = take(Renderer::create(context));
     const Result<PaintedTriangles> painted = PaintedTriangles::create(renderer, 7, {});

@@ -2,10 +2,10 @@
 // The outputs beside the counts in the projections that have no test of their own for them: two-view, dominant-axis.
 #include "gpu_fixture.h"
 
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 
 #include <map>
 

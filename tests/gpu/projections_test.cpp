@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The projections two-view and dominant-axis by every method: what they see that a view does not, counts that are known
 // beforehand, and what is refused.
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 #include "gpu/scene_impl.h"
 #include "gpu_fixture.h"
 #include "support/scenes.h"
 
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 

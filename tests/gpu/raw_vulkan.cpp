@@ -17,7 +17,7 @@ void must(VkResult result) {
 
 } // namespace
 
-RawVulkan::RawVulkan(const app::VulkanDevice& device) : device_(device), queue_(device.queueAccess().queue) {
+RawVulkan::RawVulkan(const device::VulkanDevice& device) : device_(device), queue_(device.queueAccess().queue) {
     VkCommandPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;

@@ -13,7 +13,7 @@ namespace voxtact::test {
 /// a device of its own. Everything ends with this object. Failures throw.
 class RawVulkan {
   public:
-    explicit RawVulkan(const app::VulkanDevice& device);
+    explicit RawVulkan(const device::VulkanDevice& device);
     RawVulkan(const RawVulkan&) = delete;
     RawVulkan& operator=(const RawVulkan&) = delete;
     ~RawVulkan();
@@ -53,7 +53,7 @@ class RawVulkan {
   private:
     VkDeviceMemory allocate(const VkMemoryRequirements& needs);
 
-    app::VulkanDevice device_;
+    device::VulkanDevice device_;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::vector<VkBuffer> buffers_;

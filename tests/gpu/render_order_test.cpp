@@ -3,7 +3,7 @@
 #include "own_image.h"
 #include "render_fixture.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <array>
 

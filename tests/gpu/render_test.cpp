@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures against a ray caster on the host.
 #include "render_scene.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 

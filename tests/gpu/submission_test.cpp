@@ -159,9 +159,9 @@ TEST_F(SubmissionTest, ADeviceThatNobodyCanWaitForCountsAsLost) {
     GTEST_SKIP() << "what is left to the device is a leak";
 #endif
     // A device of its own, which what cannot be destroyed is left to, and no validation layer, which would say so.
-    const app::VulkanInstance instance = take(app::VulkanInstance::create());
-    const app::PhysicalDevice physical = take(app::chooseDevice(take(instance.devices()), {}));
-    const app::VulkanDevice device = take(app::VulkanDevice::create(instance, physical));
+    const device::VulkanInstance instance = take(device::VulkanInstance::create());
+    const device::PhysicalDevice physical = take(device::chooseDevice(take(instance.devices()), {}));
+    const device::VulkanDevice device = take(device::VulkanDevice::create(instance, physical));
     Interception loader(instance.getInstanceProcAddr());
     faultyCall<&VolkDeviceTable::vkWaitForFences>(loader, device.table(), "vkWaitForFences");
     faultyCall<&VolkDeviceTable::vkQueueWaitIdle>(loader, device.table(), "vkQueueWaitIdle");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Transfer functions that change between the commands of one command buffer.
-#include "core/table_extremes.h"
+#include "core/transfer/table_extremes.h"
 #include "gpu/scene_impl.h"
 #include "gpu_fixture.h"
 #include "raw_vulkan.h"

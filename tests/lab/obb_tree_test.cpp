@@ -2,7 +2,7 @@
 // OBB trees: what the boxes hold, what the descent keeps, and meshes that have no directions of their own.
 #include "lab/engines/obb_tree.h"
 #include "support/scenes.h"
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gtest/gtest.h>
 

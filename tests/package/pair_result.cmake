@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# GLSLANG, CXX, SOURCE, SHADER, BUILD. pair_result.h means the same to GLSL (std430) and to C++: the offset of each
+# GLSLANG, CXX, SOURCE, SHADER, BUILD. device_results.h means the same to GLSL (std430) and to C++: the offset of each
 # member, and 24 bytes from one element of an array to the next.
 cmake_minimum_required(VERSION 3.22)
 include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
@@ -28,5 +28,5 @@ endforeach()
 if(step_output MATCHES "MemberDecorate [0-9]+\\(PairResult\\) ${index} ")
   message(FATAL_ERROR "PairResult has members that this test does not know:\n${step_output}")
 endif()
-file(WRITE "${BUILD}/pair_result.cpp" "#include \"voxtact/pair_result.h\"\n${asserts}")
+file(WRITE "${BUILD}/pair_result.cpp" "#include \"voxtact/device_results.h\"\n${asserts}")
 step("${CXX}" -std=c++20 -fsyntax-only "-I${SOURCE}/include" "${BUILD}/pair_result.cpp")

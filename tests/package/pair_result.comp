@@ -2,7 +2,7 @@
 // A caller's shader that reads the results on the device.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "voxtact/pair_result.h"
+#include "voxtact/device_results.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Results { PairResult results[]; };

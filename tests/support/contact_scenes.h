@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/answers.h"
-#include "voxtact/labels.h"
+#include "voxtact/data.h"
+#include "voxtact/results.h"
 
 #include <functional>
 #include <random>

@@ -2,8 +2,8 @@
 // Balls whose surface passes through voxel centres, or by them as closely as doubles can say: every voxel against sums
 // without rounding of another kind (Shewchuk, "Adaptive precision floating-point arithmetic", 1997) than those that
 // decide.
-#include "core/ball_rows.h"
-#include "core/exact_number.h"
+#include "core/base/exact_number.h"
+#include "core/volume/ball_rows.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sweep and prune against all pairs; boxes under a matrix.
 #include "support/scenes.h"
-#include "voxtact/broad_phase.h"
+#include "voxtact/data.h"
 
 #include <gmock/gmock.h>
 

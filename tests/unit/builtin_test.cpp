@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <gtest/gtest.h>
 

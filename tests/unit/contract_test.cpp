@@ -5,10 +5,10 @@
 #ifdef NDEBUG
 #undef NDEBUG
 #endif
-#include "core/live.h"
+#include "core/base/live.h"
 
-#include "core/enum_check.h"
-#include "core/voxel_value.h"
+#include "core/base/enum_check.h"
+#include "core/volume/voxel_value.h"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Spaces, grids, transfer functions, opaque ranges and the checks of host data.
-#include "core/boundary.h"
-#include "core/opaque_ranges.h"
-#include "core/pair_transform.h"
-#include "voxtact/answers.h"
+#include "core/geometry/pair_transform.h"
+#include "core/transfer/opaque_ranges.h"
+#include "core/volume/boundary.h"
+#include "voxtact/results.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which voxels an edit changes: boxes and balls against every voxel of the grid.
-#include "core/edit_rows.h"
+#include "core/volume/edit_rows.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Label maps: which labels there are, and which one a point has.
-#include "core/label_lookup.h"
+#include "core/volume/label_lookup.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/table_extremes.h"
+#include "core/transfer/table_extremes.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

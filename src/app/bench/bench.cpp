@@ -3,7 +3,7 @@
 
 #include "app/commands.h"
 #include "app/options/lab_run.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <CLI/CLI.hpp>
 

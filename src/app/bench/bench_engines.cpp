@@ -2,7 +2,7 @@
 #include "app/bench/bench.h"
 #include "app/options/inputs.h"
 #include "app/options/lab_run.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 namespace voxtact::app {
 
@@ -44,8 +44,8 @@ Result<std::vector<MeshPart>> loadBenchMeshes(const BenchOptions& options) {
 }
 
 /// The device's session; none, with a note, where there is no device and none was asked for.
-Result<std::optional<Session>> openBenchSession(const BenchOptions& options, BenchResult& result) {
-    Result<Session> session = openSession(options.device);
+Result<std::optional<device::Session>> openBenchSession(const BenchOptions& options, BenchResult& result) {
+    Result<device::Session> session = openSession(options.device);
     if (session.ok()) {
         return std::optional(std::move(*session));
     }
@@ -53,7 +53,7 @@ Result<std::optional<Session>> openBenchSession(const BenchOptions& options, Ben
         return session.error();
     }
     result.notes.push_back("no device: " + session.error().text);
-    return std::optional<Session>();
+    return std::optional<device::Session>();
 }
 
 } // namespace
@@ -70,11 +70,11 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
     }
     BenchResult result;
     result.volume = options.volumes.empty() ? defaultVolume(options.settings.mode) : options.volumes.front();
-    std::shared_ptr<const ValidationMessages> messages;
+    std::shared_ptr<const device::ValidationMessages> messages;
     {
-        const Result<std::optional<Session>> opened = openBenchSession(options, result);
+        const Result<std::optional<device::Session>> opened = openBenchSession(options, result);
         VOXTACT_TRY(opened);
-        const Session* session = opened->has_value() ? &**opened : nullptr;
+        const device::Session* session = opened->has_value() ? &**opened : nullptr;
         // What is on the device must end before the session.
         Result<VolumePart> volume = loadBenchVolume(options, result.volume);
         VOXTACT_TRY(volume);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
 #include "app/options/lab_run.h"
-#include "app/render/presets.h"
-#include "app/render/view.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/paper/paper.h"
 #include "lab/report/report.h"
 
@@ -33,13 +31,6 @@ Result<void> writeOutputs(const BenchOptions& options, const PaperResult& result
 Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
     PaperSettings settings = options.paperSettings;
     settings.load = loaders();
-    settings.camera = [](const Grid& grid, const Box& also, const VkExtent2D& size) {
-        return viewFrom({}, grid, also, size.width, size.height);
-    };
-    settings.worldBox = [](const Box& object, const Mat4& world_from_object) {
-        return worldBox(object, world_from_object);
-    };
-    settings.colours = plainColours();
     if (const Result<void> usable =
             checkReportPaths(options.output.path, options.report,
                              {{"--data", settings.data / "volumes"}, {"--data", settings.data / "meshes"}});
@@ -47,9 +38,9 @@ Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
         return usable.error();
     }
     PaperResult result;
-    std::shared_ptr<const ValidationMessages> messages;
+    std::shared_ptr<const device::ValidationMessages> messages;
     {
-        const Result<Session> session = openSession(options.device);
+        const Result<device::Session> session = openSession(options.device);
         VOXTACT_TRY(session);
         messages = session->instance.messages();
         result.machine.provenance = provenanceOf(parser);

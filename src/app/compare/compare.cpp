@@ -3,7 +3,7 @@
 #include "app/commands.h"
 #include "app/compare/compare_inputs.h"
 #include "app/options/lab_run.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/compare/output.h"
 #include "lab/report/report.h"
 
@@ -84,13 +84,13 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    std::optional<Session> session; // ends after what the scene has on it
+    std::optional<device::Session> session; // ends after what the scene has on it
     const Result<Scene> scene = readScene(options);
     VOXTACT_TRY(scene);
     CompareResult result;
-    std::shared_ptr<const ValidationMessages> messages;
+    std::shared_ptr<const device::ValidationMessages> messages;
     {
-        Result<Session> opened = openSession(options.device);
+        Result<device::Session> opened = openSession(options.device);
         VOXTACT_TRY(opened);
         session.emplace(std::move(*opened));
         messages = session->instance.messages();

@@ -2,7 +2,7 @@
 #include "app/compare/compare_inputs.h"
 
 #include "app/options/inputs.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/random_poses.h"
 #include "voxtact/io.h"
 

@@ -3,11 +3,11 @@
 
 #include "app/detect/detect_run.h"
 #include "app/detect/speed_cache.h"
-#include "core/method_table.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
 #include "lab/measure/host_speed.h"
-#include "voxtact/builtin.h"
 #include "voxtact/cpu.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ bool describes(const std::vector<MethodSpeed>& speeds, const Context& context, b
            (!host || rowOf(speeds.back().verdict.method).host);
 }
 
-Result<std::vector<MethodSpeed>> measureAll(const Session& session, std::optional<Filter> filter, bool host) {
+Result<std::vector<MethodSpeed>> measureAll(const device::Session& session, std::optional<Filter> filter, bool host) {
     const Result<MeasureScene> scene = makeMeasureScene();
     VOXTACT_TRY(scene);
     MeasureDesc desc;
@@ -86,7 +86,7 @@ std::string choiceNote(const MeasuredMethods& measured, const AutoLimits& limits
 
 } // namespace
 
-Result<MeasuredMethods> measuredMethods(const Session& session, std::optional<Filter> filter,
+Result<MeasuredMethods> measuredMethods(const device::Session& session, std::optional<Filter> filter,
                                         const DeviceChoice& choice) {
     const bool host = filter != Filter::Hardware;
     const CacheFolder folder(choice.cache);
@@ -117,7 +117,7 @@ std::optional<CountingMethod> fastest(std::span<const MethodSpeed> speeds, const
     return best == nullptr ? std::nullopt : std::optional(best->verdict.method);
 }
 
-Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits, const DeviceChoice& choice) {
+Result<AutoChoice> autoMethod(const device::Session& session, const AutoLimits& limits, const DeviceChoice& choice) {
     const Result<MeasuredMethods> measured = measuredMethods(session, limits.filter, choice);
     VOXTACT_TRY(measured);
     const VkExtent2D most = session.context.maxViewport();
@@ -133,7 +133,7 @@ Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits, 
     return AutoChoice{*method, measured->fresh ? choiceNote(*measured, limits, *method) : ""};
 }
 
-CountingMethod conservativeMethod(const Session& session, const AutoLimits& limits) {
+CountingMethod conservativeMethod(const device::Session& session, const AutoLimits& limits) {
     const VkPhysicalDeviceType type = session.device.physical().type;
     const bool gpu = type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU || type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
     const bool onDevice =

@@ -20,7 +20,7 @@ struct MeasuredMethods {
 
 /// From the cache folder of `choice`, or measured and, unless Vulkan is validated, put there. `filter`: nothing is each
 /// method's own; the host engine is not measured for hardware.
-[[nodiscard]] Result<MeasuredMethods> measuredMethods(const Session& session, std::optional<Filter> filter,
+[[nodiscard]] Result<MeasuredMethods> measuredMethods(const device::Session& session, std::optional<Filter> filter,
                                                       const DeviceChoice& choice);
 
 /// What a method must be able to do to be chosen.
@@ -40,12 +40,12 @@ struct AutoChoice {
 };
 
 /// fastest() of measuredMethods().
-[[nodiscard]] Result<AutoChoice> autoMethod(const Session& session, const AutoLimits& limits,
+[[nodiscard]] Result<AutoChoice> autoMethod(const device::Session& session, const AutoLimits& limits,
                                             const DeviceChoice& choice);
 
 /// For the projection conservative, which only compute and cpu do: the device where it is a GPU that can, or where the
 /// host may not be chosen.
-[[nodiscard]] CountingMethod conservativeMethod(const Session& session, const AutoLimits& limits);
+[[nodiscard]] CountingMethod conservativeMethod(const device::Session& session, const AutoLimits& limits);
 
 /// What to say when the host stands in because no device can be used.
 [[nodiscard]] std::string noDeviceNote(const Error& reason);

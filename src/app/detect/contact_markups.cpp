@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
-#include "core/text.h"
+#include "core/base/text.h"
 
 #include <nlohmann/json.hpp>
 

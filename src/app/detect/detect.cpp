@@ -6,8 +6,8 @@
 #include "app/options/output_paths.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
-#include "core/method_table.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
 
 #include <CLI/CLI.hpp>
 
@@ -55,7 +55,7 @@ AutoLimits autoLimits(const DetectOptions& options) {
     return {options.method.filter, options.view.size, host && options.method.filter != Filter::Hardware};
 }
 
-Result<AutoChoice> choose(const DetectOptions& options, const Session& session, const AutoLimits& limits) {
+Result<AutoChoice> choose(const DetectOptions& options, const device::Session& session, const AutoLimits& limits) {
     if (options.method.count) {
         return AutoChoice{*options.method.count, {}};
     }
@@ -90,7 +90,7 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
 
 /// By the device that the options name; by the host where they, or the want of a device, say so.
 Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs, std::vector<std::string>& notes,
-                        std::shared_ptr<const ValidationMessages>& messages, const UseEngine& answer) {
+                        std::shared_ptr<const device::ValidationMessages>& messages, const UseEngine& answer) {
     if (options.method.count && rowOf(*options.method.count).host) {
         if (!options.device.wanted.empty()) {
             notes.push_back("--device " + options.device.wanted +
@@ -100,7 +100,7 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
     }
     const AutoLimits limits = autoLimits(options);
     {
-        const Result<Session> session = openSession(options.device);
+        const Result<device::Session> session = openSession(options.device);
         if (session.ok()) {
             messages = session->instance.messages();
             const Result<AutoChoice> choice = choose(options, *session, limits);
@@ -138,7 +138,7 @@ Outcome runDetect(DetectOptions options) {
     Result<DetectOutput> output = DetectOutput::create(options, *inputs);
     VOXTACT_TRY(output);
     std::vector<std::string> notes; // to be said once all has gone well: an error is one line
-    std::shared_ptr<const ValidationMessages> messages;
+    std::shared_ptr<const device::ValidationMessages> messages;
     double milliseconds = 0;
     const Result<void> done = withEngine(options, *inputs, notes, messages, [&](PairEngine& engine) -> Result<void> {
         const Result<double> took = answerPairs(options, *inputs, engine, *output, notes);

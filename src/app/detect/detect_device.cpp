@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_engine.h"
 #include "app/options/inputs.h"
-#include "core/method_table.h"
-#include "core/try.h"
-#include "voxtact/contact_result.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
 #include "voxtact/detector.h"
+#include "voxtact/device_results.h"
 
 #include <algorithm>
 #include <optional>
@@ -54,8 +54,9 @@ struct DeviceScene {
 
 class DeviceEngine : public PairEngine {
   public:
-    DeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
-                 const DetectorDesc& desc, const DeviceScene& scene, PairPipeline& pipeline, std::uint32_t pairs)
+    DeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const device::Session& session,
+                 const DetectorDesc& desc, const DeviceScene& scene, device::PairPipeline& pipeline,
+                 std::uint32_t pairs)
         : options_(options), inputs_(inputs), session_(session), desc_(desc), scene_(scene), pipeline_(pipeline),
           shelf_(options.jobs, kMostVolumeBytes), pace_(pairs, options.batch.has_value() || options.timing) {}
 
@@ -77,10 +78,10 @@ class DeviceEngine : public PairEngine {
 
     const DetectOptions& options_;
     const DetectInputs& inputs_;
-    const Session& session_;
+    const device::Session& session_;
     const DetectorDesc& desc_;
     const DeviceScene& scene_;
-    PairPipeline& pipeline_;
+    device::PairPipeline& pipeline_;
     VolumeShelf<DeviceVolume> shelf_;
     DeviceVolume* volume_ = nullptr;
     BatchPace pace_;
@@ -118,7 +119,7 @@ Result<void> DeviceEngine::answer(const Window& window, WindowRows& rows, const 
                          &volume_->transferFunction, item.selected, scene_.labels ? &*scene_.labels : nullptr});
     }
     return pipeline_.run({items, volume_->view, options_.transferFunction.threshold},
-                         {.pair = [&](const TimedAnswer& timed) { rows.add(timed); },
+                         {.pair = [&](const device::TimedAnswer& timed) { rows.add(timed); },
                           .submission = [&](const BatchAnswer& answer) { rows.endBatch(answer); },
                           .stop = stop,
                           .pace = &pace_});
@@ -138,11 +139,11 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
 }
 
 /// Submissions so large, and so many of them, that the answers beside the counts keep within what they may take.
-PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& inputs) {
+device::PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& inputs) {
     const Outputs outputs = options.extra.outputs();
     const std::uint64_t contactBytes = outputs.contacts ? options.extra.contactRoom() * kBytesOfContact : 0;
     const bool oneAtATime = options.mostPairs() == 1 || contactBytes * kSubmissionsInFlight > kMostOutputBytes;
-    PipelineDesc desc;
+    device::PipelineDesc desc;
     desc.frames = oneAtATime ? 1 : kSubmissionsInFlight;
     desc.pairsPerSubmission = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         pairsPerBatch(options, inputs, desc.frames),
@@ -157,7 +158,8 @@ PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& in
     return desc;
 }
 
-Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs& inputs, const Session& session) {
+Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs& inputs,
+                                const device::Session& session) {
     DeviceScene scene;
     const QueueAccess queue = session.device.queueAccess();
     for (std::size_t i = 0; i < inputs.meshes.size(); ++i) {
@@ -177,7 +179,7 @@ Result<DeviceScene> uploadScene(const DetectOptions& options, const DetectInputs
 
 } // namespace
 
-Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const Session& session,
+Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs, const device::Session& session,
                               CountingMethod method, const UseEngine& answer) {
     if (usesView(*options.method.projection)) {
         VOXTACT_TRY(checkViewport(options.view.size, session.context.maxViewport(),
@@ -187,8 +189,9 @@ Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& 
     VOXTACT_TRY(detector);
     const Result<DeviceScene> scene = uploadScene(options, inputs, session);
     VOXTACT_TRY(scene);
-    const PipelineDesc desc = pipelineDescOf(options, inputs);
-    Result<PairPipeline> pipeline = PairPipeline::create(session.device, session.context, *detector, desc);
+    const device::PipelineDesc desc = pipelineDescOf(options, inputs);
+    Result<device::PairPipeline> pipeline =
+        device::PairPipeline::create(session.device, session.context, *detector, desc);
     if (!pipeline.ok()) {
         return blameContacts(pipeline.error(), options);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 
-#include "core/text.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_engine.h"
 #include "app/options/inputs.h"
-#include "core/batch_cutter.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/batch/batch_cutter.h"
 #include "voxtact/cpu.h"
 
 namespace voxtact::app {
@@ -91,7 +91,7 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
         const Result<BatchAnswer> answer =
             detector_.detect({items, volume_->view, options_.transferFunction.threshold});
         VOXTACT_TRY(answer);
-        TimedAnswer timed;
+        device::TimedAnswer timed;
         timed.gpuMilliseconds = 0;
         timed.wallMilliseconds = answer->wallMilliseconds / static_cast<double>(answer->pairs.size());
         for (const PairAnswer& pair : answer->pairs) {

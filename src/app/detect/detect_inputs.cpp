@@ -2,8 +2,8 @@
 #include "app/detect/detect_run.h"
 #include "app/options/inputs.h"
 #include "app/output/standard_streams.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "voxtact/io.h"
 
 namespace voxtact::app {

@@ -2,7 +2,7 @@
 #include "app/detect/detect_jobs.h"
 
 #include "app/output/text_for_messages.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <cerrno>

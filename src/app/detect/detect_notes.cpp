@@ -2,7 +2,7 @@
 #include "app/detect/detect_notes.h"
 
 #include "app/output/size_note.h"
-#include "voxtact/broad_phase.h"
+#include "voxtact/data.h"
 
 #include <algorithm>
 

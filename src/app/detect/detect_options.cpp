@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_run.h"
-#include "core/method_table.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
 
 #include <algorithm>
 

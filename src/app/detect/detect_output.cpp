@@ -4,7 +4,7 @@
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_table.h"
 #include "app/output/standard_streams.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/text/table.h"
 #include "voxtact/io.h"
 

@@ -7,7 +7,7 @@
 #include "app/options/shared_options.h"
 #include "app/output/output.h"
 #include "device/pair_pipeline.h"
-#include "voxtact/labels.h"
+#include "voxtact/data.h"
 
 #include <map>
 #include <optional>
@@ -75,7 +75,7 @@ struct DetectInputs {
 struct Row {
     std::uint32_t job = 0;
     std::uint64_t pose = 0; ///< number in its file
-    TimedAnswer timed;
+    device::TimedAnswer timed;
     std::uint64_t triangles = 0; ///< touched ones
     std::uint64_t contacts = 0;  ///< found, kept or not
     double depth = 0;            ///< of the deepest contact that was kept, mm

@@ -4,7 +4,7 @@
 #include "app/detect/detect_notes.h"
 #include "app/output/interrupt.h"
 #include "app/output/progress.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <chrono>
 

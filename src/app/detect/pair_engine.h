@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/detect/window_rows.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <functional>
@@ -37,7 +37,8 @@ class PairEngine {
 /// Calls `answer` for an engine of the session's device, or of the host (no Vulkan). What it was made of ends with it.
 using UseEngine = std::function<Result<void>(PairEngine&)>;
 [[nodiscard]] Result<void> withDeviceEngine(const DetectOptions& options, const DetectInputs& inputs,
-                                            const Session& session, CountingMethod method, const UseEngine& answer);
+                                            const device::Session& session, CountingMethod method,
+                                            const UseEngine& answer);
 [[nodiscard]] Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& inputs,
                                           const UseEngine& answer);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_window.h"
 
-#include "core/try.h"
-#include "voxtact/broad_phase.h"
+#include "core/base/try.h"
+#include "voxtact/data.h"
 
 #include <algorithm>
 #include <chrono>

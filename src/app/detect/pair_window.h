@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/detect/detect_run.h"
-#include "core/batch_pace.h"
+#include "core/batch/batch_pace.h"
 
 /// The pairs of the jobs in order, a bounded number at a time, and which of them are put to an engine.
 namespace voxtact::app {

@@ -2,7 +2,7 @@
 #include "app/detect/pose_source.h"
 
 #include "app/output/outcome.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <iostream>

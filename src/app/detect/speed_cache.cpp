@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A home folder may be shared by machines with the same driver: these tell them apart as well as may be.
-Json machineOf(const PhysicalDevice& device) {
+Json machineOf(const device::PhysicalDevice& device) {
     return {{"device", device.name},
             {"driver", device.driver},
             {"vendor", device.vendor},
@@ -43,7 +43,7 @@ std::optional<MethodSpeed> fromJson(const Json& json) {
 
 } // namespace
 
-SpeedCache::SpeedCache(const CacheFolder& folder, const PhysicalDevice& device, std::optional<Filter> filter)
+SpeedCache::SpeedCache(const CacheFolder& folder, const device::PhysicalDevice& device, std::optional<Filter> filter)
     : folder_(folder), device_(device),
       name_("speeds-" + cacheKey(device) + "-" + (filter ? toString(*filter) : "default")) {}
 

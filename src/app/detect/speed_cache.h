@@ -13,7 +13,7 @@ namespace voxtact::app {
 class SpeedCache {
   public:
     /// Both must outlive it.
-    SpeedCache(const CacheFolder& folder, const PhysicalDevice& device, std::optional<Filter> filter);
+    SpeedCache(const CacheFolder& folder, const device::PhysicalDevice& device, std::optional<Filter> filter);
 
     /// Nothing where there is no file, or one that was written on another machine or cannot be understood.
     [[nodiscard]] std::optional<std::vector<MethodSpeed>> read() const;
@@ -21,7 +21,7 @@ class SpeedCache {
 
   private:
     const CacheFolder& folder_;
-    const PhysicalDevice& device_;
+    const device::PhysicalDevice& device_;
     std::string name_;
 };
 

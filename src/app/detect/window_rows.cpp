@@ -20,7 +20,7 @@ WindowRows::WindowRows(const DetectOptions& options, const Window& window, const
     }
 }
 
-void WindowRows::add(const TimedAnswer& timed) {
+void WindowRows::add(const device::TimedAnswer& timed) {
     const std::size_t row = firstRows_[timed.item] + window_.items[timed.item].numbers[timed.pose];
     rows_[row].timed = timed;
     if (options_.yesNo()) {

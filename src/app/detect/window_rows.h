@@ -14,7 +14,7 @@ class WindowRows {
     WindowRows(const DetectOptions& options, const Window& window, const PairAnswer& untouched, DetectOutput& output);
 
     /// The answer for a selected pose of an item; in order.
-    void add(const TimedAnswer& timed);
+    void add(const device::TimedAnswer& timed);
     /// The answers beside the counts of the pairs that were added since the last time. The rows up to the last of these
     /// are known now; with --timing they wait for the end of the window, so that no time is of writing them.
     void endBatch(const BatchAnswer& answer);

@@ -4,7 +4,7 @@
 #include "app/options/open_session.h"
 #include "app/options/output_paths.h"
 #include "app/version.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "voxtact/detector.h"
 
 #include <CLI/CLI.hpp>
@@ -41,7 +41,7 @@ struct DevicesOptions {
 };
 
 struct DeviceRow {
-    PhysicalDevice device;
+    device::PhysicalDevice device;
     bool standard = false;
     std::optional<MethodSpeed> speed; ///< nothing: the device cannot be used
     std::string reason;               ///< why not
@@ -55,8 +55,10 @@ struct Judgement {
 };
 
 /// The self-test is run each time, since it is what this command is asked for; speeds are remembered.
-Result<Judgement> judge(const VulkanInstance& instance, const PhysicalDevice& physical, const DeviceChoice& choice) {
-    const Result<Session> session = openSessionOn(instance, physical, pipelineStore(choice, physical), nullptr);
+Result<Judgement> judge(const device::VulkanInstance& instance, const device::PhysicalDevice& physical,
+                        const DeviceChoice& choice) {
+    const Result<device::Session> session =
+        device::openSessionOn(instance, physical, pipelineStore(choice, physical), nullptr);
     VOXTACT_TRY(session);
     Result<MeasuredMethods> measured = measuredMethods(*session, std::nullopt, choice);
     VOXTACT_TRY(measured);
@@ -73,14 +75,14 @@ Result<Judgement> judge(const VulkanInstance& instance, const PhysicalDevice& ph
     return Judgement{std::move(measured->speeds), chosen};
 }
 
-Result<std::vector<DeviceRow>> listDevices(const VulkanInstance& instance, const DeviceChoice& choice) {
-    const Result<std::vector<PhysicalDevice>> devices = instance.devices();
+Result<std::vector<DeviceRow>> listDevices(const device::VulkanInstance& instance, const DeviceChoice& choice) {
+    const Result<std::vector<device::PhysicalDevice>> devices = instance.devices();
     VOXTACT_TRY(devices);
-    const Result<PhysicalDevice> standard = chooseDevice(*devices, "");
-    const Result<PhysicalDevice> chosen = chooseDevice(*devices, choice.wanted);
+    const Result<device::PhysicalDevice> standard = device::chooseDevice(*devices, "");
+    const Result<device::PhysicalDevice> chosen = device::chooseDevice(*devices, choice.wanted);
     VOXTACT_TRY(chosen);
     std::vector<DeviceRow> rows;
-    for (const PhysicalDevice& device : *devices) {
+    for (const device::PhysicalDevice& device : *devices) {
         if (!choice.wanted.empty() && device.index != chosen->index) {
             continue;
         }
@@ -105,9 +107,9 @@ io::Cell cellOf(const DeviceRow& row, std::size_t column) {
     case 1:
         return row.device.name;
     case 2:
-        return std::string(deviceTypeName(row.device.type));
+        return std::string(device::deviceTypeName(row.device.type));
     case 3:
-        return apiVersionText(row.device.apiVersion);
+        return device::apiVersionText(row.device.apiVersion);
     case 4:
         return row.device.driver;
     case 5:
@@ -135,9 +137,10 @@ Outcome runDevices(const DevicesOptions& options) {
         return writable.error();
     }
     std::vector<DeviceRow> rows;
-    std::shared_ptr<const ValidationMessages> messages;
+    std::shared_ptr<const device::ValidationMessages> messages;
     {
-        const Result<VulkanInstance> instance = VulkanInstance::create({.validate = options.device.validate});
+        const Result<device::VulkanInstance> instance =
+            device::VulkanInstance::create({.validate = options.device.validate});
         VOXTACT_TRY(instance);
         messages = instance->messages();
         Result<std::vector<DeviceRow>> listed = listDevices(*instance, options.device);

@@ -4,7 +4,7 @@
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
 #include "app/output/size_note.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/info/volume_info.h"
 
-#include "core/try.h"
-#include "core/voxel_visit.h"
+#include "core/base/try.h"
+#include "core/volume/voxel_visit.h"
 #include "lab/engines/opaque_cells.h"
-#include "voxtact/broad_phase.h"
+#include "voxtact/data.h"
 
 #include <algorithm>
 #include <array>

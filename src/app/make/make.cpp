@@ -3,8 +3,8 @@
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "lab/measure/random_poses.h"
 #include "voxtact/io.h"
 

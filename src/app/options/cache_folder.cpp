@@ -94,7 +94,7 @@ bool CacheFolder::write(const std::string& name, std::string_view content) const
     return written.ok();
 }
 
-std::string cacheKey(const PhysicalDevice& device) {
+std::string cacheKey(const device::PhysicalDevice& device) {
     std::string key;
     for (const std::uint8_t byte : device.pipelineCacheUuid) {
         key += hexadecimal(byte, 2);

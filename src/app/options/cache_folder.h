@@ -30,6 +30,6 @@ class CacheFolder {
 };
 
 /// What tells a device, its driver and this program from others, as part of a file's name.
-[[nodiscard]] std::string cacheKey(const PhysicalDevice& device);
+[[nodiscard]] std::string cacheKey(const device::PhysicalDevice& device);
 
 } // namespace voxtact::app

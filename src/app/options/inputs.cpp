@@ -4,8 +4,8 @@
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
 #include "app/output/text_for_messages.h"
-#include "voxtact/builtin.h"
 #include "voxtact/io.h"
+#include "voxtact/samples.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,6 @@
 
 #include "app/options/shared_options.h"
 #include "voxtact/data.h"
-#include "voxtact/labels.h"
 
 #include <map>
 #include <string>

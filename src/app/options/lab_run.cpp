@@ -4,7 +4,7 @@
 #include "app/options/inputs.h"
 #include "app/options/shared_options.h"
 #include "app/version.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/report/report.h"
 
 #include <CLI/CLI.hpp>

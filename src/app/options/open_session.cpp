@@ -2,22 +2,22 @@
 #include "app/options/open_session.h"
 
 #include "app/output/standard_streams.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 namespace voxtact::app {
 
-Result<Session> openSession(const DeviceChoice& choice) {
-    Result<VulkanInstance> instance = VulkanInstance::create({.validate = choice.validate});
+Result<device::Session> openSession(const DeviceChoice& choice) {
+    Result<device::VulkanInstance> instance = device::VulkanInstance::create({.validate = choice.validate});
     VOXTACT_TRY(instance);
-    const Result<std::vector<PhysicalDevice>> devices = instance->devices();
+    const Result<std::vector<device::PhysicalDevice>> devices = instance->devices();
     VOXTACT_TRY(devices);
-    const Result<PhysicalDevice> chosen = chooseDevice(*devices, choice.wanted);
+    const Result<device::PhysicalDevice> chosen = device::chooseDevice(*devices, choice.wanted);
     VOXTACT_TRY(chosen);
-    return openSessionOn(*instance, *chosen, pipelineStore(choice, *chosen),
-                         [](void*, const char* text) { printNote(text); });
+    return device::openSessionOn(*instance, *chosen, pipelineStore(choice, *chosen),
+                                 [](void*, const char* text) { printNote(text); });
 }
 
-PipelineStore pipelineStore(const DeviceChoice& choice, const PhysicalDevice& device) {
+device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device) {
     const CacheFolder folder(choice.cache);
     if (!folder.on()) {
         return {};
@@ -27,7 +27,7 @@ PipelineStore pipelineStore(const DeviceChoice& choice, const PhysicalDevice& de
             [folder, name](std::string_view blob) { folder.write(name, blob); }};
 }
 
-Outcome validationOutcome(const ValidationMessages& messages) {
+Outcome validationOutcome(const device::ValidationMessages& messages) {
     const std::vector<std::string> all = messages.all();
     if (all.empty()) {
         return {};

@@ -8,11 +8,11 @@
 namespace voxtact::app {
 
 /// On the device that the user chose. The context's warnings are printed as notes.
-[[nodiscard]] Result<Session> openSession(const DeviceChoice& choice);
+[[nodiscard]] Result<device::Session> openSession(const DeviceChoice& choice);
 /// Where the user wants a device's pipelines to be kept.
-[[nodiscard]] PipelineStore pipelineStore(const DeviceChoice& choice, const PhysicalDevice& device);
+[[nodiscard]] device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device);
 
 /// Once everything made on the instance has ended: exit status 3 with the first message, if there was any.
-[[nodiscard]] Outcome validationOutcome(const ValidationMessages& messages);
+[[nodiscard]] Outcome validationOutcome(const device::ValidationMessages& messages);
 
 } // namespace voxtact::app

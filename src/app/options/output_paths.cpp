@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/output_paths.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,7 +2,7 @@
 #include "app/options/shared_options.h"
 
 #include "app/output/text_for_messages.h"
-#include "core/domain.h"
+#include "core/geometry/domain.h"
 
 #include <CLI/CLI.hpp>
 
@@ -257,10 +257,9 @@ void addTexts(CLI::App& parser, const char* option,
     parser.add_option_function<std::vector<std::string>>(option, parse, help)->type_name(type)->allow_extra_args(false);
 }
 
-void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
+void addName(CLI::App& parser, const char* option, std::string& name, const std::vector<const char*>& names,
              const std::string& help) {
-    const std::vector<const char*> known(names);
-    const auto parse = [option, &name, known](const std::string& text) {
+    const auto parse = [option, &name, known = names](const std::string& text) {
         if (std::find(known.begin(), known.end(), text) == known.end()) {
             std::string all;
             for (const char* one : known) {

@@ -92,7 +92,7 @@ void addDegrees(CLI::App& parser, const char* option, std::optional<double>& val
 /// A colour RRGGBB, as an option; each channel then from 0 to 1.
 void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help);
 /// One of `names`, as an option.
-void addName(CLI::App& parser, const char* option, std::string& name, std::initializer_list<const char*> names,
+void addName(CLI::App& parser, const char* option, std::string& name, const std::vector<const char*>& names,
              const std::string& help);
 /// An option whose texts, of which there may be several, `use` takes one after the other, in their order; it says what
 /// is wrong with one that it cannot use.

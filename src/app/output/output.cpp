@@ -3,7 +3,7 @@
 
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "voxtact/io.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/text/table.h"
-#include "voxtact/result.h"
+#include "voxtact/error.h"
 
 #include <filesystem>
 #include <functional>

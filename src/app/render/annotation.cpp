@@ -4,7 +4,7 @@
 #include "app/draw/text.h"
 #include "app/render/legend.h"
 #include "app/render/orientation.h"
-#include "core/text.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 #include <cmath>

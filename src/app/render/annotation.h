@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/draw/canvas.h"
-#include "app/render/view.h"
+#include "voxtact/looks.h"
 #include "voxtact/render.h"
 
 #include <optional>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/inputs.h"
 
-#include "app/render/presets.h"
-#include "core/text.h"
+#include "core/base/text.h"
+#include "voxtact/looks.h"
 
 #include <cmath>
 #include <filesystem>
@@ -90,7 +90,8 @@ Annotation annotationOf(const RenderOptions& options, const RenderInputs& inputs
     annotation.title = title(options, inputs);
     annotation.swatches = swatches(options);
     annotation.clip_from_world = inputs.clip_from_world;
-    const bool hounsfield = !options.preset.empty() && isHounsfield(options.preset);
+    const LookPreset* preset = findLookPreset(options.preset);
+    const bool hounsfield = preset != nullptr && preset->hounsfield;
     Legend legend;
     legend.unit = hounsfield ? "HU" : "value";
     if (window) {

@@ -5,7 +5,7 @@
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
 #include "app/render/orientation.h"
-#include "core/text.h"
+#include "core/base/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/render/view.h"
+#include "voxtact/looks.h"
 #include "voxtact/render.h"
 
 #include <optional>

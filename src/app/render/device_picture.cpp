@@ -4,7 +4,7 @@
 #include "app/detect/detect_run.h"
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ struct RenderObjects {
     ShowObjects show{};
 };
 
-Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inputs, const Session& session,
+Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inputs, const device::Session& session,
                           RenderObjects& objects) {
     const QueueAccess queue = session.device.queueAccess();
     const Renderer& renderer = objects.renderer.renderer();
@@ -44,7 +44,8 @@ Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inpu
     return {};
 }
 
-Result<RenderObjects> uploadObjects(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
+Result<RenderObjects> uploadObjects(const RenderOptions& options, const RenderInputs& inputs,
+                                    const device::Session& session) {
     const QueueAccess queue = session.device.queueAccess();
     Result<BlockingRenderer> renderer = BlockingRenderer::create(session.context, queue);
     VOXTACT_TRY(renderer);
@@ -103,7 +104,7 @@ std::vector<SceneMesh> sceneMeshes(const RenderOptions& options, const RenderInp
 
 } // namespace
 
-Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs, const Session& session) {
+Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs, const device::Session& session) {
     VOXTACT_TRY(checkViewport(options.view.size, session.context.maxViewport(), "the device"));
     Result<RenderObjects> objects = uploadObjects(options, inputs, session);
     VOXTACT_TRY(objects);

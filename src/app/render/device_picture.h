@@ -8,6 +8,6 @@ namespace voxtact::app {
 
 /// The volume and the meshes in it, by ray casting on the device.
 [[nodiscard]] Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs,
-                                       const Session& session);
+                                       const device::Session& session);
 
 } // namespace voxtact::app

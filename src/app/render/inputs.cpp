@@ -3,10 +3,10 @@
 
 #include "app/options/inputs.h"
 #include "app/output/standard_streams.h"
-#include "app/render/presets.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "voxtact/io.h"
+#include "voxtact/looks.h"
 
 #include <algorithm>
 #include <iterator>
@@ -50,12 +50,22 @@ Result<void> readVolume(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
+/// The smallest box that holds two.
+Box around(const Box& a, const Box& b) {
+    Box out = a;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out.lo[axis] = std::min(a.lo[axis], b.lo[axis]);
+        out.hi[axis] = std::max(a.hi[axis], b.hi[axis]);
+    }
+    return out;
+}
+
 /// Round all meshes at all poses.
 std::optional<Box> boxOfMeshes(const RenderInputs& inputs) {
     std::optional<Box> all;
     for (const Box& bounds : inputs.bounds) {
         for (const Mat4& pose : inputs.poses) {
-            const Box box = worldBox(bounds, pose);
+            const Box box = transformBox(pose, bounds);
             all = all ? around(*all, box) : box;
         }
     }
@@ -77,7 +87,7 @@ Result<void> setCamera(const RenderOptions& options, RenderInputs& inputs) {
     const ViewFrame all{0, 0, static_cast<double>(size.width), static_cast<double>(size.height)};
     const Box2 room = inputs.room ? inputs.room->frame : Box2{};
     const ViewFrame frame = inputs.room ? ViewFrame{room.left, room.top, room.right, room.bottom} : all;
-    const Direction direction = inputs.slice ? inputs.slice->direction : directionOf(options);
+    const ViewDirection direction = inputs.slice ? inputs.slice->direction : directionOf(options);
     inputs.clip_from_world =
         viewFrom(direction, inputs.volume.grid, boxOfMeshes(inputs), size.width, size.height, frame);
     return {};
@@ -88,8 +98,8 @@ Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
         std::optional<Box> first;
         if (!inputs.bounds.empty()) {
             // The part of it that is in the volume, if there is one.
-            const Box mesh = worldBox(inputs.bounds.front(), inputs.poses.front());
-            const Box volume = worldBox(inputs.volume.grid);
+            const Box mesh = transformBox(inputs.poses.front(), inputs.bounds.front());
+            const Box volume = transformBox(worldFromTexture(inputs.volume.grid), {{0, 0, 0}, {1, 1, 1}});
             first = mesh;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 first->lo[axis] = std::clamp(mesh.lo[axis], volume.lo[axis], volume.hi[axis]);
@@ -110,7 +120,8 @@ Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
 /// Air is at -1000: where nothing is below -200 the numbers are others.
 void noteOtherUnits(const RenderOptions& options, const ValueRange& values) {
     constexpr double kLeast = -200;
-    if (!options.preset.empty() && isHounsfield(options.preset) && values.lo > kLeast) {
+    const LookPreset* preset = findLookPreset(options.preset);
+    if (preset != nullptr && preset->hounsfield && values.lo > kLeast) {
         printNote("--preset " + options.preset +
                   " is in Hounsfield units, in which air is -1000; the volume's values, " + number(values.lo) + " to " +
                   number(values.hi) + ", are others: --opacity and --transfer-function say what is seen");
@@ -128,10 +139,11 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
         inputs.colours = std::move(*colours);
     }
     noteOtherUnits(options, inputs.values);
-    Look look = options.preset.empty() ? Look{defaultRamp(inputs.domain), plainColours()}
-                                       : lookNamed(options.preset, inputs.values);
-    inputs.colours = inputs.colours.empty() ? std::move(look.colours) : inputs.colours;
-    inputs.opacity = inputs.opacity.empty() ? std::move(look.opacity) : inputs.opacity;
+    Result<Look> look = options.preset.empty() ? Look{defaultRamp(inputs.domain), plainColours()}
+                                               : lookNamed(options.preset, inputs.values);
+    VOXTACT_TRY(look);
+    inputs.colours = inputs.colours.empty() ? std::move(look->colours) : inputs.colours;
+    inputs.opacity = inputs.opacity.empty() ? std::move(look->opacity) : inputs.opacity;
     return {};
 }
 

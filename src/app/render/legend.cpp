@@ -2,8 +2,8 @@
 #include "app/render/legend.h"
 
 #include "app/draw/text.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <cmath>

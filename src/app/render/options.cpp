@@ -3,8 +3,8 @@
 
 #include "app/options/output_paths.h"
 #include "app/render/annotation.h"
-#include "app/render/presets.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "voxtact/looks.h"
 
 #include <CLI/CLI.hpp>
 
@@ -80,8 +80,16 @@ void addPoseOption(CLI::App& parser, RenderOptions& options) {
         "which of --poses, from 0: a number, several like 0,3,5-9, or all; default: 0", "LIST");
 }
 
+std::vector<const char*> presetNames() {
+    std::vector<const char*> names;
+    for (const LookPreset& preset : lookPresets()) {
+        names.push_back(preset.name);
+    }
+    return names;
+}
+
 void addLookOptions(CLI::App& parser, RenderOptions& options) {
-    addName(parser, "--preset", options.preset, kPresets,
+    addName(parser, "--preset", options.preset, presetNames(),
             "colours, and the opacity where none is given: mr, mr-skin, mr-brain (fractions of the image's range), ct, "
             "ct-bone, ct-soft, ct-vessels, ct-lung (Hounsfield units)");
     addName(parser, "--lighting", options.lighting, {"soft", "eye", "none"},
@@ -234,8 +242,8 @@ bool isAnnotated(const RenderOptions& options) {
     return options.annotate.value_or(size.width >= kAnnotatedFrom && size.height >= kAnnotatedFrom);
 }
 
-Direction directionOf(const RenderOptions& options) {
-    const Direction asked{options.azimuth.value_or(0), options.elevation.value_or(0)};
+ViewDirection directionOf(const RenderOptions& options) {
+    const ViewDirection asked{options.azimuth.value_or(0), options.elevation.value_or(0)};
     return directionNamed(options.viewName).value_or(asked);
 }
 

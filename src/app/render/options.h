@@ -55,6 +55,6 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options);
 /// Whether the picture is annotated.
 [[nodiscard]] bool isAnnotated(const RenderOptions& options);
 /// Where the eye is, when no camera says it.
-[[nodiscard]] Direction directionOf(const RenderOptions& options);
+[[nodiscard]] ViewDirection directionOf(const RenderOptions& options);
 
 } // namespace voxtact::app

@@ -3,9 +3,9 @@
 #include "app/commands.h"
 #include "app/options/open_session.h"
 #include "app/render/device_picture.h"
-#include "app/render/presets.h"
-#include "core/try.h"
+#include "core/base/try.h"
 #include "voxtact/io.h"
+#include "voxtact/looks.h"
 
 #include <CLI/CLI.hpp>
 
@@ -30,8 +30,8 @@ ValueRange windowOf(const RenderOptions& options, const RenderInputs& inputs) {
     if (options.window) {
         return *options.window;
     }
-    const std::optional<ValueRange> preset = windowNamed(options.preset);
-    return preset ? *preset : usualWindow(inputs.volume.view(), inputs.values);
+    const LookPreset* preset = findLookPreset(options.preset);
+    return preset != nullptr && preset->window ? *preset->window : usualWindow(inputs.volume.view(), inputs.values);
 }
 
 Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& inputs, const ValueRange& window) {
@@ -71,9 +71,9 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
 
 /// On the device. The validation's messages are complete once everything on it has ended.
 Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& inputs, Outcome& invalid) {
-    std::shared_ptr<const ValidationMessages> messages;
+    std::shared_ptr<const device::ValidationMessages> messages;
     Result<Picture> picture = [&]() -> Result<Picture> {
-        const Result<Session> session = openSession(options.device);
+        const Result<device::Session> session = openSession(options.device);
         VOXTACT_TRY(session);
         messages = session->instance.messages();
         return renderOn(options, inputs, *session);

@@ -2,8 +2,8 @@
 #include "app/render/show.h"
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "voxtact/cpu.h"
 
 #include <CLI/CLI.hpp>
@@ -18,8 +18,8 @@ namespace {
 constexpr double kContactsThrough = 0.8;
 constexpr double kDiscardedThrough = 1;
 
-Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const Session& session, const Renderer& renderer,
-                             ShowObjects& objects) {
+Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const device::Session& session,
+                             const Renderer& renderer, ShowObjects& objects) {
     const Result<std::vector<std::vector<std::uint32_t>>> touching = touchingTriangles(pairs, progress);
     VOXTACT_TRY(touching);
     for (std::size_t i = 0; i < touching->size(); ++i) {
@@ -88,7 +88,7 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
 }
 
 Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs, bool progress,
-                                    const Session& session, const Renderer& renderer) {
+                                    const device::Session& session, const Renderer& renderer) {
     ShowObjects objects;
     if (options.what.empty()) {
         return objects;

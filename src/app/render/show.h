@@ -48,7 +48,7 @@ struct ShowObjects {
 
 /// Decides, and uploads.
 [[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs, bool progress,
-                                                  const Session& session, const Renderer& renderer);
+                                                  const device::Session& session, const Renderer& renderer);
 
 /// Of a mesh at a pose, by its number among all.
 [[nodiscard]] MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold,

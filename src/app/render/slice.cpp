@@ -4,9 +4,9 @@
 #include "app/draw/canvas.h"
 #include "app/options/shared_options.h"
 #include "app/output/outcome.h"
-#include "core/text.h"
-#include "core/try.h"
-#include "core/voxel_visit.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/volume/voxel_visit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr std::size_t kChannels = 4;
 
 struct Named {
     const char* name;
-    Direction direction; ///< as radiologists look: from the feet, the face, the left ear
+    ViewDirection direction; ///< as radiologists look: from the feet, the face, the left ear
     std::size_t axis;
 };
 constexpr Named kNamed[] = {{"axial", {0, -90}, 2}, {"coronal", {0, 0}, 1}, {"sagittal", {90, 0}, 0}};
@@ -241,7 +241,7 @@ std::optional<std::string> parseSlice(const std::string& text, SliceOption& slic
     return std::nullopt;
 }
 
-Result<SlicePlane> slicePlane(const SliceOption& slice, const Direction& view, const Grid& grid,
+Result<SlicePlane> slicePlane(const SliceOption& slice, const ViewDirection& view, const Grid& grid,
                               const std::optional<Box>& mesh) {
     const Named* one = named(slice.name);
     SlicePlane plane;

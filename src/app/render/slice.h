@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/render/annotation.h"
-#include "app/render/view.h"
+#include "voxtact/looks.h"
 #include "voxtact/render.h"
 
 #include <functional>
@@ -26,15 +26,15 @@ struct SliceOption {
 
 /// A plane of world space, as it is looked at.
 struct SlicePlane {
-    Direction direction; ///< whence
-    Vec3 towardsEye{};   ///< its normal, of unit length
-    double offset = 0;   ///< of its points along the normal
-    double shown = 0;    ///< the same as --slice takes it
+    ViewDirection direction; ///< whence
+    Vec3 towardsEye{};       ///< its normal, of unit length
+    double offset = 0;       ///< of its points along the normal
+    double shown = 0;        ///< the same as --slice takes it
 };
 
 /// `view`: where a slice `view` is looked at from. `mesh`: through its middle the slice goes where no place is given,
 /// if that is in the volume. Refuses a place outside of the volume.
-[[nodiscard]] Result<SlicePlane> slicePlane(const SliceOption& slice, const Direction& view, const Grid& grid,
+[[nodiscard]] Result<SlicePlane> slicePlane(const SliceOption& slice, const ViewDirection& view, const Grid& grid,
                                             const std::optional<Box>& mesh);
 
 /// A mesh at a pose, in a slice.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/brick_occupancy.h"
-#include "core/opaque_ranges.h"
+#include "core/transfer/opaque_ranges.h"
 #include "cpu/scene/scene_impl.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ BrickOccupancy::BrickOccupancy(const Volume& volume, const TransferFunction& fun
 bool BrickOccupancy::mayBeOpaque(const Box& texture) const noexcept {
     BrickBox bricks;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        // The padded number of the cell at a place: core/bricks.h.
+        // The padded number of the cell at a place: core/volume/bricks.h.
         const auto brick = [&](double place) {
             const double cell = std::floor(std::clamp(place, 0.0, static_cast<double>(size_[axis])));
             return static_cast<std::int32_t>(cell) >> kBrickShift;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/certified_occupancy.h"
-#include "core/certified_constants.h"
+#include "core/method/certified_constants.h"
 
 namespace voxtact::cpu {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/table_extremes.h"
+#include "core/transfer/table_extremes.h"
 #include "cpu/certified/certified_bricks.h"
 #include "cpu/raster/brick_sums.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/certified_pair.h"
-#include "core/clusters.h"
+#include "core/geometry/clusters.h"
 #include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/certified_run.h"
-#include "core/certified_constants.h"
+#include "core/method/certified_constants.h"
 #include "cpu/certified/certified_pair.h"
 #include "cpu/outputs.h"
 #include "cpu/tasks.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/raster/count_run.h"
-#include "core/method_table.h"
-#include "core/pair_transform.h"
-#include "core/projection.h"
+#include "core/geometry/pair_transform.h"
+#include "core/geometry/projection.h"
+#include "core/method/method_table.h"
 #include "cpu/outputs.h"
 #include "cpu/pair_job.h"
 #include "cpu/tasks.h"

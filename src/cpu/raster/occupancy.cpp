@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/raster/occupancy.h"
-#include "core/pair_transform.h"
+#include "core/geometry/pair_transform.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/raster/reference.h"
-#include "core/method_table.h"
-#include "core/pair_transform.h"
-#include "core/projection.h"
-#include "core/voxel_visit.h"
+#include "core/geometry/pair_transform.h"
+#include "core/geometry/projection.h"
+#include "core/method/method_table.h"
+#include "core/volume/voxel_visit.h"
 #include "cpu/scene/stored_voxels.h"
 #include "dominant.h"
 

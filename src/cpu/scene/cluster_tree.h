@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/clusters.h"
+#include "core/geometry/clusters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "cpu/scene/scene_impl.h"
 #include "cpu/scene/stored_voxels.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/edit_rows.h"
-#include "core/guard.h"
-#include "core/try.h"
-#include "core/voxel_value.h"
+#include "core/base/guard.h"
+#include "core/base/try.h"
+#include "core/volume/edit_rows.h"
+#include "core/volume/voxel_value.h"
 #include "cpu/scene/scene_impl.h"
 
 namespace voxtact::cpu {

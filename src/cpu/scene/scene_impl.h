@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/clusters.h"
+#include "core/geometry/clusters.h"
 #include "cpu/scene/cluster_tree.h"
 #include "cpu/scene/stored_image.h"
 #include "voxtact/cpu.h"

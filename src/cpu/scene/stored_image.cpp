@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/scene/stored_image.h"
-#include "core/voxel_visit.h"
+#include "core/volume/voxel_visit.h"
 #include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>

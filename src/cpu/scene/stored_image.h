@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/bricks.h"
-#include "core/edit_rows.h"
+#include "core/volume/bricks.h"
+#include "core/volume/edit_rows.h"
 #include "voxtact/data.h"
 
 #include <array>

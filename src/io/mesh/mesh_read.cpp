@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/polygon.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/guard.h"
+#include "core/base/guard.h"
 #include "io/errors.h"
 #include "voxtact/io.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/text/table.h"
 
-#include "core/text.h"
+#include "core/base/text.h"
 
 #include <nlohmann/json.hpp>
 

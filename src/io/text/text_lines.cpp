@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/text/text_lines.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/errors.h"
 
 #include <charconv>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_data_set.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/byte_source.h"
 #include "io/errors.h"
 #include "io/volume/dicom_stream.h"

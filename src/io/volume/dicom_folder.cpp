@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_folder.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/errors.h"
 #include "io/volume/dicom_stack.h"
 #include "io/volume/dicom_values.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/volume/stored_image.h"
-#include "voxtact/result.h"
+#include "voxtact/error.h"
 
 #include <filesystem>
 #include <string>

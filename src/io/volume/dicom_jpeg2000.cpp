@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_codecs.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <cstring>

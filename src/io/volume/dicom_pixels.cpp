@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_pixels.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/byte_source.h"
 #include "io/errors.h"
 #include "io/volume/dicom_codecs.h"

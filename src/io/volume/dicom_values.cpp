@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_values.h"
 
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "io/volume/dicom_pixels.h"
 
 #include <algorithm>

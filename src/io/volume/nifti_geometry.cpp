@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/text.h"
+#include "core/base/text.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/errors.h"
 #include "io/volume/nifti_header.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "io/volume/nrrd_header.h"

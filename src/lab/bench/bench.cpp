@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/bench/bench.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/random_poses.h"
 #include "lab/measure/rounds.h"
 #include "lab/measure/stopwatch.h"
@@ -134,8 +134,8 @@ std::span<const char* const> kindsOf(BenchMode mode) {
 }
 
 /// The sets of poses of a mesh: verified, then timed.
-Result<void> benchMesh(const BenchSettings& settings, const VolumePart& volume, MeshPart& mesh, const Session* session,
-                       const std::function<void()>& step, BenchResult& result) {
+Result<void> benchMesh(const BenchSettings& settings, const VolumePart& volume, MeshPart& mesh,
+                       const device::Session* session, const std::function<void()>& step, BenchResult& result) {
     VOXTACT_TRY(makeReady(session, mesh));
     const Result<Engines> engines = makeBenchEngines(settings.mode, volume, mesh, session);
     VOXTACT_TRY(engines);
@@ -205,7 +205,7 @@ std::vector<std::string> defaultMeshes(BenchMode mode) {
     return {kMeshes.begin(), kMeshes.begin() + (mode == BenchMode::Outputs ? 1 : kMeshes.size())};
 }
 
-Result<void> bench(const BenchSettings& settings, const Session* session, VolumePart& volume,
+Result<void> bench(const BenchSettings& settings, const device::Session* session, VolumePart& volume,
                    std::vector<MeshPart> meshes, const Steps& steps, BenchResult& result) {
     if (settings.mode == BenchMode::Outputs) {
         volume.labels = octants(volume.data.grid);

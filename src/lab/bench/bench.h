@@ -61,11 +61,11 @@ struct BenchResult {
 /// host's yes or no on one thread, the second the host's count; for outputs the first is the host's count in the view,
 /// the second the host's in the projection conservative. `session` may be null: no engines of a device.
 [[nodiscard]] Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
-                                               const Session* session);
+                                               const device::Session* session);
 
 /// Engines side by side on each of the meshes, checked and timed, in the view. The volume and the meshes are made
 /// ready; `session` may be null, and must outlive the parts. `result` has the machine.
-[[nodiscard]] Result<void> bench(const BenchSettings& settings, const Session* session, VolumePart& volume,
+[[nodiscard]] Result<void> bench(const BenchSettings& settings, const device::Session* session, VolumePart& volume,
                                  std::vector<MeshPart> meshes, const Steps& steps, BenchResult& result);
 
 void writeBench(std::ostream& out, io::Format format, const BenchSettings& settings, const BenchResult& result);

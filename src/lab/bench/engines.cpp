@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/bench/bench.h"
 
 #include <array>
@@ -36,7 +36,8 @@ Result<void> addHostOutputs(Engines& engines) {
 }
 
 /// Projections of a method of the device, and then the outputs in one of them.
-Result<void> addDeviceOutputs(const Session& session, CountingMethod method, Projection withOutputs, Engines& engines) {
+Result<void> addDeviceOutputs(const device::Session& session, CountingMethod method, Projection withOutputs,
+                              Engines& engines) {
     DetectorDesc desc{.method = method, .filter = defaultFilter(method)};
     const std::size_t view = engines.size();
     std::size_t bare = view;
@@ -56,7 +57,8 @@ Result<void> addDeviceOutputs(const Session& session, CountingMethod method, Pro
     return {};
 }
 
-Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const Session* session, Engines& engines) {
+Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const device::Session* session,
+                          Engines& engines) {
     constexpr Projection kCertified = Projection::Conservative;
     for (const cpu::DetectorDesc& desc :
          {cpu::DetectorDesc{.threads = 1, .stopAtFirst = true, .projection = kCertified},
@@ -81,7 +83,7 @@ Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const 
     return {};
 }
 
-Result<void> addOutputs(const Session* session, Engines& engines) {
+Result<void> addOutputs(const device::Session* session, Engines& engines) {
     VOXTACT_TRY(addHostOutputs(engines));
     constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
         {CountingMethod::Query, Projection::View},
@@ -100,7 +102,7 @@ Result<void> addOutputs(const Session* session, Engines& engines) {
 } // namespace
 
 Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
-                                 const Session* session) {
+                                 const device::Session* session) {
     Engines engines;
     const Result<void> added =
         mode == BenchMode::Outputs ? addOutputs(session, engines) : addCertified(volume, mesh, session, engines);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/agreement.h"
 
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 #include "lab/measure/numbers.h"
 
 #include <algorithm>

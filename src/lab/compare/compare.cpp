@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/compare.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/numbers.h"
 
 #include <algorithm>
@@ -79,7 +79,8 @@ const Verdict* CompareResult::firstFailure() const {
     return found == verdicts.end() ? nullptr : &*found;
 }
 
-Result<Engines> makeMethodEngines(const Session& session, const CompareSettings& settings, CompareResult& result) {
+Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
+                                  CompareResult& result) {
     Engines engines;
     std::map<CountingMethod, std::string> reasons;
     static_cast<void>(availableMethods(
@@ -117,8 +118,8 @@ Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& wo
     return all;
 }
 
-Result<void> compare(const CompareSettings& settings, const Scene& scene, const Session& session, const Steps& steps,
-                     CompareResult& result) {
+Result<void> compare(const CompareSettings& settings, const Scene& scene, const device::Session& session,
+                     const Steps& steps, CompareResult& result) {
     VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
     result.poseNumbers = scene.poseNumbers;
     result.triangles = scene.mesh->triangles();

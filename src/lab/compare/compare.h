@@ -75,19 +75,19 @@ struct CompareResult {
 
 /// The same pairs by every method: verified first, then timed, unless a verdict failed and the run is not to go on.
 /// `result` has the machine.
-[[nodiscard]] Result<void> compare(const CompareSettings& settings, const Scene& scene, const Session& session,
+[[nodiscard]] Result<void> compare(const CompareSettings& settings, const Scene& scene, const device::Session& session,
                                    const Steps& steps, CompareResult& result);
 
 /// An engine for each method that is wanted and can be had; the others are told in `result`. Unsupported where there is
 /// none.
-[[nodiscard]] Result<Engines> makeMethodEngines(const Session& session, const CompareSettings& settings,
+[[nodiscard]] Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
                                                 CompareResult& result);
 /// Counts every pose by every method.
 [[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work);
 
 /// The device's fragments against the oracle's, on so many of the poses, spread evenly. Adds to `result` the checks,
 /// the verdicts and the oracle's counts and time.
-[[nodiscard]] Result<void> checkFragments(const Session& session, std::uint32_t poses, const Scene& scene,
+[[nodiscard]] Result<void> checkFragments(const device::Session& session, std::uint32_t poses, const Scene& scene,
                                           CompareResult& result, const std::function<void()>& step);
 
 /// Times one sweep and adds its series to `result`. Batches are of the scene; the others verify the counts of each
@@ -96,7 +96,7 @@ struct CompareResult {
 ///   fragments  viewports of several sizes
 ///   voxels     a builtin volume of half to twice as many voxels a side; another volume is told in the notes, and so
 ///              are sizes that the device or the builtin cannot have. Mesh, poses, camera and transfer function stay.
-[[nodiscard]] Result<void> timeSweep(Sweep sweep, const Session& session, const CompareSettings& settings,
+[[nodiscard]] Result<void> timeSweep(Sweep sweep, const device::Session& session, const CompareSettings& settings,
                                      const Scene& scene, const Engines& engines, CompareResult& result,
                                      const std::function<void()>& step);
 /// Steps that a sweep calls `step` for.

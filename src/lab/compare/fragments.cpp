@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/compare.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/engines/trace.h"
 #include "lab/measure/stopwatch.h"
 #include "oracle/oracle.h"
@@ -18,32 +18,33 @@ namespace {
 class FragmentChecker {
   public:
     FragmentChecker(FragmentTrace trace, const Scene& scene, bool eightBit) : trace_(std::move(trace)), scene_(scene) {
-        tolerance_.value = eightBit ? cpu::kEightBitFilterError : 0;
+        tolerance_.value = eightBit ? oracle::kEightBitFilterError : 0;
     }
 
     Result<FragmentCheck> check(std::uint32_t index);
     [[nodiscard]] double oracleMilliseconds() const { return oracleMilliseconds_; }
 
   private:
-    Result<void> explain(const cpu::OraclePair& pair, const std::vector<cpu::OracleFragment>& fragments,
-                         const std::vector<cpu::OracleFragment>& device, FragmentCheck& check) const;
+    Result<void> explain(const oracle::OraclePair& pair, const std::vector<oracle::OracleFragment>& fragments,
+                         const std::vector<oracle::OracleFragment>& device, FragmentCheck& check) const;
 
     FragmentTrace trace_;
     const Scene& scene_;
-    cpu::Tolerance tolerance_;
+    oracle::Tolerance tolerance_;
     double oracleMilliseconds_ = 0;
 };
 
-Result<void> FragmentChecker::explain(const cpu::OraclePair& pair, const std::vector<cpu::OracleFragment>& fragments,
-                                      const std::vector<cpu::OracleFragment>& device, FragmentCheck& check) const {
+Result<void> FragmentChecker::explain(const oracle::OraclePair& pair,
+                                      const std::vector<oracle::OracleFragment>& fragments,
+                                      const std::vector<oracle::OracleFragment>& device, FragmentCheck& check) const {
     if (fragments.empty()) {
         return {};
     }
-    const Result<std::vector<cpu::Evidence>> evidence = cpu::oracleEvidence(pair, fragments, tolerance_);
+    const Result<std::vector<oracle::Evidence>> evidence = oracle::oracleEvidence(pair, fragments, tolerance_);
     VOXTACT_TRY(evidence);
     for (std::size_t i = 0; i < fragments.size(); ++i) {
-        const cpu::OracleFragment& fragment = fragments[i];
-        const cpu::Evidence& known = (*evidence)[i];
+        const oracle::OracleFragment& fragment = fragments[i];
+        const oracle::Evidence& known = (*evidence)[i];
         const auto doubt = static_cast<std::size_t>(known.doubt);
         check.differing.push_back({.pose = check.pose,
                                    .triangle = fragment.triangle,
@@ -67,19 +68,19 @@ Result<FragmentCheck> FragmentChecker::check(std::uint32_t index) {
     const Result<std::vector<shader::TracedFragment>> traced =
         trace_.survivors({{&item, 1}, scene_.view, volume.threshold});
     VOXTACT_TRY(traced);
-    const cpu::OraclePair pair{
+    const oracle::OraclePair pair{
         scene_.mesh->data.view(), volume.data.view(), volume.transferFunction(), scene_.view, pose, volume.threshold};
     const Stopwatch watch;
-    const Result<std::vector<cpu::OracleFragment>> oracle = cpu::oracleSurvivors(pair);
+    const Result<std::vector<oracle::OracleFragment>> oracle = oracle::oracleSurvivors(pair);
     oracleMilliseconds_ += watch.milliseconds();
     VOXTACT_TRY(oracle);
-    std::vector<cpu::OracleFragment> device;
+    std::vector<oracle::OracleFragment> device;
     device.reserve(traced->size());
     for (const shader::TracedFragment& fragment : *traced) {
         device.push_back({fragment.triangle, fragment.x, fragment.y});
     }
     std::sort(device.begin(), device.end());
-    std::vector<cpu::OracleFragment> apart;
+    std::vector<oracle::OracleFragment> apart;
     std::set_symmetric_difference(device.begin(), device.end(), oracle->begin(), oracle->end(),
                                   std::back_inserter(apart));
     FragmentCheck check{.pose = scene_.poseNumbers[index],
@@ -110,8 +111,8 @@ void judgeOracle(const std::vector<std::uint32_t>& sample, CompareResult& result
 
 } // namespace
 
-Result<void> checkFragments(const Session& session, std::uint32_t poses, const Scene& scene, CompareResult& result,
-                            const std::function<void()>& step) {
+Result<void> checkFragments(const device::Session& session, std::uint32_t poses, const Scene& scene,
+                            CompareResult& result, const std::function<void()>& step) {
     if (poses == 0) {
         result.verdicts.push_back(notChecked(kFragmentRule, "--oracle 0"));
         return {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/localize.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/rounds.h"
 #include "oracle/oracle.h"
 
@@ -17,9 +17,9 @@ bool before(const TouchedTriangle& a, const TouchedTriangle& b) {
 }
 
 /// The ways, as many as there are in LocalizeResult::ways; null where one cannot be had. The last is certified.
-Result<Engines> makeWays(const Session& session, const Scene& scene, LocalizeResult& result) {
+Result<Engines> makeWays(const device::Session& session, const Scene& scene, LocalizeResult& result) {
     Result<Engines> ways = makePolygonEngines(session, *scene.volume, *scene.mesh,
-                                              result.machine.eightBitFilter ? cpu::kEightBitFilterError : 0);
+                                              result.machine.eightBitFilter ? oracle::kEightBitFilterError : 0);
     MadeEngine certified = makeHostEngine({.projection = Projection::Conservative, .outputs = {.triangles = true}});
     if (!ways.ok() || !certified.ok()) {
         return ways.ok() ? certified.error() : ways.error();
@@ -192,7 +192,7 @@ std::string disagreementOf(const LocalizeResult& result) {
                              : std::string();
 }
 
-Result<void> localize(const Session& session, const CompareSettings& settings, const Scene& scene,
+Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
                       LocalizeResult& result, const std::function<void()>& step) {
     result.poseNumbers = scene.poseNumbers;
     result.triangles = scene.mesh->triangles();

@@ -44,7 +44,7 @@ struct LocalizeResult {
 
 /// Every way on every pose of the scene, in `settings.repeats` rounds as far as they fit in `settings.timeLimit`, and
 /// what follows from what they found. `step` is called for each pose of a round. `result` has the machine.
-[[nodiscard]] Result<void> localize(const Session& session, const CompareSettings& settings, const Scene& scene,
+[[nodiscard]] Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
                                     LocalizeResult& result, const std::function<void()>& step);
 
 /// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.

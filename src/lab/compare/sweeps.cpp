@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/compare/compare.h"
 #include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"
@@ -204,7 +204,7 @@ struct Swept {
 
 /// What makes them needs.
 struct Sweeping {
-    const Session& session;
+    const device::Session& session;
     const CompareSettings& settings;
     const Scene& scene;
     CompareResult& result;
@@ -342,7 +342,7 @@ std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept {
     return std::uint64_t{repeats} + 1 + (sweep == Sweep::Voxels ? kQuarters.size() : 0);
 }
 
-Result<void> timeSweep(Sweep sweep, const Session& session, const CompareSettings& settings, const Scene& scene,
+Result<void> timeSweep(Sweep sweep, const device::Session& session, const CompareSettings& settings, const Scene& scene,
                        const Engines& engines, CompareResult& result, const std::function<void()>& step) {
     if (sweep == Sweep::Batch) {
         return timeBatches(settings, engines, Work(scene), result, step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/engine.h"
 
-#include "core/method_table.h"
+#include "core/method/method_table.h"
 
 #include <algorithm>
 #include <iterator>
@@ -33,13 +33,14 @@ std::string questionOf(bool yesNo, const Outputs& outputs) {
                                : "count";
 }
 
-MadeEngine makeMethodEngine(const Session& session, CountingMethod method) {
+MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method) {
     return rowOf(method).host ? makeHostEngine()
                               : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});
 }
 
 std::vector<CountingMethod>
-availableMethods(const Session& session, const std::function<void(CountingMethod, const std::string& reason)>& why) {
+availableMethods(const device::Session& session,
+                 const std::function<void(CountingMethod, const std::string& reason)>& why) {
     const auto supports = session.context.methods();
     std::vector<CountingMethod> methods;
     for (const CountingMethod method : countingMethods()) {

@@ -82,12 +82,12 @@ using MadeEngine = Result<std::unique_ptr<Engine>>;
 /// The host.
 [[nodiscard]] MadeEngine makeHostEngine(const cpu::DetectorDesc& desc = {});
 /// A method of the device; what it is given must outlive it.
-[[nodiscard]] MadeEngine makeDeviceEngine(const Session& session, const DetectorDesc& desc);
+[[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
 /// The same by the blocking convenience, all pairs in one submission, whatever
 /// the feeding.
-[[nodiscard]] MadeEngine makeBlockingEngine(const Session& session, const DetectorDesc& desc);
+[[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
 /// A counting method by its own filter, on the device or, for cpu, the host.
-[[nodiscard]] MadeEngine makeMethodEngine(const Session& session, CountingMethod method);
+[[nodiscard]] MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method);
 /// FCL, for this mesh against the octree of this volume, which must be there.
 [[nodiscard]] std::unique_ptr<Engine> makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar);
 /// The octree, or nothing and a note that says why there is none. In both cases
@@ -98,14 +98,15 @@ using MadeEngine = Result<std::unique_ptr<Engine>>;
 /// occlusion query a triangle, and two with one a leaf of an OBB tree. For this
 /// volume and mesh, which are ready and must outlive them. `tolerance`: what
 /// the device's filter is off by, in stored units.
-[[nodiscard]] Result<Engines> makePolygonEngines(const Session& session, const VolumePart& volume, const MeshPart& mesh,
-                                                 double tolerance);
+[[nodiscard]] Result<Engines> makePolygonEngines(const device::Session& session, const VolumePart& volume,
+                                                 const MeshPart& mesh, double tolerance);
 /// The same triangles by the fragments of one pass. Unsupported where the
 /// device cannot list them.
-[[nodiscard]] MadeEngine makeFragmentEngine(const Session& session);
+[[nodiscard]] MadeEngine makeFragmentEngine(const device::Session& session);
 
 /// Which methods the device can do, and cpu. `why` hears of the others.
 [[nodiscard]] std::vector<CountingMethod>
-availableMethods(const Session& session, const std::function<void(CountingMethod, const std::string& reason)>& why);
+availableMethods(const device::Session& session,
+                 const std::function<void(CountingMethod, const std::string& reason)>& why);
 
 } // namespace voxtact::lab

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "device/pair_pipeline.h"
 #include "lab/engines/engine.h"
 #include "lab/measure/stopwatch.h"
@@ -20,35 +20,35 @@ EngineFacts factsOf(const DetectorDesc& desc) {
 
 class DeviceEngine final : public Engine {
   public:
-    DeviceEngine(const Session& session, Detector detector)
+    DeviceEngine(const device::Session& session, Detector detector)
         : Engine(factsOf(detector.desc())), session_(session), detector_(std::move(detector)) {}
 
     Result<Pass> run(const Work& work, const Feeding& feeding) override;
 
   private:
     /// Made once: a pass pays for no allocation.
-    Result<PairPipeline*> pipeline(std::uint32_t batch, std::uint32_t frames);
+    Result<device::PairPipeline*> pipeline(std::uint32_t batch, std::uint32_t frames);
 
-    const Session& session_;
+    const device::Session& session_;
     Detector detector_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, PairPipeline> pipelines_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, device::PairPipeline> pipelines_;
 };
 
-Result<PairPipeline*> DeviceEngine::pipeline(std::uint32_t batch, std::uint32_t frames) {
+Result<device::PairPipeline*> DeviceEngine::pipeline(std::uint32_t batch, std::uint32_t frames) {
     const std::pair key{batch, frames};
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
         return &found->second;
     }
-    Result<PairPipeline> made =
-        PairPipeline::create(session_.device, session_.context, detector_,
-                             {.frames = frames, .pairsPerSubmission = batch, .timestamps = true});
+    Result<device::PairPipeline> made =
+        device::PairPipeline::create(session_.device, session_.context, detector_,
+                                     {.frames = frames, .pairsPerSubmission = batch, .timestamps = true});
     VOXTACT_TRY(made);
     return &pipelines_.emplace(key, std::move(*made)).first->second;
 }
 
 Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
     const auto all = static_cast<std::uint32_t>(work.poses.size());
-    const Result<PairPipeline*> pipe = pipeline(feeding.batch == 0 ? all : feeding.batch, feeding.frames);
+    const Result<device::PairPipeline*> pipe = pipeline(feeding.batch == 0 ? all : feeding.batch, feeding.frames);
     VOXTACT_TRY(pipe);
     const BatchItem item = work.onDevice();
     Pass pass;
@@ -57,7 +57,7 @@ Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
     bool timed = true;
     const Stopwatch watch;
     const Result<void> done =
-        (*pipe)->run({{&item, 1}, work.view, work.volume->threshold}, {.pair = [&](const TimedAnswer& answer) {
+        (*pipe)->run({{&item, 1}, work.view, work.volume->threshold}, {.pair = [&](const device::TimedAnswer& answer) {
                          pass.pairs.push_back(answer.answer);
                          gpu += answer.gpuMilliseconds.value_or(0);
                          timed = timed && answer.gpuMilliseconds.has_value();
@@ -90,13 +90,13 @@ class BlockingEngine final : public Engine {
 
 } // namespace
 
-MadeEngine makeDeviceEngine(const Session& session, const DetectorDesc& desc) {
+MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<Detector> detector = Detector::create(session.context, desc);
     VOXTACT_TRY(detector);
     return MadeEngine(std::make_unique<DeviceEngine>(session, std::move(*detector)));
 }
 
-MadeEngine makeBlockingEngine(const Session& session, const DetectorDesc& desc) {
+MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     VOXTACT_TRY(detector);
     return MadeEngine(std::make_unique<BlockingEngine>(std::move(*detector)));

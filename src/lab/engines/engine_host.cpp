@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/engines/engine.h"
 #include "lab/measure/stopwatch.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/try.h"
+#include "core/base/try.h"
 #include "cpu/certified/brick_occupancy.h"
 #include "lab/engines/engine.h"
 #include "lab/engines/localize.h"
@@ -77,7 +77,7 @@ class FragmentEngine final : public Engine {
 
 } // namespace
 
-Result<Engines> makePolygonEngines(const Session& session, const VolumePart& volume, const MeshPart& mesh,
+Result<Engines> makePolygonEngines(const device::Session& session, const VolumePart& volume, const MeshPart& mesh,
                                    double tolerance) {
     Result<Localizer> localizer = Localizer::create(session.context, Filter::Hardware, session.device.queueAccess());
     VOXTACT_TRY(localizer);
@@ -92,7 +92,7 @@ Result<Engines> makePolygonEngines(const Session& session, const VolumePart& vol
     return engines;
 }
 
-MadeEngine makeFragmentEngine(const Session& session) {
+MadeEngine makeFragmentEngine(const device::Session& session) {
     Result<FragmentTrace> trace =
         FragmentTrace::create(session.context, Filter::Hardware, session.device.queueAccess());
     VOXTACT_TRY(trace);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/localize.h"
-#include "core/guard.h"
-#include "core/try.h"
+#include "core/base/guard.h"
+#include "core/base/try.h"
 #include "detect/batch.h"
 #include "detect/recording.h"
 #include "detect/view.h"

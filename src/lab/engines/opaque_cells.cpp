@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/opaque_cells.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>

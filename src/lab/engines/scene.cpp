@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/scene.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace voxtact::lab {
 
 namespace {
 
-Result<void> uploadTable(const Session& session, VolumePart& volume) {
+Result<void> uploadTable(const device::Session& session, VolumePart& volume) {
     Result<TransferFunction> table =
         TransferFunction::upload(session.context, session.device.queueAccess(), volume.transferFunction());
     VOXTACT_TRY(table);
@@ -17,7 +17,7 @@ Result<void> uploadTable(const Session& session, VolumePart& volume) {
     return {};
 }
 
-Result<void> uploadVoxels(const Session& session, const VolumeOptions& options, VolumePart& volume) {
+Result<void> uploadVoxels(const device::Session& session, const VolumeOptions& options, VolumePart& volume) {
     const QueueAccess queue = session.device.queueAccess();
     Result<Volume> image = Volume::upload(session.context, queue, volume.data.view(), options);
     VOXTACT_TRY(image);
@@ -71,12 +71,12 @@ Result<void> makeHost(VolumePart& volume) {
     return {};
 }
 
-Result<void> upload(const Session& session, const VolumeOptions& options, VolumePart& volume) {
+Result<void> upload(const device::Session& session, const VolumeOptions& options, VolumePart& volume) {
     Result<void> voxels = uploadVoxels(session, options, volume);
     return voxels.ok() ? uploadTable(session, volume) : voxels;
 }
 
-Result<void> makeReady(const Session& session, const VolumeOptions& options, VolumePart& volume) {
+Result<void> makeReady(const device::Session& session, const VolumeOptions& options, VolumePart& volume) {
     VOXTACT_TRY(uploadVoxels(session, options, volume));
     if (Result<void> table = uploadTable(session, volume); !table.ok()) {
         return table.error().code == ErrorCode::LimitExceeded
@@ -86,7 +86,7 @@ Result<void> makeReady(const Session& session, const VolumeOptions& options, Vol
     return makeHost(volume);
 }
 
-Result<void> makeReady(const Session* session, MeshPart& mesh) {
+Result<void> makeReady(const device::Session* session, MeshPart& mesh) {
     if (session != nullptr) {
         Result<Mesh> device = Mesh::upload(session->context, session->device.queueAccess(), mesh.data.view(),
                                            {.name = mesh.data.name.c_str(), .clusters = true});
@@ -102,7 +102,7 @@ Result<void> makeReady(const Session* session, MeshPart& mesh) {
     return {};
 }
 
-Result<void> checkViewport(const Session& session, const VkExtent2D& size) {
+Result<void> checkViewport(const device::Session& session, const VkExtent2D& size) {
     const VkExtent2D most = session.context.maxViewport();
     if (size.width <= most.width && size.height <= most.height &&
         std::max(size.width, size.height) <= cpu::kMaxViewport) {

@@ -74,14 +74,14 @@ struct Scene {
 /// Makes what the host engine needs, once.
 [[nodiscard]] Result<void> makeHost(VolumePart& volume);
 /// Uploads what the methods of the device need, labels too where there are any.
-[[nodiscard]] Result<void> upload(const Session& session, const VolumeOptions& options, VolumePart& volume);
+[[nodiscard]] Result<void> upload(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
 /// Both. LimitExceeded where the volume is beyond what the device can do,
 /// InvalidArgument (--tf-size) where the table is.
-[[nodiscard]] Result<void> makeReady(const Session& session, const VolumeOptions& options, VolumePart& volume);
+[[nodiscard]] Result<void> makeReady(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
 /// For the host engine, and for the device unless `session` is null.
-[[nodiscard]] Result<void> makeReady(const Session* session, MeshPart& mesh);
+[[nodiscard]] Result<void> makeReady(const device::Session* session, MeshPart& mesh);
 
 /// Refuses a viewport beyond what the device or the host can do.
-[[nodiscard]] Result<void> checkViewport(const Session& session, const VkExtent2D& size);
+[[nodiscard]] Result<void> checkViewport(const device::Session& session, const VkExtent2D& size);
 
 } // namespace voxtact::lab

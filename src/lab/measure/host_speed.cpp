@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/host_speed.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/engines/engine.h"
 #include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"

@@ -20,7 +20,7 @@ std::string cpuName() {
     return "unknown";
 }
 
-void describeDriver(const Session& session, Machine& machine) {
+void describeDriver(const device::Session& session, Machine& machine) {
     // The function that an instance gives for a name is the one of that name.
     const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
         session.instance.getInstanceProcAddr()(session.instance.handle(), "vkGetPhysicalDeviceProperties2"));
@@ -40,8 +40,9 @@ bool floatFilterForced() {
     return tuning != nullptr && std::string_view(tuning).find("no_aos_sampling") != std::string_view::npos;
 }
 
-bool isHopper(const std::string& name) {
-    return name.find("H100") != std::string::npos || name.find("H200") != std::string::npos;
+/// NVIDIA's GH100, of which all cards have device numbers from 0x2300 on.
+bool isHopper(const device::PhysicalDevice& physical) {
+    return physical.vendor == 0x10DE && (physical.deviceId & 0xFF00U) == 0x2300U;
 }
 
 } // namespace
@@ -54,12 +55,12 @@ Machine describeHost(const Provenance& provenance) {
     return machine;
 }
 
-Machine describeMachine(const Session& session, ScalarType type, const Provenance& provenance) {
-    const PhysicalDevice& physical = session.device.physical();
+Machine describeMachine(const device::Session& session, ScalarType type, const Provenance& provenance) {
+    const device::PhysicalDevice& physical = session.device.physical();
     Machine machine = describeHost(provenance);
     machine.device = physical.name;
-    machine.deviceType = deviceTypeName(physical.type);
-    machine.api = apiVersionText(physical.apiVersion);
+    machine.deviceType = device::deviceTypeName(physical.type);
+    machine.api = device::apiVersionText(physical.apiVersion);
     describeDriver(session, machine);
     machine.eightBitFilter = machine.llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
     machine.filter =
@@ -73,7 +74,7 @@ Machine describeMachine(const Session& session, ScalarType type, const Provenanc
         machine.notes.emplace_back("a query counts one draw, so query and query-any split a batch into a draw a pair; "
                                    "atomic and subgroup draw a batch at once");
     }
-    if (isHopper(physical.name)) {
+    if (isHopper(physical)) {
         machine.notes.emplace_back("on this card only two TPCs (4 of 132 multiprocessors) run vertex and fragment "
                                    "shaders: every time of query, query-any, atomic and subgroup is of a small part of "
                                    "it, and compute is not held back");

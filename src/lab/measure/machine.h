@@ -11,9 +11,6 @@
 
 namespace voxtact::lab {
 
-// What src/device has: sessions and their commands.
-using namespace app;
-
 /// What made the numbers, and what makes them again.
 struct Provenance {
     std::string version;
@@ -46,6 +43,6 @@ struct Machine {
 
 /// Without a device.
 [[nodiscard]] Machine describeHost(const Provenance& provenance);
-[[nodiscard]] Machine describeMachine(const Session& session, ScalarType type, const Provenance& provenance);
+[[nodiscard]] Machine describeMachine(const device::Session& session, ScalarType type, const Provenance& provenance);
 
 } // namespace voxtact::lab

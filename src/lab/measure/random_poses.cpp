@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/random_poses.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <cmath>

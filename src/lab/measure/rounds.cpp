@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/rounds.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/stopwatch.h"
 
 namespace voxtact::lab {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/result.h"
+#include "voxtact/error.h"
 
 #include <cstdint>
 #include <functional>

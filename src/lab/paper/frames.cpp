@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper/frames.h"
 
-#include "core/method_table.h"
-#include "core/try.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
 #include "device/timed_commands.h"
 #include "gpu/barriers.h"
 #include "lab/measure/stopwatch.h"
@@ -35,7 +35,8 @@ struct PictureParts {
     Image image; ///< that is drawn to
 };
 
-Result<PictureParts> makePicture(const Session& session, const Scene& scene, const std::vector<ColourPoint>& colours) {
+Result<PictureParts> makePicture(const device::Session& session, const Scene& scene,
+                                 const std::vector<ColourPoint>& colours) {
     const VolumePart& volume = *scene.volume;
     const QueueAccess queue = session.device.queueAccess();
     Result<Renderer> renderer = Renderer::create(session.context);
@@ -64,7 +65,7 @@ Result<PictureParts> makePicture(const Session& session, const Scene& scene, con
                         std::move(*normals),  std::move(*targets),  std::move(*image)};
 }
 
-Result<Results> makeResults(const Session& session) {
+Result<Results> makeResults(const device::Session& session) {
     return Results::create(session.context, {.maxPairs = 1,
                                              .readBack = true,
                                              .timestamps = session.device.hasTimestamps(),
@@ -74,13 +75,13 @@ Result<Results> makeResults(const Session& session) {
 } // namespace
 
 struct FrameLoop::State {
-    const Session& session;
+    const device::Session& session;
     const Scene& scene;
     PictureParts picture;
     Results results;
     std::map<CountingMethod, Detector> detectors{};
     std::unique_ptr<Engine> host{};
-    TimedCommands commands; ///< ends first, and waits then
+    device::TimedCommands commands; ///< ends first, and waits then
 
     Result<void> record(FramePart part, CountingMethod method, const Mat4& pose);
     Result<void> cmdPicture(VkCommandBuffer buffer, const Mat4& pose);
@@ -172,13 +173,13 @@ FrameLoop::FrameLoop(FrameLoop&&) noexcept = default;
 FrameLoop& FrameLoop::operator=(FrameLoop&&) noexcept = default;
 FrameLoop::~FrameLoop() = default;
 
-Result<FrameLoop> FrameLoop::create(const Session& session, const Scene& scene,
+Result<FrameLoop> FrameLoop::create(const device::Session& session, const Scene& scene,
                                     const std::vector<ColourPoint>& colours) {
     Result<PictureParts> picture = makePicture(session, scene, colours);
     VOXTACT_TRY(picture);
     Result<Results> results = makeResults(session);
     VOXTACT_TRY(results);
-    Result<TimedCommands> commands = TimedCommands::create(session, kFrameStamps);
+    Result<device::TimedCommands> commands = device::TimedCommands::create(session, kFrameStamps);
     VOXTACT_TRY(commands);
     return FrameLoop(std::unique_ptr<State>(new State{.session = session,
                                                       .scene = scene,

@@ -32,7 +32,7 @@ class FrameLoop {
   public:
     /// The parts must be ready, the volume with bricks. `colours` are those of the picture. What it is given must
     /// outlive it.
-    [[nodiscard]] static Result<FrameLoop> create(const Session& session, const Scene& scene,
+    [[nodiscard]] static Result<FrameLoop> create(const device::Session& session, const Scene& scene,
                                                   const std::vector<ColourPoint>& colours);
     FrameLoop(FrameLoop&&) noexcept;
     FrameLoop& operator=(FrameLoop&&) noexcept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper/parts.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "device/timed_submission.h"
 #include "lab/measure/rounds.h"
 #include "voxtact/render.h"
@@ -43,8 +43,8 @@ Result<std::vector<SizedTable>> makeTables(const Renderer& renderer) {
 }
 
 /// Of a function that has changed.
-Result<double> makeTable(TimedSubmission& submission, std::uint64_t round, SizedTable& table) {
-    const Result<TimedSubmission::Times> times = submission.run([&](VkCommandBuffer commands) {
+Result<double> makeTable(device::TimedSubmission& submission, std::uint64_t round, SizedTable& table) {
+    const Result<device::TimedSubmission::Times> times = submission.run([&](VkCommandBuffer commands) {
         return table.function.cmdUpdate(commands, functionOf(table.point.entries, round % 2));
     });
     VOXTACT_TRY(times);
@@ -59,13 +59,13 @@ Result<double> makeTable(TimedSubmission& submission, std::uint64_t round, Sized
 
 } // namespace
 
-Result<std::vector<IntegrationPoint>> timeIntegration(const Session& session, std::uint32_t repetitions,
+Result<std::vector<IntegrationPoint>> timeIntegration(const device::Session& session, std::uint32_t repetitions,
                                                       const std::function<void()>& step) {
     const Result<Renderer> renderer = Renderer::create(session.context);
     VOXTACT_TRY(renderer);
     Result<std::vector<SizedTable>> tables = makeTables(*renderer);
     VOXTACT_TRY(tables);
-    Result<TimedSubmission> submission = TimedSubmission::create(session);
+    Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);
     VOXTACT_TRY(submission);
     std::vector<Timed> things;
     for (SizedTable& table : *tables) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper/parts.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/numbers.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ std::vector<double> overheadPercent(const PaperColumns& columns) {
                   [](double rendering, double total) { return 100 * (total - rendering) / rendering; });
 }
 
-Result<void> measurePaper(const PaperSettings& settings, const Session& session, const Steps& steps,
+Result<void> measurePaper(const PaperSettings& settings, const device::Session& session, const Steps& steps,
                           PaperResult& result) {
     VOXTACT_TRY(checkViewport(session, settings.size));
     const Result<std::vector<PaperInput>> inputs = loadPaperScenes(settings);

@@ -58,11 +58,6 @@ struct PaperSettings {
     VkExtent2D size{512, 512};  ///< of frames
     double timeLimit = 240;     ///< seconds for all samples: fewer than `repetitions` are taken where they do not fit
     Loaders load;
-    /// From the front of a volume; deep enough for `also`, a box in world space.
-    std::function<Mat4(const Grid& grid, const Box& also, const VkExtent2D& size)> camera;
-    /// The box of a box at a pose.
-    std::function<Box(const Box& object, const Mat4& world_from_object)> worldBox;
-    std::vector<ColourPoint> colours; ///< of the pictures
 };
 
 /// One of the four: v1s1, v1s2, v2s1, v2s2.
@@ -128,8 +123,8 @@ struct PaperResult {
 };
 
 /// The paper's tables and sweeps. `result` has the provenance of its machine.
-[[nodiscard]] Result<void> measurePaper(const PaperSettings& settings, const Session& session, const Steps& steps,
-                                        PaperResult& result);
+[[nodiscard]] Result<void> measurePaper(const PaperSettings& settings, const device::Session& session,
+                                        const Steps& steps, PaperResult& result);
 
 /// Of the intervals for medians, at least.
 inline constexpr double kConfidence = 0.95;

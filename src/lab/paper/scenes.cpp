@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper/parts.h"
 
-#include "core/text.h"
-#include "core/try.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "lab/engines/opaque_cells.h"
 #include "lab/measure/numbers.h"
 #include "lab/measure/random_poses.h"
+#include "voxtact/looks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -163,8 +164,8 @@ Result<std::shared_ptr<MeshPart>> loadPaperMesh(const PaperSettings& settings, c
 Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const MeshData& mesh) {
     const Result<MeshFacts> facts = checkMesh(mesh.view());
     VOXTACT_TRY(facts);
-    Box box = settings.worldBox({{-kBeyond, -kBeyond, -kBeyond}, {1 + kBeyond, 1 + kBeyond, 1 + kBeyond}},
-                                worldFromTexture(grid));
+    Box box =
+        transformBox(worldFromTexture(grid), {{-kBeyond, -kBeyond, -kBeyond}, {1 + kBeyond, 1 + kBeyond, 1 + kBeyond}});
     const double longest =
         std::hypot(facts->bounds.hi[0] - facts->bounds.lo[0], facts->bounds.hi[1] - facts->bounds.lo[1],
                    facts->bounds.hi[2] - facts->bounds.lo[2]);
@@ -172,7 +173,8 @@ Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const Mes
         box.lo[axis] -= longest;
         box.hi[axis] += longest;
     }
-    return View{settings.camera(grid, box, settings.size), settings.size.width, settings.size.height};
+    return View{viewFrom({}, grid, box, settings.size.width, settings.size.height), settings.size.width,
+                settings.size.height};
 }
 
 std::string opacityText(const std::vector<ControlPoint>& points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/text.h"
+#include "core/base/text.h"
 #include "lab/measure/numbers.h"
 #include "lab/paper/paper.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/paper/parts.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ std::string nameOf(Sweep sweep) {
 }
 
 /// Counts every pose, and where the methods agree times them; as `voxtact compare` does.
-Result<void> timeAll(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
+Result<void> timeAll(const device::Session& session, const PaperSettings& paper, const CompareSettings& settings,
                      const Scene& v1s1, CompareResult& result, const Steps& steps) {
     steps.doing(nameOf(Sweep::Batch));
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
@@ -74,7 +74,7 @@ Result<void> timeAll(const Session& session, const PaperSettings& paper, const C
     return timeSweep(Sweep::Voxels, session, settings, *head, *engines, result, steps.step);
 }
 
-Result<void> sweep(const Session& session, const PaperSettings& paper, const CompareSettings& settings,
+Result<void> sweep(const device::Session& session, const PaperSettings& paper, const CompareSettings& settings,
                    const Scene& v1s1, PaperResult& result, const Steps& steps) {
     VOXTACT_TRY(makeReady(session, {}, *v1s1.volume));
     VOXTACT_TRY(makeReady(&session, *v1s1.mesh));
@@ -90,7 +90,7 @@ Result<void> sweep(const Session& session, const PaperSettings& paper, const Com
 }
 
 /// Which triangles touch, on a few poses.
-Result<void> findPolygons(const Session& session, const CompareSettings& settings, const Scene& v1s1,
+Result<void> findPolygons(const device::Session& session, const CompareSettings& settings, const Scene& v1s1,
                           PaperResult& result, const std::function<void()>& step) {
     LocalizeResult found;
     found.machine = result.machine;
@@ -116,8 +116,8 @@ std::uint64_t paperSweepSteps(const PaperSettings& settings) {
     return steps + poses * settings.repetitions + settings.repetitions + 1;
 }
 
-Result<void> runPaperSweeps(const Session& session, const PaperSettings& settings, double seconds, const Scene& v1s1,
-                            PaperResult& result, const Steps& steps) {
+Result<void> runPaperSweeps(const device::Session& session, const PaperSettings& settings, double seconds,
+                            const Scene& v1s1, PaperResult& result, const Steps& steps) {
     const CompareSettings how = settingsFor(settings, seconds);
     if (Result<void> done = sweep(session, settings, how, v1s1, result, steps);
         !done.ok() || !result.disagreement.empty()) {

@@ -2,9 +2,10 @@
 #include "lab/paper/frames.h"
 #include "lab/paper/parts.h"
 
-#include "core/try.h"
+#include "core/base/try.h"
 #include "lab/measure/rounds.h"
 #include "lab/measure/stopwatch.h"
+#include "voxtact/looks.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ void addNote(std::string note, PaperResult& result) {
 }
 
 /// Counts every pose by every method. The first broken rule is the result's.
-Result<void> verify(const Session& session, PaperWork& work, PaperResult& result) {
+Result<void> verify(const device::Session& session, PaperWork& work, PaperResult& result) {
     Engines engines;
     for (const CountingMethod method : work.methods) {
         MadeEngine engine = makeMethodEngine(session, method);
@@ -139,10 +140,10 @@ Result<double> PaperFrames::detect(std::size_t method, const Turn& turn) {
 }
 
 /// Every method in turn, and in their middle the frame that they are held against.
-Result<void> timeFrames(const Session& session, const PaperSettings& settings, double seconds, const PaperWork& work,
-                        PaperResult& result, const std::function<void()>& step) {
+Result<void> timeFrames(const device::Session& session, const PaperSettings& settings, double seconds,
+                        const PaperWork& work, PaperResult& result, const std::function<void()>& step) {
     const Stopwatch watch;
-    Result<FrameLoop> loop = FrameLoop::create(session, work.input.scene, settings.colours);
+    Result<FrameLoop> loop = FrameLoop::create(session, work.input.scene, plainColours());
     VOXTACT_TRY(loop);
     PaperFrames frames{std::move(*loop), work, result};
     std::vector<Timed> things;
@@ -171,7 +172,7 @@ Result<void> timeFrames(const Session& session, const PaperSettings& settings, d
 
 } // namespace
 
-Result<void> measurePaperScene(const Session& session, const PaperSettings& settings, double seconds,
+Result<void> measurePaperScene(const device::Session& session, const PaperSettings& settings, double seconds,
                                const PaperInput& input, PaperResult& result, const std::function<void()>& step) {
     VOXTACT_TRY(makeReady(session, {.bricks = true}, *input.scene.volume));
     VOXTACT_TRY(makeReady(&session, *input.scene.mesh));

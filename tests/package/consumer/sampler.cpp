@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A program that needs no file: a volume, a mesh and a scene of voxtact::samples.
-#include "voxtact/builtin.h"
+#include "voxtact/samples.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The answers in device memory. One definition for C++ and GLSL: include it from a shader to read them there.
+#ifndef VOXTACT_DEVICE_RESULTS_H
+#define VOXTACT_DEVICE_RESULTS_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+namespace voxtact {
+#define VOXTACT_UINT std::uint32_t
+#else
+#define VOXTACT_UINT uint
+#endif
+
+/// The answer for one pair, 24 bytes, the same layout for every counting method. In GLSL declare the buffer with
+/// std430. The pair collides when countLow or countHigh is not zero. In the projection `conservative` a survivor is a
+/// triangle that certainly has an opaque point in a voxel cell, counted once for each of its cells; a pair whose count
+/// is zero may still touch when VOXTACT_HOW_UNDECIDED(how) is not zero.
+struct PairResult {
+    VOXTACT_UINT countLow;  ///< survivors, low 32 bits. `query-any`: zero or not zero, the number means nothing
+    VOXTACT_UINT countHigh; ///< survivors, high 32 bits
+    VOXTACT_UINT pair;      ///< number of the pair in its batch
+    VOXTACT_UINT item;      ///< number of the BatchItem that the pair came from
+    VOXTACT_UINT pose;      ///< number of the pose within that item
+    VOXTACT_UINT how;       ///< VOXTACT_HOW_*: counting method, projection and exactness of the count
+};
+
+// PairResult.how = method | projection << 8 | exactness << 16, the numbers being those of CountingMethod, Projection
+// and Exactness in methods.h.
+#define VOXTACT_HOW_METHOD(how) ((how)&0xffu)
+#define VOXTACT_HOW_PROJECTION(how) (((how) >> 8) & 0xffu)
+#define VOXTACT_HOW_EXACTNESS(how) (((how) >> 16) & 0xffu)
+/// Not zero: some fragment of the projection `conservative` could be neither proven nor excluded.
+#define VOXTACT_HOW_UNDECIDED(how) (((how) >> 24) & 1u)
+#define VOXTACT_HOW_UNDECIDED_BIT 0x1000000u
+
+/// A contact on the device, 48 bytes; std430. See Contact in results.h for what the members mean.
+struct ContactResult {
+    float x;               ///< world, mm
+    float y;               ///< world, mm
+    float z;               ///< world, mm
+    float nx;              ///< unit vector, or zero
+    float ny;              ///< normal, unit vector or zero
+    float nz;              ///< normal, unit vector or zero
+    float depth;           ///< mm
+    float value;           ///< of the image, in its own units
+    float opacity;         ///< of that value, 0..1
+    VOXTACT_UINT pair;     ///< number of the pair in its batch
+    VOXTACT_UINT triangle; ///< number in the mesh
+    VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
+};
+
+/// The bits of the float behind a word of Results::bounds().
+#define VOXTACT_BOUND_BITS(word) (((word)&0x80000000u) != 0u ? (word) ^ 0x80000000u : ~(word))
+
+#ifdef __cplusplus
+#undef VOXTACT_UINT
+static_assert(sizeof(PairResult) == 24);
+static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countHigh) == 4,
+              "a 64-bit query result is copied over countLow and countHigh");
+static_assert(sizeof(ContactResult) == 48);
+} // namespace voxtact
+#endif
+
+#endif

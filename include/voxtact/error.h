@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+/// VOXTACT_API marks what a shared build exports. Everything else is hidden.
+#if defined(_WIN32)
+#define VOXTACT_API
+#else
+#define VOXTACT_API __attribute__((visibility("default")))
+#endif
+
+namespace voxtact {
+
+/// What kind of thing went wrong. `Error::text` says which argument, why, and what to do.
+enum class ErrorCode : std::uint32_t {
+    InvalidArgument = 1, ///< an argument that no device could accept
+    Unsupported,         ///< the device, or the features enabled on it, cannot do this
+    LimitExceeded,       ///< a limit of the device, named in the text with its size
+    OutOfMemory,         ///< host or device memory
+    DeviceLost,          ///< sticky: every later call on the same Context returns it
+    Vulkan,              ///< another VkResult, in `Error::vkResult`
+    File,                ///< a file cannot be read or written
+    Format,              ///< a file can be read, but what it holds cannot be used
+    NotReady,            ///< the result asked for does not exist yet, or no longer
+    Internal,            ///< a bug in voxtact
+};
+
+/// A refusal. One line of text, without a final full stop or newline.
+struct Error {
+    ErrorCode code = ErrorCode::Internal; ///< what kind of thing
+    std::int32_t vkResult = 0;            ///< the VkResult behind it; 0 (VK_SUCCESS) when there is none
+    std::string text;                     ///< which argument, why, and what to do
+};
+
+/// A value or an Error. Nothing in voxtact throws across its public boundary; this is what comes back instead.
+/// Reading the value of a failed result, or the error of a good one, is undefined: ask `ok()` first.
+template <class T> class [[nodiscard]] Result {
+  public:
+    /// Success.
+    Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
+    /// Failure.
+    Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
+
+    /// Whether there is a value.
+    [[nodiscard]] bool ok() const noexcept { return content_.index() == 0; }
+    /// The same as ok().
+    explicit operator bool() const noexcept { return ok(); }
+
+    /// The value of a result that is ok(); moved out of a temporary.
+    /// @{
+    [[nodiscard]] T& value() & noexcept { return *std::get_if<0>(&content_); }
+    [[nodiscard]] const T& value() const& noexcept { return *std::get_if<0>(&content_); }
+    [[nodiscard]] T&& value() && noexcept { return std::move(*std::get_if<0>(&content_)); }
+    /// @}
+    /// The error of a result that is not ok().
+    /// @{
+    [[nodiscard]] Error& error() & noexcept { return *std::get_if<1>(&content_); }
+    [[nodiscard]] const Error& error() const& noexcept { return *std::get_if<1>(&content_); }
+    /// @}
+
+    /// value(), shorter.
+    /// @{
+    T& operator*() & noexcept { return value(); }
+    const T& operator*() const& noexcept { return value(); }
+    T&& operator*() && noexcept { return std::move(*this).value(); }
+    T* operator->() noexcept { return std::get_if<0>(&content_); }
+    const T* operator->() const noexcept { return std::get_if<0>(&content_); }
+    /// @}
+
+  private:
+    std::variant<T, Error> content_;
+};
+
+/// Success, or an Error.
+template <> class [[nodiscard]] Result<void> {
+  public:
+    /// Success.
+    Result() = default;
+    /// Failure.
+    Result(Error error) : error_(std::move(error)), ok_(false) {}
+
+    /// Whether it succeeded.
+    [[nodiscard]] bool ok() const noexcept { return ok_; }
+    /// The same as ok().
+    explicit operator bool() const noexcept { return ok_; }
+    /// The error of a result that is not ok().
+    [[nodiscard]] const Error& error() const noexcept { return error_; }
+
+  private:
+    Error error_;
+    bool ok_ = true;
+};
+
+} // namespace voxtact

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "voxtact/results.h"
+
+namespace voxtact {
+
+PairAnswer unpack(const PairResult& result) noexcept {
+    PairAnswer out;
+    out.pair = result.pair;
+    out.item = result.item;
+    out.pose = result.pose;
+    out.method = static_cast<CountingMethod>(VOXTACT_HOW_METHOD(result.how));
+    out.projection = static_cast<Projection>(VOXTACT_HOW_PROJECTION(result.how));
+    out.exactness = static_cast<Exactness>(VOXTACT_HOW_EXACTNESS(result.how));
+    out.count = (std::uint64_t{result.countHigh} << 32) | result.countLow;
+    out.hit = out.count > 0;
+    if (out.exactness == Exactness::LowerBound && out.hit) {
+        out.count = 1;
+    }
+    if (VOXTACT_HOW_UNDECIDED(result.how) != 0) {
+        out.possible = !out.hit;
+        out.exactness = Exactness::LowerBound;
+    }
+    return out;
+}
+
+} // namespace voxtact

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/geometry/projection.h"
+#include "core/method/method_table.h"
+
+#include <array>
+#include <limits>
+
+/// What every batch must be, for the device's detector and the host's alike.
+namespace voxtact {
+
+/// Width and height of a viewport; 64 bits, so that what is asked for can be beyond every limit.
+using WideExtent = std::array<std::uint64_t, 2>;
+
+/// What one side, device or host, asks beyond that.
+template <class Side, class Item>
+concept BatchSide = requires(const Side& side, const Item& item, const WideExtent& extent, const std::string& text) {
+    /// Whether it has viewports so large. `text` begins the error and says how large.
+    { side.checkExtent(extent, text) } -> std::same_as<Result<void>>;
+    /// An item whose parts are not null. `text` says which it is.
+    { side.checkItem(item, text) } -> std::same_as<Result<void>>;
+};
+
+namespace detail {
+
+inline Error refuseBatch(std::string text) {
+    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
+}
+
+template <class View, class Side> Result<void> checkView(const View& view, const Side& side) {
+    const std::string size = "the viewport is " + std::to_string(view.width) + "x" + std::to_string(view.height);
+    if (view.width == 0 || view.height == 0) {
+        return refuseBatch(size + ", it needs at least one pixel");
+    }
+    VOXTACT_TRY(side.checkExtent({view.width, view.height}, size));
+    if (const Result<Mat4> world_from_clip = inverse(view.clip_from_world); !world_from_clip.ok()) {
+        return refuseBatch("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
+    }
+    return {};
+}
+
+template <class Item> Result<void> checkPoses(const Item& item, const std::string& which) {
+    for (std::size_t pose = 0; pose < item.world_from_object.size(); ++pose) {
+        // The text is made for a bad pose only: this is the hot loop of recording.
+        if (const Result<void> checked = checkAffine(item.world_from_object[pose], {}); !checked.ok()) {
+            return checkAffine(item.world_from_object[pose], which + ", pose " + std::to_string(pose));
+        }
+    }
+    return {};
+}
+
+template <class Item, class Side>
+Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t samplesPerVoxel, const Item& item,
+                            const std::string& which, const Side& side) {
+    if (item.mesh == nullptr || item.volume == nullptr || item.transferFunction == nullptr) {
+        return refuseBatch(which + ": mesh, volume or transferFunction is null");
+    }
+    VOXTACT_TRY(side.checkItem(item, which));
+    VOXTACT_TRY(checkPoses(item, which));
+    if (projection.voxelGrid) {
+        const Grid& grid = item.volume->grid();
+        const std::uint64_t length = dominantSide(grid, samplesPerVoxel);
+        VOXTACT_TRY(side.checkExtent({length, length}, which + ": " + dominantNeeds(grid, samplesPerVoxel)));
+    }
+    return {};
+}
+
+} // namespace detail
+
+/// Refuses null objects, poses and cameras that are not finite or not affine, a singular camera, a viewport of 0, a
+/// threshold outside [0,1], more pairs than 32 bits can number, and what the side refuses. The camera counts only where
+/// the projection has one. Returns the number of pairs.
+template <class Batch, class Side>
+Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPerVoxel, const Batch& batch,
+                                 const Side& side) {
+    if (!(batch.threshold >= 0 && batch.threshold <= 1)) {
+        return detail::refuseBatch("the threshold " + number(batch.threshold) + " is outside [0, 1]");
+    }
+    const ProjectionRow& row = rowOf(projection);
+    if (row.camera) {
+        VOXTACT_TRY(detail::checkView(batch.view, side));
+    }
+    std::uint64_t pairs = 0;
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        const auto& item = batch.items[i];
+        static_assert(BatchSide<Side, std::remove_cvref_t<decltype(item)>>);
+        VOXTACT_TRY(detail::checkBatchItem(row, samplesPerVoxel, item, "batch item " + std::to_string(i), side));
+        pairs += item.world_from_object.size();
+    }
+    if (pairs > std::numeric_limits<std::uint32_t>::max()) {
+        return detail::refuseBatch("the batch has " + std::to_string(pairs) + " pairs, more than 32 bits can number");
+    }
+    return static_cast<std::uint32_t>(pairs);
+}
+
+} // namespace voxtact

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "contact.h"
+#include "voxtact/data.h"
+#include "voxtact/results.h"
+
+#include <span>
+
+namespace voxtact {
+
+/// What the outputs need of a pair, labels and places in the outputs buffer aside: the same for all pairs of an item,
+/// and the same numbers for device and host. `item` is that of the exact filter; value = valueScale * stored +
+/// valueBias. Expects a positive maxDepth where contacts are asked for.
+[[nodiscard]] shader::OutputPair outputPair(const Grid& grid, const Mat4& texture_from_world,
+                                            const shader::ItemConstants& item, double valueScale, double valueBias,
+                                            const Outputs& outputs);
+
+/// Adds a label map whose labels are `values`. `grid` is that of the volume.
+void addLabelMap(shader::OutputPair& pair, const Grid& grid, const Grid& labelGrid,
+                 std::span<const std::int32_t> values);
+
+/// Refuses a maximal depth that is not a positive number, where contacts are asked for.
+[[nodiscard]] Result<void> checkOutputs(const Outputs& outputs);
+
+/// Refuses labels that makeLabels() would not make, their indices aside. O(labels).
+[[nodiscard]] Result<void> checkLabelValues(const LabelData& labels);
+/// Refuses what checkLabelValues() refuses, and an index beyond the values. O(voxels).
+[[nodiscard]] Result<void> checkLabels(const LabelData& labels);
+
+} // namespace voxtact

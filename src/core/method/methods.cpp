@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "voxtact/methods.h"
+
+#include "core/method/method_table.h"
+
+namespace voxtact {
+
+namespace {
+
+constexpr auto kMethods = [] {
+    std::array<CountingMethod, kMethodTable.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = kMethodTable[i].method;
+    }
+    return all;
+}();
+
+constexpr auto kProjections = [] {
+    std::array<Projection, kProjectionTable.size()> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = kProjectionTable[i].projection;
+    }
+    return all;
+}();
+
+} // namespace
+
+const char* toString(CountingMethod method) noexcept {
+    return isKnown(method) ? rowOf(method).name : "unknown";
+}
+
+const char* toString(Projection projection) noexcept {
+    return isKnown(projection) ? rowOf(projection).name : "unknown";
+}
+
+const char* toString(Filter filter) noexcept {
+    return filter == Filter::Exact ? "exact" : "hardware";
+}
+
+const char* toString(Boundary boundary) noexcept {
+    switch (boundary) {
+    case Boundary::Auto:
+        return "auto";
+    case Boundary::Range:
+        return "range";
+    case Boundary::Clamp:
+        return "clamp";
+    }
+    return "unknown";
+}
+
+const char* toString(Exactness exactness) noexcept {
+    return exactness == Exactness::Exact ? "exact" : "lower-bound";
+}
+
+std::span<const CountingMethod> countingMethods() noexcept {
+    return kMethods;
+}
+
+std::optional<CountingMethod> countingMethodFromName(std::string_view name) noexcept {
+    for (const MethodRow& row : kMethodTable) {
+        if (name == row.name) {
+            return row.method;
+        }
+    }
+    return std::nullopt;
+}
+
+std::span<const Projection> projections() noexcept {
+    return kProjections;
+}
+
+std::optional<Projection> projectionFromName(std::string_view name) noexcept {
+    for (const ProjectionRow& row : kProjectionTable) {
+        if (name == row.name) {
+            return row.projection;
+        }
+    }
+    return std::nullopt;
+}
+
+bool usesView(Projection projection) noexcept {
+    return isKnown(projection) && rowOf(projection).camera;
+}
+
+Filter defaultFilter(CountingMethod method) noexcept {
+    return isKnown(method) ? rowOf(method).filter : Filter::Hardware;
+}
+
+Exactness exactness(CountingMethod method) noexcept {
+    return isKnown(method) ? rowOf(method).exactness : Exactness::Exact;
+}
+
+} // namespace voxtact

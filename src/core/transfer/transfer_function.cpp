@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/guard.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/geometry/domain.h"
+#include "voxtact/data.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact {
+
+namespace {
+
+Error refuse(std::string text) {
+    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
+}
+
+Result<void> checkPoints(std::span<const ControlPoint> points) {
+    if (points.empty()) {
+        return refuse("the transfer function has no control points");
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::string which = "control point " + std::to_string(i + 1) + " of the transfer function: ";
+        if (!std::isfinite(points[i].value)) {
+            return refuse(which + "the value is not finite");
+        }
+        if (!(points[i].opacity >= 0 && points[i].opacity <= 1)) {
+            return refuse(which + "the opacity " + number(points[i].opacity) + " is outside [0, 1]");
+        }
+        if (i > 0 && points[i].value < points[i - 1].value) {
+            return refuse(which + "the value " + number(points[i].value) + " comes after " +
+                          number(points[i - 1].value) + ", values must ascend");
+        }
+        if (i > 0 && !std::isfinite(points[i].value - points[i - 1].value)) {
+            return refuse(which + "the value " + number(points[i].value) + " is too far from " +
+                          number(points[i - 1].value) + ", their difference overflows");
+        }
+    }
+    return {};
+}
+
+double opacityAt(std::span<const ControlPoint> points, double value) {
+    const auto after = std::upper_bound(points.begin(), points.end(), value,
+                                        [](double v, const ControlPoint& point) { return v < point.value; });
+    if (after == points.begin()) {
+        return points.front().opacity;
+    }
+    if (after == points.end()) {
+        return points.back().opacity;
+    }
+    const ControlPoint& a = *(after - 1);
+    const ControlPoint& b = *after;
+    return a.opacity + (b.opacity - a.opacity) * ((value - a.value) / (b.value - a.value));
+}
+
+} // namespace
+
+Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
+    return guard([&]() -> Result<std::vector<float>> {
+        VOXTACT_TRY(checkPoints(desc.points));
+        const ValueRange& domain = desc.domain;
+        VOXTACT_TRY(checkDomain(domain, "the transfer function's domain"));
+        if (desc.tableSize < 2) {
+            return refuse("the transfer function's table has " + std::to_string(desc.tableSize) +
+                          " entries, it needs at least 2");
+        }
+        std::vector<float> table(desc.tableSize);
+        for (std::uint32_t i = 0; i < desc.tableSize; ++i) {
+            const double s = (i + 0.5) / desc.tableSize;
+            table[i] = static_cast<float>(opacityAt(desc.points, domain.lo + s * (domain.hi - domain.lo)));
+        }
+        return table;
+    });
+}
+
+} // namespace voxtact
