@@ -32,10 +32,16 @@ struct ContextDesc {
     const VkPhysicalDeviceFeatures2* enabledFeatures = nullptr;
     std::span<const char* const> enabledInstanceExtensions; ///< only VK_EXT_debug_utils is looked for: names and labels
     std::span<const char* const> enabledDeviceExtensions;   ///< those of optionalDeviceExtensions() are looked for
-    VkPipelineCache pipelineCache = VK_NULL_HANDLE;         ///< optional; used, never destroyed
-    const VkAllocationCallbacks* allocator = nullptr;       ///< optional
-    LogCallback log = nullptr;                              ///< optional; warnings, a line each
-    void* logUser = nullptr;                                ///< the first argument of every call of `log`
+    /// The families of the queues that will use what is made with the Context, each once. Two or more: buffers and
+    /// images are shared by them (VK_SHARING_MODE_CONCURRENT), and between queues you need semaphores alone. None or
+    /// one: they are exclusive, as upload() and cmdUpload() leave them to the family that they are submitted to; for a
+    /// queue of another family you record the transfer of ownership, which voxtact does not. Wrapped objects are as you
+    /// made them.
+    std::span<const std::uint32_t> queueFamilies;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;   ///< optional; used, never destroyed
+    const VkAllocationCallbacks* allocator = nullptr; ///< optional
+    LogCallback log = nullptr;                        ///< optional; warnings, a line each
+    void* logUser = nullptr;                          ///< the first argument of every call of `log`
 };
 
 /// A feature that voxtact uses, as data.

@@ -185,8 +185,8 @@ class Detector {
     /// are recorded into the command buffer, so it may be submitted again without its Results being overwritten by
     /// the host in between.
     ///
-    ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics (and compute,
-    ///                    for the method compute)
+    ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics, or, for
+    ///                    the method compute, on one with compute, with or without graphics
     ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them, wrapped ones in the
     ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER (for the projection
     ///                    dominant-axis: to VERTEX_SHADER / FRAGMENT_SHADER, for the method compute: to
@@ -221,7 +221,8 @@ class Detector {
 /// Thread-safety: none; one thread at a time.
 class BlockingDetector {
   public:
-    /// A list of contacts is cut beyond `mostContacts`.
+    /// The queue's family must be able to draw, or, for the method compute, to compute. A list of contacts is cut
+    /// beyond `mostContacts`.
     [[nodiscard]] VOXTACT_API static Result<BlockingDetector> create(const Context& context, const DetectorDesc& desc,
                                                                      const QueueAccess& queue,
                                                                      std::uint32_t mostContacts = kDefaultContactRoom);
@@ -246,13 +247,15 @@ struct SelfTestVerdict {
     CountingMethod method;  ///< which
     bool available = false; ///< whether the device can do it
     bool trusted = false;   ///< available, and every count was as it must be
-    std::string text;       ///< "1024 of 1024 fragments", or what is wrong
+    std::string text;       ///< what was counted and compared, or what is wrong
 };
 
 /// Renders a known number of fragments by each of `methods` (empty: all that the Context knows) on this driver: a full
-/// viewport in an opaque volume, in a transparent one, and in a half-opaque one. Blocks; some milliseconds, and the
-/// making of pipelines. A method that the driver fails is not trusted, with the error as its text; only a lost device
-/// fails the call.
+/// viewport in an opaque volume, in a transparent one, and in a half-opaque one. Where the method's default filter is
+/// Exact, also does each operation that exactness rests on (floats, conversions, 32- and 64-bit integers, additions in
+/// a work group, texels) on 10^5 inputs, and compares with the host bit for bit. Blocks; some ten milliseconds, and the
+/// making of pipelines. A method that the driver fails is not trusted, with the error or the operation as its text;
+/// only a lost device fails the call.
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
 

@@ -29,6 +29,7 @@ const char* missingUpload(const BatchItem& item) {
 struct DeviceSide {
     const ContextImpl& context;
     bool readsVertices; ///< vertices are pulled from a storage buffer
+    bool filters;       ///< by the device's sampler
 
     [[nodiscard]] Result<void> checkExtent(const WideExtent& extent, const std::string& what) const {
         const VkPhysicalDeviceLimits& limits = context.limits;
@@ -52,6 +53,12 @@ struct DeviceSide {
         if (const char* what = missingUpload(item); what != nullptr) {
             return neverUploaded(which + ": " + what);
         }
+        if (filters && !(item.volume->impl().filtered && item.transferFunction->impl().filtered)) {
+            return Error{ErrorCode::Unsupported, 0,
+                         which + ": the device cannot filter the " +
+                             (item.volume->impl().filtered ? "transfer function's table" : "volume's format") +
+                             " linearly; DetectorDesc::filter exact needs no filtering"};
+        }
         return readsVertices ? checkStorage(item, "the projection dominant-axis") : Result<void>();
     }
 };
@@ -61,7 +68,8 @@ struct DeviceSide {
 Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch) {
     const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
     return checkBatch(desc.projection, desc.samplesPerVoxel, batch,
-                      DeviceSide{context, rasterised && rowOf(desc.projection).voxelGrid});
+                      DeviceSide{context, rasterised && rowOf(desc.projection).voxelGrid,
+                                 desc.filter == Filter::Hardware && !rowOf(desc.projection).certified});
 }
 
 std::uint32_t groupsOf(const Mesh& mesh) noexcept {

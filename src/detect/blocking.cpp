@@ -2,6 +2,7 @@
 #include "core/base/guard.h"
 #include "core/base/live.h"
 #include "core/base/try.h"
+#include "core/method/method_table.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
@@ -23,6 +24,11 @@ struct BlockingDetector::State {
 namespace {
 
 constexpr std::uint32_t kFewestPairs = 64;
+
+/// What a queue must be able to do for a method.
+VkQueueFlags queueOf(CountingMethod method) {
+    return rowOf(method).coverage == Coverage::Rasteriser ? VK_QUEUE_GRAPHICS_BIT : VK_QUEUE_COMPUTE_BIT;
+}
 
 std::uint64_t pairsOf(const Batch& batch) {
     std::uint64_t pairs = 0;
@@ -72,7 +78,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
     return guard([&]() -> Result<BlockingDetector> {
         Result<Detector> detector = Detector::create(context, desc);
         VOXTACT_TRY(detector);
-        Result<Submitter> submitter = Submitter::create(context.impl(), queue);
+        Result<Submitter> submitter = Submitter::create(context.impl(), queue, queueOf(desc.method));
         VOXTACT_TRY(submitter);
         ResultsDesc resultsDesc;
         resultsDesc.timestamps = context.impl().timestampBits(queue.family) > 0;

@@ -53,8 +53,8 @@ void clear(const ContextImpl& context, VkCommandBuffer commandBuffer, const Outp
 
 /// The stand-in for a label map becomes something that a set may be bound to.
 void makeReadable(const ContextImpl& context, VkCommandBuffer commandBuffer, VkImage image) {
-    constexpr VkPipelineStageFlags2 kStages =
-        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    // Whatever the queue has: it may be one that only computes.
+    constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier(context, commandBuffer, image, {kStages, 0, VK_IMAGE_LAYOUT_UNDEFINED},
             {kStages, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }

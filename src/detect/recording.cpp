@@ -16,9 +16,12 @@ static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::CertifiedOpen) &&
                   2 * sizeof(shader::CertifiedOpen) <= kMostTransformsPerPair * sizeof(shader::PairTransform),
               "they share a buffer");
 
-constexpr VkPipelineStageFlags2 kShaders = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
-                                           VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                                           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+/// Where a method's shaders run. One that computes names no stage of graphics: its queue may have none.
+VkPipelineStageFlags2 shadersOf(const DetectorDesc& desc) {
+    return rowOf(desc.method).coverage == Coverage::Rasteriser
+               ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
+               : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+}
 
 std::uint32_t howOf(const DetectorDesc& desc) {
     return static_cast<std::uint32_t>(desc.method) | static_cast<std::uint32_t>(desc.projection) << 8U |
@@ -100,7 +103,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     }
     writeTimestamp(context, commandBuffer, results, 0);
     // Whatever still reads or writes the results of an earlier batch must be done.
-    barrier(context, commandBuffer, kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
     if (rowOf(desc.projection).certified) {
@@ -116,7 +119,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);
     }
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-            kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+            shadersOf(desc) | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                 VK_ACCESS_2_TRANSFER_WRITE_BIT);
 }
@@ -126,7 +129,7 @@ void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     if (rowOf(desc.method).query) {
         copyQueries(context, commandBuffer, results);
     }
-    barrier(context, commandBuffer, kShaders | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+    barrier(context, commandBuffer, shadersOf(desc) | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
             VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT);
     writeTimestamp(context, commandBuffer, results, 1);

@@ -2,6 +2,7 @@
 #include "core/base/guard.h"
 
 #include "core/base/try.h"
+#include "detect/arithmetic_check.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>
@@ -101,6 +102,14 @@ Result<SelfTestVerdict> judge(const Context& context, const QueueAccess& queue, 
                              ? std::to_string(pair.count) + " of " + std::to_string(expected.expected)
                              : std::string(pair.hit ? "hit" : "no hit")) +
                         (right ? "" : " WRONG");
+    }
+    if (defaultFilter(method) == Filter::Exact) {
+        const Result<ArithmeticVerdict> arithmetic = checkArithmetic(context, queue);
+        VOXTACT_TRY(arithmetic);
+        verdict.trusted = verdict.trusted && arithmetic->wrong.empty();
+        verdict.text += arithmetic->wrong.empty()
+                            ? ", " + std::to_string(arithmetic->operations) + " operations as on the host"
+                            : ", not as on the host: " + arithmetic->wrong;
     }
     return verdict;
 }

@@ -42,11 +42,11 @@ void readProperties(ContextImpl& context) {
     context.vk.GetPhysicalDeviceMemoryProperties(context.physicalDevice, &context.memory);
 }
 
-Result<void> makeSampler(ContextImpl& context) {
+Result<void> makeSampler(ContextImpl& context, VkFilter filter, VkSampler& out, const char* name) {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.magFilter = VK_FILTER_LINEAR;
-    info.minFilter = VK_FILTER_LINEAR;
+    info.magFilter = filter;
+    info.minFilter = filter;
     info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
@@ -57,8 +57,27 @@ Result<void> makeSampler(ContextImpl& context) {
         result != VK_SUCCESS) {
         return context.failure(result, "making a sampler");
     }
-    context.sampler = made;
-    nameObject(context, VK_OBJECT_TYPE_SAMPLER, context.sampler, "linear sampler");
+    out = made;
+    nameObject(context, VK_OBJECT_TYPE_SAMPLER, out, name);
+    return {};
+}
+
+Result<void> makeSamplers(ContextImpl& context) {
+    VOXTACT_TRY(makeSampler(context, VK_FILTER_LINEAR, context.sampler, "linear sampler"));
+    return makeSampler(context, VK_FILTER_NEAREST, context.nearestSampler, "nearest sampler");
+}
+
+/// Families that share what is made: each there is, and each once.
+Result<void> checkFamilies(const ContextImpl& context, std::span<const std::uint32_t> families) {
+    for (std::size_t i = 0; i < families.size(); ++i) {
+        constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+        const std::string which = "ContextDesc::queueFamilies[" + std::to_string(i) + "]";
+        VOXTACT_TRY(context.checkFamily(families[i], kAny, which.c_str()));
+        if (std::ranges::find(families.first(i), families[i]) != families.begin() + static_cast<std::ptrdiff_t>(i)) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         which + " is " + std::to_string(families[i]) + ", which is there before"};
+        }
+    }
     return {};
 }
 
@@ -176,8 +195,10 @@ ContextImpl::~ContextImpl() {
             vk.DestroyDescriptorSetLayout(device, layout, allocator);
         }
     }
-    if (sampler != VK_NULL_HANDLE) {
-        vk.DestroySampler(device, sampler, allocator);
+    for (const VkSampler each : {sampler, nearestSampler}) {
+        if (each != VK_NULL_HANDLE) {
+            vk.DestroySampler(device, each, allocator);
+        }
     }
 }
 
@@ -210,7 +231,9 @@ Result<void> ContextImpl::checkFamily(std::uint32_t family, VkQueueFlags anyOf, 
     if ((all[family].queueFlags & anyOf) == 0) {
         return Error{ErrorCode::InvalidArgument, 0,
                      std::string(what) + " is " + std::to_string(family) + ", a family of queues that " +
-                         ((anyOf & VK_QUEUE_COMPUTE_BIT) != 0 ? "can neither draw nor compute" : "cannot draw")};
+                         (anyOf == VK_QUEUE_GRAPHICS_BIT  ? "cannot draw"
+                          : anyOf == VK_QUEUE_COMPUTE_BIT ? "cannot compute"
+                                                          : "can neither draw nor compute")};
     }
     return {};
 }
@@ -247,7 +270,9 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->methods = std::move(report.methods);
         impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
         readProperties(*impl);
-        for (const auto make : {makeSampler, makeSetLayouts, makeLayouts, makeOutputLayouts}) {
+        VOXTACT_TRY(checkFamilies(*impl, desc.queueFamilies));
+        impl->queueFamilies.assign(desc.queueFamilies.begin(), desc.queueFamilies.end());
+        for (const auto make : {makeSamplers, makeSetLayouts, makeLayouts, makeOutputLayouts}) {
             VOXTACT_TRY(make(*impl));
         }
         for (const std::string& line : report.missing) {

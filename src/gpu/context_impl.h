@@ -43,7 +43,9 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     VkPhysicalDeviceMemoryProperties memory{};
     std::vector<MethodSupport> methods;
 
-    VkSampler sampler = VK_NULL_HANDLE; ///< linear, clamped to the edge; of volumes and transfer functions alike
+    std::vector<std::uint32_t> queueFamilies{}; ///< ContextDesc::queueFamilies
+    VkSampler sampler = VK_NULL_HANDLE;        ///< linear, clamped to the edge; of volumes and transfer functions alike
+    VkSampler nearestSampler = VK_NULL_HANDLE; ///< for formats that cannot be filtered: shaders fetch their texels
     std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex
     VkPipelineLayout rasterLayout = VK_NULL_HANDLE;    ///< sets 0 to 2, and ItemConstants for the fragment stage
     VkPipelineLayout dominantLayout = VK_NULL_HANDLE;  ///< all sets, ItemConstants, and DominantConstants for vertices
@@ -77,6 +79,16 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     [[nodiscard]] Result<void> recordable(VkCommandBuffer commandBuffer) const;
     void log(const std::string& text) const noexcept;
     /// The family's timestamps have this many valid bits; 0: it has none.
+    /// Of images of a format, by whether it can be filtered linearly.
+    [[nodiscard]] VkSampler samplerOf(bool filtered) const noexcept { return filtered ? sampler : nearestSampler; }
+    /// Lets the families of ContextDesc::queueFamilies share what is made, where there are several.
+    template <class CreateInfo> void share(CreateInfo& info) const noexcept {
+        if (queueFamilies.size() > 1) {
+            info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+            info.queueFamilyIndexCount = static_cast<std::uint32_t>(queueFamilies.size());
+            info.pQueueFamilyIndices = queueFamilies.data();
+        }
+    }
     [[nodiscard]] std::uint32_t timestampBits(std::uint32_t family) const;
     /// Refuses a queue family that the device does not have, or that has none of `anyOf`. `what` begins the text.
     [[nodiscard]] Result<void> checkFamily(std::uint32_t family, VkQueueFlags anyOf, const char* what) const;

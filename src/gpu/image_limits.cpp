@@ -7,6 +7,17 @@
 
 namespace voxtact {
 
+Result<bool> isFiltered(const ContextImpl& context, VkFormat format, const std::string& what) {
+    VkFormatProperties properties{};
+    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
+    const VkFormatFeatureFlags features = properties.optimalTilingFeatures;
+    if ((features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) == 0) {
+        return Error{ErrorCode::Unsupported, 0,
+                     what + ": the device has no sampled images of VkFormat " + std::to_string(format)};
+    }
+    return (features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
+}
+
 Result<void> checkSides(const ContextImpl& context, const Grid& grid, const std::string& what) {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {

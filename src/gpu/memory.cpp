@@ -107,6 +107,7 @@ Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsage
                           const char* name) {
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    context.share(info);
     info.size = size;
     info.usage = usage;
     VkBuffer handle = VK_NULL_HANDLE;
@@ -176,6 +177,7 @@ Result<void> invalidate(ContextImpl& context, const Buffer& buffer) {
 Result<Image> makeImage(ContextImpl& context, const ImageDesc& desc, const char* what, const char* name) {
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    context.share(info);
     info.imageType = desc.type;
     info.format = desc.format;
     info.extent = desc.extent;
@@ -245,9 +247,9 @@ Result<DescriptorSet> makeDescriptorSet(ContextImpl& context, VkDescriptorSetLay
 }
 
 void writeImage(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
-                VkImageView view, VkImageLayout layout) {
-    const VkSampler sampler = type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER ? context.sampler : VK_NULL_HANDLE;
-    const VkDescriptorImageInfo image{sampler, view, layout};
+                VkImageView view, VkImageLayout layout, VkSampler sampler) {
+    const bool combined = type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    const VkDescriptorImageInfo image{combined && sampler == VK_NULL_HANDLE ? context.sampler : sampler, view, layout};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;

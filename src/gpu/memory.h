@@ -112,9 +112,10 @@ struct DescriptorSet {
 
 [[nodiscard]] Result<DescriptorSet> makeDescriptorSet(ContextImpl& context, VkDescriptorSetLayout layout,
                                                       std::span<const VkDescriptorPoolSize> sizes, const char* name);
-/// Writes an image; a combined image sampler has the context's sampler.
+/// Writes an image; a combined image sampler has `sampler`, or the context's linear one where it is null.
 void writeImage(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type,
-                VkImageView view, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                VkImageView view, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                VkSampler sampler = VK_NULL_HANDLE);
 /// Writes a storage buffer, from `offset` on.
 void writeBuffer(ContextImpl& context, VkDescriptorSet set, std::uint32_t binding, VkBuffer buffer,
                  VkDeviceSize range = VK_WHOLE_SIZE, VkDeviceSize offset = 0);

@@ -15,6 +15,7 @@ struct VolumeImpl {
     Mat4 texture_from_world{};
     ScalarType type = ScalarType::UInt8; ///< of what was uploaded
     VkFormat format = VK_FORMAT_UNDEFINED;
+    bool filtered = true;  ///< by the device's sampler, linearly
     double valueSlope = 1; ///< value = valueSlope * texel + valueIntercept, texel being what the sampler returns
     double valueIntercept = 0;
     double storedUnit = 0; ///< the integer behind texel 1.0; 0 for float texels, whose stored value is the texel
@@ -35,6 +36,7 @@ struct TransferFunctionImpl {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     ValueRange domain{};
+    bool filtered = true;        ///< by the device's sampler, linearly
     std::vector<float> table{};  ///< the host's copy; empty for a wrapped one without
     Image image{};               ///< empty when wrapped
     Buffer extremes{};           ///< TableExtremes::values(), which begin with the table; empty without a host's table

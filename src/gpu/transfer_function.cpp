@@ -26,12 +26,6 @@ Result<void> checkDevice(const ContextImpl& context, std::uint32_t tableSize) {
                          " entries, the device's maxImageDimension1D is " +
                          std::to_string(context.limits.maxImageDimension1D)};
     }
-    VkFormatProperties properties{};
-    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, kTableFormat, &properties);
-    if ((properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) == 0) {
-        return Error{ErrorCode::Unsupported, 0,
-                     "the device cannot filter R32_SFLOAT linearly, the format of the transfer function's table"};
-    }
     return {};
 }
 
@@ -46,7 +40,8 @@ Result<void> describe(TransferFunctionImpl& function, VkImageView view, VkImageL
         makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_TRANSFER_FUNCTION], kSizes, name);
     VOXTACT_TRY(set);
     function.descriptors = std::move(*set);
-    writeImage(context, function.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, view, layout);
+    writeImage(context, function.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, view, layout,
+               context.samplerOf(function.filtered));
     writeBuffer(context, function.descriptors.set, VOXTACT_BINDING_EXTREMES, *extremes);
     return {};
 }
@@ -132,10 +127,13 @@ Result<TransferFunction> TransferFunction::create(const Context& context, const 
         ContextImpl& c = context.impl();
         VOXTACT_TRY(c.alive());
         VOXTACT_TRY(checkDevice(c, desc.tableSize));
+        const Result<bool> filtered = isFiltered(c, kTableFormat, "a transfer function");
+        VOXTACT_TRY(filtered);
         Result<std::vector<float>> table = sampleTable(desc);
         VOXTACT_TRY(table);
         auto impl = std::make_unique<TransferFunctionImpl>(
             TransferFunctionImpl{.context = c, .domain = desc.domain, .table = std::move(*table)});
+        impl->filtered = *filtered;
         VOXTACT_TRY(fillTable(*impl, name == nullptr ? "transfer function" : name));
         return TransferFunction(std::move(impl));
     });

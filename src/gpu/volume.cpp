@@ -62,18 +62,6 @@ double storedUnitOf(VkFormat format) {
     return unitOf(format) > 1 ? unitOf(format) : 0;
 }
 
-Result<void> checkFormat(const ContextImpl& context, VkFormat format, const char* type) {
-    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-    VkFormatProperties properties{};
-    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
-    if ((properties.optimalTilingFeatures & kNeeded) != kNeeded) {
-        return Error{ErrorCode::Unsupported, 0,
-                     std::string("the device cannot filter the format of ") + type + " voxels (VkFormat " +
-                         std::to_string(format) + ") linearly"};
-    }
-    return {};
-}
-
 VkExtent3D extentOf(const Grid& grid) {
     return {grid.size[0], grid.size[1], grid.size[2]};
 }
@@ -104,7 +92,8 @@ Result<void> describe(VolumeImpl& volume, VkImageLayout layout, const char* name
     Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_VOLUME], kSizes, name);
     VOXTACT_TRY(set);
     volume.descriptors = std::move(*set);
-    writeImage(context, volume.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, volume.view, layout);
+    writeImage(context, volume.descriptors.set, 0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, volume.view, layout,
+               context.samplerOf(volume.filtered));
     writeBuffer(context, volume.descriptors.set, VOXTACT_BINDING_BRICKS, *bricks);
     return {};
 }
@@ -172,7 +161,8 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         const Result<Mat4> texture_from_world = textureFromWorld(data.grid);
         VOXTACT_TRY(texture_from_world);
         const VkFormat format = texelFormat(data.type).format;
-        VOXTACT_TRY(checkFormat(c, format, toString(data.type)));
+        const Result<bool> filtered = isFiltered(c, format, std::string("a volume of ") + toString(data.type));
+        VOXTACT_TRY(filtered);
         if (Result<void> limits =
                 checkImageLimits(c, data.grid, format, usageOf(options), bytesPerVoxel(data.type), "the volume");
             !limits.ok()) {
@@ -182,6 +172,7 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         VOXTACT_TRY(range);
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = data.grid});
         impl->texture_from_world = *texture_from_world;
+        impl->filtered = *filtered;
         impl->type = data.type;
         impl->valueRange = *range;
         impl->boundary = boundaryRanges(data);
@@ -196,9 +187,11 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
         ContextImpl& c = context.impl();
         VOXTACT_TRY(c.alive());
         VOXTACT_TRY(checkWrapped(c, wrapped));
-        VOXTACT_TRY(checkFormat(c, wrapped.format, "the caller's"));
+        const Result<bool> filtered = isFiltered(c, wrapped.format, "the wrapped volume");
+        VOXTACT_TRY(filtered);
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = wrapped.grid});
         impl->texture_from_world = textureFromWorld(wrapped.grid).value();
+        impl->filtered = *filtered;
         impl->format = wrapped.format;
         impl->valueSlope = wrapped.slope * unitOf(wrapped.format);
         impl->valueIntercept = wrapped.intercept;

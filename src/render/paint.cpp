@@ -25,6 +25,10 @@ Result<void> checkFunction(const ContextImpl& context, const MeshPaint& paint) {
     if (&paint.transferFunction->impl().context != &context) {
         return refuse("Scene::paint has a transfer function of another Context");
     }
+    if (!paint.transferFunction->impl().filtered) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "Scene::paint: the device cannot filter its transfer function's table linearly"};
+    }
     return checkFraction(paint.threshold, "threshold");
 }
 

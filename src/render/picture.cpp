@@ -89,6 +89,10 @@ Result<void> checkScene(const ContextImpl& context, const Scene& scene) {
     if (&scene.volume->impl().context != &context || &scene.transferFunction->impl().renderer.context != &context) {
         return refuse("Scene::volume or transferFunction belongs to another Context");
     }
+    if (!scene.volume->impl().filtered) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "Scene::volume: the device cannot filter its format linearly, as ray casting does"};
+    }
     if (scene.bricks != nullptr && scene.bricks->impl().volume != &scene.volume->impl()) {
         return refuse("Scene::bricks is not of Scene::volume");
     }

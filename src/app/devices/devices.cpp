@@ -23,8 +23,9 @@ cannot be used. Columns:
   index,name,type,api,driver   the device; subgroup_size: invocations in a subgroup
   default                      1: what a command takes without --device
   method                       the counting method
-  available,trusted            the device can do it; and it counted a known number of fragments right (self-test)
-  verdict                      what the self-test counted, or why it cannot be used
+  available,trusted            the device can do it; and it counted a known number of fragments right, and its
+                               arithmetic is the host's where exactness rests on it (self-test)
+  verdict                      what the self-test counted and compared, or why the method cannot be used
   pairs_per_s                  on a small scene; measured once and remembered, see --cache
   auto                         1: what --count auto takes on this device
 
