@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/clearance/mesh_place.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using glm::dvec3;
+
+/// Of the largest term of a coordinate: a distance is made of a few dozen operations on such.
+constexpr double kRelativeError = 0x1p-46;
+/// Outside of these squares of distances may overflow, or vanish.
+constexpr double kLeast = 1e-100;
+constexpr double kGreatest = 1e100;
+
+} // namespace
+
+void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object) {
+    // After 2^32 pairs, or for another mesh, nothing is in place.
+    if (mesh_ != &mesh || ++pair_ == 0) {
+        boxes_.assign(mesh.tree.levels(), {});
+        for (std::uint32_t level = 0; level < mesh.tree.levels(); ++level) {
+            boxes_[level].resize(mesh.tree.boxes(level).size());
+        }
+        runs_.assign(mesh.tree.boxes(0).size(), 0);
+        triangles_.resize(kRunTriangles * runs_.size());
+        pair_ = 1;
+    }
+    mesh_ = &mesh;
+    space_ = &space;
+    for (int column = 0; column < 3; ++column) {
+        const auto at = static_cast<std::size_t>(4 * column);
+        local_from_object_[column] = {world_from_object[at], world_from_object[at + 1], world_from_object[at + 2]};
+    }
+    origin_ = dvec3(world_from_object[12], world_from_object[13], world_from_object[14]) - space.middle;
+    findError(world_from_object);
+}
+
+void MeshPlace::findError(const Mat4& world_from_object) {
+    double largest = 0;
+    for (std::size_t row = 0; row < 3; ++row) {
+        double sum = std::abs(world_from_object[12 + row]);
+        for (std::size_t column = 0; column < 3; ++column) {
+            const Box& bounds = mesh_->facts.bounds;
+            const double vertex = std::max(std::abs(bounds.lo[column]), std::abs(bounds.hi[column]));
+            sum += std::abs(world_from_object[4 * column + row]) * vertex;
+        }
+        largest = std::max(largest, sum);
+    }
+    const double magnitude = largest + space_->magnitude;
+    const bool usable = magnitude > kLeast && magnitude < kGreatest;
+    error_ = usable ? kRelativeError * magnitude * space_->condition : std::numeric_limits<double>::infinity();
+}
+
+const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {
+    Slot<PlacedBox>& slot = boxes_[level][node];
+    if (slot.pair == pair_) {
+        return slot.placed;
+    }
+    slot.pair = pair_;
+    const RunBox& box = mesh_->tree.boxes(level)[node];
+    dvec3 middle;
+    PlacedBox& out = slot.placed;
+    dvec3 diagonal(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<std::size_t>(axis);
+        // Exact in double.
+        const double lo = static_cast<double>(box.lo[at]);
+        const double hi = static_cast<double>(box.hi[at]);
+        middle[axis] = (lo + hi) / 2;
+        out.sides[at] = local_from_object_[axis] * ((hi - lo) / 2);
+        diagonal += glm::abs(out.sides[at]);
+    }
+    out.middle = local_from_object_ * middle + origin_;
+    const dvec3 centre = space_->toVoxel(out.middle);
+    dvec3 extent(0);
+    for (const dvec3& side : out.sides) {
+        extent += glm::abs(space_->toVoxel(side));
+    }
+    out.lo = centre - extent;
+    out.hi = centre + extent;
+    out.diameter = 2 * length(diagonal);
+    return out;
+}
+
+const PlacedTriangle* MeshPlace::run(std::uint32_t run) {
+    if (runs_[run] != pair_) {
+        runs_[run] = pair_;
+        placeRun(run);
+    }
+    return &triangles_[std::size_t{run} * kRunTriangles];
+}
+
+std::uint32_t MeshPlace::count(std::uint32_t run) const {
+    const std::uint32_t from = first(run);
+    std::uint32_t count = 0;
+    while (count < kRunTriangles && mesh_->numbers[from + count] != kNoTriangle) {
+        ++count;
+    }
+    return count;
+}
+
+void MeshPlace::placeRun(std::uint32_t run) {
+    const std::size_t vertices = mesh_->clusters[run / ClusterTree::kRunsOfCluster].firstVertex;
+    for (std::uint32_t i = 0; i < count(run); ++i) {
+        const std::size_t at = first(run) + i;
+        PlacedTriangle& out = triangles_[std::size_t{run} * kRunTriangles + i];
+        const std::array<std::uint8_t, 3> corners{mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::size_t vertex = vertices + corners[corner];
+            out.corners[corner] =
+                local_from_object_ * dvec3(static_cast<double>(mesh_->x[vertex]), static_cast<double>(mesh_->y[vertex]),
+                                           static_cast<double>(mesh_->z[vertex])) +
+                origin_;
+            const dvec3 voxel = space_->toVoxel(out.corners[corner]);
+            out.lo = corner == 0 ? voxel : glm::min(out.lo, voxel);
+            out.hi = corner == 0 ? voxel : glm::max(out.hi, voxel);
+        }
+    }
+}
+
+} // namespace voxtact::cpu
