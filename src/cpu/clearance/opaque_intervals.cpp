@@ -9,9 +9,9 @@ namespace voxtact::cpu {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Of a place between two entries: far more than the rounding of a quotient of differences of floats, and of the sum
-/// with the number of the entry, which is less than 2^24.
-constexpr double kPlaceError = 0x1p-26;
+/// Of a place among so many entries: the rounding of a quotient of differences of floats, and of the sum with the
+/// number of the entry.
+constexpr double kPlaceError = 0x1p-50;
 
 /// Where the line from `a` at 0 to `b` at 1, of which one is below the threshold, crosses it.
 double crossing(double a, double b, double threshold) {
@@ -27,6 +27,7 @@ OpaqueIntervals::OpaqueIntervals(std::span<const float> table, float threshold) 
                                                  static_cast<double>(threshold));
     };
     const std::size_t last = table.size() - 1;
+    const double error = kPlaceError * static_cast<double>(table.size());
     for (std::size_t i = 0; i <= last; ++i) {
         if (!opaque(i)) {
             continue;
@@ -37,10 +38,10 @@ OpaqueIntervals::OpaqueIntervals(std::span<const float> table, float threshold) 
         }
         const double from = first == 0 ? -kInfinity : place(first - 1);
         const double to = i == last ? kInfinity : place(i);
-        outer_.push_back({from - kPlaceError, to + kPlaceError});
+        outer_.push_back({from - error, to + error});
         // The entries themselves are opaque without rounding.
-        inner_.push_back({std::min(from + kPlaceError, static_cast<double>(first)),
-                          std::max(to - kPlaceError, static_cast<double>(i))});
+        inner_.push_back(
+            {std::min(from + error, static_cast<double>(first)), std::max(to - error, static_cast<double>(i))});
     }
 }
 

@@ -2,11 +2,15 @@
 #include "cpu/clearance/opaque_part.h"
 #include "cpu/scene/stored_voxels.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxtact::cpu {
 
 namespace {
+
+/// Of the terms of an entry coordinate.
+constexpr double kEntryError = 0x1p-47;
 
 std::size_t numberOf(const NodePlace& count, const NodePlace& node) {
     return (static_cast<std::size_t>(node[2]) * static_cast<std::size_t>(count[1]) +
@@ -66,25 +70,28 @@ OpaquePart::OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& fun
                        double resolution)
     : occupancy(volume, function, threshold, resolution), space(volume.grid),
       intervals(function.table, occupancy.item().threshold),
-      pyramid(volume.bricks.count, wantedBricks(occupancy, volume.bricks.lo.size())) {}
+      pyramid(volume.bricks.count, wantedBricks(occupancy, volume.bricks.lo.size())),
+      scale_(static_cast<double>(function.table.size()) / (function.domain.hi - function.domain.lo)),
+      origin_(function.domain.lo - volume.storedIntercept),
+      terms_(std::abs(function.domain.lo) + std::abs(volume.storedIntercept)) {}
 
 PartCell OpaquePart::cell(const VolumeImpl& volume, const NodePlace& padded) const {
     const StoredImage& image = volume.image;
-    const shader::CertifiedItem& item = occupancy.item();
     PartCell out;
     std::array<double, 8> corners{};
+    double largest = terms_;
     image.visit([&](const auto* voxels) {
         const auto* first = voxels + padded[0] + padded[1] * image.stride[1] + padded[2] * image.stride[2];
         for (std::size_t i = 0; i < 8; ++i) {
             const std::int64_t offset =
                 ((i & 1U) != 0 ? 1 : 0) + ((i & 2U) != 0 ? image.stride[1] : 0) + ((i & 4U) != 0 ? image.stride[2] : 0);
-            corners[i] = static_cast<double>(shader::certifiedEntry(item, storedValue(first[offset])));
+            const double stored = static_cast<double>(storedValue(first[offset]));
+            largest = std::max(largest, std::abs(stored));
+            corners[i] = (stored - origin_) * scale_ - 0.5;
         }
     });
-    const NodePlace brick{padded[0] >> kBrickShift, padded[1] >> kBrickShift, padded[2] >> kBrickShift};
-    const BrickCells& known = cells(volume, brick);
-    // And what rounds here.
-    out.error = 1.001 * static_cast<double>(shader::certifiedPointError(item, known.wideLo, known.wideHi));
+    // A dozen roundings, and as many of what is computed from the terms.
+    out.error = kEntryError * (std::abs(scale_) * (largest + terms_) + 1);
     out.terms = trilinearOf(corners);
     for (int axis = 0; axis < 3; ++axis) {
         const std::int32_t number = padded[static_cast<std::size_t>(axis)] - 1;

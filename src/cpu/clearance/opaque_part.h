@@ -61,6 +61,13 @@ class OpaquePart {
     VolumeSpace space;
     OpaqueIntervals intervals;
     BrickPyramid pyramid;
+
+  private:
+    /// Of an entry coordinate: (stored - origin) * scale - 0.5. In double: single precision would be all that keeps the
+    /// bounds apart.
+    double scale_;
+    double origin_;
+    double terms_; ///< the magnitudes of what the origin is made of
 };
 
 } // namespace voxtact::cpu
