@@ -350,6 +350,26 @@ TEST(Clearance, DoesNotDependOnItsCompany) {
     }
 }
 
+/// A meter keeps memory from pair to pair: a mesh of another size may come to be where one was.
+TEST(Clearance, TakesMeshesOfAllSizesOneAfterTheOther) {
+    const VolumeData image = makeBytes(unitGrid(8), [](auto...) { return 255; });
+    Held held(needle(), image, byteRamp(), {0, 255});
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    const Mat4 pose = identity();
+    for (const std::uint32_t triangles : {1U, 300U, 5U, 2000U, 64U, 70U, 1U}) {
+        MeshData mesh;
+        for (std::uint32_t i = 0; i < triangles; ++i) {
+            const double x = 3.0 + i;
+            addTriangle(mesh, {x, 0.5, 0.5}, {x, 0.6, 0.5}, {x, 0.5, 0.6});
+        }
+        held.mesh = take(cpu::Mesh::create(mesh.view()));
+        const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
+        const PairClearance found = take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0);
+        expectAbout(2, found);
+        EXPECT_EQ(found.closest->triangle, 0U);
+    }
+}
+
 TEST(Clearance, SeesEditsAndNewTransferFunctions) {
     Grid grid;
     grid.size = {20, 20, 20};

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -23,14 +24,17 @@ constexpr double kGreatest = 1e100;
 } // namespace
 
 void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object) {
-    // After 2^32 pairs, or for another mesh, nothing is in place.
-    if (mesh_ != &mesh || ++pair_ == 0) {
+    // Another mesh may be where one was before; after 2^32 pairs nothing is in place.
+    const bool fits = clusters_.size() == mesh.clusters.size() && vertices_.size() == mesh.x.size() &&
+                      boxes_.size() == mesh.tree.levels() && boxes_[0].size() == mesh.tree.boxes(0).size();
+    if (!fits || ++pair_ == 0) {
         boxes_.assign(mesh.tree.levels(), {});
         for (std::uint32_t level = 0; level < mesh.tree.levels(); ++level) {
             boxes_[level].resize(mesh.tree.boxes(level).size());
         }
-        runs_.assign(mesh.tree.boxes(0).size(), 0);
-        triangles_.resize(kRunTriangles * runs_.size());
+        clusters_.assign(mesh.clusters.size(), 0);
+        vertices_.resize(mesh.x.size());
+        triangles_.resize(kClusterTriangles * clusters_.size());
         pair_ = 1;
     }
     mesh_ = &mesh;
@@ -91,11 +95,24 @@ const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {
 }
 
 const PlacedTriangle* MeshPlace::run(std::uint32_t run) {
-    if (runs_[run] != pair_) {
-        runs_[run] = pair_;
-        placeRun(run);
+    return cluster(run / ClusterTree::kRunsOfCluster) + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+}
+
+const PlacedTriangle* MeshPlace::cluster(std::uint32_t cluster) {
+    if (clusters_[cluster] != pair_) {
+        clusters_[cluster] = pair_;
+        placeCluster(cluster);
     }
-    return &triangles_[std::size_t{run} * kRunTriangles];
+    return &triangles_[std::size_t{cluster} * kClusterTriangles];
+}
+
+std::uint32_t MeshPlace::countOfCluster(std::uint32_t cluster) const {
+    const ClusterPlace& place = mesh_->clusters[cluster];
+    std::uint32_t triangles = place.triangleCount;
+    while (triangles > 0 && mesh_->numbers[place.firstTriangle + triangles - 1] == kNoTriangle) {
+        --triangles;
+    }
+    return triangles;
 }
 
 std::uint32_t MeshPlace::count(std::uint32_t run) const {
@@ -107,23 +124,57 @@ std::uint32_t MeshPlace::count(std::uint32_t run) const {
     return count;
 }
 
-void MeshPlace::placeRun(std::uint32_t run) {
-    const std::size_t vertices = mesh_->clusters[run / ClusterTree::kRunsOfCluster].firstVertex;
-    for (std::uint32_t i = 0; i < count(run); ++i) {
-        const std::size_t at = first(run) + i;
-        PlacedTriangle& out = triangles_[std::size_t{run} * kRunTriangles + i];
+void MeshPlace::placeCluster(std::uint32_t cluster) {
+    const ClusterPlace& place = mesh_->clusters[cluster];
+    for (std::size_t i = place.firstVertex; i < std::size_t{place.firstVertex} + place.vertexCount; ++i) {
+        const dvec3 vertex(static_cast<double>(mesh_->x[i]), static_cast<double>(mesh_->y[i]),
+                           static_cast<double>(mesh_->z[i]));
+        vertices_[i] = local_from_object_ * vertex + origin_;
+    }
+    for (std::uint32_t i = 0; i < countOfCluster(cluster); ++i) {
+        const std::size_t at = std::size_t{place.firstTriangle} + i;
+        PlacedTriangle& out = triangles_[std::size_t{cluster} * kClusterTriangles + i];
         const std::array<std::uint8_t, 3> corners{mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const std::size_t vertex = vertices + corners[corner];
-            out.corners[corner] =
-                local_from_object_ * dvec3(static_cast<double>(mesh_->x[vertex]), static_cast<double>(mesh_->y[vertex]),
-                                           static_cast<double>(mesh_->z[vertex])) +
-                origin_;
+            out.corners[corner] = vertices_[std::size_t{place.firstVertex} + corners[corner]];
             const dvec3 voxel = space_->toVoxel(out.corners[corner]);
             out.lo = corner == 0 ? voxel : glm::min(out.lo, voxel);
             out.hi = corner == 0 ? voxel : glm::max(out.hi, voxel);
         }
     }
+}
+
+void MeshPlace::addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const {
+    const ClusterPlace& place = mesh_->clusters[cluster];
+    std::array<bool, PointList::kMost> added{};
+    for (std::uint64_t left = triangles; left != 0; left &= left - 1) {
+        const std::size_t at = std::size_t{place.firstTriangle} + static_cast<std::size_t>(std::countr_zero(left));
+        for (const std::uint8_t corner : {mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]}) {
+            if (!added[corner]) {
+                added[corner] = true;
+                const dvec3& vertex = vertices_[std::size_t{place.firstVertex} + corner];
+                points.x[points.count] = vertex.x;
+                points.y[points.count] = vertex.y;
+                points.z[points.count] = vertex.z;
+                ++points.count;
+            }
+        }
+    }
+}
+
+double PointList::reach(const dvec3& normal) const noexcept {
+    // Two at a time, for the processor.
+    double even = -std::numeric_limits<double>::infinity();
+    double odd = even;
+    std::size_t i = 0;
+    for (; i + 1 < count; i += 2) {
+        even = std::max(even, normal.x * x[i] + normal.y * y[i] + normal.z * z[i]);
+        odd = std::max(odd, normal.x * x[i + 1] + normal.y * y[i + 1] + normal.z * z[i + 1]);
+    }
+    if (i < count) {
+        even = std::max(even, normal.x * x[i] + normal.y * y[i] + normal.z * z[i]);
+    }
+    return std::max(even, odd);
 }
 
 } // namespace voxtact::cpu

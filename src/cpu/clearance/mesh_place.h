@@ -28,6 +28,18 @@ struct PlacedTriangle {
     glm::dvec3 hi{};
 };
 
+/// Some points, and how far they reach along a direction.
+struct PointList {
+    static constexpr std::size_t kMost = 3 * std::size_t{kClusterTriangles};
+    std::array<double, kMost> x{};
+    std::array<double, kMost> y{};
+    std::array<double, kMost> z{};
+    std::size_t count = 0;
+
+    /// The greatest dot product. Expects some points.
+    [[nodiscard]] double reach(const glm::dvec3& normal) const noexcept;
+};
+
 /// A mesh at a pose in the space of a volume: boxes and triangles are placed when they are first asked for.
 /// One thread's; kept from pair to pair for its memory.
 class MeshPlace {
@@ -40,8 +52,14 @@ class MeshPlace {
     [[nodiscard]] const PlacedBox& box(std::uint32_t level, std::uint32_t node);
     /// Of a run (ClusterTree): kRunTriangles of them, as many as it has in place. Valid until the next begin().
     [[nodiscard]] const PlacedTriangle* run(std::uint32_t run);
+    /// Of a cluster: kClusterTriangles of them.
+    [[nodiscard]] const PlacedTriangle* cluster(std::uint32_t cluster);
+    /// Adds the corners of some triangles of a cluster, each once: a bit for each triangle.
+    void addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const;
     /// How many triangles a run has.
     [[nodiscard]] std::uint32_t count(std::uint32_t run) const;
+    /// How many triangles a cluster has.
+    [[nodiscard]] std::uint32_t countOfCluster(std::uint32_t cluster) const;
     /// The place of a run's first triangle in the mesh's arrays.
     [[nodiscard]] std::uint32_t first(std::uint32_t run) const {
         return mesh_->clusters[run / ClusterTree::kRunsOfCluster].firstTriangle +
@@ -58,7 +76,7 @@ class MeshPlace {
         std::uint32_t pair = 0;
         Placed placed;
     };
-    void placeRun(std::uint32_t run);
+    void placeCluster(std::uint32_t cluster);
     void findError(const Mat4& world_from_object);
 
     const MeshImpl* mesh_ = nullptr;
@@ -68,7 +86,8 @@ class MeshPlace {
     double error_ = 0;
     std::uint32_t pair_ = 0; ///< what was placed for another is not in place
     std::vector<std::vector<Slot<PlacedBox>>> boxes_;
-    std::vector<std::uint32_t> runs_; ///< the pair that they are placed for
+    std::vector<std::uint32_t> clusters_; ///< the pair that they are placed for
+    std::vector<glm::dvec3> vertices_;    ///< local
     std::vector<PlacedTriangle> triangles_;
 };
 

@@ -19,6 +19,9 @@ using glm::length;
 
 /// Of a distance: the last roundings, which do not depend on where things are.
 constexpr double kDistanceError = 0x1p-40;
+/// Bounds of a brick's cells are tighter than those of larger boxes: the volume's are opened first where sizes are
+/// alike.
+constexpr double kPreferVolume = 2;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double reachAlong(const dvec3& normal, const std::array<dvec3, 3>& sides) {
@@ -102,9 +105,13 @@ void ClosestSearch::begin() {
         diameters_[shift] = std::ldexp(length(part_->space.spacing), static_cast<int>(shift));
     }
     const std::uint32_t top = part_->pyramid.levels() - 1;
-    const std::uint32_t level = mesh_->mesh().tree.levels() - 1;
     Pair pair;
     pair.shift = static_cast<std::uint8_t>(top + kBrickShift);
+    const std::uint32_t level = mesh_->mesh().tree.levels() - 1;
+    if (level == 0) {
+        openCluster(pair);
+        return;
+    }
     pair.meshLevel = static_cast<std::int8_t>(level);
     for (pair.mesh = 0; pair.mesh < mesh_->mesh().tree.boxes(level).size(); ++pair.mesh) {
         offer(pair);
@@ -158,28 +165,28 @@ bool ClosestSearch::closes(double lo) {
 }
 
 template <class Visit> void ClosestSearch::forTriangles(const Pair& pair, const Visit& visit) {
-    const PlacedTriangle* triangles = mesh_->run(pair.mesh);
-    for (unsigned left = pair.triangles; left != 0; left &= left - 1) {
+    const PlacedTriangle* triangles = mesh_->cluster(pair.mesh);
+    for (std::uint64_t left = pair.triangles; left != 0; left &= left - 1) {
         const auto number = static_cast<unsigned>(std::countr_zero(left));
         visit(number, triangles[number]);
     }
 }
 
 template <class Bound> bool ClosestSearch::keep(Pair& pair, const Bound& bound) {
-    unsigned kept = 0;
+    std::uint64_t kept = 0;
     double least = kInfinity;
     forTriangles(pair, [&](unsigned number, const PlacedTriangle& triangle) {
         const double lo = std::max(pair.lo, bound(triangle));
         if (closes(lo)) {
             return;
         }
-        kept |= 1U << number;
+        kept |= std::uint64_t{1} << number;
         if (lo < least) {
             least = lo;
             pair.nearest = static_cast<std::uint8_t>(number);
         }
     });
-    pair.triangles = static_cast<std::uint16_t>(kept);
+    pair.triangles = kept;
     pair.lo = least;
     return kept != 0;
 }
@@ -193,13 +200,12 @@ void ClosestSearch::open(const Pair& pair) {
         } else {
             openCells(pair);
         }
-    } else if (pair.shift > kLeastShift &&
-               mesh_->box(static_cast<std::uint32_t>(pair.meshLevel), pair.mesh).diameter < diameters_[pair.shift]) {
+    } else if (pair.shift > kLeastShift && boxOf(pair)->diameter < kPreferVolume * diameters_[pair.shift]) {
         openVolume(pair);
-    } else if (pair.meshLevel > 0) {
+    } else if (pair.meshLevel > kClusters) {
         openBox(pair);
     } else {
-        openRun(pair);
+        openCluster(pair);
     }
 }
 
@@ -214,17 +220,24 @@ void ClosestSearch::openBox(const Pair& pair) {
     }
 }
 
-void ClosestSearch::openRun(const Pair& pair) {
+/// Around the mesh's half of the pair; null where the tree has none.
+const PlacedBox* ClosestSearch::boxOf(const Pair& pair) {
+    const auto level = static_cast<std::uint32_t>(pair.meshLevel == kTriangles ? kClusters : pair.meshLevel);
+    return level < mesh_->mesh().tree.levels() ? &mesh_->box(level, pair.mesh) : nullptr;
+}
+
+void ClosestSearch::openCluster(const Pair& pair) {
     Pair child = pair;
     child.meshLevel = kTriangles;
-    child.triangles = static_cast<std::uint16_t>((1U << mesh_->count(pair.mesh)) - 1);
+    child.triangles = ~std::uint64_t{0} >> (kClusterTriangles - mesh_->countOfCluster(pair.mesh));
     Region region;
     if (!regionOfOpaque(child, region)) {
         return;
     }
     // All of them by the normal of their box, then each by its own.
     const dvec3 middle = part_->space.toWorld(0.5 * (region.lo + region.hi));
-    const dvec3 normal = middle - pointNear(mesh_->box(0, pair.mesh), middle);
+    const PlacedBox* box = boxOf(child);
+    const dvec3 normal = box != nullptr ? middle - pointNear(*box, middle) : normalFrom(child, middle);
     const double size = length(normal);
     if (size > 0) {
         const double least = leastOf(region, normal);
@@ -282,10 +295,11 @@ void ClosestSearch::openCells(const Pair& pair) {
     if (!regionOfOpaque(pair, region) || !(pair.sifted || sift(cell, region))) {
         return;
     }
+    gather(cell);
     const dvec3 normal = normalFrom(cell, part_->space.toWorld(0.5 * (region.lo + region.hi)));
     const dvec3 along = normal * part_->space.local_from_voxel;
     const dvec3 lowest = glm::min(along, dvec3(0));
-    const double base = dot(along, region.corner) + lowest.x + lowest.y + lowest.z - reachOfAll(cell, normal);
+    const double base = dot(along, region.corner) + lowest.x + lowest.y + lowest.z - corners_.reach(normal);
     const double size = length(normal);
     const double least = cell.lo;
     const NodePlace first{(pair.node[0] << pair.shift) & ~(kBrickSide - 1),
@@ -380,20 +394,20 @@ void ClosestSearch::offer(Pair pair) {
     if (!regionOf(pair, region)) {
         return;
     }
-    const PlacedBox& box = mesh_->box(static_cast<std::uint32_t>(std::max<int>(pair.meshLevel, 0)), pair.mesh);
-    pair.lo = std::max(pair.lo, gap(region, box.lo, box.hi));
-    if (closes(pair.lo) || (pair.shift <= kBrickShift && !narrow(pair, region))) {
-        return;
-    }
-    pair.lo = std::max(pair.lo, gap(region, box.lo, box.hi));
-    if (closes(pair.lo)) {
+    const PlacedBox* box = boxOf(pair);
+    const auto boxCloses = [&] {
+        pair.lo = box != nullptr ? std::max(pair.lo, gap(region, box->lo, box->hi)) : pair.lo;
+        return closes(pair.lo);
+    };
+    if (boxCloses() || (pair.shift <= kBrickShift && !narrow(pair, region)) || boxCloses()) {
         return;
     }
     if (pair.meshLevel == kTriangles) {
         const dvec3 normal = normalFrom(pair, part_->space.toWorld(0.5 * (region.lo + region.hi)));
-        pair.lo = std::max(pair.lo, apart(region, normal, reachOfAll(pair, normal)));
+        gather(pair);
+        pair.lo = std::max(pair.lo, apart(region, normal, corners_.reach(normal)));
     } else {
-        pair.lo = std::max(pair.lo, apart(region, box));
+        pair.lo = std::max(pair.lo, apart(region, *box));
     }
     if (!closes(pair.lo)) {
         push(pair);
@@ -471,17 +485,15 @@ double ClosestSearch::apart(const Region& region, const WorldTriangle& corners) 
     return size > 0 ? safe((least - farthestAlong(normal, corners)) / size) : 0;
 }
 
-double ClosestSearch::reachOfAll(const Pair& pair, const dvec3& normal) {
-    double reach = -kInfinity;
-    forTriangles(pair, [&](unsigned /*number*/, const PlacedTriangle& triangle) {
-        reach = std::max(reach, farthestAlong(normal, triangle.corners));
-    });
-    return reach;
+void ClosestSearch::gather(const Pair& pair) {
+    corners_.count = 0;
+    static_cast<void>(mesh_->cluster(pair.mesh));
+    mesh_->addCorners(pair.mesh, pair.triangles, corners_);
 }
 
 /// From the triangle that was nearest before to a point.
 dvec3 ClosestSearch::normalFrom(const Pair& pair, const dvec3& middle) {
-    return middle - closestPoint(mesh_->run(pair.mesh)[pair.nearest].corners, middle);
+    return middle - closestPoint(mesh_->cluster(pair.mesh)[pair.nearest].corners, middle);
 }
 
 CellPiece ClosestSearch::pieceOf(const Pair& pair, const PartCell& cell) const {
@@ -503,7 +515,7 @@ void ClosestSearch::offerPiece(Pair pair, const PartCell& cell) {
     const dvec3 normal = normalFrom(pair, middle);
     const double size = length(normal);
     if (size > 0) {
-        pair.lo = std::max(pair.lo, safe((piece.least(part_->space, normal) - reachOfAll(pair, normal)) / size));
+        pair.lo = std::max(pair.lo, safe((piece.least(part_->space, normal) - corners_.reach(normal)) / size));
     }
     if (!closes(pair.lo)) {
         push(pair);
@@ -546,9 +558,9 @@ void ClosestSearch::openLeaf(const Pair& pair) {
         double lo = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             lo = std::max(lo, safe(along[i].from(triangle.corners)));
-        }
-        if (lo >= cut()) {
-            return lo;
+            if (lo >= cut()) {
+                return lo;
+            }
         }
         // Triangles that share the closest corner are seen along the same normal.
         const dvec3 normal = middle - closestPoint(triangle.corners, middle);
@@ -567,6 +579,7 @@ void ClosestSearch::openLeaf(const Pair& pair) {
         return;
     }
     ++child.depth;
+    gather(child);
     for (unsigned i = 0; i < 8; ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             child.piece[axis] = static_cast<std::uint16_t>(2 * pair.piece[axis] + (i >> axis & 1U));
@@ -589,7 +602,7 @@ void ClosestSearch::offerPoint(std::uint32_t triangle, double distance, const dv
 ClosestSearch::Seen ClosestSearch::look(const Pair& pair, const PartCell& cell, const CellPiece& piece) {
     constexpr int kMostTurns = 4;
     const VolumeSpace& space = part_->space;
-    const PlacedTriangle& triangle = mesh_->run(pair.mesh)[pair.nearest];
+    const PlacedTriangle& triangle = mesh_->cluster(pair.mesh)[pair.nearest];
     dvec3 onMesh = closestPoint(triangle.corners, space.toWorld(piece.middle()));
     dvec3 lo = piece.middle() - piece.half();
     dvec3 hi = piece.middle() + piece.half();
@@ -605,7 +618,7 @@ ClosestSearch::Seen ClosestSearch::look(const Pair& pair, const PartCell& cell, 
         const double distance = glm::distance(point, onMesh);
         if (opaque) {
             certain = true;
-            offerPoint(mesh_->first(pair.mesh) + pair.nearest, distance, onMesh, point);
+            offerPoint(pair.mesh * kClusterTriangles + pair.nearest, distance, onMesh, point);
         }
         if (!(distance < seen.distance - goal_.tolerance / 8)) {
             break;
@@ -629,7 +642,7 @@ void ClosestSearch::lookBetween(const Pair& pair, const PartCell& cell, const Ce
         return;
     }
     const VolumeSpace& space = part_->space;
-    const PlacedTriangle& triangle = mesh_->run(pair.mesh)[pair.nearest];
+    const PlacedTriangle& triangle = mesh_->cluster(pair.mesh)[pair.nearest];
     dvec3 ends[2];
     double values[2] = {kInfinity, -kInfinity};
     for (unsigned i = 0; i < 8; ++i) {
@@ -667,7 +680,7 @@ void ClosestSearch::lookBetween(const Pair& pair, const PartCell& cell, const Ce
         farthest = std::max(farthest, glm::distance(point, closestPoint(triangle.corners, point)));
     }
     const dvec3 point = space.toWorld(cell.middle + 0.25 * (ends[0] + ends[1]));
-    offerPoint(mesh_->first(pair.mesh) + pair.nearest, farthest, closestPoint(triangle.corners, point), point);
+    offerPoint(pair.mesh * kClusterTriangles + pair.nearest, farthest, closestPoint(triangle.corners, point), point);
 }
 
 } // namespace voxtact::cpu

@@ -39,11 +39,11 @@ class ClosestSearch {
     [[nodiscard]] Found run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part, const SearchGoal& goal);
 
   private:
-    /// A box of the mesh, or some triangles of a run, and a box of the volume, or a piece of a cell.
+    /// A box of the mesh, or some triangles of a cluster, and a box of the volume, or a piece of a cell.
     struct Pair {
         double lo = 0;                        ///< mm: they are no nearer
-        std::uint32_t mesh = 0;               ///< box of its level, or run
-        std::uint16_t triangles = 0;          ///< a bit for each of the run's that may be near enough
+        std::uint32_t mesh = 0;               ///< box of its level, or cluster
+        std::uint64_t triangles = 0;          ///< a bit for each of the cluster's that may be near enough
         std::int8_t meshLevel = kTriangles;   ///< of the mesh's tree
         std::uint8_t nearest = 0;             ///< of the triangles
         std::uint8_t shift = 0;               ///< the box is 2^shift cells a side
@@ -55,6 +55,8 @@ class ClosestSearch {
         [[nodiscard]] bool isLeaf() const noexcept { return meshLevel == kTriangles && shift == 0; }
     };
     static constexpr std::int8_t kTriangles = -1;
+    /// Level 1 of a tree has a box for each cluster; a mesh of one cluster has no such level.
+    static constexpr std::int8_t kClusters = 1;
     static constexpr std::uint8_t kMostDepth = 16;
     /// Boxes of so many cells are not halved: their cells are gone through.
     static constexpr std::uint8_t kLeastShift = 2;
@@ -81,7 +83,8 @@ class ClosestSearch {
     [[nodiscard]] Pair next();
     void open(const Pair& pair);
     void openBox(const Pair& pair);
-    void openRun(const Pair& pair);
+    void openCluster(const Pair& pair);
+    [[nodiscard]] const PlacedBox* boxOf(const Pair& pair);
     void openVolume(const Pair& pair);
     void openCells(const Pair& pair);
     void openLeaf(const Pair& pair);
@@ -89,6 +92,7 @@ class ClosestSearch {
     [[nodiscard]] bool sift(Pair& pair, const Region& region);
     [[nodiscard]] bool regionOfOpaque(const Pair& pair, Region& region) const;
     void improve();
+    /// After gather().
     void offerPiece(Pair pair, const PartCell& cell);
     void push(const Pair& pair);
 
@@ -100,7 +104,8 @@ class ClosestSearch {
     [[nodiscard]] double apart(const Region& region, const PlacedBox& box) const;
     [[nodiscard]] double apart(const Region& region, const WorldTriangle& corners) const;
     [[nodiscard]] glm::dvec3 normalFrom(const Pair& pair, const glm::dvec3& middle);
-    [[nodiscard]] double reachOfAll(const Pair& pair, const glm::dvec3& normal);
+    /// Sets what reach() of `corners_` is about.
+    void gather(const Pair& pair);
     [[nodiscard]] double apart(const Region& region, const glm::dvec3& normal, double reach) const;
     [[nodiscard]] double leastOf(const Region& region, const glm::dvec3& normal) const;
     [[nodiscard]] double safe(double distance) const;
@@ -124,6 +129,7 @@ class ClosestSearch {
     double error_ = 0;
     std::uint64_t stepsInDoubt_ = 0;     ///< since the lower bound was known
     std::array<double, 32> diameters_{}; ///< mm, of boxes by their shift
+    PointList corners_;                  ///< of the triangles at hand
     std::vector<Pair> heap_;
     std::optional<Pair> dive_; ///< as long as there is no point: the nearest of what was offered last
 };
