@@ -148,19 +148,18 @@ void measurePair(const PairAt& at, const ClearanceDesc& desc, ThreadMemory& memo
 }
 
 void decideMargin(const PairAt& at, double margin, const ClearanceDesc& desc, ThreadMemory& memory, PairAnswer& out) {
-    if (margin == 0) {
-        const CertifiedTally tally = at.touch();
-        out.hit = tally.certain > 0;
-        out.possible = !out.hit && tally.undecided;
-    } else {
+    // What touches is within every margin, and that is soon known.
+    const CertifiedTally touch = at.touch();
+    out.hit = touch.certain > 0;
+    out.possible = !out.hit && touch.undecided;
+    if (!out.hit && margin > 0) {
         const Found found = at.search(memory, {.tolerance = 0,
                                                .maximum = std::nextafter(margin, kInfinity),
                                                .enough = margin,
                                                .finest = kDefaultTolerance / 4,
                                                .mostSteps = desc.mostSteps});
-        // What touches is within every margin, also where rounding leaves no other proof.
-        out.hit = found.hi <= margin || (found.lo <= margin && at.touch().certain > 0);
-        out.possible = !out.hit && found.lo <= margin;
+        out.hit = found.hi <= margin;
+        out.possible = !out.hit && (touch.undecided || found.lo <= margin);
     }
     out.count = out.hit ? 1 : 0;
 }

@@ -43,6 +43,7 @@ void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4
         const auto at = static_cast<std::size_t>(4 * column);
         local_from_object_[column] = {world_from_object[at], world_from_object[at + 1], world_from_object[at + 2]};
     }
+    voxel_from_object_ = space.voxel_from_local * local_from_object_;
     origin_ = dvec3(world_from_object[12], world_from_object[13], world_from_object[14]) - space.middle;
     findError(world_from_object);
 }
@@ -61,6 +62,17 @@ void MeshPlace::findError(const Mat4& world_from_object) {
     const double magnitude = largest + space_->magnitude;
     const bool usable = magnitude > kLeast && magnitude < kGreatest;
     error_ = usable ? kRelativeError * magnitude * space_->condition : std::numeric_limits<double>::infinity();
+}
+
+void MeshPlace::voxelBounds(const RunBox& box, dvec3& lo, dvec3& hi) const {
+    const dvec3 least(static_cast<double>(box.lo[0]), static_cast<double>(box.lo[1]), static_cast<double>(box.lo[2]));
+    const dvec3 most(static_cast<double>(box.hi[0]), static_cast<double>(box.hi[1]), static_cast<double>(box.hi[2]));
+    const dvec3 middle = voxel_from_object_ * (0.5 * (least + most)) + space_->toVoxel(origin_);
+    const dvec3 half = 0.5 * (most - least);
+    const dvec3 extent = glm::abs(voxel_from_object_[0]) * half.x + glm::abs(voxel_from_object_[1]) * half.y +
+                         glm::abs(voxel_from_object_[2]) * half.z;
+    lo = middle - extent;
+    hi = middle + extent;
 }
 
 const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {

@@ -50,6 +50,8 @@ class MeshPlace {
     [[nodiscard]] const MeshImpl& mesh() const noexcept { return *mesh_; }
     /// Of the mesh's tree.
     [[nodiscard]] const PlacedBox& box(std::uint32_t level, std::uint32_t node);
+    /// The box in centred voxel coordinates around a box of object space.
+    void voxelBounds(const RunBox& box, glm::dvec3& lo, glm::dvec3& hi) const;
     /// Of a run (ClusterTree): kRunTriangles of them, as many as it has in place. Valid until the next begin().
     [[nodiscard]] const PlacedTriangle* run(std::uint32_t run);
     /// Of a cluster: kClusterTriangles of them.
@@ -82,6 +84,7 @@ class MeshPlace {
     const MeshImpl* mesh_ = nullptr;
     const VolumeSpace* space_ = nullptr;
     glm::dmat3 local_from_object_{1};
+    glm::dmat3 voxel_from_object_{1};
     glm::dvec3 origin_{};
     double error_ = 0;
     std::uint32_t pair_ = 0; ///< what was placed for another is not in place

@@ -65,6 +65,12 @@ Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const Opaque
     found_ = {};
     error_ = mesh.error();
     bool improved = false;
+    heap_.clear();
+    dive_.reset();
+    if (!mayBeWithin(goal.maximum)) {
+        found_.lo = goal.maximum;
+        return found_;
+    }
     begin();
     while (goesOn()) {
         ++found_.steps;
@@ -97,10 +103,49 @@ bool ClosestSearch::goesOn() {
     return !found_.exhausted;
 }
 
+/// A quick look: whether some cell may be opaque that is as near as that to a box of the mesh.
+bool ClosestSearch::mayBeWithin(double distance) const {
+    if (!(distance + error_ < kInfinity)) {
+        return true;
+    }
+    const VolumeSpace& space = part_->space;
+    dvec3 around; // voxels
+    for (int axis = 0; axis < 3; ++axis) {
+        constexpr double kRounding = 1e-6;
+        const dvec3 row(space.voxel_from_local[0][axis], space.voxel_from_local[1][axis],
+                        space.voxel_from_local[2][axis]);
+        around[axis] = (distance + error_) * length(row) * (1 + kRounding) + kRounding;
+    }
+    const auto mayBeNear = [&](const RunBox& box) {
+        dvec3 lo;
+        dvec3 hi;
+        mesh_->voxelBounds(box, lo, hi);
+        CellBox cells;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto at = static_cast<std::size_t>(axis);
+            const double from = lo[axis] - around[axis] + space.centre[axis];
+            const double to = hi[axis] + around[axis] + space.centre[axis];
+            const std::int32_t last = volume_->image.size[at] - 1;
+            if (to < -0.5 || from > last + 0.5) {
+                return false;
+            }
+            // NaN is anywhere.
+            cells.lo[at] = from > -1 ? std::min(static_cast<std::int32_t>(std::floor(from)), last) : -1;
+            cells.hi[at] = to < last ? static_cast<std::int32_t>(std::floor(to)) : last;
+        }
+        return part_->occupancy.mayBeOpaque(*volume_, cells);
+    };
+    bool found = false;
+    const MeshImpl& mesh = mesh_->mesh();
+    mesh.tree.descend(0, static_cast<std::uint32_t>(mesh.clusters.size()), mayBeNear, [&](std::uint32_t /*run*/) {
+        found = true;
+        return false;
+    });
+    return found;
+}
+
 void ClosestSearch::begin() {
-    heap_.clear();
     stepsInDoubt_ = 0;
-    dive_.reset();
     for (std::size_t shift = 0; shift < diameters_.size(); ++shift) {
         diameters_[shift] = std::ldexp(length(part_->space.spacing), static_cast<int>(shift));
     }
@@ -222,7 +267,7 @@ void ClosestSearch::openBox(const Pair& pair) {
 
 /// Around the mesh's half of the pair; null where the tree has none.
 const PlacedBox* ClosestSearch::boxOf(const Pair& pair) {
-    const auto level = static_cast<std::uint32_t>(pair.meshLevel == kTriangles ? kClusters : pair.meshLevel);
+    const auto level = static_cast<std::uint32_t>(std::max<int>(pair.meshLevel, kClusters));
     return level < mesh_->mesh().tree.levels() ? &mesh_->box(level, pair.mesh) : nullptr;
 }
 

@@ -79,6 +79,7 @@ class ClosestSearch {
     };
 
     void begin();
+    [[nodiscard]] bool mayBeWithin(double distance) const;
     [[nodiscard]] bool goesOn();
     [[nodiscard]] Pair next();
     void open(const Pair& pair);
