@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "voxtact/clearance.h"
 #include "voxtact/data.h"
 #include "voxtact/results.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -20,6 +22,7 @@ struct VolumeImpl;
 struct TransferFunctionImpl;
 struct MeshImpl;
 struct DetectorImpl;
+struct ClearanceMeterImpl;
 
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
@@ -135,6 +138,41 @@ class Detector {
   private:
     explicit Detector(std::unique_ptr<DetectorImpl> impl) noexcept;
     std::unique_ptr<DetectorImpl> impl_;
+};
+
+/// What a ClearanceMeter is made for.
+struct ClearanceDesc {
+    std::uint32_t threads = 0;            ///< 0: one for each processor
+    double tolerance = kDefaultTolerance; ///< mm, from 1e-6 on: how near to each other the bounds are brought
+    double maximum = std::numeric_limits<double>::infinity(); ///< mm, above 0: what is farther is not measured
+    double resolution = kDefaultResolution;                   ///< of the touch, as in DetectorDesc
+    std::uint64_t mostSteps = 1U << 18U; ///< a pair that takes more is left with the bounds it has; at least 1
+};
+
+/// Measures how near meshes are to what is opaque. What it answers depends on nothing but the pair and its desc: not on
+/// the threads, and not on what else is in a batch. Keeps its threads from call to call, and what it makes of the last
+/// volumes and transfer functions. Thread-safety: one call at a time.
+class ClearanceMeter {
+  public:
+    /// Starts its threads. Refuses numbers outside the ranges of ClearanceDesc.
+    [[nodiscard]] VOXTACT_API static Result<ClearanceMeter> create(const ClearanceDesc& desc = {});
+    VOXTACT_API ClearanceMeter(ClearanceMeter&&) noexcept;
+    VOXTACT_API ClearanceMeter& operator=(ClearanceMeter&&) noexcept;
+    VOXTACT_API ~ClearanceMeter();
+
+    /// The clearance of every pair. Labels and view are not looked at. Refuses what Detector::detect() refuses.
+    [[nodiscard]] VOXTACT_API Result<ClearanceAnswer> measure(const Batch& batch);
+    /// Whether something opaque is within `margin` mm of the surface, for every pair: `hit` where it certainly is,
+    /// `possible` where rounding does not let it be said. The count is 0 or 1. A margin of 0 is the touch itself,
+    /// answered as by a Detector with stopAtFirst and Projection::Conservative. Refuses what measure() refuses, and a
+    /// margin that is negative or not finite.
+    [[nodiscard]] VOXTACT_API Result<BatchAnswer> within(const Batch& batch, double margin);
+    /// How many threads it runs on.
+    [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
+
+  private:
+    explicit ClearanceMeter(std::unique_ptr<ClearanceMeterImpl> impl) noexcept;
+    std::unique_ptr<ClearanceMeterImpl> impl_;
 };
 
 } // namespace voxtact::cpu

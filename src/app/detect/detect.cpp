@@ -26,6 +26,8 @@ constexpr const char* kFooter =
   contacts,depth (--contacts)  how many contacts there are, and the deepest in mm
   labels (--labels)            survivors by label, most first: Frontal_Sup_L:12;Precentral_L:3
   min_x,...,max_z (--bounds)   world box of the survivors in mm
+  clearance_lo,clearance_hi    (--clearance) bounds of the distance to what is opaque, mm; 0,0: it touches;
+                               inf,inf: nothing is opaque; hi inf: beyond --max-clearance
   job (--jobs)                 number of the job, from 0
   gpu_ms,wall_ms (--timing)    device time, and time from the start of recording to the results in host memory, of
                                the row's submission divided by its pairs. Submissions overlap: the last line
@@ -34,6 +36,9 @@ constexpr const char* kFooter =
                                and waited for alone. With --count cpu gpu_ms is 0.
 Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY, in
 VTP (VTK, ParaView) and in .mrk.json (3D Slicer); the last two have the boxes of --bounds, too.
+
+Closest points (--closest): pose,mesh,volume,triangle,mesh_x,...,volume_z,label and per_x,...,per_rz, mm of clearance
+for each mm of a move, and for each radian of a turn about the object's origin; as vertices and edges in PLY.
 
 Rows come as they are known. Ctrl-C leaves whole rows on standard output, and files as they were; exit status 130.
 
@@ -44,6 +49,8 @@ Examples:
   voxtact detect --volume builtin:head:128 --mesh builtin:scalpel --count cpu
   voxtact detect --volume head.nii.gz --mesh tool.stl --labels atlas.nii.gz --contacts contacts.ply
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses - --count cpu --answer yes-no --threads 2 < poses.txt
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --clearance --closest closest.csv
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --margin 2
   voxtact detect --jobs jobs.csv --output rows.csv)";
 
 /// More only wait for each other.
@@ -84,8 +91,11 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
         inputs.push_back({"--labels", extra.labels});
         inputs.push_back({"--label-names", labelNamesPath(extra.labelNames, extra.labels)});
     }
-    return checkOutputs(
-        {{"--output", options.output.path}, {"--triangles", extra.triangles}, {"--contacts", extra.contacts}}, inputs);
+    return checkOutputs({{"--output", options.output.path},
+                         {"--triangles", extra.triangles},
+                         {"--contacts", extra.contacts},
+                         {"--closest", options.distance.closest}},
+                        inputs);
 }
 
 /// By the device that the options name; by the host where they, or the want of a device, say so.
@@ -155,8 +165,10 @@ Outcome runDetect(DetectOptions options) {
         return interruptedOutcome(options, *output);
     }
     VOXTACT_TRY(output->finish(milliseconds));
-    if (const std::string cut = output->noteOfContacts(); !cut.empty()) {
-        notes.push_back(cut);
+    for (const std::string& note : {output->noteOfContacts(), output->noteOfClearances()}) {
+        if (!note.empty()) {
+            notes.push_back(note);
+        }
     }
     for (const std::string& note : notes) {
         printNote(note);
@@ -181,6 +193,25 @@ void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
     parser.add_flag("--bounds", options.bounds, "adds the world box of the survivors to each row");
 }
 
+void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
+    parser.add_flag("--clearance", options.clearance,
+                    "adds clearance_lo and clearance_hi: between them lies the least distance between the surface and "
+                    "what is opaque, in mm; by the host");
+    addNumber(
+        parser, "--tolerance", [&options](double mm) { options.tolerance = mm; },
+        "mm, how near to each other these are brought", [](double mm) { return mm >= 1e-6; }, "at least 1e-6", "0.01");
+    addNumber(
+        parser, "--max-clearance", [&options](double mm) { options.maximum = mm; },
+        "mm; what is farther away is not measured: clearance_hi is then inf, and much faster",
+        [](double mm) { return mm > 0; }, "above 0", "none");
+    addPath(parser, "--closest", options.closest,
+            "a .csv or .ply file for the closest points of each pair, and how the clearance changes with the pose");
+    addNumber(
+        parser, "--margin", [&options](double mm) { options.margin = mm; },
+        "mm: hit says whether anything opaque is so near, as certified as a touch; 0 is the touch itself",
+        [](double mm) { return mm >= 0; }, "at least 0", "none");
+}
+
 } // namespace
 
 Command addDetect(CLI::App& program) {
@@ -196,6 +227,7 @@ Command addDetect(CLI::App& program) {
     addViewOptions(*parser, options->view);
     addMethodOptions(*parser, options->method);
     addExtraOptions(*parser, options->extra);
+    addDistanceOptions(*parser, options->distance);
     addName(*parser, "--answer", options->answer, {"count", "yes-no"},
             "count, or yes-no: stops at the first contact, which is much faster; count is then 0 or 1, and exact 0; "
             "default: count");

@@ -24,6 +24,22 @@ struct ContactList {
 /// The endings of a file of contacts, as a message names them.
 [[nodiscard]] std::string contactEndings();
 [[nodiscard]] bool isContactEnding(const std::filesystem::path& path);
+/// What a file of closest points says of a pair.
+struct KeptClosest {
+    ClosestPoints closest;
+    ClearanceBounds bounds;
+    std::uint32_t job = 0;
+    std::uint64_t pose = 0;
+};
+
+/// .csv or .ply.
+[[nodiscard]] bool isClosestEnding(const std::filesystem::path& path);
+/// By the ending of --closest. CSV: pose,mesh,volume,triangle,mesh_x,...,volume_z,label, then how the clearance changes
+/// with the pose, per_x,...,per_rz; with names of labels also label_name, and with --jobs also job. PLY, ASCII: two
+/// vertices a pair, on the mesh and in the volume, and an edge between them. World, mm.
+void writeClosest(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                  std::span<const KeptClosest> kept);
+
 /// By the ending of --contacts.
 void writeContacts(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
                    const ContactList& list);

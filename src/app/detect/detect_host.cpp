@@ -25,9 +25,9 @@ struct HostVolume {
 class HostEngine : public PairEngine {
   public:
     HostEngine(const DetectOptions& options, const DetectInputs& inputs, cpu::Detector detector,
-               std::vector<cpu::Mesh> meshes)
-        : options_(options), inputs_(inputs), detector_(std::move(detector)), meshes_(std::move(meshes)),
-          shelf_(options.jobs, kMostVolumeBytes),
+               std::optional<cpu::ClearanceMeter> meter, std::vector<cpu::Mesh> meshes)
+        : options_(options), inputs_(inputs), detector_(std::move(detector)), meter_(std::move(meter)),
+          meshes_(std::move(meshes)), shelf_(options.jobs, kMostVolumeBytes),
           pace_(pairsPerBatch(options, inputs, 1), options.batch.has_value() || options.timing) {}
 
     [[nodiscard]] std::string device() const override { return "host"; }
@@ -47,10 +47,13 @@ class HostEngine : public PairEngine {
 
   private:
     [[nodiscard]] Result<HostVolume> make(std::uint32_t volume) const;
+    [[nodiscard]] Result<BatchAnswer> answer(const cpu::Batch& batch);
+    [[nodiscard]] Result<ClearanceAnswer> measure(const cpu::Batch& batch);
 
     const DetectOptions& options_;
     const DetectInputs& inputs_;
     cpu::Detector detector_;
+    std::optional<cpu::ClearanceMeter> meter_; ///< where something is asked for about distances
     std::vector<cpu::Mesh> meshes_;
     VolumeShelf<HostVolume> shelf_;
     HostVolume* volume_ = nullptr;
@@ -78,6 +81,17 @@ Result<Grid> HostEngine::use(std::uint32_t job) {
     return volume_->volume.grid();
 }
 
+/// Does it touch, or what is within the margin.
+Result<BatchAnswer> HostEngine::answer(const cpu::Batch& batch) {
+    const std::optional<double>& margin = options_.distance.margin;
+    return margin ? meter_->within(batch, *margin) : detector_.detect(batch);
+}
+
+/// Nothing where clearances are not asked for.
+Result<ClearanceAnswer> HostEngine::measure(const cpu::Batch& batch) {
+    return options_.distance.clearance ? meter_->measure(batch) : ClearanceAnswer{};
+}
+
 Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
     std::vector<cpu::BatchItem> all;
     for (const WindowItem& item : window.items) {
@@ -88,20 +102,26 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
     std::vector<cpu::BatchItem> items;
     std::vector<Piece> pieces;
     while (!stop() && cutter.next(pace_.size(), items, pieces)) {
-        const Result<BatchAnswer> answer =
-            detector_.detect({items, volume_->view, options_.transferFunction.threshold});
-        VOXTACT_TRY(answer);
+        const cpu::Batch batch{items, volume_->view, options_.transferFunction.threshold};
+        const Result<BatchAnswer> answered = answer(batch);
+        VOXTACT_TRY(answered);
+        const Result<ClearanceAnswer> measured = measure(batch);
+        VOXTACT_TRY(measured);
+        const double milliseconds = answered->wallMilliseconds + measured->wallMilliseconds;
         device::TimedAnswer timed;
         timed.gpuMilliseconds = 0;
-        timed.wallMilliseconds = answer->wallMilliseconds / static_cast<double>(answer->pairs.size());
-        for (const PairAnswer& pair : answer->pairs) {
+        timed.wallMilliseconds = milliseconds / static_cast<double>(answered->pairs.size());
+        for (const PairAnswer& pair : answered->pairs) {
             timed.answer = pair;
             timed.item = pieces[pair.item].item;
             timed.pose = pieces[pair.item].firstPose + pair.pose;
             rows.add(timed);
         }
-        rows.endBatch(*answer);
-        pace_.took(static_cast<std::uint32_t>(answer->pairs.size()), answer->wallMilliseconds);
+        for (const PairClearance& clearance : measured->pairs) {
+            rows.addClearance(clearance);
+        }
+        rows.endBatch(*answered);
+        pace_.took(static_cast<std::uint32_t>(answered->pairs.size()), milliseconds);
     }
     return {};
 }
@@ -137,7 +157,18 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
         VOXTACT_TRY(mesh);
         meshes.push_back(std::move(*mesh));
     }
-    HostEngine engine(options, inputs, std::move(*detector), std::move(meshes));
+    std::optional<cpu::ClearanceMeter> meter;
+    if (options.distance.any()) {
+        const DistanceOptions& distance = options.distance;
+        Result<cpu::ClearanceMeter> made =
+            cpu::ClearanceMeter::create({.threads = options.threads,
+                                         .tolerance = distance.tolerance.value_or(kDefaultTolerance),
+                                         .maximum = distance.maximum.value_or(std::numeric_limits<double>::infinity()),
+                                         .resolution = method.resolution.value_or(kDefaultResolution)});
+        VOXTACT_TRY(made);
+        meter = std::move(*made);
+    }
+    HostEngine engine(options, inputs, std::move(*detector), std::move(meter), std::move(meshes));
     return answer(engine);
 }
 

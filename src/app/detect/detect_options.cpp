@@ -38,6 +38,11 @@ Result<void> resolveJobs(DetectOptions& options) {
     return {};
 }
 
+/// Refuses an option that would change nothing.
+Result<void> checkUsed(bool given, const char* option, bool used, const std::string& why) {
+    return given && !used ? badArgument(option + (": " + why)) : Result<void>();
+}
+
 Result<void> checkHost(const DetectOptions& options) {
     if (!options.method.count || !rowOf(*options.method.count).host) {
         return {};
@@ -49,6 +54,39 @@ Result<void> checkHost(const DetectOptions& options) {
         return badArgument("--validate: the counting method cpu uses no Vulkan, there is nothing to validate; leave "
                            "out one of the two");
     }
+    return {};
+}
+
+/// Only the host measures, and only what is certified.
+Result<void> checkDistance(DetectOptions& options) {
+    const DistanceOptions& distance = options.distance;
+    const std::string clearance = "it is about clearances, and --clearance is not given";
+    for (const Result<void>& used :
+         {checkUsed(distance.tolerance.has_value(), "--tolerance", distance.clearance, clearance),
+          checkUsed(distance.maximum.has_value(), "--max-clearance", distance.clearance, clearance),
+          checkUsed(!distance.closest.empty(), "--closest", distance.clearance, clearance)}) {
+        if (!used.ok()) {
+            return used;
+        }
+    }
+    if (!distance.closest.empty() && !isClosestEnding(distance.closest)) {
+        return badArgument("--closest: the ending of '" + distance.closest.string() +
+                           "' says no format; it must be .csv or .ply");
+    }
+    if (!distance.any()) {
+        return {};
+    }
+    const std::string option = distance.clearance ? "--clearance" : "--margin";
+    MethodOptions& method = options.method;
+    if (method.count && !rowOf(*method.count).host) {
+        return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +
+                           ", or give --count cpu");
+    }
+    if (method.projection && !rowOf(*method.projection).certified) {
+        return badArgument(option + " is certified; leave out --projection " + toString(*method.projection) +
+                           ", or give --projection conservative");
+    }
+    method.count = CountingMethod::Cpu;
     return {};
 }
 
@@ -69,11 +107,6 @@ Result<void> checkConservative(const MethodOptions& method) {
                            "--projection view");
     }
     return {};
-}
-
-/// Refuses an option that would change nothing.
-Result<void> checkUsed(bool given, const char* option, bool used, const std::string& why) {
-    return given && !used ? badArgument(option + (": " + why)) : Result<void>();
 }
 
 Result<void> checkProjection(const DetectOptions& options) {
@@ -112,13 +145,14 @@ Result<void> checkExtra(const DetectOptions& options) {
         return badArgument("--contacts: the ending of '" + extra.contacts.string() + "' says no format; it must be " +
                            contactEndings());
     }
-    if (options.yesNo() && extra.outputs().any()) {
+    if (const bool yesNo = options.answer == "yes-no"; options.yesNo() && extra.outputs().any()) {
         const char* option = !extra.contacts.empty()    ? "--contacts"
                              : !extra.triangles.empty() ? "--triangles"
                              : extra.bounds             ? "--bounds"
                                                         : "--labels";
-        return badArgument(std::string("--answer yes-no stops at the first contact, and ") + option +
-                           " is about all of them; leave out one of the two");
+        return badArgument(std::string(yesNo ? "--answer yes-no stops at the first contact, and "
+                                             : "--margin is answered by yes or no, without contacts, and ") +
+                           option + " is about all of them; leave out one of the two");
     }
     return {};
 }
@@ -143,6 +177,7 @@ Result<void> resolveOptions(DetectOptions& options) {
         options.output.path.clear();
     }
     VOXTACT_TRY(resolveJobs(options));
+    VOXTACT_TRY(checkDistance(options));
     VOXTACT_TRY(checkHost(options));
     if (!options.method.projection) {
         options.method.projection = canBeConservative(options.method) ? Projection::Conservative : Projection::View;

@@ -8,6 +8,7 @@
 #include "io/text/table.h"
 #include "voxtact/io.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -29,6 +30,9 @@ double rounded(double value, double parts) {
     return std::round(value * parts) / parts;
 }
 
+/// Of ClearanceEnd.
+constexpr std::size_t kClearanceEnds = static_cast<std::size_t>(ClearanceEnd::Budget) + 1;
+
 } // namespace
 
 struct DetectOutput::State {
@@ -37,6 +41,7 @@ struct DetectOutput::State {
           // What validation says decides whether there is a table at all.
           held(how.output.path.empty() && how.device.validate) {}
 
+    void keepClearances(std::span<const Row> part);
     Result<void> writeRows(std::span<const Row> part);
     Result<void> writeHeld();
     Result<void> pass();
@@ -51,6 +56,7 @@ struct DetectOutput::State {
     std::optional<io::OutputFile> table{};
     std::optional<io::OutputFile> triangles{};
     std::optional<io::OutputFile> contactsFile{};
+    std::optional<io::OutputFile> closestFile{};
     std::optional<io::TableWriter> writer{};
     io::NamedCells facts{};
     std::vector<Row> waiting{}; ///< rows of text before its columns are settled
@@ -59,7 +65,21 @@ struct DetectOutput::State {
     std::vector<KeptContact> contacts{};
     std::vector<KeptBounds> bounds{};
     std::uint64_t contactsFound = 0;
+    std::vector<KeptClosest> closest{};
+    std::array<std::uint64_t, kClearanceEnds> ends{}; ///< rows by why their bounds are no nearer to each other
 };
+
+void DetectOutput::State::keepClearances(std::span<const Row> part) {
+    for (const Row& row : part) {
+        if (!row.clearance) {
+            continue;
+        }
+        ++ends[static_cast<std::size_t>(row.clearance->end)];
+        if (closestFile && row.clearance->closest) {
+            closest.push_back({*row.clearance->closest, row.clearance->bounds, row.job, row.pose});
+        }
+    }
+}
 
 Result<void> DetectOutput::State::writeRows(std::span<const Row> part) {
     io::Table rowsTable = columns.table(part);
@@ -96,7 +116,8 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
     auto state = std::make_unique<State>(options, inputs);
     for (const auto& [path, file] :
          {std::pair(&options.output.path, &state->table), std::pair(&options.extra.triangles, &state->triangles),
-          std::pair(&options.extra.contacts, &state->contactsFile)}) {
+          std::pair(&options.extra.contacts, &state->contactsFile),
+          std::pair(&options.distance.closest, &state->closestFile)}) {
         if (path->empty()) {
             continue;
         }
@@ -125,6 +146,7 @@ Result<void> DetectOutput::add(std::span<const Row> rows) {
             }
         }
     }
+    state.keepClearances(rows);
     if (state.format != io::Format::Text) {
         return state.writeRows(rows);
     }
@@ -174,13 +196,18 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     if (state.contactsFile) {
         writeContacts(state.contactsFile->stream(), state.options, state.inputs, {state.contacts, state.bounds});
     }
+    if (state.closestFile) {
+        writeClosest(state.closestFile->stream(), state.options, state.inputs, state.closest);
+    }
     // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
-    for (std::optional<io::OutputFile>* file : {&state.table, &state.triangles, &state.contactsFile}) {
+    for (std::optional<io::OutputFile>* file :
+         {&state.table, &state.triangles, &state.contactsFile, &state.closestFile}) {
         VOXTACT_TRY(*file ? (*file)->close() : Result<void>());
     }
     state.held = false;
     VOXTACT_TRY(state.table ? Result<void>() : state.pass());
-    for (std::optional<io::OutputFile>* file : {&state.contactsFile, &state.triangles, &state.table}) {
+    for (std::optional<io::OutputFile>* file :
+         {&state.closestFile, &state.contactsFile, &state.triangles, &state.table}) {
         VOXTACT_TRY(*file ? (*file)->commit() : Result<void>());
     }
     return {};
@@ -205,6 +232,18 @@ std::string DetectOutput::noteOfContacts() const {
     return state.options.extra.contacts.string() + ": " + std::to_string(state.contacts.size()) + " of " +
            std::to_string(state.contactsFound) + " contacts were kept (--most-contacts " +
            std::to_string(state.options.extra.contactRoom()) + ")";
+}
+
+std::string DetectOutput::noteOfClearances() const {
+    const auto of = [&](ClearanceEnd end) { return state_->ends[static_cast<std::size_t>(end)]; };
+    const std::uint64_t rounding = of(ClearanceEnd::Rounding);
+    const std::uint64_t budget = of(ClearanceEnd::Budget);
+    if (rounding + budget == 0) {
+        return {};
+    }
+    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(state_->rows) +
+           " clearances are farther apart than the tolerance: rounding decides " + std::to_string(rounding) +
+           " of them, " + std::to_string(budget) + " took too many steps";
 }
 
 } // namespace voxtact::app

@@ -35,6 +35,8 @@ class DetectOutput {
 
     /// A list that was cut is still a good run, with fewer contacts than there are; empty: it was not.
     [[nodiscard]] std::string noteOfContacts() const;
+    /// Clearances whose bounds are farther apart than the tolerance; empty: there are none.
+    [[nodiscard]] std::string noteOfClearances() const;
 
     struct State;
 

@@ -7,6 +7,7 @@
 #include "app/options/shared_options.h"
 #include "app/output/output.h"
 #include "device/pair_pipeline.h"
+#include "voxtact/clearance.h"
 #include "voxtact/data.h"
 
 #include <map>
@@ -34,6 +35,17 @@ struct ExtraOptions {
     [[nodiscard]] std::uint32_t contactRoom() const { return mostContacts.value_or(kDefaultMostContacts); }
 };
 
+/// What is asked for about distances.
+struct DistanceOptions {
+    std::optional<double> margin; ///< mm
+    bool clearance = false;
+    std::optional<double> tolerance; ///< mm
+    std::optional<double> maximum;   ///< mm
+    std::filesystem::path closest;   ///< a file to write; empty: not asked for
+
+    [[nodiscard]] bool any() const { return clearance || margin.has_value(); }
+};
+
 struct DetectOptions {
     std::vector<std::string> volumes; ///< as given; the jobs have each once
     MeshOptions meshes;
@@ -45,13 +57,15 @@ struct DetectOptions {
     DeviceChoice device;
     OutputOptions output;
     ExtraOptions extra;
+    DistanceOptions distance;
     std::string answer = "count";
     bool progress = true;
     bool timing = false;
     std::optional<std::uint32_t> batch;
     std::uint32_t threads = 0; ///< 0: one for each processor
 
-    [[nodiscard]] bool yesNo() const { return answer == "yes-no"; }
+    /// A margin is kept, or it is not: that stops at the first proof, as yes-no does.
+    [[nodiscard]] bool yesNo() const { return answer == "yes-no" || distance.margin.has_value(); }
     [[nodiscard]] std::uint32_t mostPairs() const { return batch.value_or(kDefaultBatch); }
     /// Whether the numbers of pose and triangle alone do not say which mesh and volume are meant.
     [[nodiscard]] bool hasSeveralJobs() const { return jobs.jobs.size() > 1; }
@@ -81,6 +95,7 @@ struct Row {
     double depth = 0;            ///< of the deepest contact that was kept, mm
     std::optional<Box> bounds;
     std::vector<LabelCount> labels;
+    std::optional<PairClearance> clearance; ///< with --clearance
 };
 
 /// A contact, and whose it is.

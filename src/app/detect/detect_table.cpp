@@ -37,7 +37,25 @@ io::Cell verdictOf(const PairAnswer& answer) {
                              : io::NumberWord{0, "no"};
 }
 
+/// JSON has no infinity: it is a word there.
+io::Cell millimetres(double value) {
+    return std::isinf(value) ? io::Cell(std::string("inf")) : io::Cell(value);
+}
+
 } // namespace
+
+void DetectColumns::addClearance() {
+    // Rounded so that they stay bounds.
+    constexpr double kParts = 1e6;
+    columns_.push_back({"clearance_lo", [](const Row& row) {
+                            return row.clearance ? millimetres(std::floor(row.clearance->bounds.lo * kParts) / kParts)
+                                                 : io::Cell();
+                        }});
+    columns_.push_back({"clearance_hi", [](const Row& row) {
+                            return row.clearance ? millimetres(std::ceil(row.clearance->bounds.hi * kParts) / kParts)
+                                                 : io::Cell();
+                        }});
+}
 
 void DetectColumns::addBounds() {
     for (const bool upper : {false, true}) {
@@ -78,6 +96,9 @@ DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& i
     }
     if (outputs.bounds) {
         addBounds();
+    }
+    if (options.distance.clearance) {
+        addClearance();
     }
     if (options.timing) {
         columns_.push_back({"gpu_ms", [](const Row& row) {

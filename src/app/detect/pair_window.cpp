@@ -102,7 +102,8 @@ Result<void> PairWindows::next(Window& window) {
 Result<void> selectPoses(const DetectOptions& options, const DetectInputs& inputs, const Grid& grid, Window& window,
                          std::vector<std::uint64_t>& near) {
     const Result<Mat4> texture_from_world = textureFromWorld(grid);
-    const bool all = options.timing || options.method.boundary == Boundary::Clamp || !texture_from_world.ok();
+    const bool all = options.timing || options.distance.any() || options.method.boundary == Boundary::Clamp ||
+                     !texture_from_world.ok();
     for (WindowItem& item : window.items) {
         std::vector<std::uint32_t> everyPose(item.poses.size());
         std::iota(everyPose.begin(), everyPose.end(), 0U);

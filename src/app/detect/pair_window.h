@@ -45,7 +45,8 @@ class PairWindows {
 };
 
 /// Selects of each item the poses at which the mesh's box comes near the volume: all poses where that does not follow
-/// (--boundary clamp), and with --timing, which is about every pair. Adds to near[job] how many come near.
+/// (--boundary clamp, and what is asked for about distances), and with --timing, which is about every pair. Adds to
+/// near[job] how many come near.
 [[nodiscard]] Result<void> selectPoses(const DetectOptions& options, const DetectInputs& inputs, const Grid& grid,
                                        Window& window, std::vector<std::uint64_t>& near);
 

@@ -32,6 +32,10 @@ void WindowRows::add(const device::TimedAnswer& timed) {
     batch_.push_back(static_cast<std::uint32_t>(row));
 }
 
+void WindowRows::addClearance(const PairClearance& clearance) {
+    rows_[batch_[clearance.pair]].clearance = clearance;
+}
+
 void WindowRows::endBatch(const BatchAnswer& answer) {
     for (const TouchedTriangle& touched : answer.triangles) {
         Row& row = rows_[batch_[touched.pair]];

@@ -2,6 +2,7 @@
 #include "voxtact/methods.h"
 
 #include "core/method/method_table.h"
+#include "voxtact/clearance.h"
 
 namespace voxtact {
 
@@ -47,6 +48,20 @@ const char* toString(Boundary boundary) noexcept {
         return "clamp";
     }
     return "unknown";
+}
+
+const char* toString(ClearanceEnd end) noexcept {
+    switch (end) {
+    case ClearanceEnd::Closed:
+        return "closed";
+    case ClearanceEnd::Beyond:
+        return "beyond";
+    case ClearanceEnd::Rounding:
+        return "rounding";
+    case ClearanceEnd::Budget:
+        break;
+    }
+    return "budget";
 }
 
 const char* toString(Exactness exactness) noexcept {

@@ -3,6 +3,8 @@
 #include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 namespace voxtact::cpu {
 
@@ -100,6 +102,13 @@ void reduce(CornerRanges& ranges) {
     }
 }
 
+void grow(CellBox& box, const std::array<std::int32_t, 3>& cell) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(box.lo[axis], cell[axis]);
+        box.hi[axis] = std::max(box.hi[axis], cell[axis]);
+    }
+}
+
 } // namespace
 
 bool BrickCells::any(const CellBox& box) const noexcept {
@@ -111,15 +120,22 @@ bool BrickCells::any(const CellBox& box) const noexcept {
         (columns * 0x0101010101010101ULL) & ((~std::uint64_t{0} << firstRow) & (~std::uint64_t{0} >> afterRow));
     std::uint64_t found = 0;
     for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
+        found |= slice(z);
+    }
+    return (found & mask) != 0;
+}
+
+std::uint64_t BrickCells::slice(std::int32_t z) const noexcept {
+    const std::uint8_t* rows = mayBeOpaque.data() + kBrickSide * z;
+    std::uint64_t slice = 0;
+    if constexpr (std::endian::native == std::endian::little) {
+        std::memcpy(&slice, rows, sizeof slice);
+    } else {
         for (std::int32_t y = 0; y < kBrickSide; ++y) {
-            const std::uint64_t row = mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)];
-            found |= row << static_cast<unsigned>(8 * y);
-        }
-        if ((found & mask) != 0) {
-            return true;
+            slice |= std::uint64_t{rows[y]} << static_cast<unsigned>(8 * y);
         }
     }
-    return false;
+    return slice;
 }
 
 CertifiedBricks::CertifiedBricks(std::span<const std::uint8_t> mixed) : slots_(mixed.size()), mutex_(new std::mutex) {
@@ -149,6 +165,10 @@ void CertifiedBricks::make(const VolumeImpl& volume, const shader::CertifiedItem
             for (int x = 0; x < kBrickSide; ++x) {
                 const bool may = shader::certifiedMayBeOpaque(table, ranges.lo[z][y][x], ranges.hi[z][y][x], error);
                 row |= (may ? 1U : 0U) << static_cast<unsigned>(x);
+            }
+            if (row != 0) {
+                grow(made.around, {std::countr_zero(row), y, z});
+                grow(made.around, {static_cast<std::int32_t>(std::bit_width(row)) - 1, y, z});
             }
             made.mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] = static_cast<std::uint8_t>(row);
         }

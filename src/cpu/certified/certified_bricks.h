@@ -52,6 +52,8 @@ struct BrickCells {
     float wideHi = 0;
     /// A bit for each cell that may have an opaque point (certifiedCellMayBeOpaque()): bit x of [y + 8 * z].
     std::array<std::uint8_t, kBrickSide * kBrickSide> mayBeOpaque{};
+    /// The box around these cells, numbered within the brick.
+    CellBox around{{kBrickSide, kBrickSide, kBrickSide}, {-1, -1, -1}};
 
     /// The bits of a row of cells, of those between the columns of a box (numbered within the brick).
     [[nodiscard]] unsigned row(const CellBox& box, std::int32_t y, std::int32_t z) const noexcept {
@@ -60,6 +62,8 @@ struct BrickCells {
     }
     /// Whether some cell of a box (numbered within the brick) may have an opaque point.
     [[nodiscard]] bool any(const CellBox& box) const noexcept;
+    /// The bits of a slice: row y from bit 8 * y on.
+    [[nodiscard]] std::uint64_t slice(std::int32_t z) const noexcept;
 };
 static_assert(kBrickSide == 8, "a row of cells is a byte");
 

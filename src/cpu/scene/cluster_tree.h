@@ -42,6 +42,10 @@ class ClusterTree {
         }
     }
 
+    [[nodiscard]] std::uint32_t levels() const noexcept { return static_cast<std::uint32_t>(levels_.size()); }
+    /// Of a level, from 0.
+    [[nodiscard]] std::span<const RunBox> boxes(std::uint32_t level) const noexcept { return levels_[level]; }
+
   private:
     template <class Keep, class Visit>
     bool descendNode(std::uint32_t level, std::uint32_t node, std::uint32_t begin, std::uint32_t end, const Keep& keep,

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+/// How near: plain types, the same for whatever measures.
+///
+/// The clearance of a pair is the least distance in world mm between the mesh's surface (its triangles; a closed mesh
+/// is not filled) and the opaque part of the volume: the points of its closed box, out to the outermost voxels' faces,
+/// where the trilinear interpolant's opacity reaches the threshold. It is what the projection `conservative` decides
+/// about: 0 is a touch.
+namespace voxtact {
+
+/// mm: how near to each other bounds are brought, where nothing else is asked for.
+inline constexpr double kDefaultTolerance = 0.01;
+
+/// The clearance is at least `lo` and at most `hi`, mm, rounding counted in. Both are 0 where the pair certainly
+/// touches, and infinite where nothing is opaque.
+struct ClearanceBounds {
+    double lo = 0; ///< no point of the surface is nearer to an opaque point
+    double hi = 0; ///< some point of the surface is as near
+};
+
+/// Why the bounds are no nearer to each other.
+enum class ClearanceEnd : std::uint32_t {
+    Closed,   ///< they are within the tolerance, or both infinite
+    Beyond,   ///< the clearance is not less than the maximum that was asked for: `lo` is the maximum, `hi` infinite
+    Rounding, ///< what is left is decided by roundings: the verdict *possible* of a touch
+    Budget,   ///< the steps that were allowed are used up
+};
+/// "closed", "beyond", "rounding" or "budget"; it lives for ever.
+[[nodiscard]] VOXTACT_API const char* toString(ClearanceEnd end) noexcept;
+
+/// Two points as far apart as `hi` says, and how the clearance changes with the pose. The same point twice where the
+/// pair touches.
+struct ClosestPoints {
+    std::uint32_t triangle = 0; ///< number in the mesh
+    Vec3 mesh{};                ///< on that triangle, world mm
+    Vec3 volume{};              ///< opaque, world mm
+    /// Of the distance of these two: mm for each mm that the mesh is moved along the world's x, y and z, and mm for
+    /// each radian that it is turned, right-handed, about the parallels of these through the object's origin. As long
+    /// as they are the closest points. 0 where the pair touches.
+    Vec3 perTranslation{};
+    Vec3 perRotation{}; ///< see perTranslation
+};
+
+/// The clearance of one pair.
+struct PairClearance {
+    std::uint32_t pair = 0;               ///< number of the pair in its batch
+    std::uint32_t item = 0;               ///< number of the BatchItem that the pair came from
+    std::uint32_t pose = 0;               ///< number of the pose within that item
+    ClearanceBounds bounds;               ///< mm
+    ClearanceEnd end{};                   ///< why they are no nearer to each other
+    std::optional<ClosestPoints> closest; ///< where `hi` is finite
+};
+
+/// What a batch gave.
+struct ClearanceAnswer {
+    std::vector<PairClearance> pairs; ///< in the order of the batch
+    double wallMilliseconds = 0;      ///< of the whole call
+};
+
+} // namespace voxtact

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/detect_files.h"
+
+#include "core/base/text.h"
+#include "io/text/table.h"
+
+#include <cmath>
+#include <ostream>
+
+namespace voxtact::app {
+
+namespace {
+
+/// A nanometre: more digits say nothing.
+constexpr double kParts = 1e6;
+
+std::string rounded(double value) {
+    return number(std::round(value * kParts) / kParts + 0.0);
+}
+
+std::string joined(const Vec3& vector, char between) {
+    return rounded(vector[0]) + between + rounded(vector[1]) + between + rounded(vector[2]);
+}
+
+std::int32_t labelOf(const DetectInputs& inputs, const Vec3& world) {
+    return inputs.labels ? inputs.labels->values[labelAt(*inputs.labels, world)] : 0;
+}
+
+void writeCsv(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+              std::span<const KeptClosest> kept) {
+    const PairJobs& jobs = options.jobs;
+    const bool named = !inputs.labelNames.empty();
+    out << "pose,mesh,volume,triangle,mesh_x,mesh_y,mesh_z,volume_x,volume_y,volume_z,label,per_x,per_y,per_z,per_rx,"
+           "per_ry,per_rz"
+        << (named ? ",label_name" : "") << (jobs.fromFile ? ",job\n" : "\n");
+    for (const KeptClosest& entry : kept) {
+        const Job& job = jobs.jobs[entry.job];
+        const ClosestPoints& closest = entry.closest;
+        const std::int32_t label = labelOf(inputs, closest.volume);
+        out << entry.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
+            << ',' << closest.triangle << ',' << joined(closest.mesh, ',') << ',' << joined(closest.volume, ',') << ','
+            << label << ',' << joined(closest.perTranslation, ',') << ',' << joined(closest.perRotation, ',')
+            << (named ? ',' + io::csvField(labelName(inputs, label)) : "")
+            << (jobs.fromFile ? "," + std::to_string(entry.job) : "") << '\n';
+    }
+}
+
+void writePly(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+              std::span<const KeptClosest> kept) {
+    const PairJobs& jobs = options.jobs;
+    out << "ply\nformat ascii 1.0\n"
+           "comment closest points by voxtact; world, mm, LPS (+x left, +y posterior, +z superior)\n"
+           "comment vertices: on the mesh, in the volume, by turns; clearance: its upper bound\n";
+    for (std::size_t i = 0; i < jobs.meshes.size(); ++i) {
+        out << "comment mesh " << i << " is " << io::csvField(jobs.meshes[i]) << '\n';
+    }
+    for (std::size_t i = 0; i < jobs.volumes.size(); ++i) {
+        out << "comment volume " << i << " is " << io::csvField(jobs.volumes[i]) << '\n';
+    }
+    out << "element vertex " << 2 * kept.size()
+        << "\nproperty double x\nproperty double y\nproperty double z\nproperty int in_volume\n"
+           "element edge "
+        << kept.size()
+        << "\nproperty int vertex1\nproperty int vertex2\nproperty double clearance\nproperty uint pose\n"
+           "property uint mesh\nproperty uint volume\nproperty uint triangle\nproperty int label\nend_header\n";
+    for (const KeptClosest& entry : kept) {
+        out << joined(entry.closest.mesh, ' ') << " 0\n" << joined(entry.closest.volume, ' ') << " 1\n";
+    }
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const KeptClosest& entry = kept[i];
+        const Job& job = jobs.jobs[entry.job];
+        out << 2 * i << ' ' << 2 * i + 1 << ' ' << rounded(entry.bounds.hi) << ' ' << entry.pose << ' ' << job.mesh
+            << ' ' << job.volume << ' ' << entry.closest.triangle << ' ' << labelOf(inputs, entry.closest.volume)
+            << '\n';
+    }
+}
+
+} // namespace
+
+bool isClosestEnding(const std::filesystem::path& path) {
+    return path.extension() == ".csv" || path.extension() == ".ply";
+}
+
+void writeClosest(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                  std::span<const KeptClosest> kept) {
+    if (options.distance.closest.extension() == ".csv") {
+        writeCsv(out, options, inputs, kept);
+    } else {
+        writePly(out, options, inputs, kept);
+    }
+}
+
+} // namespace voxtact::app

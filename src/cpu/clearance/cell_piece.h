@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/clearance/closest_point.h"
+#include "cpu/clearance/opaque_intervals.h"
+#include "cpu/clearance/volume_space.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+
+namespace voxtact::cpu {
+
+/// The trilinear interpolant of a box, as entry coordinates: the coefficients of the products of the coordinates that
+/// go from -1 to 1 along each axis of the box; that of x * z is at 1 + 4.
+using Trilinear = std::array<double, 8>;
+
+/// `corners`: corner (x, y, z) at x + 2 * y + 4 * z.
+[[nodiscard]] Trilinear trilinearOf(const std::array<double, 8>& corners) noexcept;
+/// The same interpolant in a box within: its middle and half its sides, in the coordinates of the first.
+[[nodiscard]] Trilinear within(const Trilinear& whole, const glm::dvec3& middle, const glm::dvec3& half) noexcept;
+[[nodiscard]] double valueAt(const Trilinear& whole, const glm::dvec3& at) noexcept;
+[[nodiscard]] glm::dvec3 gradientAt(const Trilinear& whole, const glm::dvec3& at) noexcept;
+
+/// A box of voxel space, of one cell, and what is opaque in it.
+class CellPiece {
+  public:
+    /// `cell`: of the interpolant of the whole cell, whose entry coordinates may be off by `error`. `middle` and
+    /// `half`: the piece in the cell's coordinates. `cellMiddle`: of the cell, centred voxel coordinates.
+    CellPiece(const Trilinear& cell, double error, const glm::dvec3& cellMiddle, const glm::dvec3& middle,
+              const glm::dvec3& half) noexcept;
+
+    /// Whether some point of it may be opaque. Before all that follows.
+    [[nodiscard]] bool mayBeOpaque(const OpaqueIntervals& intervals) noexcept;
+    [[nodiscard]] bool allOpaque(const OpaqueIntervals& intervals) const noexcept {
+        return intervals.contain(lo_, hi_);
+    }
+    /// Whether some point of it certainly is: by the values at its corners, or those between them.
+    [[nodiscard]] bool someOpaque(const OpaqueIntervals& intervals) const noexcept {
+        const double twice = 2 * error_;
+        return intervals.certainlyMeet(lo_ + twice, hi_ - twice) || intervals.contain(lo_, lo_ + twice) ||
+               intervals.contain(hi_ - twice, hi_);
+    }
+    /// The least dot product with `normal` that an opaque point of the piece may have.
+    [[nodiscard]] double least(const VolumeSpace& space, const glm::dvec3& normal) const noexcept;
+    /// Where the interpolant grows fastest, world.
+    [[nodiscard]] glm::dvec3 ascent(const VolumeSpace& space) const noexcept;
+    /// Whether the interpolant changes by less than it may be off: dividing the piece decides no more.
+    [[nodiscard]] bool isFlat() const noexcept { return !(hi_ - lo_ > 4 * error_); }
+    /// Of the interpolant in the piece, its error included.
+    [[nodiscard]] double lo() const noexcept { return lo_; }
+    [[nodiscard]] double hi() const noexcept { return hi_; }
+
+    [[nodiscard]] glm::dvec3 middle() const noexcept { return middle_; } ///< centred voxel coordinates
+    [[nodiscard]] glm::dvec3 half() const noexcept { return half_; }     ///< voxels
+
+  private:
+    Trilinear terms_;
+    double error_;
+    double lo_ = 0;
+    double hi_ = 0;
+    glm::dvec3 middle_;
+    glm::dvec3 half_;
+    EntryInterval hull_;
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/clearance/mesh_place.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using glm::dvec3;
+
+/// Of the largest term of a coordinate: a distance is made of a few dozen operations on such.
+constexpr double kRelativeError = 0x1p-46;
+/// Outside of these squares of distances may overflow, or vanish.
+constexpr double kLeast = 1e-100;
+constexpr double kGreatest = 1e100;
+
+} // namespace
+
+void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object) {
+    // Another mesh may be where one was before; after 2^32 pairs nothing is in place.
+    const bool fits = clusters_.size() == mesh.clusters.size() && vertices_.size() == mesh.x.size() &&
+                      boxes_.size() == mesh.tree.levels() && boxes_[0].size() == mesh.tree.boxes(0).size();
+    if (!fits || ++pair_ == 0) {
+        boxes_.assign(mesh.tree.levels(), {});
+        for (std::uint32_t level = 0; level < mesh.tree.levels(); ++level) {
+            boxes_[level].resize(mesh.tree.boxes(level).size());
+        }
+        clusters_.assign(mesh.clusters.size(), 0);
+        vertices_.resize(mesh.x.size());
+        triangles_.resize(kClusterTriangles * clusters_.size());
+        pair_ = 1;
+    }
+    mesh_ = &mesh;
+    space_ = &space;
+    for (int column = 0; column < 3; ++column) {
+        const auto at = static_cast<std::size_t>(4 * column);
+        local_from_object_[column] = {world_from_object[at], world_from_object[at + 1], world_from_object[at + 2]};
+    }
+    voxel_from_object_ = space.voxel_from_local * local_from_object_;
+    origin_ = dvec3(world_from_object[12], world_from_object[13], world_from_object[14]) - space.middle;
+    findError(world_from_object);
+}
+
+void MeshPlace::findError(const Mat4& world_from_object) {
+    double largest = 0;
+    for (std::size_t row = 0; row < 3; ++row) {
+        double sum = std::abs(world_from_object[12 + row]);
+        for (std::size_t column = 0; column < 3; ++column) {
+            const Box& bounds = mesh_->facts.bounds;
+            const double vertex = std::max(std::abs(bounds.lo[column]), std::abs(bounds.hi[column]));
+            sum += std::abs(world_from_object[4 * column + row]) * vertex;
+        }
+        largest = std::max(largest, sum);
+    }
+    const double magnitude = largest + space_->magnitude;
+    const bool usable = magnitude > kLeast && magnitude < kGreatest;
+    error_ = usable ? kRelativeError * magnitude * space_->condition : std::numeric_limits<double>::infinity();
+}
+
+void MeshPlace::voxelBounds(const RunBox& box, dvec3& lo, dvec3& hi) const {
+    const dvec3 least(static_cast<double>(box.lo[0]), static_cast<double>(box.lo[1]), static_cast<double>(box.lo[2]));
+    const dvec3 most(static_cast<double>(box.hi[0]), static_cast<double>(box.hi[1]), static_cast<double>(box.hi[2]));
+    const dvec3 middle = voxel_from_object_ * (0.5 * (least + most)) + space_->toVoxel(origin_);
+    const dvec3 half = 0.5 * (most - least);
+    const dvec3 extent = glm::abs(voxel_from_object_[0]) * half.x + glm::abs(voxel_from_object_[1]) * half.y +
+                         glm::abs(voxel_from_object_[2]) * half.z;
+    lo = middle - extent;
+    hi = middle + extent;
+}
+
+const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {
+    Slot<PlacedBox>& slot = boxes_[level][node];
+    if (slot.pair == pair_) {
+        return slot.placed;
+    }
+    slot.pair = pair_;
+    const RunBox& box = mesh_->tree.boxes(level)[node];
+    dvec3 middle;
+    PlacedBox& out = slot.placed;
+    dvec3 diagonal(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<std::size_t>(axis);
+        // Exact in double.
+        const double lo = static_cast<double>(box.lo[at]);
+        const double hi = static_cast<double>(box.hi[at]);
+        middle[axis] = (lo + hi) / 2;
+        out.sides[at] = local_from_object_[axis] * ((hi - lo) / 2);
+        diagonal += glm::abs(out.sides[at]);
+    }
+    out.middle = local_from_object_ * middle + origin_;
+    const dvec3 centre = space_->toVoxel(out.middle);
+    dvec3 extent(0);
+    for (const dvec3& side : out.sides) {
+        extent += glm::abs(space_->toVoxel(side));
+    }
+    out.lo = centre - extent;
+    out.hi = centre + extent;
+    out.diameter = 2 * length(diagonal);
+    return out;
+}
+
+const PlacedTriangle* MeshPlace::run(std::uint32_t run) {
+    return cluster(run / ClusterTree::kRunsOfCluster) + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+}
+
+const PlacedTriangle* MeshPlace::cluster(std::uint32_t cluster) {
+    if (clusters_[cluster] != pair_) {
+        clusters_[cluster] = pair_;
+        placeCluster(cluster);
+    }
+    return &triangles_[std::size_t{cluster} * kClusterTriangles];
+}
+
+std::uint32_t MeshPlace::countOfCluster(std::uint32_t cluster) const {
+    const ClusterPlace& place = mesh_->clusters[cluster];
+    std::uint32_t triangles = place.triangleCount;
+    while (triangles > 0 && mesh_->numbers[place.firstTriangle + triangles - 1] == kNoTriangle) {
+        --triangles;
+    }
+    return triangles;
+}
+
+std::uint32_t MeshPlace::count(std::uint32_t run) const {
+    const std::uint32_t from = first(run);
+    std::uint32_t count = 0;
+    while (count < kRunTriangles && mesh_->numbers[from + count] != kNoTriangle) {
+        ++count;
+    }
+    return count;
+}
+
+void MeshPlace::placeCluster(std::uint32_t cluster) {
+    const ClusterPlace& place = mesh_->clusters[cluster];
+    for (std::size_t i = place.firstVertex; i < std::size_t{place.firstVertex} + place.vertexCount; ++i) {
+        const dvec3 vertex(static_cast<double>(mesh_->x[i]), static_cast<double>(mesh_->y[i]),
+                           static_cast<double>(mesh_->z[i]));
+        vertices_[i] = local_from_object_ * vertex + origin_;
+    }
+    for (std::uint32_t i = 0; i < countOfCluster(cluster); ++i) {
+        const std::size_t at = std::size_t{place.firstTriangle} + i;
+        PlacedTriangle& out = triangles_[std::size_t{cluster} * kClusterTriangles + i];
+        const std::array<std::uint8_t, 3> corners{mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            out.corners[corner] = vertices_[std::size_t{place.firstVertex} + corners[corner]];
+            const dvec3 voxel = space_->toVoxel(out.corners[corner]);
+            out.lo = corner == 0 ? voxel : glm::min(out.lo, voxel);
+            out.hi = corner == 0 ? voxel : glm::max(out.hi, voxel);
+        }
+    }
+}
+
+void MeshPlace::addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const {
+    const ClusterPlace& place = mesh_->clusters[cluster];
+    std::array<bool, PointList::kMost> added{};
+    for (std::uint64_t left = triangles; left != 0; left &= left - 1) {
+        const std::size_t at = std::size_t{place.firstTriangle} + static_cast<std::size_t>(std::countr_zero(left));
+        for (const std::uint8_t corner : {mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]}) {
+            if (!added[corner]) {
+                added[corner] = true;
+                const dvec3& vertex = vertices_[std::size_t{place.firstVertex} + corner];
+                points.x[points.count] = vertex.x;
+                points.y[points.count] = vertex.y;
+                points.z[points.count] = vertex.z;
+                ++points.count;
+            }
+        }
+    }
+}
+
+double PointList::reach(const dvec3& normal) const noexcept {
+    // Two at a time, for the processor.
+    double even = -std::numeric_limits<double>::infinity();
+    double odd = even;
+    std::size_t i = 0;
+    for (; i + 1 < count; i += 2) {
+        even = std::max(even, normal.x * x[i] + normal.y * y[i] + normal.z * z[i]);
+        odd = std::max(odd, normal.x * x[i + 1] + normal.y * y[i + 1] + normal.z * z[i + 1]);
+    }
+    if (i < count) {
+        even = std::max(even, normal.x * x[i] + normal.y * y[i] + normal.z * z[i]);
+    }
+    return std::max(even, odd);
+}
+
+} // namespace voxtact::cpu

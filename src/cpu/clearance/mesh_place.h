@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/clearance/closest_point.h"
+#include "cpu/clearance/volume_space.h"
+#include "cpu/scene/scene_impl.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// A box of a mesh's tree in place: a parallelepiped, and the box around it.
+struct PlacedBox {
+    glm::dvec3 middle{};               ///< local (VolumeSpace)
+    std::array<glm::dvec3, 3> sides{}; ///< half of each
+    glm::dvec3 lo{};                   ///< centred voxel coordinates
+    glm::dvec3 hi{};
+    double diameter = 0; ///< mm
+};
+
+/// A triangle in place.
+struct PlacedTriangle {
+    WorldTriangle corners; ///< local
+    glm::dvec3 lo{};       ///< centred voxel coordinates
+    glm::dvec3 hi{};
+};
+
+/// Some points, and how far they reach along a direction.
+struct PointList {
+    static constexpr std::size_t kMost = 3 * std::size_t{kClusterTriangles};
+    std::array<double, kMost> x{};
+    std::array<double, kMost> y{};
+    std::array<double, kMost> z{};
+    std::size_t count = 0;
+
+    /// The greatest dot product. Expects some points.
+    [[nodiscard]] double reach(const glm::dvec3& normal) const noexcept;
+};
+
+/// A mesh at a pose in the space of a volume: boxes and triangles are placed when they are first asked for.
+/// One thread's; kept from pair to pair for its memory.
+class MeshPlace {
+  public:
+    /// All must live until the next call.
+    void begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object);
+
+    [[nodiscard]] const MeshImpl& mesh() const noexcept { return *mesh_; }
+    /// Of the mesh's tree.
+    [[nodiscard]] const PlacedBox& box(std::uint32_t level, std::uint32_t node);
+    /// The box in centred voxel coordinates around a box of object space.
+    void voxelBounds(const RunBox& box, glm::dvec3& lo, glm::dvec3& hi) const;
+    /// Of a run (ClusterTree): kRunTriangles of them, as many as it has in place. Valid until the next begin().
+    [[nodiscard]] const PlacedTriangle* run(std::uint32_t run);
+    /// Of a cluster: kClusterTriangles of them.
+    [[nodiscard]] const PlacedTriangle* cluster(std::uint32_t cluster);
+    /// Adds the corners of some triangles of a cluster, each once: a bit for each triangle.
+    void addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const;
+    /// How many triangles a run has.
+    [[nodiscard]] std::uint32_t count(std::uint32_t run) const;
+    /// How many triangles a cluster has.
+    [[nodiscard]] std::uint32_t countOfCluster(std::uint32_t cluster) const;
+    /// The place of a run's first triangle in the mesh's arrays.
+    [[nodiscard]] std::uint32_t first(std::uint32_t run) const {
+        return mesh_->clusters[run / ClusterTree::kRunsOfCluster].firstTriangle +
+               run % ClusterTree::kRunsOfCluster * kRunTriangles;
+    }
+    /// No computed distance between the mesh and the volume is off by more, mm. Infinite where the numbers are too
+    /// large or too small to say.
+    [[nodiscard]] double error() const noexcept { return error_; }
+    /// The object's origin, local.
+    [[nodiscard]] glm::dvec3 origin() const noexcept { return origin_; }
+
+  private:
+    template <class Placed> struct Slot {
+        std::uint32_t pair = 0;
+        Placed placed;
+    };
+    void placeCluster(std::uint32_t cluster);
+    void findError(const Mat4& world_from_object);
+
+    const MeshImpl* mesh_ = nullptr;
+    const VolumeSpace* space_ = nullptr;
+    glm::dmat3 local_from_object_{1};
+    glm::dmat3 voxel_from_object_{1};
+    glm::dvec3 origin_{};
+    double error_ = 0;
+    std::uint32_t pair_ = 0; ///< what was placed for another is not in place
+    std::vector<std::vector<Slot<PlacedBox>>> boxes_;
+    std::vector<std::uint32_t> clusters_; ///< the pair that they are placed for
+    std::vector<glm::dvec3> vertices_;    ///< local
+    std::vector<PlacedTriangle> triangles_;
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/clearance/nearest_point.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using glm::dot;
+using glm::dvec3;
+
+/// A part of a tree, and how near it is.
+template <class Node> struct Near {
+    double distance = 0;
+    Node node{};
+};
+
+/// The nearest first.
+template <class Node, std::size_t Most> struct NearList {
+    std::array<Near<Node>, Most> entries{};
+    std::size_t count = 0;
+
+    void add(double distance, const Node& node) {
+        std::size_t at = count++;
+        for (; at > 0 && distance < entries[at - 1].distance; --at) {
+            entries[at] = entries[at - 1];
+        }
+        entries[at] = {distance, node};
+    }
+    [[nodiscard]] const Near<Node>* begin() const { return entries.data(); }
+    [[nodiscard]] const Near<Node>* end() const { return entries.data() + count; }
+};
+
+class MeshSearch {
+  public:
+    MeshSearch(MeshPlace& mesh, const dvec3& from, double within) : mesh_(mesh), from_(from) {
+        best_.distance = within;
+    }
+
+    MeshPoint run() {
+        const std::uint32_t top = mesh_.mesh().tree.levels() - 1;
+        openBoxes(top, 0, static_cast<std::uint32_t>(mesh_.mesh().tree.boxes(top).size()));
+        return best_;
+    }
+
+  private:
+    void openBoxes(std::uint32_t level, std::uint32_t first, std::uint32_t last) {
+        NearList<std::uint32_t, ClusterTree::kFanOut> near;
+        for (std::uint32_t node = first; node < last; ++node) {
+            near.add(distanceTo(mesh_.box(level, node)), node);
+        }
+        for (const auto& [distance, node] : near) {
+            if (distance >= best_.distance) {
+                return;
+            }
+            if (level > 0) {
+                const auto below = static_cast<std::uint32_t>(mesh_.mesh().tree.boxes(level - 1).size());
+                const std::uint32_t child = node * ClusterTree::kFanOut;
+                openBoxes(level - 1, child, std::min(child + ClusterTree::kFanOut, below));
+            } else {
+                openRun(node);
+            }
+        }
+    }
+
+    void openRun(std::uint32_t run) {
+        const PlacedTriangle* triangles = mesh_.run(run);
+        for (std::uint32_t i = 0; i < mesh_.count(run); ++i) {
+            const dvec3 point = closestPoint(triangles[i].corners, from_);
+            const double distance = glm::distance(point, from_);
+            if (distance < best_.distance) {
+                best_ = {point, distance, mesh_.first(run) + i};
+            }
+        }
+    }
+
+    [[nodiscard]] double distanceTo(const PlacedBox& box) const {
+        const dvec3 off = from_ - box.middle;
+        dvec3 left = off;
+        for (const dvec3& side : box.sides) {
+            const double square = dot(side, side);
+            if (square > 0) {
+                left -= std::clamp(dot(off, side) / square, -1.0, 1.0) * side;
+            }
+        }
+        return glm::length(left);
+    }
+
+    MeshPlace& mesh_;
+    dvec3 from_;
+    MeshPoint best_;
+};
+
+class OpaqueSearch {
+  public:
+    OpaqueSearch(const OpaquePart& part, const VolumeImpl& volume, const dvec3& from, double within)
+        : part_(part), volume_(volume), from_(from), voxel_(part.space.toVoxel(from)) {
+        best_.distance = within;
+    }
+
+    OpaquePoint run() {
+        const std::uint32_t top = part_.pyramid.levels() - 1;
+        if (part_.pyramid.has(top, {0, 0, 0})) {
+            openBox(top + kBrickShift, {0, 0, 0});
+        }
+        return best_;
+    }
+
+  private:
+    [[nodiscard]] bool may(std::uint32_t shift, const NodePlace& node) const {
+        if (shift >= kBrickShift) {
+            return part_.pyramid.has(shift - kBrickShift, node);
+        }
+        NodePlace brick{};
+        CellBox inside;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::int32_t first = node[axis] << shift;
+            if (first > volume_.image.size[axis]) {
+                return false;
+            }
+            brick[axis] = first >> kBrickShift;
+            inside.lo[axis] = first & (kBrickSide - 1);
+            inside.hi[axis] = inside.lo[axis] + (1 << shift) - 1;
+        }
+        return part_.cells(volume_, brick).any(inside);
+    }
+
+    [[nodiscard]] double distanceTo(std::uint32_t shift, const NodePlace& node) const {
+        dvec3 off;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double lo = (node[static_cast<std::size_t>(axis)] << shift) - 1 - part_.space.centre[axis];
+            const double hi = lo + (1 << shift);
+            off[axis] = std::max({lo - voxel_[axis], voxel_[axis] - hi, 0.0}) * part_.space.spacing[axis];
+        }
+        return glm::length(off);
+    }
+
+    void openBox(std::uint32_t shift, const NodePlace& node) {
+        if (shift == 0) {
+            openCell(node);
+            return;
+        }
+        NearList<NodePlace, 8> near;
+        for (unsigned i = 0; i < 8; ++i) {
+            NodePlace child{};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                child[axis] = 2 * node[axis] + static_cast<std::int32_t>(i >> axis & 1U);
+            }
+            const double distance = distanceTo(shift - 1, child);
+            if (distance < best_.distance && may(shift - 1, child)) {
+                near.add(distance, child);
+            }
+        }
+        for (const auto& [distance, child] : near) {
+            if (distance >= best_.distance) {
+                return;
+            }
+            openBox(shift - 1, child);
+        }
+    }
+
+    void openCell(const NodePlace& node) {
+        const PartCell cell = part_.cell(volume_, node);
+        dvec3 at = glm::clamp(2.0 * (voxel_ - cell.middle), cell.domain - cell.half, cell.domain + cell.half);
+        if (!goToOpaque(part_, cell, at)) {
+            return;
+        }
+        const dvec3 point = part_.space.toWorld(cell.middle + 0.5 * at);
+        const double distance = glm::distance(point, from_);
+        if (distance < best_.distance) {
+            best_ = {point, distance};
+        }
+    }
+
+    const OpaquePart& part_;
+    const VolumeImpl& volume_;
+    dvec3 from_;
+    dvec3 voxel_;
+    OpaquePoint best_;
+};
+
+} // namespace
+
+MeshPoint nearestOnMesh(MeshPlace& mesh, const dvec3& from, double within) {
+    return MeshSearch(mesh, from, within).run();
+}
+
+OpaquePoint nearestOpaque(const OpaquePart& part, const VolumeImpl& volume, const dvec3& from, double within) {
+    return OpaqueSearch(part, volume, from, within).run();
+}
+
+bool goToOpaque(const OpaquePart& part, const PartCell& cell, dvec3& at) noexcept {
+    constexpr int kMostSteps = 4;
+    constexpr double kBeyond = 1.5;
+    for (int step = 0;; ++step) {
+        const double value = valueAt(cell.terms, at);
+        if (part.intervals.contain(value - cell.error, value + cell.error)) {
+            return true;
+        }
+        if (step == kMostSteps || std::isnan(value) || part.intervals.empty()) {
+            return false;
+        }
+        const EntryInterval& target = part.intervals.nearest(value);
+        const double lowest = target.lo + kBeyond * cell.error;
+        const double highest = target.hi - kBeyond * cell.error;
+        const double wanted = lowest <= highest ? std::clamp(value, lowest, highest) : 0.5 * (target.lo + target.hi);
+        const dvec3 gradient = 2.0 * gradientAt(cell.terms, at);
+        const dvec3 direction = part.space.direction_from_gradient * gradient;
+        const double slope = dot(gradient, direction);
+        if (!(slope > 0)) {
+            return false;
+        }
+        at += (2 * (wanted - value) / slope) * direction;
+        at = glm::clamp(at, cell.domain - cell.half, cell.domain + cell.half);
+    }
+}
+
+} // namespace voxtact::cpu

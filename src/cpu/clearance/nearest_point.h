@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/clearance/mesh_place.h"
+#include "cpu/clearance/opaque_part.h"
+
+#include <glm/vec3.hpp>
+
+#include <limits>
+
+/// Points that are near, soon: what they are worth is for others to say. Local coordinates (VolumeSpace).
+namespace voxtact::cpu {
+
+struct MeshPoint {
+    glm::dvec3 point{};
+    double distance = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = kNoTriangle; ///< its place in the mesh's arrays
+};
+
+struct OpaquePoint {
+    glm::dvec3 point{};
+    double distance = std::numeric_limits<double>::infinity();
+};
+
+/// About the closest point of the mesh, where there is one nearer than `within`, mm.
+[[nodiscard]] MeshPoint nearestOnMesh(MeshPlace& mesh, const glm::dvec3& from, double within);
+/// About the closest of the points that are certainly opaque, where there is one nearer than `within`, mm.
+[[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const VolumeImpl& volume, const glm::dvec3& from,
+                                        double within);
+
+/// Goes along a cell's interpolant from a point of its part in the domain until the value is certainly opaque; false
+/// where it does not get there. `at`: the cell's coordinates from -1 to 1.
+[[nodiscard]] bool goToOpaque(const OpaquePart& part, const PartCell& cell, glm::dvec3& at) noexcept;
+
+} // namespace voxtact::cpu

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// A closed interval of entry coordinates (shaders/opacity_ranges.h).
+struct EntryInterval {
+    double lo = -std::numeric_limits<double>::infinity();
+    double hi = std::numeric_limits<double>::infinity();
+};
+
+/// Which entry coordinates are opaque: the table is linear between its entries and constant beyond them, so they are
+/// some closed intervals, each known up to the rounding of a division.
+class OpaqueIntervals {
+  public:
+    OpaqueIntervals() = default;
+    /// `table` as sampleTable() returns it.
+    OpaqueIntervals(std::span<const float> table, float threshold);
+
+    /// Whether [lo, hi] may have an opaque coordinate. `hull` is then the least interval that certainly holds all of
+    /// them that are in [lo, hi], but for ends that are beyond lo or hi. NaN may be anything.
+    [[nodiscard]] bool meet(double lo, double hi, EntryInterval& hull) const noexcept;
+    /// Whether all of [lo, hi] is certainly opaque. False with NaN.
+    [[nodiscard]] bool contain(double lo, double hi) const noexcept;
+    /// Whether some coordinate of [lo, hi] is certainly opaque. False for an empty range, and with NaN.
+    [[nodiscard]] bool certainlyMeet(double lo, double hi) const noexcept;
+    /// The interval nearest to a coordinate. Expects that there is one, and no NaN.
+    [[nodiscard]] const EntryInterval& nearest(double entry) const noexcept;
+    [[nodiscard]] bool empty() const noexcept { return outer_.empty(); }
+
+  private:
+    [[nodiscard]] std::size_t firstEndingAt(const std::vector<EntryInterval>& in, double lo) const noexcept;
+
+    std::vector<EntryInterval> outer_; ///< ascending; they hold all that is opaque
+    std::vector<EntryInterval> inner_; ///< ascending; all that they hold is opaque
+};
+
+} // namespace voxtact::cpu

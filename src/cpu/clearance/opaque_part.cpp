@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/clearance/opaque_part.h"
+#include "cpu/scene/stored_voxels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+/// Of the terms of an entry coordinate.
+constexpr double kEntryError = 0x1p-47;
+
+std::size_t numberOf(const NodePlace& count, const NodePlace& node) {
+    return (static_cast<std::size_t>(node[2]) * static_cast<std::size_t>(count[1]) +
+            static_cast<std::size_t>(node[1])) *
+               static_cast<std::size_t>(count[0]) +
+           static_cast<std::size_t>(node[0]);
+}
+
+template <class Visit> void forEachNode(const NodePlace& count, const Visit& visit) {
+    for (std::int32_t z = 0; z < count[2]; ++z) {
+        for (std::int32_t y = 0; y < count[1]; ++y) {
+            for (std::int32_t x = 0; x < count[0]; ++x) {
+                visit(NodePlace{x, y, z});
+            }
+        }
+    }
+}
+
+std::vector<std::uint8_t> wantedBricks(const CertifiedOccupancy& occupancy, std::size_t bricks) {
+    std::vector<std::uint8_t> wanted(bricks);
+    for (std::size_t brick = 0; brick < bricks; ++brick) {
+        wanted[brick] = occupancy.mayBeOpaque(brick) ? 1 : 0;
+    }
+    return wanted;
+}
+
+} // namespace
+
+BrickPyramid::BrickPyramid(const std::array<std::int32_t, 3>& count, std::vector<std::uint8_t> wanted) {
+    levels_.push_back({count, std::move(wanted)});
+    while (levels_.back().wanted.size() > 1) {
+        const Level& below = levels_.back();
+        Level level;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            level.count[axis] = (below.count[axis] + 1) / 2;
+        }
+        level.wanted.resize(numberOf(level.count, {0, 0, level.count[2]}));
+        forEachNode(below.count, [&](const NodePlace& node) {
+            level.wanted[numberOf(level.count, {node[0] / 2, node[1] / 2, node[2] / 2})] |=
+                below.wanted[numberOf(below.count, node)];
+        });
+        levels_.push_back(std::move(level));
+    }
+}
+
+bool BrickPyramid::has(std::uint32_t level, const NodePlace& node) const noexcept {
+    const Level& at = levels_[level];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (node[axis] >= at.count[axis]) {
+            return false;
+        }
+    }
+    return at.wanted[numberOf(at.count, node)] != 0;
+}
+
+OpaquePart::OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
+                       double resolution)
+    : occupancy(volume, function, threshold, resolution), space(volume.grid),
+      intervals(function.table, occupancy.item().threshold),
+      pyramid(volume.bricks.count, wantedBricks(occupancy, volume.bricks.lo.size())),
+      scale_(static_cast<double>(function.table.size()) / (function.domain.hi - function.domain.lo)),
+      origin_(function.domain.lo - volume.storedIntercept),
+      terms_(std::abs(function.domain.lo) + std::abs(volume.storedIntercept)) {}
+
+PartCell OpaquePart::cell(const VolumeImpl& volume, const NodePlace& padded) const {
+    const StoredImage& image = volume.image;
+    PartCell out;
+    std::array<double, 8> corners{};
+    double largest = terms_;
+    image.visit([&](const auto* voxels) {
+        const auto* first = voxels + padded[0] + padded[1] * image.stride[1] + padded[2] * image.stride[2];
+        for (std::size_t i = 0; i < 8; ++i) {
+            const std::int64_t offset =
+                ((i & 1U) != 0 ? 1 : 0) + ((i & 2U) != 0 ? image.stride[1] : 0) + ((i & 4U) != 0 ? image.stride[2] : 0);
+            const double stored = static_cast<double>(storedValue(first[offset]));
+            largest = std::max(largest, std::abs(stored));
+            corners[i] = (stored - origin_) * scale_ - 0.5;
+        }
+    });
+    // A dozen roundings, and as many of what is computed from the terms.
+    out.error = kEntryError * (std::abs(scale_) * (largest + terms_) + 1);
+    out.terms = trilinearOf(corners);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int32_t number = padded[static_cast<std::size_t>(axis)] - 1;
+        out.middle[axis] = number + 0.5 - space.centre[axis];
+        const double lo = number < 0 ? 0 : -1;
+        const double hi = number == image.size[static_cast<std::size_t>(axis)] - 1 ? 0 : 1;
+        out.domain[axis] = (lo + hi) / 2;
+        out.half[axis] = (hi - lo) / 2;
+    }
+    return out;
+}
+
+} // namespace voxtact::cpu

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/certified/certified_occupancy.h"
+#include "cpu/clearance/cell_piece.h"
+#include "cpu/clearance/opaque_intervals.h"
+#include "cpu/clearance/volume_space.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// A place in a pyramid.
+using NodePlace = std::array<std::int32_t, 3>;
+
+/// The bricks that are looked at, and above them boxes of 2^3, 4^3, ... bricks with at least one such, up to one box.
+class BrickPyramid {
+  public:
+    BrickPyramid() = default;
+    /// `wanted` is not zero for the bricks that are looked at.
+    BrickPyramid(const std::array<std::int32_t, 3>& count, std::vector<std::uint8_t> wanted);
+
+    /// Level 0 are the bricks.
+    [[nodiscard]] std::uint32_t levels() const noexcept { return static_cast<std::uint32_t>(levels_.size()); }
+    /// False outside of it.
+    [[nodiscard]] bool has(std::uint32_t level, const NodePlace& node) const noexcept;
+
+  private:
+    struct Level {
+        NodePlace count{};
+        std::vector<std::uint8_t> wanted;
+    };
+    std::vector<Level> levels_;
+};
+
+/// What a cell holds for the search.
+struct PartCell {
+    Trilinear terms{};
+    double error = 0;     ///< of an entry coordinate
+    glm::dvec3 middle{};  ///< of the cell, centred voxel coordinates
+    glm::dvec3 domain{};  ///< the middle of its part in the domain, in the cell's coordinates from -1 to 1
+    glm::dvec3 half{1.0}; ///< half the sides of that part
+};
+
+/// One volume under one transfer function, threshold and resolution, as a clearance sees it: made once for all poses.
+/// Thread-safe.
+class OpaquePart {
+  public:
+    OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold, double resolution);
+
+    /// `volume` is in what follows the one of the constructor.
+    [[nodiscard]] const BrickCells& cells(const VolumeImpl& volume, const NodePlace& brick) const {
+        return occupancy.cells(volume, brick);
+    }
+    /// The cell with this padded number (core/volume/bricks.h), which is not further out than the last one.
+    [[nodiscard]] PartCell cell(const VolumeImpl& volume, const NodePlace& padded) const;
+
+    CertifiedOccupancy occupancy;
+    VolumeSpace space;
+    OpaqueIntervals intervals;
+    BrickPyramid pyramid;
+
+  private:
+    /// Of an entry coordinate: (stored - origin) * scale - 0.5. In double: single precision would be all that keeps the
+    /// bounds apart.
+    double scale_;
+    double origin_;
+    double terms_; ///< the magnitudes of what the origin is made of
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "oracle/clearance_oracle.h"
+#include "core/base/guard.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "oracle/certified_sample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace voxtact::oracle {
+
+namespace {
+
+using certified::Cell;
+using certified::CellVoxels;
+using certified::Field;
+using certified::Opacity;
+using Triangle = std::array<Vec3, 3>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double product(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double lengthOf(const Vec3& a) {
+    return std::hypot(a[0], a[1], a[2]);
+}
+Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double toSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 ab = minus(b, a);
+    const double square = product(ab, ab);
+    const double t = square > 0 ? std::clamp(product(minus(p, a), ab) / square, 0.0, 1.0) : 0.0;
+    return lengthOf(minus(p, {a[0] + t * ab[0], a[1] + t * ab[1], a[2] + t * ab[2]}));
+}
+
+/// To an edge, or to the plane where the foot of the perpendicular is on the inner side of all three.
+double toTriangle(const Vec3& p, const Triangle& t) {
+    double least = std::min({toSegment(p, t[0], t[1]), toSegment(p, t[1], t[2]), toSegment(p, t[2], t[0])});
+    const Vec3 normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const double size = lengthOf(normal);
+    bool over = size > 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 edge = minus(t[(i + 1) % 3], t[i]);
+        over = over && product(cross(edge, minus(p, t[i])), normal) >= 0;
+    }
+    return over ? std::min(least, std::abs(product(minus(p, t[0]), normal)) / size) : least;
+}
+
+/// A part of a cell, index space.
+struct SubBox {
+    std::uint32_t cell = 0; ///< number in the list
+    Vec3 lo{};
+    Vec3 hi{};
+    double nearest = 0; ///< mm: no triangle is nearer
+};
+
+struct Known {
+    Cell cell{};
+    CellVoxels voxels{};
+};
+
+class Measurer {
+  public:
+    Measurer(const OraclePair& pair, const ValueRange& range, std::vector<float> entries)
+        : field_(pair.volume, range), opacity_(std::move(entries), pair.transferFunction.domain,
+                                               static_cast<double>(static_cast<float>(pair.threshold))),
+          world_from_index_(worldFromIndex(pair.volume.grid)) {
+        for (std::size_t i = 0; i < pair.mesh.indices.size(); i += 3) {
+            Triangle triangle;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const float* at = &pair.mesh.positions[std::size_t{3} * pair.mesh.indices[i + corner]];
+                triangle[corner] =
+                    transformPoint(pair.world_from_object, {static_cast<double>(at[0]), static_cast<double>(at[1]),
+                                                            static_cast<double>(at[2])});
+            }
+            triangles_.push_back(triangle);
+        }
+    }
+
+    OracleClearance run(double resolution, std::size_t mostBoxes) {
+        std::vector<SubBox> boxes = wholeCells();
+        double size = 1;
+        while (!boxes.empty() && size > resolution && 8 * boxes.size() <= mostBoxes) {
+            std::vector<SubBox> next;
+            for (const SubBox& box : boxes) {
+                divide(box, next);
+            }
+            boxes = std::move(next);
+            std::erase_if(boxes, [this](const SubBox& box) { return box.nearest > hi_; });
+            size /= 2;
+        }
+        OracleClearance out{hi_, hi_};
+        for (const SubBox& box : boxes) {
+            out.lo = std::min(out.lo, box.nearest);
+        }
+        return out;
+    }
+
+  private:
+    std::vector<SubBox> wholeCells() {
+        std::vector<SubBox> out;
+        const auto& size = field_.size();
+        Cell cell{};
+        const auto last = [&](std::size_t axis) { return std::int64_t{size[axis]} - 1; };
+        for (cell[2] = -1; cell[2] <= last(2); ++cell[2]) {
+            for (cell[1] = -1; cell[1] <= last(1); ++cell[1]) {
+                for (cell[0] = -1; cell[0] <= last(0); ++cell[0]) {
+                    cells_.push_back({cell, field_.voxelsOf(cell)});
+                    SubBox box;
+                    box.cell = static_cast<std::uint32_t>(cells_.size() - 1);
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        const auto at = static_cast<double>(cell[axis]);
+                        box.lo[axis] = std::max(at, -0.5);
+                        box.hi[axis] = std::min(at + 1, static_cast<double>(size[axis]) - 0.5);
+                    }
+                    look(box, out);
+                }
+            }
+        }
+        return out;
+    }
+
+    void divide(const SubBox& box, std::vector<SubBox>& out) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            SubBox part = box;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double middle = (box.lo[axis] + box.hi[axis]) / 2;
+                ((i >> axis & 1U) == 0 ? part.hi : part.lo)[axis] = middle;
+            }
+            look(part, out);
+        }
+    }
+
+    /// Keeps a box that may have an opaque point, and learns from it.
+    void look(SubBox box, std::vector<SubBox>& out) {
+        ValueRange values{kInfinity, -kInfinity};
+        Vec3 middle{};
+        std::array<Vec3, 8> corners{};
+        bool opaqueCorner = false;
+        for (std::size_t i = 0; i < 8; ++i) {
+            Vec3 place{};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                place[axis] = (i >> axis & 1U) == 0 ? box.lo[axis] : box.hi[axis];
+                middle[axis] += place[axis] / 8;
+            }
+            const double value = valueAt(cells_[box.cell], place);
+            const double doubt = field_.doubt(0);
+            opaqueCorner = opaqueCorner || opacity_.allOpaque({value - doubt, value + doubt});
+            values = {std::min(values.lo, value), std::max(values.hi, value)};
+            corners[i] = transformPoint(world_from_index_, place);
+        }
+        const double doubt = field_.doubt(0);
+        if (!opacity_.mayBeOpaque({values.lo - doubt, values.hi + doubt})) {
+            return;
+        }
+        const Vec3 centre = transformPoint(world_from_index_, middle);
+        double radius = 0;
+        for (const Vec3& corner : corners) {
+            radius = std::max(radius, lengthOf(minus(corner, centre)));
+        }
+        double distance = kInfinity;
+        for (const Triangle& triangle : triangles_) {
+            distance = std::min(distance, toTriangle(centre, triangle));
+        }
+        if (opaqueCorner || opacity_.opaqueBetween(values.lo + doubt, values.hi - doubt)) {
+            hi_ = std::min(hi_, distance + radius);
+        }
+        box.nearest = std::max(0.0, distance - radius);
+        if (box.nearest <= hi_) {
+            out.push_back(box);
+        }
+    }
+
+    static double valueAt(const Known& known, const Vec3& place) {
+        double value = 0;
+        for (std::size_t i = 0; i < 8; ++i) {
+            double weight = 1;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double along = place[axis] - static_cast<double>(known.cell[axis]);
+                weight *= (i >> axis & 1U) == 0 ? 1 - along : along;
+            }
+            value += weight * known.voxels[i];
+        }
+        return value;
+    }
+
+    Field field_;
+    Opacity opacity_;
+    Mat4 world_from_index_;
+    std::vector<Triangle> triangles_;
+    std::vector<Known> cells_;
+    double hi_ = kInfinity;
+};
+
+} // namespace
+
+Result<OracleClearance> clearanceOracle(const OraclePair& pair, double resolution, std::size_t mostBoxes) {
+    return guard([&]() -> Result<OracleClearance> {
+        VOXTACT_TRY(checkMesh(pair.mesh));
+        const Result<ValueRange> range = checkVolume(pair.volume);
+        VOXTACT_TRY(range);
+        Result<std::vector<float>> entries = sampleTable(pair.transferFunction);
+        VOXTACT_TRY(entries);
+        if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "the threshold " + number(pair.threshold) + " is outside [0, 1]"};
+        }
+        return Measurer(pair, *range, std::move(*entries)).run(resolution, mostBoxes);
+    });
+}
+
+} // namespace voxtact::oracle

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// voxtact detect --clearance and --margin.
+#include "cli_fixture.h"
+
+#include <cmath>
+#include <fstream>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A scalpel whose tip goes along z: in the head, 20 mm or so above it, and far away.
+class ClearanceTest : public CliTest {
+  protected:
+    void SetUp() override {
+        writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0    0 0 0 1\n"
+                                     "1 0 0 0  0 1 0 0  0 0 1 120  0 0 0 1\n"
+                                     "1 0 0 0  0 1 0 0  0 0 1 500  0 0 0 1\n");
+    }
+    [[nodiscard]] Arguments detect(const Arguments& more) const {
+        Arguments all{"detect",  "--volume",        "builtin:head:32", "--mesh", "builtin:scalpel:300",
+                      "--poses", path("poses.txt"), "--format",        "csv"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    static std::vector<std::map<std::string, std::string>> rowsOf(const std::string& text) {
+        std::vector<std::map<std::string, std::string>> rows;
+        std::vector<std::string> names;
+        for (const std::string& line : linesOf(text)) {
+            const std::vector<std::string> fields = fieldsOf(line);
+            if (names.empty()) {
+                names = fields;
+                continue;
+            }
+            rows.emplace_back();
+            for (std::size_t i = 0; i < fields.size(); ++i) {
+                rows.back()[names.at(i)] = fields[i];
+            }
+        }
+        return rows;
+    }
+    [[nodiscard]] std::vector<std::map<std::string, std::string>> rows(const Arguments& more) const {
+        return rowsOf(output(detect(more)));
+    }
+};
+
+TEST_F(ClearanceTest, AddsBoundsToEachRow) {
+    const auto found = rows({"--clearance"});
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].at("hit"), "1");
+    EXPECT_EQ(found[0].at("clearance_lo"), "0");
+    EXPECT_EQ(found[0].at("clearance_hi"), "0");
+    EXPECT_EQ(found[1].at("hit"), "0");
+    const double lo = std::stod(found[1].at("clearance_lo"));
+    const double hi = std::stod(found[1].at("clearance_hi"));
+    EXPECT_GT(lo, 10);
+    EXPECT_LT(hi, 40);
+    EXPECT_LE(hi - lo, 0.010002);
+    // 380 mm farther along the same line, nearly.
+    EXPECT_NEAR(std::stod(found[2].at("clearance_lo")), lo + 380, 1);
+    const auto fine = rows({"--clearance", "--tolerance", "0.0001", "--threads", "1"});
+    const double fineLo = std::stod(fine[1].at("clearance_lo"));
+    EXPECT_LE(std::stod(fine[1].at("clearance_hi")) - fineLo, 0.000102);
+    EXPECT_GE(fineLo, lo);
+}
+
+TEST_F(ClearanceTest, GoesNoFartherThanItIsTold) {
+    const auto found = rows({"--clearance", "--max-clearance", "100"});
+    EXPECT_LT(std::stod(found[1].at("clearance_hi")), 40);
+    EXPECT_EQ(found[2].at("clearance_lo"), "100");
+    EXPECT_EQ(found[2].at("clearance_hi"), "inf");
+}
+
+TEST_F(ClearanceTest, OfNothingIsInfinite) {
+    const Arguments how{"--clearance", "--opacity", "0:0"};
+    EXPECT_EQ(rows(how)[1].at("clearance_lo"), "inf");
+    Arguments json = detect(how);
+    json[8] = "json";
+    EXPECT_THAT(output(json), HasSubstr(R"("clearance_lo":"inf","clearance_hi":"inf")"));
+}
+
+TEST_F(ClearanceTest, AMarginIsAnsweredLikeATouch) {
+    const double clearance = std::stod(rows({"--clearance"})[1].at("clearance_hi"));
+    for (const auto& [margin, hits] : {std::pair(0.0, "100"), std::pair(clearance - 1, "100"),
+                                       std::pair(clearance + 0.001, "110"), std::pair(1000.0, "111")}) {
+        const auto found = rows({"--margin", std::to_string(margin), "--answer", "yes-no"});
+        ASSERT_EQ(found.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(found[i].at("hit"), std::string(1, hits[i])) << margin << ", pose " << i;
+            EXPECT_EQ(found[i].at("count"), found[i].at("hit"));
+            EXPECT_EQ(found[i].at("exact"), "0");
+            EXPECT_EQ(found[i].at("method"), "cpu");
+            EXPECT_EQ(found[i].at("projection"), "conservative");
+        }
+    }
+}
+
+TEST_F(ClearanceTest, WritesTheClosestPoints) {
+    output({"make", "volume", "builtin:head:16", path("labels.nii.gz")});
+    output(detect({"--clearance", "--closest", path("closest.csv"), "--labels", path("labels.nii.gz")}));
+    const std::string text = readText(path("closest.csv"));
+    EXPECT_EQ(linesOf(text).at(0), "pose,mesh,volume,triangle,mesh_x,mesh_y,mesh_z,volume_x,volume_y,volume_z,label,"
+                                   "per_x,per_y,per_z,per_rx,per_ry,per_rz");
+    const auto found = rowsOf(text);
+    ASSERT_EQ(found.size(), 3U);
+    const auto& apart = found[1];
+    // The tip is at the object's origin: turning does not move it.
+    EXPECT_NEAR(std::stod(apart.at("mesh_z")), 120, 1e-6);
+    EXPECT_EQ(apart.at("per_rx"), "0");
+    EXPECT_GT(std::stod(apart.at("per_z")), 0.99);
+    const double away = std::hypot(std::stod(apart.at("mesh_x")) - std::stod(apart.at("volume_x")),
+                                   std::stod(apart.at("mesh_y")) - std::stod(apart.at("volume_y")),
+                                   std::stod(apart.at("mesh_z")) - std::stod(apart.at("volume_z")));
+    EXPECT_NEAR(away, std::stod(rows({"--clearance"})[1].at("clearance_hi")), 1e-4);
+    EXPECT_NE(found[0].at("label"), "0");
+
+    output(detect({"--clearance", "--closest", path("closest.ply")}));
+    const std::vector<std::string> ply = linesOf(readText(path("closest.ply")));
+    EXPECT_THAT(ply, testing::Contains("element vertex 6"));
+    EXPECT_THAT(ply, testing::Contains("element edge 3"));
+    const auto end = static_cast<std::size_t>(std::find(ply.begin(), ply.end(), "end_header") - ply.begin());
+    EXPECT_EQ(ply.size(), end + 1 + 6 + 3);
+}
+
+TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
+    const auto line = [&](const Arguments& more) { return refused(2, detect(more)); };
+    EXPECT_THAT(line({"--margin", "-1"}), HasSubstr("--margin"));
+    EXPECT_THAT(line({"--tolerance", "0.1"}), HasSubstr("--tolerance: it is about clearances"));
+    EXPECT_THAT(line({"--max-clearance", "5"}), HasSubstr("--max-clearance: it is about clearances"));
+    EXPECT_THAT(line({"--closest", "c.csv"}), HasSubstr("--closest: it is about clearances"));
+    EXPECT_THAT(line({"--clearance", "--closest", "c.vtk"}), HasSubstr(".csv or .ply"));
+    EXPECT_THAT(line({"--clearance", "--tolerance", "0"}), HasSubstr("--tolerance"));
+    EXPECT_THAT(line({"--clearance", "--max-clearance", "0"}), HasSubstr("--max-clearance"));
+    EXPECT_THAT(line({"--clearance", "--count", "atomic"}), HasSubstr("leave out --count atomic"));
+    EXPECT_THAT(line({"--margin", "1", "--projection", "view"}), HasSubstr("leave out --projection view"));
+    EXPECT_THAT(line({"--margin", "1", "--contacts", "c.csv"}), HasSubstr("--margin is answered by yes or no"));
+    EXPECT_THAT(line({"--clearance", "--closest", path("poses.txt") + "/../poses.txt"}), HasSubstr("--closest"));
+    EXPECT_EQ(filesInFolder(), 1U);
+}
+
+} // namespace
+} // namespace voxtact::test
