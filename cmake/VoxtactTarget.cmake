@@ -3,6 +3,11 @@
 
 set(VOXTACT_EXPORT_MAP "${CMAKE_CURRENT_LIST_DIR}/voxtact.map")
 
+# What C++ brings, for those who link a static library of ours without a C++ compiler: stdc++ and m, or c++.
+set(VOXTACT_CXX_RUNTIME ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(FILTER VOXTACT_CXX_RUNTIME INCLUDE REGEX "^(std)?c\\+\\+$|^m$")
+list(REMOVE_DUPLICATES VOXTACT_CXX_RUNTIME)
+
 function(voxtact_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON

@@ -17,12 +17,13 @@ allowed() {
     device) echo "core gpu detect device" ;;
     samples) echo "core samples" ;;
     lab) echo "core gpu detect render io cpu samples oracle device lab" ;;
+    c) echo "c" ;;
     app) echo "core gpu detect render io cpu samples oracle device lab app" ;;
     *) return 1 ;;
     esac
 }
 
-parts="core gpu detect render io cpu samples oracle device lab app"
+parts="core gpu detect render io cpu samples oracle device lab c app"
 wrong=0
 complain() {
     printf '%s\n' "$1" >&2
@@ -49,6 +50,10 @@ done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu src/sa
 
 while IFS=: read -r file line text; do
     case "$text" in
+    *'<stddef.h>' | *'<stdint.h>' | *'<string.h>')
+        # C's own, in C's own headers.
+        case "$file" in include/voxtact/voxtact*.h) ;; *) complain "$file:$line: a header of C's" ;; esac
+        ;;
     *'"voxtact/'* | *'<vulkan/vulkan_core.h>'*) ;;
     *)
         # Standard headers have neither a folder nor an ending.

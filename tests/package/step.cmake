@@ -26,10 +26,13 @@ macro(run_program path expected)
   message(STATUS "${path}: ${program_output}")
 endmacro()
 
+# What the examples print: of 4 mm of the plate, 32 pixels, 24 are in the opaque half.
+set(embed_prints "^hit 1, 768 fragments, method query\n$")
+set(embed_c_prints "^hit 1, 768 fragments, method cpu\nhit 1, 768 fragments, method query\n$")
+
 # run_consumers(FOLDER): the programs of consumer/ that need nothing but the library.
 macro(run_consumers folder)
-  # 4 mm of the plate are 32 pixels, of which 24 are in the opaque half.
-  run_program("${folder}/embed" "^hit 1, 768 fragments, method query\n$")
+  run_program("${folder}/embed" "${embed_prints}")
   run_program("${folder}/beside_volk" "^default method query-any\n$")
   run_program("${folder}/beside_loader" "^default method query-any\n$")
 endmacro()

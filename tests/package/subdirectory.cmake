@@ -17,12 +17,13 @@ foreach(option VOXTACT_BUILD_CPU VOXTACT_BUILD_IO VOXTACT_BUILD_RENDER VOXTACT_B
     message(FATAL_ERROR "${option} is not off by default in a subdirectory: ${options}")
   endif()
 endforeach()
-if(options MATCHES "VOXTACT_BUILD_(APP|TESTS):BOOL=ON")
-  message(FATAL_ERROR "the program or the tests are on by default in a subdirectory: ${options}")
+if(options MATCHES "VOXTACT_BUILD_(APP|TESTS|C):BOOL=ON")
+  message(FATAL_ERROR "the program, the tests or the C interface are on by default in a subdirectory: ${options}")
 endif()
 
 # The consumer's -Werror is not for voxtact, and a shared voxtact may leave no symbol open. The install rules and the
 # other libraries are for the tests that come after.
-step(${configure} -DVOXTACT_INSTALL=ON -DVOXTACT_BUILD_CPU=ON -DVOXTACT_BUILD_RENDER=ON -DVOXTACT_BUILD_SAMPLES=ON -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)
+step(${configure} -DVOXTACT_INSTALL=ON -DVOXTACT_BUILD_CPU=ON -DVOXTACT_BUILD_RENDER=ON -DVOXTACT_BUILD_SAMPLES=ON -DVOXTACT_BUILD_C=ON -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)
 step("${CMAKE_COMMAND}" --build "${BUILD}")
 run_consumers("${BUILD}")
+run_program("${BUILD}/embed_c" "${embed_c_prints}")

@@ -31,6 +31,9 @@ TEST(EnumTest, NumbersOfNothingAreNamed) {
     EXPECT_EQ(checkProjection(static_cast<Projection>(4)).error().text, "there is no projection number 4");
     EXPECT_EQ(checkScalarType(static_cast<ScalarType>(77)).error().text, "there is no scalar type number 77");
     EXPECT_STREQ(toString(static_cast<ScalarType>(77)), "unknown");
+    EXPECT_STREQ(toString(static_cast<Filter>(99)), "unknown");
+    EXPECT_STREQ(toString(static_cast<Boundary>(99)), "unknown");
+    EXPECT_STREQ(toString(static_cast<Exactness>(99)), "unknown");
 }
 
 TEST(EnumTest, AVolumeOfAnUnknownTypeIsRefused) {

@@ -35,7 +35,13 @@ const char* toString(Projection projection) noexcept {
 }
 
 const char* toString(Filter filter) noexcept {
-    return filter == Filter::Exact ? "exact" : "hardware";
+    switch (filter) {
+    case Filter::Hardware:
+        return "hardware";
+    case Filter::Exact:
+        return "exact";
+    }
+    return "unknown";
 }
 
 const char* toString(Boundary boundary) noexcept {
@@ -65,7 +71,13 @@ const char* toString(ClearanceEnd end) noexcept {
 }
 
 const char* toString(Exactness exactness) noexcept {
-    return exactness == Exactness::Exact ? "exact" : "lower-bound";
+    switch (exactness) {
+    case Exactness::Exact:
+        return "exact";
+    case Exactness::LowerBound:
+        return "lower-bound";
+    }
+    return "unknown";
 }
 
 std::span<const CountingMethod> countingMethods() noexcept {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "c/structs.h"
+#include "voxtact/results.h"
+
+/// Data of the C interface as the C++ one takes it, and back. Arrays are looked at where they are, never copied, but
+/// for control points.
+namespace voxtact::c {
+
+/// A number of an enumeration; the C++ interface refuses those that are none.
+template <class To, class From> To number(From from) noexcept {
+    return static_cast<To>(static_cast<std::uint32_t>(from));
+}
+
+[[nodiscard]] Grid toGrid(const vxt_grid& grid) noexcept;
+[[nodiscard]] vxt_grid fromGrid(const Grid& grid) noexcept;
+[[nodiscard]] VolumeView toVolumeView(const vxt_volume_view* view);
+[[nodiscard]] vxt_volume_view fromVolumeView(const VolumeView& view) noexcept;
+[[nodiscard]] MeshView toMeshView(const vxt_mesh_view* view);
+[[nodiscard]] vxt_mesh_view fromMeshView(const MeshView& view) noexcept;
+[[nodiscard]] vxt_mesh_facts fromFacts(const MeshFacts& facts) noexcept;
+[[nodiscard]] Box toBox(const vxt_box& box) noexcept;
+[[nodiscard]] vxt_box fromBox(const Box& box) noexcept;
+[[nodiscard]] VoxelBox toVoxelBox(const vxt_voxel_box* box);
+[[nodiscard]] Ball toBall(const double* centre, double radius);
+[[nodiscard]] ValueRange toRange(const vxt_range& range) noexcept;
+[[nodiscard]] vxt_range fromRange(const ValueRange& range) noexcept;
+[[nodiscard]] Vec3 toVec3(const double* vector, const char* what);
+[[nodiscard]] Mat4 toMat4(const double* matrix, const char* what);
+void writeMat4(double* out, const Mat4& matrix, const char* what);
+/// A view that no projection with a camera accepts where there is none.
+[[nodiscard]] View toView(const vxt_view* view) noexcept;
+[[nodiscard]] Outputs toOutputs(std::uint32_t outputs, double maxDepth);
+/// Where they are; 16 doubles a pose.
+[[nodiscard]] std::span<const Mat4> toPoses(const double* poses, std::size_t count, const char* what);
+[[nodiscard]] std::span<const std::byte> toBytes(const void* bytes, std::size_t count, const char* what);
+
+/// A TransferFunctionDesc and the points that it looks at.
+class TransferFunctionOf {
+  public:
+    explicit TransferFunctionOf(const vxt_transfer_function_desc* given);
+    [[nodiscard]] TransferFunctionDesc desc() const noexcept;
+
+  private:
+    std::vector<ControlPoint> points_;
+    vxt_transfer_function_desc given_;
+};
+
+/// An array of the caller's.
+template <class T> std::span<const T> toSpan(const T* first, std::size_t count, const char* what) {
+    return count == 0 ? std::span<const T>() : std::span<const T>(&need(first, what), count);
+}
+
+/// Hands out an array of an object's, which may be null; `count` may be null too.
+template <class T> const T* handOut(std::span<const T> array, std::size_t* count) noexcept {
+    if (count != nullptr) {
+        *count = array.size();
+    }
+    return array.data();
+}
+
+} // namespace voxtact::c

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Host data: checks, spaces, boxes, label maps, and what files and builtins give.
+#include "c/convert.h"
+#include "c/handles.h"
+#include "voxtact/samples.h"
+
+using namespace voxtact;
+using namespace voxtact::c;
+
+namespace {
+
+Grid checkedGrid(const vxt_grid* grid) {
+    const Grid checked = toGrid(need(grid, "grid"));
+    take(checkGrid(checked));
+    return checked;
+}
+
+std::vector<Box> toBoxes(const vxt_box* boxes, std::size_t count, const char* what) {
+    std::vector<Box> out;
+    for (const vxt_box& box : toSpan(boxes, count, what)) {
+        out.push_back(toBox(box));
+    }
+    return out;
+}
+
+const char* noteOf(const std::vector<std::string>& notes, std::size_t index) noexcept {
+    return index < notes.size() ? notes[index].c_str() : nullptr;
+}
+
+} // namespace
+
+vxt_result vxt_check_volume(const vxt_volume_view* volume, vxt_range* range) {
+    return call([&] { need(range, "range") = fromRange(take(checkVolume(toVolumeView(volume)))); });
+}
+
+vxt_result vxt_check_mesh(const vxt_mesh_view* mesh, vxt_mesh_facts* facts) {
+    return call([&] { need(facts, "facts") = fromFacts(take(checkMesh(toMeshView(mesh)))); });
+}
+
+vxt_result vxt_world_from_index(const vxt_grid* grid, double world_from_index[16]) {
+    return call([&] { writeMat4(world_from_index, worldFromIndex(checkedGrid(grid)), "world_from_index"); });
+}
+
+vxt_result vxt_world_from_texture(const vxt_grid* grid, double world_from_texture[16]) {
+    return call([&] { writeMat4(world_from_texture, worldFromTexture(checkedGrid(grid)), "world_from_texture"); });
+}
+
+vxt_result vxt_framing_view(const vxt_grid* grid, uint32_t width, uint32_t height, vxt_view* view) {
+    return call([&] {
+        const Grid checked = checkedGrid(grid);
+        vxt_view& out = need(view, "view");
+        if (width == 0 || height == 0) {
+            refuse(ErrorCode::InvalidArgument, "a view needs at least one pixel along each side");
+        }
+        writeMat4(out.clip_from_world, framingCamera(checked, width, height), "view");
+        out.width = width;
+        out.height = height;
+    });
+}
+
+vxt_result vxt_inverse(const double b_from_a[16], double a_from_b[16]) {
+    return call([&] { writeMat4(a_from_b, take(inverse(toMat4(b_from_a, "b_from_a"))), "a_from_b"); });
+}
+
+vxt_result vxt_transform_box(const double b_from_a[16], const vxt_box* box, vxt_box* transformed) {
+    return call([&] {
+        const Box out = transformBox(toMat4(b_from_a, "b_from_a"), toBox(need(box, "box")));
+        need(transformed, "transformed") = fromBox(out);
+    });
+}
+
+vxt_result vxt_overlapping_pairs(const vxt_box* left, size_t left_count, const vxt_box* right, size_t right_count,
+                                 vxt_box_pairs** pairs) {
+    return create(pairs, [&] {
+        const std::vector<Box> boxes = toBoxes(left, left_count, "left");
+        const std::vector<BoxPair> found =
+            take(right == nullptr && right_count == 0 ? overlappingPairs(boxes)
+                                                      : overlappingPairs(boxes, toBoxes(right, right_count, "right")));
+        std::vector<vxt_box_pair> out;
+        out.reserve(found.size());
+        for (const BoxPair& pair : found) {
+            out.push_back({pair.first, pair.second});
+        }
+        return out;
+    });
+}
+
+const vxt_box_pair* vxt_box_pairs_get(const vxt_box_pairs* pairs, size_t* count) {
+    return handOut(pairs == nullptr ? std::span<const vxt_box_pair>() : pairs->object, count);
+}
+
+void vxt_box_pairs_destroy(vxt_box_pairs* pairs) {
+    delete pairs;
+}
+
+vxt_result vxt_labels_create(const vxt_volume_view* volume, vxt_labels** labels) {
+    return create(labels, [&] { return take(makeLabels(toVolumeView(volume))); });
+}
+
+const int32_t* vxt_labels_values(const vxt_labels* labels, size_t* count) {
+    return handOut(labels == nullptr ? std::span<const std::int32_t>() : labels->object.values, count);
+}
+
+vxt_result vxt_labels_at(const vxt_labels* labels, const double world[3], int32_t* label) {
+    return call([&] {
+        const LabelData& data = need(labels, "labels").object;
+        need(label, "label") = data.values[labelAt(data, toVec3(world, "world"))];
+    });
+}
+
+void vxt_labels_destroy(vxt_labels* labels) {
+    delete labels;
+}
+
+vxt_volume_view vxt_volume_data_view(const vxt_volume_data* data) {
+    return data == nullptr ? vxt_volume_view_init() : fromVolumeView(data->object.view());
+}
+
+const char* vxt_volume_data_name(const vxt_volume_data* data) {
+    return data == nullptr ? "" : data->object.name.c_str();
+}
+
+const char* vxt_volume_data_note(const vxt_volume_data* data, size_t index) {
+    return data == nullptr ? nullptr : noteOf(data->object.notes, index);
+}
+
+void vxt_volume_data_destroy(vxt_volume_data* data) {
+    delete data;
+}
+
+vxt_mesh_view vxt_mesh_data_view(const vxt_mesh_data* data) {
+    return data == nullptr ? vxt_mesh_view_init() : fromMeshView(data->object.view());
+}
+
+const char* vxt_mesh_data_name(const vxt_mesh_data* data) {
+    return data == nullptr ? "" : data->object.name.c_str();
+}
+
+const char* vxt_mesh_data_note(const vxt_mesh_data* data, size_t index) {
+    return data == nullptr ? nullptr : noteOf(data->object.notes, index);
+}
+
+void vxt_mesh_data_destroy(vxt_mesh_data* data) {
+    delete data;
+}
+
+const double* vxt_poses_get(const vxt_poses* poses, size_t* count) {
+    const auto matrices = handOut(poses == nullptr ? std::span<const Mat4>() : poses->object, count);
+    return matrices == nullptr ? nullptr : matrices->data();
+}
+
+void vxt_poses_destroy(vxt_poses* poses) {
+    delete poses;
+}
+
+const vxt_control_point* vxt_control_points_get(const vxt_control_points* points, size_t* count) {
+    return handOut(points == nullptr ? std::span<const vxt_control_point>() : points->object, count);
+}
+
+void vxt_control_points_destroy(vxt_control_points* points) {
+    delete points;
+}
+
+vxt_result vxt_builtin_volume(const char* name, vxt_volume_data** data) {
+    return create(data, [&] { return take(makeBuiltinVolume(&need(name, "name"))); });
+}
+
+vxt_result vxt_builtin_mesh(const char* name, vxt_mesh_data** data) {
+    return create(data, [&] { return take(makeBuiltinMesh(&need(name, "name"))); });
+}

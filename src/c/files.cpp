@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Files, of a library with voxtact::io.
+#include "c/convert.h"
+#include "c/handles.h"
+#include "voxtact/io.h"
+
+using namespace voxtact;
+using namespace voxtact::c;
+
+struct vxt_label_names {
+    std::vector<io::LabelName> object;
+};
+
+namespace {
+
+std::filesystem::path toPath(const char* path) {
+    return &need(path, "path");
+}
+
+io::VolumeReadOptions toOptions(const vxt_volume_read_options* given) {
+    const vxt_volume_read_options options = readOptions(given, vxt_volume_read_options_init(), "options");
+    if (options.frame < -1 || options.frame > std::int64_t{UINT32_MAX}) {
+        refuse(ErrorCode::InvalidArgument,
+               "options: frame is " + std::to_string(options.frame) + "; it is counted from 0, and -1 is the only one");
+    }
+    io::VolumeReadOptions out;
+    if (options.frame >= 0) {
+        out.frame = static_cast<std::uint32_t>(options.frame);
+    }
+    if (options.series != nullptr) {
+        out.series = options.series;
+    }
+    return out;
+}
+
+io::MeshReadOptions toOptions(const vxt_mesh_read_options* given) {
+    const vxt_mesh_read_options options = readOptions(given, vxt_mesh_read_options_init(), "options");
+    return {.space = options.ras != 0 ? io::MeshSpace::RAS : io::MeshSpace::LPS, .scale = options.scale};
+}
+
+std::vector<vxt_control_point> fromPoints(const std::vector<ControlPoint>& points) {
+    std::vector<vxt_control_point> out;
+    for (const ControlPoint& point : points) {
+        out.push_back({point.value, point.opacity});
+    }
+    return out;
+}
+
+} // namespace
+
+vxt_result vxt_read_volume(const char* path, const vxt_volume_read_options* options, vxt_volume_data** data) {
+    return create(data, [&] { return take(io::readVolume(toPath(path), toOptions(options))); });
+}
+
+vxt_result vxt_write_volume(const char* path, const vxt_volume_view* volume) {
+    return call([&] { take(io::writeVolume(toPath(path), toVolumeView(volume))); });
+}
+
+vxt_result vxt_read_mesh(const char* path, const vxt_mesh_read_options* options, vxt_mesh_data** data) {
+    return create(data, [&] { return take(io::readMesh(toPath(path), toOptions(options))); });
+}
+
+vxt_result vxt_write_mesh(const char* path, const vxt_mesh_view* mesh) {
+    return call([&] { take(io::writeMesh(toPath(path), toMeshView(mesh))); });
+}
+
+vxt_result vxt_read_camera(const char* path, double clip_from_world[16]) {
+    return call([&] { writeMat4(clip_from_world, take(io::readCamera(toPath(path))), "clip_from_world"); });
+}
+
+vxt_result vxt_read_poses(const char* path, vxt_poses** poses) {
+    return create(poses, [&] { return take(io::readPoses(toPath(path))); });
+}
+
+vxt_result vxt_read_transfer_function(const char* path, vxt_control_points** points) {
+    return create(points, [&] { return fromPoints(take(io::readTransferFunction(toPath(path)))); });
+}
+
+vxt_result vxt_parse_opacity(const char* text, vxt_control_points** points) {
+    return create(points, [&] { return fromPoints(take(io::parseOpacity(&need(text, "text")))); });
+}
+
+vxt_result vxt_read_label_names(const char* path, vxt_label_names** names) {
+    return create(names, [&] { return take(io::readLabelNames(toPath(path))); });
+}
+
+const char* vxt_label_names_get(const vxt_label_names* names, size_t index, int32_t* label) {
+    if (names == nullptr || index >= names->object.size()) {
+        return nullptr;
+    }
+    if (label != nullptr) {
+        *label = names->object[index].label;
+    }
+    return names->object[index].name.c_str();
+}
+
+void vxt_label_names_destroy(vxt_label_names* names) {
+    delete names;
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The host engine.
+#include "c/answer.h"
+#include "c/batch.h"
+#include "c/convert.h"
+#include "c/handles.h"
+
+using namespace voxtact;
+using namespace voxtact::c;
+
+namespace {
+
+cpu::DetectorDesc toDesc(const vxt_host_detector_desc* given) {
+    const vxt_host_detector_desc desc = readOptions(given, vxt_host_detector_desc_init(), "detector");
+    return {.threads = desc.threads,
+            .boundary = number<Boundary>(desc.boundary),
+            .stopAtFirst = desc.stop_at_first != 0,
+            .projection = number<Projection>(desc.projection),
+            .outputs = toOutputs(desc.outputs, desc.max_depth),
+            .samplesPerVoxel = desc.samples_per_voxel,
+            .resolution = desc.resolution,
+            .mostContacts = desc.most_contacts};
+}
+
+} // namespace
+
+vxt_result vxt_host_volume_create(const vxt_volume_view* view, vxt_host_volume** volume) {
+    return create(volume, [&] { return take(cpu::Volume::create(toVolumeView(view))); });
+}
+
+vxt_result vxt_host_volume_set_box(vxt_host_volume* volume, const vxt_voxel_box* box, double value) {
+    return call([&] { take(need(volume, "volume").object.set(toVoxelBox(box), value)); });
+}
+
+vxt_result vxt_host_volume_set_ball(vxt_host_volume* volume, const double centre[3], double radius, double value) {
+    return call([&] { take(need(volume, "volume").object.set(toBall(centre, radius), value)); });
+}
+
+vxt_result vxt_host_volume_write(vxt_host_volume* volume, const vxt_voxel_box* box, const void* voxels, size_t bytes) {
+    return call([&] { take(need(volume, "volume").object.write(toVoxelBox(box), toBytes(voxels, bytes, "voxels"))); });
+}
+
+void vxt_host_volume_destroy(vxt_host_volume* volume) {
+    delete volume;
+}
+
+vxt_result vxt_host_transfer_function_create(const vxt_transfer_function_desc* desc,
+                                             vxt_host_transfer_function** function) {
+    return create(function, [&] { return take(cpu::TransferFunction::create(TransferFunctionOf(desc).desc())); });
+}
+
+void vxt_host_transfer_function_destroy(vxt_host_transfer_function* function) {
+    delete function;
+}
+
+vxt_result vxt_host_mesh_create(const vxt_mesh_view* view, vxt_host_mesh** mesh) {
+    return create(mesh, [&] { return take(cpu::Mesh::create(toMeshView(view))); });
+}
+
+vxt_result vxt_host_mesh_facts(const vxt_host_mesh* mesh, vxt_mesh_facts* facts) {
+    return call([&] { need(facts, "facts") = fromFacts(need(mesh, "mesh").object.facts()); });
+}
+
+void vxt_host_mesh_destroy(vxt_host_mesh* mesh) {
+    delete mesh;
+}
+
+vxt_result vxt_host_detector_create(const vxt_host_detector_desc* desc, vxt_host_detector** detector) {
+    return create(detector, [&] { return take(cpu::Detector::create(toDesc(desc))); });
+}
+
+vxt_result vxt_host_detector_detect(vxt_host_detector* detector, const vxt_host_batch* batch, vxt_answer* answer) {
+    return call([&] {
+        cpu::Detector& by = need(detector, "detector").object;
+        vxt_answer& to = need(answer, "answer");
+        const BatchOf<cpu::Batch, cpu::BatchItem> of(batch, vxt_host_batch_init(), vxt_host_item_init());
+        to = toAnswer(take(by.detect(of.batch())));
+    });
+}
+
+uint32_t vxt_host_detector_threads(const vxt_host_detector* detector) {
+    return detector == nullptr ? 0 : detector->object.threads();
+}
+
+void vxt_host_detector_destroy(vxt_host_detector* detector) {
+    delete detector;
+}

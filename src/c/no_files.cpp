@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Files, of a library without voxtact::io: the functions are there, so that the interface is the same, and refuse.
+#include "c/errors.h"
+
+using namespace voxtact;
+using namespace voxtact::c;
+
+namespace {
+
+vxt_result refused() {
+    return call([] {
+        refuse(ErrorCode::Unsupported,
+               "this library was built without voxtact::io and reads no files; build it with VOXTACT_BUILD_IO");
+    });
+}
+
+template <class Handle> vxt_result refused(Handle** out) {
+    if (out != nullptr) {
+        *out = nullptr;
+    }
+    return refused();
+}
+
+} // namespace
+
+vxt_result vxt_read_volume(const char*, const vxt_volume_read_options*, vxt_volume_data** data) {
+    return refused(data);
+}
+
+vxt_result vxt_write_volume(const char*, const vxt_volume_view*) {
+    return refused();
+}
+
+vxt_result vxt_read_mesh(const char*, const vxt_mesh_read_options*, vxt_mesh_data** data) {
+    return refused(data);
+}
+
+vxt_result vxt_write_mesh(const char*, const vxt_mesh_view*) {
+    return refused();
+}
+
+vxt_result vxt_read_camera(const char*, double[16]) {
+    return refused();
+}
+
+vxt_result vxt_read_poses(const char*, vxt_poses** poses) {
+    return refused(poses);
+}
+
+vxt_result vxt_read_transfer_function(const char*, vxt_control_points** points) {
+    return refused(points);
+}
+
+vxt_result vxt_parse_opacity(const char*, vxt_control_points** points) {
+    return refused(points);
+}
+
+vxt_result vxt_read_label_names(const char*, vxt_label_names** names) {
+    return refused(names);
+}
+
+const char* vxt_label_names_get(const vxt_label_names*, size_t, int32_t*) {
+    return nullptr;
+}
+
+void vxt_label_names_destroy(vxt_label_names*) {}

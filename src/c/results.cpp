@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Results and rings of them.
+#include "c/answer.h"
+#include "c/convert_vulkan.h"
+
+using namespace voxtact;
+using namespace voxtact::c;
+
+namespace {
+
+ResultsDesc toDesc(const vxt_results_desc* given) {
+    const vxt_results_desc desc = readOptions(given, vxt_results_desc_init(), "results");
+    ResultsDesc out{.maxPairs = desc.max_pairs,
+                    .readBack = desc.read_back != 0,
+                    .timestamps = desc.timestamps != 0,
+                    .queueFamily = desc.queue_family};
+    if (toOutputs(desc.outputs, kDefaultMaxDepth).any()) {
+        out.room = OutputRoom{desc.triangle_room, desc.label_room, desc.contact_room};
+    }
+    return out;
+}
+
+BufferRange rangeOf(const Results& results, vxt_device_part part) {
+    switch (part) {
+    case VXT_DEVICE_PAIRS:
+        return {results.buffer(), 0, results.maxPairs() * sizeof(PairResult)};
+    case VXT_DEVICE_TRIANGLE_COUNTS:
+        return results.triangleCounts();
+    case VXT_DEVICE_TRIANGLE_MASK:
+        return results.triangleMask();
+    case VXT_DEVICE_CONTACTS:
+        return results.contacts();
+    case VXT_DEVICE_BOUNDS:
+        return results.bounds();
+    case VXT_DEVICE_LABEL_COUNTS:
+        return results.labelCounts();
+    default:
+        break;
+    }
+    refuse(ErrorCode::InvalidArgument,
+           "part " + std::to_string(number<std::uint32_t>(part)) + " is none of vxt_device_part");
+}
+
+/// The host copy of results, which `pairs` is a part of.
+vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool timestamps) {
+    BatchAnswer answer;
+    answer.pairs.reserve(pairs.size());
+    for (const PairResult& pair : pairs) {
+        answer.pairs.push_back(unpack(pair));
+    }
+    take(results.readOutputs(answer));
+    if (timestamps) {
+        answer.gpuMilliseconds = take(results.gpuMilliseconds());
+    }
+    return voxtact::c::toAnswer(answer);
+}
+
+} // namespace
+
+vxt_result vxt_results_create(const vxt_context* context, const vxt_results_desc* desc, vxt_results** results) {
+    return create(context, "context", results, [&](const Context& on) {
+        const ResultsDesc made = toDesc(desc);
+        return OwnOrSlot{take(Results::create(on, made)), nullptr, made.timestamps};
+    });
+}
+
+vxt_result vxt_results_on_device(const vxt_results* results, vxt_device_part part, vxt_buffer_range* range) {
+    return call(results, [&] {
+        const BufferRange found = rangeOf(need(results, "results").object.get(), part);
+        need(range, "range") = {found.buffer, found.offset, found.size};
+    });
+}
+
+vxt_result vxt_results_cmd_read_back(vxt_results* results, VkCommandBuffer commands) {
+    return call(results, [&] { take(need(results, "results").object.get().cmdReadBack(commands)); });
+}
+
+vxt_result vxt_results_read(vxt_results* results, vxt_answer* answer) {
+    return call(results, [&] {
+        OwnOrSlot& from = need(results, "results").object;
+        vxt_answer& to = need(answer, "answer");
+        to = toAnswer(from.get(), take(from.get().read()), from.timestamps);
+    });
+}
+
+void vxt_results_destroy(vxt_results* results) {
+    if (results != nullptr && results->object.own) {
+        delete results;
+    }
+}
+
+vxt_result vxt_result_ring_create(const vxt_context* context, uint32_t frames, const vxt_results_desc* desc,
+                                  vxt_result_ring** ring) {
+    return create(context, "context", ring, [&](const Context& on) {
+        const ResultsDesc made = toDesc(desc);
+        RingAndSlots out{take(ResultRing::create(on, frames, made)), {}};
+        for (std::uint32_t i = 0; i < frames; ++i) {
+            out.slots.push_back({{std::nullopt, nullptr, made.timestamps}, context->errors});
+        }
+        return out;
+    });
+}
+
+vxt_result vxt_result_ring_begin(vxt_result_ring* ring, uint64_t frame, vxt_results** results) {
+    return call(ring, [&] {
+        RingAndSlots& from = need(ring, "ring").object;
+        vxt_results*& place = need(results, "results");
+        place = nullptr;
+        Results* const claimed = take(from.ring.begin(frame));
+        vxt_results& slot = from.slots[frame % from.slots.size()];
+        slot.object.slot = claimed;
+        place = &slot;
+    });
+}
+
+vxt_result vxt_result_ring_read(vxt_result_ring* ring, uint64_t frame, vxt_answer* answer) {
+    return call(ring, [&] {
+        RingAndSlots& from = need(ring, "ring").object;
+        vxt_answer& to = need(answer, "answer");
+        const std::span<const PairResult> pairs = take(from.ring.read(frame));
+        OwnOrSlot& slot = from.slots[frame % from.slots.size()].object;
+        to = toAnswer(slot.get(), pairs, slot.timestamps);
+    });
+}
+
+void vxt_result_ring_destroy(vxt_result_ring* ring) {
+    delete ring;
+}
