@@ -38,6 +38,8 @@ typedef struct vxt_context_desc {
     void* log_user;                                    ///< the first argument of every call of `log`
     uint32_t api_version;                              ///< of the instance; at least VK_API_VERSION_1_3
     uint32_t reserved;                                 ///< 0
+    const uint32_t* queue_families;                    ///< of the queues that use what is made; two or more share it
+    size_t queue_family_count;                         ///< of these: voxtact::ContextDesc::queueFamilies
 } vxt_context_desc;
 
 /// Nothing is given: vxt_check() then names everything that is missing.

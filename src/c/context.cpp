@@ -19,6 +19,7 @@ ContextDesc toContextDesc(const vxt_context_desc* given) {
                                                 "enabled_instance_extensions"),
             .enabledDeviceExtensions = toSpan(desc.enabled_device_extensions, desc.enabled_device_extension_count,
                                               "enabled_device_extensions"),
+            .queueFamilies = toSpan(desc.queue_families, desc.queue_family_count, "queue_families"),
             .pipelineCache = desc.pipeline_cache,
             .allocator = desc.allocator,
             .log = desc.log,
