@@ -58,6 +58,22 @@ struct PairClearance {
     std::optional<ClosestPoints> closest; ///< where `hi` is finite
 };
 
+/// The clearance of one pair to what is opaque and has a label.
+struct LabelClearance {
+    std::uint32_t pair = 0; ///< number of the pair in its batch
+    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
+    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::int32_t label = 0; ///< as in LabelData::values
+    ClearanceBounds bounds; ///< mm; infinite where nothing opaque has the label
+    ClearanceEnd end{};     ///< why they are no nearer to each other
+};
+
+/// What a batch gave for some labels.
+struct LabelClearanceAnswer {
+    std::vector<LabelClearance> labels; ///< by pair, then in the order that the labels were asked for
+    double wallMilliseconds = 0;        ///< of the whole call
+};
+
 /// What a batch gave.
 struct ClearanceAnswer {
     std::vector<PairClearance> pairs; ///< in the order of the batch

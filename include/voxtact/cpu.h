@@ -149,6 +149,9 @@ struct ClearanceDesc {
     std::uint64_t mostSteps = 1U << 18U; ///< a pair that takes more is left with the bounds it has; at least 1
 };
 
+/// Labels that one call measures, at most.
+inline constexpr std::uint32_t kMostMeasuredLabels = 4096;
+
 /// Measures how near meshes are to what is opaque. What it answers depends on nothing but the pair and its desc: not on
 /// the threads, and not on what else is in a batch. Keeps its threads from call to call, and what it makes of the last
 /// volumes and transfer functions. Thread-safety: one call at a time.
@@ -162,6 +165,13 @@ class ClearanceMeter {
 
     /// The clearance of every pair. Labels and view are not looked at. Refuses what Detector::detect() refuses.
     [[nodiscard]] VOXTACT_API Result<ClearanceAnswer> measure(const Batch& batch);
+    /// The clearance of every pair to each label's part of what is opaque: a label fills the closed boxes of its
+    /// voxels, so that a face between two labels belongs to both. Where it touches, the bounds are 0 and some
+    /// millionths. Every item needs labels, on the grid of its volume; a map must not change as long as the meter is
+    /// used with it. Labels that a map does not have are infinitely far. Refuses what measure() refuses, other grids
+    /// (Unsupported), and more than kMostMeasuredLabels labels (LimitExceeded).
+    [[nodiscard]] VOXTACT_API Result<LabelClearanceAnswer> measureLabels(const Batch& batch,
+                                                                         std::span<const std::int32_t> labels);
     /// Whether something opaque is within `margin` mm of the surface, for every pair: `hit` where it certainly is,
     /// `possible` where rounding does not let it be said. The count is 0 or 1. A margin of 0 is the touch itself,
     /// answered as by a Detector with stopAtFirst and Projection::Conservative. Refuses what measure() refuses, and a

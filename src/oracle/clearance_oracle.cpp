@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace voxtact::oracle {
@@ -86,8 +87,21 @@ class Measurer {
         }
     }
 
-    OracleClearance run(double resolution, std::size_t mostBoxes) {
+    /// Of voxel (x, y, z), whether it counts.
+    using Counts = std::function<bool(const std::array<std::size_t, 3>&)>;
+
+    /// `counts`: all do where there is none.
+    OracleClearance run(double resolution, std::size_t mostBoxes, const Counts& counts = {}) {
+        learns_ = !counts; // what does not count says nothing
         std::vector<SubBox> boxes = wholeCells();
+        learns_ = true;
+        if (counts) {
+            std::vector<SubBox> octants;
+            for (const SubBox& box : boxes) {
+                divideAtVoxels(box, counts, octants);
+            }
+            boxes = std::move(octants);
+        }
         double size = 1;
         while (!boxes.empty() && size > resolution && 8 * boxes.size() <= mostBoxes) {
             std::vector<SubBox> next;
@@ -127,6 +141,25 @@ class Measurer {
             }
         }
         return out;
+    }
+
+    /// Into the parts that are in the boxes of different voxels.
+    void divideAtVoxels(const SubBox& box, const Counts& counts, std::vector<SubBox>& out) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            SubBox part = box;
+            std::array<std::size_t, 3> voxel{};
+            bool some = true;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const bool upper = (i >> axis & 1U) != 0;
+                const auto middle = static_cast<double>(cells_[box.cell].cell[axis]) + 0.5;
+                (upper ? part.lo : part.hi)[axis] = middle;
+                some = some && part.lo[axis] < part.hi[axis];
+                voxel[axis] = static_cast<std::size_t>(cells_[box.cell].cell[axis] + (upper ? 1 : 0));
+            }
+            if (some && counts(voxel)) {
+                look(part, out);
+            }
+        }
     }
 
     void divide(const SubBox& box, std::vector<SubBox>& out) {
@@ -171,7 +204,7 @@ class Measurer {
         for (const Triangle& triangle : triangles_) {
             distance = std::min(distance, toTriangle(centre, triangle));
         }
-        if (opaqueCorner || opacity_.opaqueBetween(values.lo + doubt, values.hi - doubt)) {
+        if (learns_ && (opaqueCorner || opacity_.opaqueBetween(values.lo + doubt, values.hi - doubt))) {
             hi_ = std::min(hi_, distance + radius);
         }
         box.nearest = std::max(0.0, distance - radius);
@@ -199,11 +232,15 @@ class Measurer {
     std::vector<Triangle> triangles_;
     std::vector<Known> cells_;
     double hi_ = kInfinity;
+    bool learns_ = true; ///< hi_, from what is looked at
 };
 
 } // namespace
 
-Result<OracleClearance> clearanceOracle(const OraclePair& pair, double resolution, std::size_t mostBoxes) {
+namespace {
+
+Result<OracleClearance> measure(const OraclePair& pair, double resolution, std::size_t mostBoxes,
+                                const Measurer::Counts& counts) {
     return guard([&]() -> Result<OracleClearance> {
         VOXTACT_TRY(checkMesh(pair.mesh));
         const Result<ValueRange> range = checkVolume(pair.volume);
@@ -214,7 +251,21 @@ Result<OracleClearance> clearanceOracle(const OraclePair& pair, double resolutio
             return Error{ErrorCode::InvalidArgument, 0,
                          "the threshold " + number(pair.threshold) + " is outside [0, 1]"};
         }
-        return Measurer(pair, *range, std::move(*entries)).run(resolution, mostBoxes);
+        return Measurer(pair, *range, std::move(*entries)).run(resolution, mostBoxes, counts);
+    });
+}
+
+} // namespace
+
+Result<OracleClearance> clearanceOracle(const OraclePair& pair, double resolution, std::size_t mostBoxes) {
+    return measure(pair, resolution, mostBoxes, {});
+}
+
+Result<OracleClearance> labelClearanceOracle(const OraclePair& pair, const LabelData& labels, std::int32_t label,
+                                             double resolution, std::size_t mostBoxes) {
+    const auto& size = labels.grid.size;
+    return measure(pair, resolution, mostBoxes, [&](const std::array<std::size_t, 3>& voxel) {
+        return labels.values[labels.indices[(voxel[2] * size[1] + voxel[1]) * size[0] + voxel[0]]] == label;
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "oracle/oracle.h"
+#include "voxtact/data.h"
 
 #include <cstdint>
 
@@ -19,5 +20,10 @@ struct OracleClearance {
 /// The pair's view is ignored. Refuses what certifiedOracle() refuses.
 [[nodiscard]] Result<OracleClearance> clearanceOracle(const OraclePair& pair, double resolution,
                                                       std::size_t mostBoxes = 100000);
+
+/// The same to what is opaque and in a closed box around a voxel with the label. The map is on the volume's grid.
+[[nodiscard]] Result<OracleClearance> labelClearanceOracle(const OraclePair& pair, const LabelData& labels,
+                                                           std::int32_t label, double resolution,
+                                                           std::size_t mostBoxes = 100000);
 
 } // namespace voxtact::oracle

@@ -123,12 +123,47 @@ TEST_F(ClearanceTest, WritesTheClosestPoints) {
     EXPECT_EQ(ply.size(), end + 1 + 6 + 3);
 }
 
+TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
+    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    const std::string whole = rows({"--clearance"})[1].at("clearance_lo");
+    const auto labelled = [&](const Arguments& more) {
+        Arguments how{"--clearance", "--labels", path("labels.nii.gz"), "--label-clearance", path("labels.csv")};
+        how.insert(how.end(), more.begin(), more.end());
+        output(detect(how));
+        EXPECT_EQ(linesOf(readText(path("labels.csv"))).at(0), "pose,mesh,volume,label,name,clearance_lo,clearance_hi");
+        return rowsOf(readText(path("labels.csv")));
+    };
+    // The voxels are the labels: whatever is opaque has one of them.
+    double least = 1e9;
+    for (const auto& row : labelled({})) {
+        EXPECT_NE(row.at("label"), "0");
+        if (row.at("pose") == "1") {
+            least = std::min(least, std::stod(row.at("clearance_lo")));
+        }
+    }
+    EXPECT_NEAR(least, std::stod(whole), 0.02);
+    const auto two = labelled({"--to", "70,999"});
+    ASSERT_EQ(two.size(), 6U);
+    EXPECT_EQ(two[2].at("label"), "70");
+    EXPECT_GE(std::stod(two[2].at("clearance_lo")), least);
+    EXPECT_EQ(two[3].at("label"), "999");
+    EXPECT_EQ(two[3].at("clearance_lo"), "inf");
+    EXPECT_EQ(two[3].at("clearance_hi"), "inf");
+
+    output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
+    EXPECT_THAT(
+        refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance", path("other.csv")})),
+        HasSubstr("the label map is not on the grid of the volume"));
+}
+
 TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
     const auto line = [&](const Arguments& more) { return refused(2, detect(more)); };
     EXPECT_THAT(line({"--margin", "-1"}), HasSubstr("--margin"));
     EXPECT_THAT(line({"--tolerance", "0.1"}), HasSubstr("--tolerance: it is about clearances"));
     EXPECT_THAT(line({"--max-clearance", "5"}), HasSubstr("--max-clearance: it is about clearances"));
     EXPECT_THAT(line({"--closest", "c.csv"}), HasSubstr("--closest: it is about clearances"));
+    EXPECT_THAT(line({"--clearance", "--label-clearance", "c.csv"}), HasSubstr("--labels is not given"));
+    EXPECT_THAT(line({"--clearance", "--to", "1"}), HasSubstr("--to: it says which labels"));
     EXPECT_THAT(line({"--clearance", "--closest", "c.vtk"}), HasSubstr(".csv or .ply"));
     EXPECT_THAT(line({"--clearance", "--tolerance", "0"}), HasSubstr("--tolerance"));
     EXPECT_THAT(line({"--clearance", "--max-clearance", "0"}), HasSubstr("--max-clearance"));

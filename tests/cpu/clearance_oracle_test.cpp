@@ -146,6 +146,59 @@ TEST(ClearanceOracle, TheTruthIsBetweenTheBounds) {
     EXPECT_GT(tally.ends["closed"], cases * 4 / 5);
 }
 
+/// A map of a few labels on the scene's grid.
+LabelData randomLabels(std::mt19937_64& random, const Grid& grid) {
+    const std::uint64_t key = random();
+    const std::size_t size = 1 + below(random, 3);
+    return take(makeLabels(makeBytes(grid, [&](auto x, auto y, auto z) {
+                               std::uint64_t h = key ^ (x / size + 31ULL * (y / size) + 1009ULL * (z / size));
+                               h = (h ^ h >> 31U) * 0x9e3779b97f4a7c15ULL;
+                               return static_cast<double>((h >> 40U) % 4);
+                           }).view()));
+}
+
+TEST(ClearanceOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    const std::vector<std::int32_t> asked{2, 0, 3, 1, 77};
+    std::size_t apart = 0;
+    std::size_t infinite = 0;
+    std::size_t closed = 0;
+    const std::size_t cases = randomCases(20000, 200);
+    for (std::uint64_t number = 0; number < cases; ++number) {
+        const CertifiedCase c = makeClearanceCase(seed, number);
+        const LabelData labels = randomLabels(random, c.scene.volume.grid);
+        Held held(c.scene);
+        held.item.labels = &labels;
+        const std::vector<LabelClearance> says = take(meter.measureLabels(held.batch, asked)).labels;
+        const ClearanceBounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
+        const double slack = 1e-12 * largestCoordinate(c.scene);
+        ASSERT_EQ(says.size(), asked.size());
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            SCOPED_TRACE("case " + std::to_string(number) + ", label " + std::to_string(asked[i]));
+            const auto [lo, hi] = says[i].bounds;
+            const OracleClearance truth = take(
+                oracle::labelClearanceOracle(c.scene.pair(), labels, asked[i], number % 8 == 0 ? 1.0 / 256 : 1.0 / 32));
+            EXPECT_EQ(says[i].label, asked[i]);
+            EXPECT_LE(lo, truth.hi + slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
+            EXPECT_GE(hi, truth.lo - slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
+            EXPECT_GE(hi, whole.lo);
+            least = std::min(least, lo);
+            ++(std::isinf(lo) ? infinite : apart);
+            closed += says[i].end == ClearanceEnd::Closed ? 1 : 0;
+        }
+        // Everything has one of the labels.
+        EXPECT_LE(least, whole.hi);
+        ASSERT_FALSE(HasFailure());
+    }
+    std::cout << apart << " are apart, " << infinite << " have nothing, " << closed << " closed\n";
+    EXPECT_GT(apart, cases);
+    EXPECT_GT(infinite, cases);
+    EXPECT_GT(closed, cases * 9 / 2);
+}
+
 /// A margin is what the bounds say, and where these leave it open, it is itself.
 TEST(ClearanceOracle, AMarginIsWhatTheClearanceSays) {
     const std::uint64_t seed = testSeed();

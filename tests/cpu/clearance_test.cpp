@@ -409,6 +409,20 @@ TEST(Clearance, RefusesWhatItCannotUse) {
         EXPECT_FALSE(meter.within({std::span(&item, 1), {}, 0.5}, margin).ok());
     }
     EXPECT_FALSE(meter.measure({std::span(&item, 1), {}, 1.5}).ok());
+    const std::vector<std::int32_t> one{1};
+    const auto refusedLabels = [&](const LabelData* labels, std::span<const std::int32_t> asked) {
+        item.labels = labels;
+        const auto answer = meter.measureLabels({std::span(&item, 1), {}, 0.5}, asked);
+        return answer.ok() ? std::string() : answer.error().text;
+    };
+    const LabelData labels = take(makeLabels(makeBytes(unitGrid(8), [](auto...) { return 1; }).view()));
+    const LabelData coarse = take(makeLabels(makeBytes(unitGrid(4), [](auto...) { return 1; }).view()));
+    EXPECT_EQ(refusedLabels(nullptr, one), "batch item 0: labels is null, and clearances to labels are asked for");
+    EXPECT_EQ(refusedLabels(&coarse, one),
+              "batch item 0: the label map is not on the grid of the volume; resample it to that");
+    EXPECT_NE(refusedLabels(&labels, std::vector<std::int32_t>(5000, 1)), "");
+    EXPECT_EQ(refusedLabels(&labels, one), "");
+    EXPECT_EQ(refusedLabels(&labels, {}), "");
     item.volume = nullptr;
     EXPECT_FALSE(meter.measure({std::span(&item, 1), {}, 0.5}).ok());
     EXPECT_TRUE(take(meter.measure({})).pairs.empty());

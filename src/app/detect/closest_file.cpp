@@ -77,6 +77,24 @@ void writePly(std::ostream& out, const DetectOptions& options, const DetectInput
 
 } // namespace
 
+ClearanceBounds roundedOutward(const ClearanceBounds& bounds) {
+    return {std::floor(bounds.lo * kParts) / kParts, std::ceil(bounds.hi * kParts) / kParts};
+}
+
+void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options) {
+    out << "pose,mesh,volume,label,name,clearance_lo,clearance_hi" << (options.jobs.fromFile ? ",job\n" : "\n");
+}
+
+void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
+                         const LabelClearance& clearance) {
+    const PairJobs& jobs = options.jobs;
+    const Job& job = jobs.jobs[row.job];
+    const ClearanceBounds bounds = roundedOutward(clearance.bounds);
+    out << row.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
+        << ',' << clearance.label << ',' << io::csvField(labelName(inputs, clearance.label)) << ',' << number(bounds.lo)
+        << ',' << number(bounds.hi) << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
+}
+
 bool isClosestEnding(const std::filesystem::path& path) {
     return path.extension() == ".csv" || path.extension() == ".ply";
 }

@@ -94,7 +94,8 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
     return checkOutputs({{"--output", options.output.path},
                          {"--triangles", extra.triangles},
                          {"--contacts", extra.contacts},
-                         {"--closest", options.distance.closest}},
+                         {"--closest", options.distance.closest},
+                         {"--label-clearance", options.distance.labels}},
                         inputs);
 }
 
@@ -206,6 +207,12 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
         [](double mm) { return mm > 0; }, "above 0", "none");
     addPath(parser, "--closest", options.closest,
             "a .csv or .ply file for the closest points of each pair, and how the clearance changes with the pose");
+    addPath(parser, "--label-clearance", options.labels,
+            "a CSV file for the clearance to each label of --labels: "
+            "pose,mesh,volume,label,name,clearance_lo,clearance_hi");
+    parser.add_option("--to", options.to, "the labels that --label-clearance is about: 1,2,5; default: all but 0")
+        ->delimiter(',')
+        ->type_name("LABEL,...");
     addNumber(
         parser, "--margin", [&options](double mm) { options.margin = mm; },
         "mm: hit says whether anything opaque is so near, as certified as a touch; 0 is the touch itself",

@@ -40,6 +40,13 @@ struct KeptClosest {
 void writeClosest(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
                   std::span<const KeptClosest> kept);
 
+/// pose,mesh,volume,label,name,clearance_lo,clearance_hi; with --jobs also job.
+void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options);
+void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
+                         const LabelClearance& clearance);
+/// Rounded to a nanometre, down or up, so that they stay bounds.
+[[nodiscard]] ClearanceBounds roundedOutward(const ClearanceBounds& bounds);
+
 /// By the ending of --contacts.
 void writeContacts(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
                    const ContactList& list);

@@ -49,6 +49,7 @@ class HostEngine : public PairEngine {
     [[nodiscard]] Result<HostVolume> make(std::uint32_t volume) const;
     [[nodiscard]] Result<BatchAnswer> answer(const cpu::Batch& batch);
     [[nodiscard]] Result<ClearanceAnswer> measure(const cpu::Batch& batch);
+    [[nodiscard]] Result<LabelClearanceAnswer> measureLabels(const cpu::Batch& batch);
 
     const DetectOptions& options_;
     const DetectInputs& inputs_;
@@ -92,6 +93,19 @@ Result<ClearanceAnswer> HostEngine::measure(const cpu::Batch& batch) {
     return options_.distance.clearance ? meter_->measure(batch) : ClearanceAnswer{};
 }
 
+/// Nothing where these are not asked for.
+Result<LabelClearanceAnswer> HostEngine::measureLabels(const cpu::Batch& batch) {
+    if (options_.distance.labels.empty()) {
+        return LabelClearanceAnswer{};
+    }
+    std::vector<std::int32_t> asked = options_.distance.to;
+    if (asked.empty()) {
+        asked = inputs_.labels->values;
+        std::erase(asked, 0);
+    }
+    return meter_->measureLabels(batch, asked);
+}
+
 Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
     std::vector<cpu::BatchItem> all;
     for (const WindowItem& item : window.items) {
@@ -107,7 +121,9 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
         VOXTACT_TRY(answered);
         const Result<ClearanceAnswer> measured = measure(batch);
         VOXTACT_TRY(measured);
-        const double milliseconds = answered->wallMilliseconds + measured->wallMilliseconds;
+        const Result<LabelClearanceAnswer> labels = measureLabels(batch);
+        VOXTACT_TRY(labels);
+        const double milliseconds = answered->wallMilliseconds + measured->wallMilliseconds + labels->wallMilliseconds;
         device::TimedAnswer timed;
         timed.gpuMilliseconds = 0;
         timed.wallMilliseconds = milliseconds / static_cast<double>(answered->pairs.size());
@@ -118,6 +134,9 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
             rows.add(timed);
         }
         for (const PairClearance& clearance : measured->pairs) {
+            rows.addClearance(clearance);
+        }
+        for (const LabelClearance& clearance : labels->labels) {
             rows.addClearance(clearance);
         }
         rows.endBatch(*answered);

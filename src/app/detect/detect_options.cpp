@@ -64,7 +64,12 @@ Result<void> checkDistance(DetectOptions& options) {
     for (const Result<void>& used :
          {checkUsed(distance.tolerance.has_value(), "--tolerance", distance.clearance, clearance),
           checkUsed(distance.maximum.has_value(), "--max-clearance", distance.clearance, clearance),
-          checkUsed(!distance.closest.empty(), "--closest", distance.clearance, clearance)}) {
+          checkUsed(!distance.closest.empty(), "--closest", distance.clearance, clearance),
+          checkUsed(!distance.labels.empty(), "--label-clearance", distance.clearance, clearance),
+          checkUsed(!distance.labels.empty(), "--label-clearance", !options.extra.labels.empty(),
+                    "it is about labels, and --labels is not given"),
+          checkUsed(!distance.to.empty(), "--to", !distance.labels.empty(),
+                    "it says which labels --label-clearance is about, and that is not given")}) {
         if (!used.ok()) {
             return used;
         }

@@ -57,6 +57,7 @@ struct DetectOutput::State {
     std::optional<io::OutputFile> triangles{};
     std::optional<io::OutputFile> contactsFile{};
     std::optional<io::OutputFile> closestFile{};
+    std::optional<io::OutputFile> labelFile{};
     std::optional<io::TableWriter> writer{};
     io::NamedCells facts{};
     std::vector<Row> waiting{}; ///< rows of text before its columns are settled
@@ -117,7 +118,8 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
     for (const auto& [path, file] :
          {std::pair(&options.output.path, &state->table), std::pair(&options.extra.triangles, &state->triangles),
           std::pair(&options.extra.contacts, &state->contactsFile),
-          std::pair(&options.distance.closest, &state->closestFile)}) {
+          std::pair(&options.distance.closest, &state->closestFile),
+          std::pair(&options.distance.labels, &state->labelFile)}) {
         if (path->empty()) {
             continue;
         }
@@ -127,6 +129,9 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
     }
     if (state->triangles) {
         writeTriangleHeader(state->triangles->stream(), options);
+    }
+    if (state->labelFile) {
+        writeLabelClearanceHeader(state->labelFile->stream(), options);
     }
     state->writer.emplace(state->out(), state->format);
     return DetectOutput(std::move(state));
@@ -166,6 +171,12 @@ void DetectOutput::addTriangle(const Row& row, const TouchedTriangle& touched) {
     }
 }
 
+void DetectOutput::addLabelClearance(const Row& row, const LabelClearance& clearance) {
+    if (state_->labelFile) {
+        writeLabelClearance(state_->labelFile->stream(), state_->options, state_->inputs, row, clearance);
+    }
+}
+
 bool DetectOutput::keepContact(const Row& row, const Contact& contact) {
     if (state_->contacts.size() >= state_->options.extra.contactRoom()) {
         return false;
@@ -201,13 +212,13 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     }
     // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
     for (std::optional<io::OutputFile>* file :
-         {&state.table, &state.triangles, &state.contactsFile, &state.closestFile}) {
+         {&state.table, &state.triangles, &state.contactsFile, &state.closestFile, &state.labelFile}) {
         VOXTACT_TRY(*file ? (*file)->close() : Result<void>());
     }
     state.held = false;
     VOXTACT_TRY(state.table ? Result<void>() : state.pass());
     for (std::optional<io::OutputFile>* file :
-         {&state.closestFile, &state.contactsFile, &state.triangles, &state.table}) {
+         {&state.labelFile, &state.closestFile, &state.contactsFile, &state.triangles, &state.table}) {
         VOXTACT_TRY(*file ? (*file)->commit() : Result<void>());
     }
     return {};

@@ -22,6 +22,7 @@ class DetectOutput {
     /// The next rows.
     [[nodiscard]] Result<void> add(std::span<const Row> rows);
     void addTriangle(const Row& row, const TouchedTriangle& touched);
+    void addLabelClearance(const Row& row, const LabelClearance& clearance);
     /// False: as many are kept as there is room for.
     [[nodiscard]] bool keepContact(const Row& row, const Contact& contact);
     void countContacts(std::uint64_t found) noexcept;

@@ -42,6 +42,8 @@ struct DistanceOptions {
     std::optional<double> tolerance; ///< mm
     std::optional<double> maximum;   ///< mm
     std::filesystem::path closest;   ///< a file to write; empty: not asked for
+    std::filesystem::path labels;    ///< another
+    std::vector<std::int32_t> to;    ///< labels; empty: all but 0
 
     [[nodiscard]] bool any() const { return clearance || margin.has_value(); }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_table.h"
 
+#include "app/detect/detect_files.h"
 #include "app/version.h"
 
 #include <algorithm>
@@ -45,15 +46,11 @@ io::Cell millimetres(double value) {
 } // namespace
 
 void DetectColumns::addClearance() {
-    // Rounded so that they stay bounds.
-    constexpr double kParts = 1e6;
     columns_.push_back({"clearance_lo", [](const Row& row) {
-                            return row.clearance ? millimetres(std::floor(row.clearance->bounds.lo * kParts) / kParts)
-                                                 : io::Cell();
+                            return row.clearance ? millimetres(roundedOutward(row.clearance->bounds).lo) : io::Cell();
                         }});
     columns_.push_back({"clearance_hi", [](const Row& row) {
-                            return row.clearance ? millimetres(std::ceil(row.clearance->bounds.hi * kParts) / kParts)
-                                                 : io::Cell();
+                            return row.clearance ? millimetres(roundedOutward(row.clearance->bounds).hi) : io::Cell();
                         }});
 }
 

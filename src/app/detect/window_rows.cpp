@@ -36,6 +36,10 @@ void WindowRows::addClearance(const PairClearance& clearance) {
     rows_[batch_[clearance.pair]].clearance = clearance;
 }
 
+void WindowRows::addClearance(const LabelClearance& clearance) {
+    output_.addLabelClearance(rows_[batch_[clearance.pair]], clearance);
+}
+
 void WindowRows::endBatch(const BatchAnswer& answer) {
     for (const TouchedTriangle& touched : answer.triangles) {
         Row& row = rows_[batch_[touched.pair]];

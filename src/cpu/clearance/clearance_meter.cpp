@@ -5,6 +5,7 @@
 #include "core/method/certified_constants.h"
 #include "cpu/batch_check.h"
 #include "cpu/certified/certified_pair.h"
+#include "cpu/clearance/label_part.h"
 #include "cpu/clearance/search.h"
 #include "cpu/raster/occupancy_cache.h"
 #include "cpu/tasks.h"
@@ -25,6 +26,14 @@ using glm::dvec3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastTolerance = 1e-6;
 
+/// The pyramids of labels that were asked for last.
+struct KeptLabels {
+    std::shared_ptr<const OpaquePart> part; ///< keeps its address from being another's
+    const LabelData* labels = nullptr;
+    std::vector<std::uint32_t> indices;
+    std::shared_ptr<const LabelPyramids> pyramids;
+};
+
 /// What a thread keeps from pair to pair.
 struct ThreadMemory {
     MeshPlace mesh;
@@ -41,6 +50,7 @@ struct ClearanceMeterImpl {
     ThreadPool pool;
     std::vector<ThreadMemory> memories;
     OccupancyCache<OpaquePart, 2> parts;
+    std::vector<KeptLabels> labels;
 };
 
 namespace {
@@ -89,8 +99,11 @@ struct PairAt {
         return decide(job, sink);
     }
     [[nodiscard]] Found search(ThreadMemory& memory, const SearchGoal& goal) const {
+        return search(memory, SearchedPart(part), goal);
+    }
+    [[nodiscard]] Found search(ThreadMemory& memory, const SearchedPart& searched, const SearchGoal& goal) const {
         memory.mesh.begin(mesh(), part.space, world_from_object());
-        return memory.search.run(memory.mesh, volume(), part, goal);
+        return memory.search.run(memory.mesh, volume(), part, searched, goal);
     }
 };
 
@@ -125,25 +138,50 @@ bool touches(const PairAt& at, CertifiedTally& tally, PairClearance& out) {
     return true;
 }
 
+ClearanceEnd endOf(const ClearanceBounds& bounds, const Found& found, double tolerance) {
+    const bool closed = bounds.lo == kInfinity || bounds.hi - bounds.lo <= tolerance;
+    return closed ? ClearanceEnd::Closed : (found.exhausted ? ClearanceEnd::Budget : ClearanceEnd::Rounding);
+}
+
+/// Both are set: the maximum is not reached.
+bool isBeyond(const ClearanceDesc& desc, ClearanceBounds& bounds, ClearanceEnd& end) {
+    if (!(bounds.lo >= desc.maximum && bounds.lo < kInfinity)) {
+        return false;
+    }
+    bounds = {desc.maximum, kInfinity};
+    end = ClearanceEnd::Beyond;
+    return true;
+}
+
+SearchGoal goalOf(const ClearanceDesc& desc) {
+    return {.tolerance = desc.tolerance,
+            .maximum = desc.maximum,
+            .finest = desc.tolerance / 4,
+            .mostSteps = desc.mostSteps};
+}
+
 void measurePair(const PairAt& at, const ClearanceDesc& desc, ThreadMemory& memory, PairClearance& out) {
     CertifiedTally touch;
     if (touches(at, touch, out)) {
         return;
     }
-    const Found found = at.search(memory, {.tolerance = desc.tolerance,
-                                           .maximum = desc.maximum,
-                                           .finest = desc.tolerance / 4,
-                                           .mostSteps = desc.mostSteps});
+    const Found found = at.search(memory, goalOf(desc));
     out.bounds = {touch.undecided ? 0 : found.lo, found.hi};
-    if (out.bounds.lo >= desc.maximum && out.bounds.lo < kInfinity) {
-        out.bounds = {desc.maximum, kInfinity};
-        out.end = ClearanceEnd::Beyond;
+    if (isBeyond(desc, out.bounds, out.end)) {
         return;
     }
-    const bool closed = out.bounds.lo == kInfinity || out.bounds.hi - out.bounds.lo <= desc.tolerance;
-    out.end = closed ? ClearanceEnd::Closed : (found.exhausted ? ClearanceEnd::Budget : ClearanceEnd::Rounding);
+    out.end = endOf(out.bounds, found, desc.tolerance);
     if (found.hi < kInfinity) {
         out.closest = closestOf(found, memory.mesh, at.part.space);
+    }
+}
+
+void measureLabel(const PairAt& at, const SearchedPart& searched, const ClearanceDesc& desc, ThreadMemory& memory,
+                  LabelClearance& out) {
+    const Found found = at.search(memory, searched, goalOf(desc));
+    out.bounds = {found.lo, found.hi};
+    if (!isBeyond(desc, out.bounds, out.end)) {
+        out.end = endOf(out.bounds, found, desc.tolerance);
     }
 }
 
@@ -164,31 +202,101 @@ void decideMargin(const PairAt& at, double margin, const ClearanceDesc& desc, Th
     out.count = out.hit ? 1 : 0;
 }
 
-/// Calls `answer(at, pair, memory)` for each pair, on all threads. `pairs` has their numbers.
-template <class Answers, class Answer>
-void forEachPair(ClearanceMeterImpl& impl, const Batch& batch, Answers& pairs, const Answer& answer) {
-    std::vector<std::shared_ptr<const OpaquePart>> parts;
+using Parts = std::vector<std::shared_ptr<const OpaquePart>>;
+
+/// Of the batch's items.
+Parts partsOf(ClearanceMeterImpl& impl, const Batch& batch) {
+    Parts parts;
     for (const BatchItem& item : batch.items) {
         parts.push_back(
             impl.parts.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold, impl.desc.resolution));
-        for (std::uint32_t pose = 0; pose < item.world_from_object.size(); ++pose) {
-            auto& pair = pairs.emplace_back();
-            pair.pair = static_cast<std::uint32_t>(pairs.size() - 1);
-            pair.item = static_cast<std::uint32_t>(parts.size() - 1);
-            pair.pose = pose;
+    }
+    return parts;
+}
+
+/// `copies` entries for each pair, with the numbers of pair, item and pose.
+template <class Answer> std::vector<Answer> numbered(const Batch& batch, std::size_t copies) {
+    std::vector<Answer> answers;
+    std::uint32_t pair = 0;
+    for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
+        for (std::uint32_t pose = 0; pose < batch.items[item].world_from_object.size(); ++pose, ++pair) {
+            Answer answer;
+            answer.pair = pair;
+            answer.item = item;
+            answer.pose = pose;
+            answers.insert(answers.end(), copies, answer);
         }
     }
-    if (pairs.empty()) {
+    return answers;
+}
+
+/// Calls `fill(at, answer, memory)` for each of the answers, on all threads.
+template <class Answer, class Fill>
+void fillAll(ClearanceMeterImpl& impl, const Batch& batch, const Parts& parts, std::vector<Answer>& answers,
+             const Fill& fill) {
+    if (answers.empty()) {
         return;
     }
     std::atomic<std::size_t> next{0};
-    const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(impl.pool.threads(), pairs.size()));
+    const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(impl.pool.threads(), answers.size()));
     impl.pool.run(threads, [&](std::uint32_t thread) {
-        for (std::size_t i = next++; i < pairs.size(); i = next++) {
-            auto& pair = pairs[i];
-            answer(PairAt{batch.items[pair.item], *parts[pair.item], pair.pose}, pair, impl.memories[thread]);
+        for (std::size_t i = next++; i < answers.size(); i = next++) {
+            Answer& answer = answers[i];
+            fill(PairAt{batch.items[answer.item], *parts[answer.item], answer.pose}, answer, impl.memories[thread]);
         }
     });
+}
+
+/// Numbers of labels that the map does not have are left out.
+std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const std::int32_t> wanted) {
+    std::vector<std::uint32_t> indices;
+    for (const std::int32_t label : wanted) {
+        const auto found = std::lower_bound(labels.values.begin(), labels.values.end(), label);
+        if (found != labels.values.end() && *found == label) {
+            indices.push_back(static_cast<std::uint32_t>(found - labels.values.begin()));
+        }
+    }
+    return indices;
+}
+
+std::shared_ptr<const LabelPyramids> pyramidsOf(ClearanceMeterImpl& impl, const BatchItem& item,
+                                                const std::shared_ptr<const OpaquePart>& part,
+                                                const std::vector<std::uint32_t>& indices) {
+    constexpr std::size_t kMostKept = 4;
+    for (const KeptLabels& kept : impl.labels) {
+        if (kept.part == part && kept.labels == item.labels && kept.indices == indices) {
+            return kept.pyramids;
+        }
+    }
+    auto made = std::make_shared<const LabelPyramids>(*part, item.volume->impl(), *item.labels, indices);
+    if (impl.labels.size() == kMostKept) {
+        impl.labels.erase(impl.labels.begin());
+    }
+    impl.labels.push_back({part, item.labels, indices, made});
+    return made;
+}
+
+Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_t> labels) {
+    if (labels.size() > kMostMeasuredLabels) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     std::to_string(labels.size()) + " labels are asked for, one call measures at most " +
+                         std::to_string(kMostMeasuredLabels) + " (cpu::kMostMeasuredLabels); ask for fewer"};
+    }
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        const BatchItem& item = batch.items[i];
+        const std::string which = "batch item " + std::to_string(i);
+        if (item.labels == nullptr) {
+            return refuse(which + ": labels is null, and clearances to labels are asked for");
+        }
+        const Grid& grid = item.volume->grid();
+        const Grid& own = item.labels->grid;
+        if (grid.size != own.size || grid.spacing != own.spacing || grid.origin != own.origin ||
+            grid.direction != own.direction || item.labels->indices.size() != voxelCount(own)) {
+            return Error{ErrorCode::Unsupported, 0,
+                         which + ": the label map is not on the grid of the volume; resample it to that"};
+        }
+    }
+    return {};
 }
 
 Result<void> checkClearanceBatch(const Batch& batch) {
@@ -219,9 +327,11 @@ Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
         const auto start = std::chrono::steady_clock::now();
         VOXTACT_TRY(checkClearanceBatch(batch));
         ClearanceAnswer answer;
-        forEachPair(*impl_, batch, answer.pairs, [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
-            measurePair(at, impl_->desc, memory, pair);
-        });
+        answer.pairs = numbered<PairClearance>(batch, 1);
+        fillAll(*impl_, batch, partsOf(*impl_, batch), answer.pairs,
+                [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
+                    measurePair(at, impl_->desc, memory, pair);
+                });
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;
@@ -236,12 +346,50 @@ Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
             return refuse("the margin " + number(margin) + " mm is not a number from 0 on");
         }
         BatchAnswer answer;
-        forEachPair(*impl_, batch, answer.pairs, [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
-            pair.exactness = Exactness::LowerBound;
-            pair.method = CountingMethod::Cpu;
-            pair.projection = Projection::Conservative;
-            decideMargin(at, margin, impl_->desc, memory, pair);
-        });
+        answer.pairs = numbered<PairAnswer>(batch, 1);
+        fillAll(*impl_, batch, partsOf(*impl_, batch), answer.pairs,
+                [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+                    pair.exactness = Exactness::LowerBound;
+                    pair.method = CountingMethod::Cpu;
+                    pair.projection = Projection::Conservative;
+                    decideMargin(at, margin, impl_->desc, memory, pair);
+                });
+        answer.wallMilliseconds =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return answer;
+    });
+}
+
+Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, std::span<const std::int32_t> labels) {
+    return guard([&]() -> Result<LabelClearanceAnswer> {
+        const auto start = std::chrono::steady_clock::now();
+        VOXTACT_TRY(checkClearanceBatch(batch));
+        VOXTACT_TRY(checkMeasuredLabels(batch, labels));
+        const Parts parts = partsOf(*impl_, batch);
+        std::vector<std::vector<std::uint32_t>> indices;
+        std::vector<std::shared_ptr<const LabelPyramids>> pyramids;
+        for (std::size_t i = 0; i < batch.items.size(); ++i) {
+            indices.push_back(indicesOf(*batch.items[i].labels, labels));
+            pyramids.push_back(pyramidsOf(*impl_, batch.items[i], parts[i], indices[i]));
+        }
+        LabelClearanceAnswer answer;
+        answer.labels = numbered<LabelClearance>(batch, labels.size());
+        for (std::size_t i = 0; i < answer.labels.size(); ++i) {
+            answer.labels[i].label = labels[i % labels.size()];
+            answer.labels[i].bounds = {kInfinity, kInfinity};
+        }
+        fillAll(*impl_, batch, parts, answer.labels,
+                [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
+                    const LabelData& map = *at.item.labels;
+                    const std::vector<std::uint32_t>& known = indices[label.item];
+                    for (std::size_t i = 0; i < known.size(); ++i) {
+                        if (map.values[known[i]] == label.label) {
+                            const SearchedPart searched(pyramids[label.item]->at(i), map, known[i]);
+                            measureLabel(at, searched, impl_->desc, memory, label);
+                            return;
+                        }
+                    }
+                });
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

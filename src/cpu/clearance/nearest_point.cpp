@@ -98,14 +98,15 @@ class MeshSearch {
 
 class OpaqueSearch {
   public:
-    OpaqueSearch(const OpaquePart& part, const VolumeImpl& volume, const dvec3& from, double within)
-        : part_(part), volume_(volume), from_(from), voxel_(part.space.toVoxel(from)) {
+    OpaqueSearch(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume, const dvec3& from,
+                 double within)
+        : part_(part), searched_(searched), volume_(volume), from_(from), voxel_(part.space.toVoxel(from)) {
         best_.distance = within;
     }
 
     OpaquePoint run() {
-        const std::uint32_t top = part_.pyramid.levels() - 1;
-        if (part_.pyramid.has(top, {0, 0, 0})) {
+        const std::uint32_t top = searched_.pyramid().levels() - 1;
+        if (searched_.pyramid().has(top, {0, 0, 0})) {
             openBox(top + kBrickShift, {0, 0, 0});
         }
         return best_;
@@ -114,7 +115,7 @@ class OpaqueSearch {
   private:
     [[nodiscard]] bool may(std::uint32_t shift, const NodePlace& node) const {
         if (shift >= kBrickShift) {
-            return part_.pyramid.has(shift - kBrickShift, node);
+            return searched_.pyramid().has(shift - kBrickShift, node);
         }
         NodePlace brick{};
         CellBox inside;
@@ -166,8 +167,12 @@ class OpaqueSearch {
 
     void openCell(const NodePlace& node) {
         const PartCell cell = part_.cell(volume_, node);
-        dvec3 at = glm::clamp(2.0 * (voxel_ - cell.middle), cell.domain - cell.half, cell.domain + cell.half);
-        if (!goToOpaque(part_, cell, at)) {
+        searched_.forRegions(cell, node, [&](const CellRegion& region) { look(cell, region); });
+    }
+
+    void look(const PartCell& cell, const CellRegion& region) {
+        dvec3 at = glm::clamp(2.0 * (voxel_ - cell.middle), region.lo, region.hi);
+        if (!goToOpaque(part_, cell, region, at)) {
             return;
         }
         const dvec3 point = part_.space.toWorld(cell.middle + 0.5 * at);
@@ -178,6 +183,7 @@ class OpaqueSearch {
     }
 
     const OpaquePart& part_;
+    const SearchedPart& searched_;
     const VolumeImpl& volume_;
     dvec3 from_;
     dvec3 voxel_;
@@ -190,11 +196,12 @@ MeshPoint nearestOnMesh(MeshPlace& mesh, const dvec3& from, double within) {
     return MeshSearch(mesh, from, within).run();
 }
 
-OpaquePoint nearestOpaque(const OpaquePart& part, const VolumeImpl& volume, const dvec3& from, double within) {
-    return OpaqueSearch(part, volume, from, within).run();
+OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
+                          const dvec3& from, double within) {
+    return OpaqueSearch(part, searched, volume, from, within).run();
 }
 
-bool goToOpaque(const OpaquePart& part, const PartCell& cell, dvec3& at) noexcept {
+bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region, dvec3& at) noexcept {
     constexpr int kMostSteps = 4;
     constexpr double kBeyond = 1.5;
     for (int step = 0;; ++step) {
@@ -216,7 +223,7 @@ bool goToOpaque(const OpaquePart& part, const PartCell& cell, dvec3& at) noexcep
             return false;
         }
         at += (2 * (wanted - value) / slope) * direction;
-        at = glm::clamp(at, cell.domain - cell.half, cell.domain + cell.half);
+        at = glm::clamp(at, region.lo, region.hi);
     }
 }
 

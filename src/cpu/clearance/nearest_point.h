@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/clearance/label_part.h"
 #include "cpu/clearance/mesh_place.h"
 #include "cpu/clearance/opaque_part.h"
 
@@ -25,11 +26,12 @@ struct OpaquePoint {
 /// About the closest point of the mesh, where there is one nearer than `within`, mm.
 [[nodiscard]] MeshPoint nearestOnMesh(MeshPlace& mesh, const glm::dvec3& from, double within);
 /// About the closest of the points that are certainly opaque, where there is one nearer than `within`, mm.
-[[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const VolumeImpl& volume, const glm::dvec3& from,
-                                        double within);
+[[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
+                                        const glm::dvec3& from, double within);
 
-/// Goes along a cell's interpolant from a point of its part in the domain until the value is certainly opaque; false
-/// where it does not get there. `at`: the cell's coordinates from -1 to 1.
-[[nodiscard]] bool goToOpaque(const OpaquePart& part, const PartCell& cell, glm::dvec3& at) noexcept;
+/// Goes along a cell's interpolant from a point of a region of it until the value is certainly opaque; false where it
+/// does not get there. `at`: the cell's coordinates from -1 to 1.
+[[nodiscard]] bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region,
+                              glm::dvec3& at) noexcept;
 
 } // namespace voxtact::cpu

@@ -57,10 +57,12 @@ bool ClosestSearch::After::operator()(const Pair& a, const Pair& b) const noexce
     return sizeA > sizeB;
 }
 
-Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part, const SearchGoal& goal) {
+Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
+                         const SearchedPart& searched, const SearchGoal& goal) {
     mesh_ = &mesh;
     volume_ = &volume;
     part_ = &part;
+    searched_ = &searched;
     goal_ = goal;
     found_ = {};
     error_ = mesh.error();
@@ -149,7 +151,7 @@ void ClosestSearch::begin() {
     for (std::size_t shift = 0; shift < diameters_.size(); ++shift) {
         diameters_[shift] = std::ldexp(length(part_->space.spacing), static_cast<int>(shift));
     }
-    const std::uint32_t top = part_->pyramid.levels() - 1;
+    const std::uint32_t top = searched_->pyramid().levels() - 1;
     Pair pair;
     pair.shift = static_cast<std::uint8_t>(top + kBrickShift);
     const std::uint32_t level = mesh_->mesh().tree.levels() - 1;
@@ -308,7 +310,7 @@ void ClosestSearch::improve() {
         if (onMesh.distance < before) {
             offerPoint(onMesh.triangle, onMesh.distance, onMesh.point, found_.inVolume);
         }
-        const OpaquePoint opaque = nearestOpaque(*part_, *volume_, found_.onMesh, found_.hi);
+        const OpaquePoint opaque = nearestOpaque(*part_, *searched_, *volume_, found_.onMesh, found_.hi);
         if (opaque.distance < found_.hi) {
             offerPoint(found_.triangle, opaque.distance, found_.onMesh, opaque.point);
         }
@@ -413,7 +415,7 @@ bool ClosestSearch::narrow(const Pair& pair, Region& region) const {
 
 /// Before it is narrowed; false outside of the volume, and where nothing is opaque.
 bool ClosestSearch::regionOf(const Pair& pair, Region& region) const {
-    if (pair.shift >= kBrickShift && !part_->pyramid.has(pair.shift - kBrickShift, pair.node)) {
+    if (pair.shift >= kBrickShift && !searched_->pyramid().has(pair.shift - kBrickShift, pair.node)) {
         return false;
     }
     NodePlace first{};
@@ -553,7 +555,7 @@ CellPiece ClosestSearch::pieceOf(const Pair& pair, const PartCell& cell) const {
 
 void ClosestSearch::offerPiece(Pair pair, const PartCell& cell) {
     CellPiece piece = pieceOf(pair, cell);
-    if (!piece.mayBeOpaque(part_->intervals)) {
+    if (!piece.mayBeOpaque(part_->intervals) || !searched_->meets(pair.place())) {
         return;
     }
     const dvec3 middle = part_->space.toWorld(piece.middle());
@@ -649,15 +651,18 @@ ClosestSearch::Seen ClosestSearch::look(const Pair& pair, const PartCell& cell, 
     const VolumeSpace& space = part_->space;
     const PlacedTriangle& triangle = mesh_->cluster(pair.mesh)[pair.nearest];
     dvec3 onMesh = closestPoint(triangle.corners, space.toWorld(piece.middle()));
-    dvec3 lo = piece.middle() - piece.half();
-    dvec3 hi = piece.middle() + piece.half();
     Seen seen;
     seen.distance = kInfinity;
+    const std::optional<CellRegion> region = searched_->region(cell, pair.place());
+    if (!region) {
+        return seen;
+    }
+    CellRegion from{2.0 * (piece.middle() - piece.half() - cell.middle),
+                    2.0 * (piece.middle() + piece.half() - cell.middle)};
     bool certain = false;
     for (int turn = 0; turn < kMostTurns; ++turn) {
-        const dvec3 start = glm::clamp(space.toVoxel(onMesh), lo, hi);
-        dvec3 at = 2.0 * (start - cell.middle);
-        const bool opaque = goToOpaque(*part_, cell, at);
+        dvec3 at = glm::clamp(2.0 * (space.toVoxel(onMesh) - cell.middle), from.lo, from.hi);
+        const bool opaque = goToOpaque(*part_, cell, *region, at);
         const dvec3 point = space.toWorld(cell.middle + 0.5 * at);
         onMesh = closestPoint(triangle.corners, point);
         const double distance = glm::distance(point, onMesh);
@@ -669,9 +674,7 @@ ClosestSearch::Seen ClosestSearch::look(const Pair& pair, const PartCell& cell, 
             break;
         }
         seen = {point - onMesh, distance};
-        // From now on anywhere in the cell.
-        lo = cell.middle + 0.5 * (cell.domain - cell.half);
-        hi = cell.middle + 0.5 * (cell.domain + cell.half);
+        from = *region;
     }
     if (!certain) {
         lookBetween(pair, cell, piece);

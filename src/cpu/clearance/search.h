@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/clearance/label_part.h"
 #include "cpu/clearance/mesh_place.h"
 #include "cpu/clearance/opaque_part.h"
 
@@ -36,7 +37,9 @@ struct Found {
 /// pair to pair for its memory.
 class ClosestSearch {
   public:
-    [[nodiscard]] Found run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part, const SearchGoal& goal);
+    /// `searched`: of that part.
+    [[nodiscard]] Found run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
+                            const SearchedPart& searched, const SearchGoal& goal);
 
   private:
     /// A box of the mesh, or some triangles of a cluster, and a box of the volume, or a piece of a cell.
@@ -52,6 +55,7 @@ class ClosestSearch {
         NodePlace node{};                     ///< times 2^shift cells: its first padded cell
         std::array<std::uint16_t, 3> piece{}; ///< times 2^-depth
 
+        [[nodiscard]] PiecePlace place() const noexcept { return {node, depth, piece}; }
         [[nodiscard]] bool isLeaf() const noexcept { return meshLevel == kTriangles && shift == 0; }
     };
     static constexpr std::int8_t kTriangles = -1;
@@ -125,6 +129,7 @@ class ClosestSearch {
     MeshPlace* mesh_ = nullptr;
     const VolumeImpl* volume_ = nullptr;
     const OpaquePart* part_ = nullptr;
+    const SearchedPart* searched_ = nullptr;
     SearchGoal goal_;
     Found found_;
     double error_ = 0;
