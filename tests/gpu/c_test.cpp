@@ -199,7 +199,7 @@ TEST_F(CGpuTest, KnowsOfTheDeviceWhatTheCppInterfaceKnows) {
     }
 }
 
-/// A random scene in which something touches, and not so much that lavapipe is long about it.
+/// A random scene in which something touches, and not too much.
 RandomScene sceneWithSomeSurvivors(std::mt19937_64& random, Projection projection) {
     cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range, .projection = projection}));
     for (int tries = 0; tries < 500; ++tries) {
@@ -226,7 +226,13 @@ TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
     std::size_t ways = 0;
     std::size_t contacts = 0;
     for (const Projection projection : projections()) {
-        const RandomScene scene = sceneWithSomeSurvivors(random, projection);
+        // lavapipe takes half a minute for a random scene in the projection conservative.
+        RandomScene scene = halfOpaque();
+        if (projection == Projection::Conservative) {
+            scene.poses.push_back(translation({0.3, 0.1, 0.2}));
+        } else {
+            scene = sceneWithSomeSurvivors(random, projection);
+        }
         const VolumeData labelImage = makeLabelImage(random, scene.volume.grid);
         const CScene sides(context_.get(), queue_, scene, labelImage);
         const COneItem cItem(sides, scene);
