@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -29,7 +30,10 @@ Owned<vxt_volume_data> builtinVolume(const char* name) {
 
 void expectSame(const vxt_volume_view& view, const VolumeData& volume) {
     const vxt_volume_view expected = cVolume(volume);
-    EXPECT_EQ(std::memcmp(&view.grid, &expected.grid, sizeof view.grid), 0);
+    EXPECT_TRUE(std::ranges::equal(view.grid.size, expected.grid.size));
+    EXPECT_TRUE(std::ranges::equal(view.grid.spacing, expected.grid.spacing));
+    EXPECT_TRUE(std::ranges::equal(view.grid.origin, expected.grid.origin));
+    EXPECT_TRUE(std::ranges::equal(view.grid.direction, expected.grid.direction));
     EXPECT_EQ(view.type, expected.type);
     ASSERT_EQ(view.bytes, volume.voxels.size());
     EXPECT_EQ(std::memcmp(view.voxels, volume.voxels.data(), view.bytes), 0);

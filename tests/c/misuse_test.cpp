@@ -296,6 +296,14 @@ TEST(CMisuse, FeaturesAreAChainThatTheCallerMayLengthen) {
     EXPECT_EQ(vulkan13->pNext, nullptr);
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
 /// For a process of its own, which then ends: `call` with no more address space than a little.
 template <class Call> [[noreturn]] void askWithoutMemory(Call call) {
     constexpr std::size_t kLittle = std::size_t{1200} << 20U;
@@ -309,9 +317,9 @@ template <class Call> [[noreturn]] void askWithoutMemory(Call call) {
 }
 
 TEST(CMisuseDeathTest, NoMemoryIsAResult) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "sanitizers need more address space than the test leaves";
-#endif
+    if (kSanitized) {
+        GTEST_SKIP() << "sanitizers need more address space than the test leaves";
+    }
     // In the library: 2 GiB of voxels.
     vxt_volume_data* data = stale<vxt_volume_data>();
     EXPECT_EXIT(askWithoutMemory([&] { return vxt_builtin_volume("noise:1024", &data); }), testing::ExitedWithCode(0),

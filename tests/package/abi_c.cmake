@@ -13,7 +13,10 @@ step("${ABIDW}" --headers-dir "${HEADERS}" --drop-private-types --exported-inter
      --no-comp-dir-path --no-corpus-path --no-architecture --no-elf-needed --no-parameter-names --type-id-style hash
      --out-file "${now}" "${LIBRARY}")
 if(RENEW)
-  configure_file("${now}" "${RECORD}" COPYONLY)
+  # Where the sources lie is the builder's own.
+  file(READ "${now}" text)
+  string(REGEX REPLACE " path='[^']*/src/c/" " path='src/c/" text "${text}")
+  file(WRITE "${RECORD}" "${text}")
   message(STATUS "${RECORD} is renewed")
   return()
 endif()
