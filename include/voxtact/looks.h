@@ -15,8 +15,8 @@ namespace voxtact {
 
 /// Opacity and colours of a kind of image; values ascending.
 struct Look {
-    std::vector<ControlPoint> opacity;
-    std::vector<ColourPoint> colours;
+    std::vector<ControlPoint> opacity; ///< ascending values
+    std::vector<ColourPoint> colours;  ///< the same
 };
 
 /// One of the looks that there are.
@@ -42,8 +42,8 @@ struct LookPreset {
 /// From where the eye looks, in degrees. Azimuth 0 is before the patient's face, 90 beside the left ear, 180 behind the
 /// head; elevation 90 is above.
 struct ViewDirection {
-    double azimuth = 0;
-    double elevation = 0;
+    double azimuth = 0;   ///< degrees, round the body
+    double elevation = 0; ///< degrees, above it
 };
 
 /// `front`, `back`, `left`, `right`, `top`, `bottom`: from where. The picture's top is the patient's, or the face for
@@ -58,10 +58,10 @@ struct ViewDirection {
 
 /// The part of a picture that the volume is framed in: pixels.
 struct ViewFrame {
-    double left = 0;
-    double top = 0;
-    double right = 0;
-    double bottom = 0;
+    double left = 0;   ///< of the part's left side
+    double top = 0;    ///< from the picture's top
+    double right = 0;  ///< of its right side
+    double bottom = 0; ///< greater than `top`
 };
 
 /// An orthographic clip_from_world that looks at the middle of the volume's box and frames it, with square pixels, in
