@@ -247,7 +247,7 @@ TEST_F(SubmissionTest, AFailedCreateLeavesNothingToDestroy) {
             EXPECT_EQ(made.error().code, ErrorCode::OutOfMemory);
         }
     }
-    EXPECT_EQ(points, 12U) << "a sampler, six set layouts and five pipeline layouts";
+    EXPECT_EQ(points, 13U) << "two samplers, six set layouts and five pipeline layouts";
 }
 
 } // namespace
