@@ -293,6 +293,20 @@ TEST(Clearance, OfATouchIsZeroAndItsPointsAreOne) {
     EXPECT_EQ(found.closest->perTranslation, (Vec3{}));
 }
 
+/// A vertex alone proves it, which is looked at before any triangle is.
+TEST(Clearance, OfATouchByAVertexHasThatVertex) {
+    const VolumeData volume = makeBytes(unitGrid(8), [](auto x, auto, auto) { return x > 3 ? 255 : 0; });
+    const Held held(makeFlat(0.7, 0.9, 0.6, 0.8, 0.5), volume, byteRamp(), {0, 255});
+    const PairClearance found = held.measure(identity());
+    EXPECT_EQ(found.bounds.hi, 0);
+    ASSERT_TRUE(found.closest);
+    EXPECT_EQ(found.closest->mesh, found.closest->volume);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(found.closest->mesh[axis], (Vec3{0.7, 0.6, 0.5})[axis] - 1e-6);
+        EXPECT_LE(found.closest->mesh[axis], (Vec3{0.9, 0.8, 0.5})[axis] + 1e-6);
+    }
+}
+
 TEST(Clearance, BeyondTheMaximumIsNotMeasured) {
     Grid grid;
     grid.size = {8, 8, 8};

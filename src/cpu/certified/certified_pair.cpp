@@ -93,7 +93,7 @@ template <class Kept> class Decider {
             for (const std::uint8_t corner : {mesh.corner0[at], mesh.corner1[at], mesh.corner2[at]}) {
                 if (!probed_[corner]) {
                     probed_[corner] = true;
-                    if (vertexProves(vertices_.at(corner).point)) {
+                    if (vertexProves(mesh.numbers[at], vertices_.at(corner).point)) {
                         tally_.certain = 1;
                         return;
                     }
@@ -102,7 +102,8 @@ template <class Kept> class Decider {
         }
     }
 
-    [[nodiscard]] bool vertexProves(const VoxelPoint& vertex) const {
+    /// Tells the sink, too.
+    [[nodiscard]] bool vertexProves(std::uint32_t triangle, const VoxelPoint& vertex) const {
         const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
         std::array<std::int32_t, 3> cell{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -121,9 +122,17 @@ template <class Kept> class Decider {
         if (!known.any(box.within(brick))) {
             return false;
         }
-        const shader::CertifiedCell here = shader::certifiedCell(item_, cornersOf(cell[0], cell[1], cell[2], known),
-                                                                 cell[0], cell[1], cell[2], delta_.delta);
-        return shader::certifiedVertexProves(table_, here, vertex, cell[0], cell[1], cell[2]);
+        const shader::CertifiedCorners corners = cornersOf(cell[0], cell[1], cell[2], known);
+        const shader::CertifiedCell here =
+            shader::certifiedCell(item_, corners, cell[0], cell[1], cell[2], delta_.delta);
+        shader::CertifiedWitness witness;
+        if (!shader::certifiedVertexProves(table_, here, vertex, cell[0], cell[1], cell[2], witness)) {
+            return false;
+        }
+        if (sink_) {
+            sink_(triangle, shader::certifiedProof(table_, item_, corners, witness, cell[0], cell[1], cell[2]));
+        }
+        return true;
     }
 
     /// Whether the triangles in a box of object space may pass through a brick that may have an opaque point.
