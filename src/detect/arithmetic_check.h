@@ -3,6 +3,7 @@
 
 #include "voxtact/context.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -33,9 +34,9 @@ struct OperationFaults {
     std::size_t first = 0; ///< number of the set of inputs
 };
 
-/// Of OPERATION_RESULTS words for each set of inputs. Those that rest on denormals are not asked.
+/// Of OPERATION_RESULTS words for each set of inputs. Those that rest on denormals are not asked. Stops at `most`.
 [[nodiscard]] OperationFaults operationFaults(int operation, std::span<const std::uint32_t> inputs,
-                                              std::span<const std::uint32_t> results);
+                                              std::span<const std::uint32_t> results, std::size_t most = SIZE_MAX);
 
 /// What an operation is called in texts.
 [[nodiscard]] const char* operationName(int operation) noexcept;
