@@ -91,8 +91,8 @@ def program(name):
     return fail(f"there is no test program {name}")
 
 
-def noticed(test):
-    """Whether the test fails, crashes or hangs."""
+def failure(test):
+    """What the test says where it fails, crashes or hangs; None: it passes."""
     name, _, pattern = test.partition(":")
     command = [str(program(name)), "--gtest_brief=1", "--gtest_fail_fast"]
     if pattern:
@@ -101,10 +101,14 @@ def noticed(test):
         run = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=SECONDS_A_TEST,
                              cwd=program(name).parent)
     except subprocess.TimeoutExpired:
-        return True
+        return f"longer than {SECONDS_A_TEST} s"
     if run.returncode == 0 and "[  PASSED  ] 0 tests" in run.stdout:
         fail(f"{test}: no such test")
-    return run.returncode != 0
+    return run.stdout[-3000:] + run.stderr[-1000:] if run.returncode != 0 else None
+
+
+def noticed(test):
+    return failure(test) is not None
 
 
 def targets_of(mutants):
@@ -125,8 +129,9 @@ def prepare(mutants):
     if built.returncode != 0:
         fail(f"the sources do not build as they are:\n{built.stdout[-3000:]}")
     for test in sorted({test for mutant in mutants for test in mutant["tests"]}):
-        if noticed(test):
-            fail(f"{test} fails without any mutant")
+        said = failure(test)
+        if said is not None:
+            fail(f"{test} fails without any mutant:\n{said}")
 
 
 def judge(mutant):
@@ -134,10 +139,11 @@ def judge(mutant):
     original = path.read_text()
     path.write_text(original.replace(mutant["old"], mutant["new"]))
     try:
-        built = build(targets_of([mutant]))
-        if built.returncode != 0:
-            return "does not compile", built.stdout[-2000:]
         for test in mutant["tests"]:
+            # a program at a time: most mutants are noticed by the first
+            built = build({test.partition(":")[0]})
+            if built.returncode != 0:
+                return "does not compile", built.stdout[-2000:]
             if noticed(test):
                 return "noticed", test
         return ("equivalent", mutant["equivalent"]) if "equivalent" in mutant else ("SURVIVED", "")

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative`: what single precision leaves undecided, placed again. Rounding of a vertex to a float
 // of voxel space is what keeps most fragments undecided: a ten-thousandth of a voxel. Here places are sums of two and
-// three floats, made by transformations that lose nothing (Knuth's sum; Dekker, "A floating-point technique for
-// extending the available precision", 1971), and what is dropped is added up: where nothing was, the place is exact.
-// One text for GLSL and C++; every operation is a single-precision addition or multiplication.
+// three floats (precise.h), and what is dropped is added up: where nothing was, the place is exact. One text for GLSL
+// and C++; every operation is a single-precision addition or multiplication.
 #ifndef VOXTACT_CERTIFIED_PRECISE_H
 #define VOXTACT_CERTIFIED_PRECISE_H
 
 #include "certified_cell.h"
+#include "precise.h"
 
 /// Of the largest coordinate, in voxels: more than a place of two floats loses in a division, a cut and their sums.
 #define PRECISE_PLACE_ERROR 3.637978807091713e-12f
 /// Voxels: more than a place in a cell loses when it is rounded to floats, and its pieces when they are halved.
 #define PRECISE_LEAST_DELTA 9.5367431640625e-7f
-/// A product of floats that is smaller may lose bits that are taken for zero: up to this much.
-#define PRECISE_LEAST_PRODUCT 8.470329472543003e-22f
 #define PRECISE_FACES 6
 /// Where certifiedDomain() ends the domain in a cell.
 #define CERTIFIED_DOMAIN_END 0.5f
@@ -25,96 +23,10 @@
 namespace voxtact::shader {
 #endif
 
-/// high + low; |low| is at most half a unit in the last place of `high`.
-struct PreciseTwo {
-    float high, low;
-};
-
 /// high + middle + low, within `missing` of what was added up.
 struct PreciseThree {
     float high, middle, low, missing;
 };
-
-EXACT PreciseTwo preciseTwo(float high, float low) {
-    PreciseTwo two;
-    two.high = high;
-    two.low = low;
-    return two;
-}
-
-/// a + b, exactly.
-EXACT PreciseTwo preciseSum(float a, float b) {
-    PRECISE float sum = a + b;
-    PRECISE float ofB = sum - a;
-    PRECISE float ofA = sum - ofB;
-    PRECISE float lostB = b - ofB;
-    PRECISE float lostA = a - ofA;
-    PRECISE float lost = lostA + lostB;
-    return preciseTwo(sum, lost);
-}
-
-/// The same for |a| >= |b|.
-EXACT PreciseTwo preciseQuickSum(float a, float b) {
-    PRECISE float sum = a + b;
-    PRECISE float ofB = sum - a;
-    PRECISE float lost = b - ofB;
-    return preciseTwo(sum, lost);
-}
-
-/// The first 12 bits of a float, and the others.
-EXACT PreciseTwo preciseHalves(float a) {
-    PRECISE float shifted = 4097.0f * a;
-    PRECISE float beyond = shifted - a;
-    PRECISE float high = shifted - beyond;
-    PRECISE float low = a - high;
-    return preciseTwo(high, low);
-}
-
-/// a * b, exactly where the product is zero or at least PRECISE_LEAST_PRODUCT, and finite.
-EXACT PreciseTwo preciseProduct(float a, float b) {
-    const PreciseTwo ofA = preciseHalves(a);
-    const PreciseTwo ofB = preciseHalves(b);
-    PRECISE float product = a * b;
-    PRECISE float highs = ofA.high * ofB.high;
-    PRECISE float highLow = ofA.high * ofB.low;
-    PRECISE float lowHigh = ofA.low * ofB.high;
-    PRECISE float lows = ofA.low * ofB.low;
-    PRECISE float first = highs - product;
-    PRECISE float second = first + highLow;
-    PRECISE float third = second + lowHigh;
-    PRECISE float lost = third + lows;
-    return preciseTwo(product, lost);
-}
-
-// Of two floats, within a few units of 2^-48 of the terms.
-
-EXACT PreciseTwo precisePlus(PreciseTwo a, PreciseTwo b) {
-    const PreciseTwo highs = preciseSum(a.high, b.high);
-    PRECISE float lows = a.low + b.low;
-    PRECISE float low = highs.low + lows;
-    return preciseQuickSum(highs.high, low);
-}
-
-EXACT PreciseTwo preciseMinus(PreciseTwo a, PreciseTwo b) {
-    return precisePlus(a, preciseTwo(-b.high, -b.low));
-}
-
-EXACT PreciseTwo preciseTimes(PreciseTwo a, PreciseTwo b) {
-    const PreciseTwo product = preciseProduct(a.high, b.high);
-    PRECISE float highLow = a.high * b.low;
-    PRECISE float lowHigh = a.low * b.high;
-    PRECISE float cross = highLow + lowHigh;
-    PRECISE float low = product.low + cross;
-    return preciseQuickSum(product.high, low);
-}
-
-EXACT PreciseTwo preciseOver(PreciseTwo a, PreciseTwo b) {
-    const float reciprocal = exactReciprocal(b.high);
-    PRECISE float first = a.high * reciprocal;
-    const PreciseTwo rest = preciseMinus(a, preciseTimes(preciseTwo(first, 0.0f), b));
-    PRECISE float second = rest.high * reciprocal;
-    return preciseQuickSum(first, second);
-}
 
 EXACT PreciseThree preciseAdded(PreciseThree sum, float term) {
     const PreciseTwo high = preciseSum(sum.high, term);

@@ -4,7 +4,7 @@
 #ifndef VOXTACT_OPERATIONS_H
 #define VOXTACT_OPERATIONS_H
 
-#include "exact.h"
+#include "precise.h"
 
 #define OPERATION_FLOAT_ADD 0
 #define OPERATION_FLOAT_SUBTRACT 1
@@ -90,51 +90,16 @@ EXACT uint operationCompare(float a, float b) {
            (!(a < b) ? 32u : 0u);
 }
 
-/// What adding rounds away (Knuth).
-EXACT void operationTwoSum(float a, float b, OUT(uint) low, OUT(uint) high) {
-    PRECISE float sum = a + b;
-    PRECISE float ofB = sum - a;
-    PRECISE float ofA = sum - ofB;
-    PRECISE float errorB = b - ofB;
-    PRECISE float errorA = a - ofA;
-    PRECISE float error = errorA + errorB;
-    low = bitsOf(sum);
-    high = bitsOf(error);
-}
-
-/// What multiplying rounds away (Dekker, with Veltkamp's split).
-EXACT void operationTwoProduct(float a, float b, OUT(uint) low, OUT(uint) high) {
-    PRECISE float product = a * b;
-    PRECISE float wideA = 4097.0f * a;
-    PRECISE float restA = wideA - a;
-    PRECISE float upperA = wideA - restA;
-    PRECISE float lowerA = a - upperA;
-    PRECISE float wideB = 4097.0f * b;
-    PRECISE float restB = wideB - b;
-    PRECISE float upperB = wideB - restB;
-    PRECISE float lowerB = b - upperB;
-    PRECISE float upper = upperA * upperB;
-    PRECISE float first = upper - product;
-    PRECISE float across = upperA * lowerB;
-    PRECISE float second = first + across;
-    PRECISE float back = lowerA * upperB;
-    PRECISE float third = second + back;
-    PRECISE float lower = lowerA * lowerB;
-    PRECISE float error = third + lower;
-    low = bitsOf(product);
-    high = bitsOf(error);
-}
-
 /// Operations on floats alone; false: it is none of them.
 EXACT bool operationOnFloats(int operation, float a, float b, float c, OUT(uint) low, OUT(uint) high) {
     PRECISE float value = 0.0f;
     high = 0u;
     low = 0u;
-    if (operation == OPERATION_FLOAT_ADD) {
+    if (operation == OPERATION_FLOAT_ADD || operation == OPERATION_FLOAT_SPECIAL_ADD) {
         value = a + b;
     } else if (operation == OPERATION_FLOAT_SUBTRACT) {
         value = a - b;
-    } else if (operation == OPERATION_FLOAT_MULTIPLY) {
+    } else if (operation == OPERATION_FLOAT_MULTIPLY || operation == OPERATION_FLOAT_SPECIAL_MULTIPLY) {
         value = a * b;
     } else if (operation == OPERATION_FLOAT_MULTIPLY_ADD) {
         value = a * b + c;
@@ -147,32 +112,16 @@ EXACT bool operationOnFloats(int operation, float a, float b, float c, OUT(uint)
     } else if (operation == OPERATION_FLOAT_FLOOR) {
         value = floor(a);
     } else if (operation == OPERATION_FLOAT_TWO_SUM) {
-        operationTwoSum(a, b, low, high);
+        const PreciseTwo sum = preciseSum(a, b);
+        low = bitsOf(sum.high);
+        high = bitsOf(sum.low);
         return true;
     } else if (operation == OPERATION_FLOAT_TWO_PRODUCT) {
-        operationTwoProduct(a, b, low, high);
+        const PreciseTwo product = preciseProduct(a, b);
+        low = bitsOf(product.high);
+        high = bitsOf(product.low);
         return true;
-    } else if (operation == OPERATION_FLOAT_COMPARE) {
-        low = operationCompare(a, b);
-        high = operationCompare(a, a);
-        return true;
-    } else {
-        return false;
-    }
-    low = bitsOf(value);
-    return true;
-}
-
-/// The same with zeros, infinities and NaN; false: it is none of them.
-EXACT bool operationOnSpecials(int operation, float a, float b, OUT(uint) low, OUT(uint) high) {
-    PRECISE float value = 0.0f;
-    high = 0u;
-    low = 0u;
-    if (operation == OPERATION_FLOAT_SPECIAL_ADD) {
-        value = a + b;
-    } else if (operation == OPERATION_FLOAT_SPECIAL_MULTIPLY) {
-        value = a * b;
-    } else if (operation == OPERATION_FLOAT_COMPARE_SPECIAL) {
+    } else if (operation == OPERATION_FLOAT_COMPARE || operation == OPERATION_FLOAT_COMPARE_SPECIAL) {
         low = operationCompare(a, b);
         high = operationCompare(a, a);
         return true;
@@ -255,8 +204,12 @@ EXACT void operationOnLongs(int operation, uint a, uint b, uint c, uint d, OUT(u
 
 /// One operation on four words; two words of results.
 EXACT void operate(int operation, uint a, uint b, uint c, uint d, OUT(uint) low, OUT(uint) high) {
-    if (!operationOnFloats(operation, operationModerate(a), operationModerate(b), operationModerate(c), low, high) &&
-        !operationOnSpecials(operation, floatOf(a), floatOf(b), low, high) &&
+    // Those on zeros, infinities, NaN and what is huge or tiny take the words as they are.
+    const bool special = operation == OPERATION_FLOAT_COMPARE_SPECIAL || operation == OPERATION_FLOAT_SPECIAL_ADD ||
+                         operation == OPERATION_FLOAT_SPECIAL_MULTIPLY;
+    const float left = special ? floatOf(a) : operationModerate(a);
+    const float right = special ? floatOf(b) : operationModerate(b);
+    if (!operationOnFloats(operation, left, right, operationModerate(c), low, high) &&
         !operationOnWords(operation, a, b, low, high)) {
         operationOnLongs(operation, a, b, c, d, low, high);
     }

@@ -129,7 +129,7 @@ class Volume {
     std::unique_ptr<VolumeImpl> impl_;
 };
 
-/// A table of the caller's.
+/// A table of the caller's. Filter::Hardware needs a format that the device filters linearly; nobody can ask the view.
 struct WrappedTransferFunction {
     VkImageView view = VK_NULL_HANDLE;                               ///< 1D, opacity in component r
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while commands execute

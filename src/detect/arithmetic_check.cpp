@@ -22,12 +22,12 @@ namespace voxtact {
 
 namespace {
 
-constexpr std::uint32_t kGroups = 1563;
-constexpr std::uint32_t kSets = kGroups * VOXTACT_COMPUTE_GROUP; ///< 10^5, in whole work groups
 /// Wrong results of an operation that are counted: a device that gets all of it wrong is known soon.
 constexpr std::size_t kMostCounted = 1000;
+constexpr std::array<std::uint32_t, 3> kTexelSize{64, 64, 16}; ///< a voxel for each number of 16 bits
+constexpr std::uint32_t kTexels = 64 * 64 * 16;
 static_assert(OPERATION_GROUP == OPERATION_COUNT);
-static_assert(kGroups * OPERATION_GROUP_WORDS <= kSets * OPERATION_RESULTS);
+static_assert(OPERATION_GROUP_WORDS <= VOXTACT_COMPUTE_GROUP * OPERATION_RESULTS, "a group's results fit");
 
 constexpr std::array<const char*, OPERATION_COUNT> kNames{"float addition",
                                                           "float subtraction",
@@ -113,10 +113,13 @@ std::string hex(std::uint32_t word) {
 /// The pipeline with its buffers.
 class Bench {
   public:
-    static Result<Bench> create(const Context& context, const QueueAccess& queue, std::size_t resultWords);
+    static Result<Bench> create(const Context& context, const QueueAccess& queue, std::uint32_t groups);
+
+    [[nodiscard]] std::uint32_t groups() const { return groups_; }
+    [[nodiscard]] std::uint32_t sets() const { return groups_ * VOXTACT_COMPUTE_GROUP; }
 
     [[nodiscard]] std::span<std::uint32_t> inputs() const {
-        return {static_cast<std::uint32_t*>(inputs_.mapped), std::size_t{kSets} * OPERATION_INPUTS};
+        return {static_cast<std::uint32_t*>(inputs_.mapped), std::size_t{sets()} * OPERATION_INPUTS};
     }
     /// Of the last run().
     [[nodiscard]] std::span<const std::uint32_t> results() const {
@@ -127,9 +130,11 @@ class Bench {
                      std::uint32_t groupsY);
 
   private:
-    Bench(ContextImpl& context, Submitter submitter) noexcept : context_(&context), submitter_(std::move(submitter)) {}
+    Bench(ContextImpl& context, Submitter submitter, std::uint32_t groups) noexcept
+        : context_(&context), groups_(groups), submitter_(std::move(submitter)) {}
 
     ContextImpl* context_;
+    std::uint32_t groups_; ///< work groups of inputs
     Owned<VkPipeline> pipeline_;
     Buffer inputs_;
     Buffer results_;
@@ -137,19 +142,21 @@ class Bench {
     Submitter submitter_;
 };
 
-Result<Bench> Bench::create(const Context& context, const QueueAccess& queue, std::size_t resultWords) {
+Result<Bench> Bench::create(const Context& context, const QueueAccess& queue, std::uint32_t groups) {
     ContextImpl& impl = context.impl();
     Result<Submitter> submitter = Submitter::create(impl, queue, VK_QUEUE_COMPUTE_BIT);
     VOXTACT_TRY(submitter);
-    Bench out(impl, std::move(*submitter));
+    Bench out(impl, std::move(*submitter), groups);
     Result<Owned<VkPipeline>> pipeline =
         makeComputePipeline(impl, spirv::operations_comp, {}, impl.computeLayout, "arithmetic self-test");
     VOXTACT_TRY(pipeline);
     out.pipeline_ = std::move(*pipeline);
-    Result<Buffer> inputs = makeBuffer(impl, std::size_t{kSets} * OPERATION_INPUTS * sizeof(std::uint32_t),
+    Result<Buffer> inputs = makeBuffer(impl, std::size_t{out.sets()} * OPERATION_INPUTS * sizeof(std::uint32_t),
                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::Upload, "arithmetic inputs");
     VOXTACT_TRY(inputs);
     out.inputs_ = std::move(*inputs);
+    const std::size_t resultWords =
+        std::max((OPERATION_COUNT + 1) * std::size_t{out.sets()} * OPERATION_RESULTS, std::size_t{kTexels});
     Result<Buffer> results = makeBuffer(impl, resultWords * sizeof(std::uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                         MemoryUse::ReadBack, "arithmetic results");
     VOXTACT_TRY(results);
@@ -204,13 +211,14 @@ class Findings {
 
 /// How many work groups have other results than they should, of what lanes do together.
 std::size_t wrongGroups(std::span<const std::uint32_t> inputs, std::span<const std::uint32_t> results) {
+    constexpr std::size_t kGroupInputs = std::size_t{OPERATION_INPUTS} * VOXTACT_COMPUTE_GROUP;
     std::size_t wrong = 0;
-    for (std::size_t group = 0; group < kGroups; ++group) {
+    for (std::size_t group = 0; group < inputs.size() / kGroupInputs; ++group) {
         std::uint32_t sum = 0;
         std::uint32_t bits = 0;
         std::uint32_t most = 0;
         for (std::size_t lane = 0; lane < VOXTACT_COMPUTE_GROUP; ++lane) {
-            const std::uint32_t value = inputs[OPERATION_INPUTS * (group * VOXTACT_COMPUTE_GROUP + lane)] & 0xffffU;
+            const std::uint32_t value = inputs[group * kGroupInputs + OPERATION_INPUTS * lane] & 0xffffU;
             sum += value;
             bits |= value;
             most = std::max(most, value);
@@ -222,8 +230,6 @@ std::size_t wrongGroups(std::span<const std::uint32_t> inputs, std::span<const s
     return wrong;
 }
 
-constexpr std::array<std::uint32_t, 3> kTexelSize{64, 64, 16}; ///< a voxel for each number of 16 bits
-constexpr std::uint32_t kTexels = 64 * 64 * 16;
 static_assert(std::endian::native == std::endian::little, "the low bytes of a word are a voxel");
 
 /// Every number of 8 or 16 bits; of floats the inputs of operations that are finite and not denormal.
@@ -232,7 +238,7 @@ std::vector<std::byte> everyTexel(ScalarType type, std::span<const std::uint32_t
     for (std::uint32_t i = 0; i < kTexels; ++i) {
         std::uint32_t word = i;
         if (type == ScalarType::Float32) {
-            word = inputs[i];
+            word = inputs[i % inputs.size()];
             word = std::isfinite(asFloat(word)) && !isDenormal(word) ? word : (i << 7U) | 0x3f800000U;
         }
         std::memcpy(out.data() + i * bytesPerVoxel(type), &word, bytesPerVoxel(type));
@@ -282,8 +288,8 @@ Result<void> checkTexels(Bench& bench, ScalarType type, const Volume& volume, st
 
 /// `any`: the shader has a volume, be it read or not.
 Result<std::uint32_t> checkOperations(const ContextImpl& context, Bench& bench, const Volume& any, Findings& findings) {
-    constexpr std::size_t kEach = std::size_t{kSets} * OPERATION_RESULTS;
-    VOXTACT_TRY(bench.run({kSets, 0, 0}, &any, kGroups, OPERATION_COUNT + 1));
+    const std::size_t each = std::size_t{bench.sets()} * OPERATION_RESULTS;
+    VOXTACT_TRY(bench.run({bench.sets(), 0, 0}, &any, bench.groups(), OPERATION_COUNT + 1));
     const std::span<const std::uint32_t> inputs = bench.inputs();
     std::uint32_t asked = 1;
     for (int operation = 0; operation < OPERATION_COUNT; ++operation) {
@@ -291,19 +297,20 @@ Result<std::uint32_t> checkOperations(const ContextImpl& context, Bench& bench, 
             continue;
         }
         ++asked;
-        const auto results = bench.results().subspan(static_cast<std::size_t>(operation) * kEach, kEach);
+        const auto results = bench.results().subspan(static_cast<std::size_t>(operation) * each, each);
         const OperationFaults faults = operationFaults(operation, inputs, results, kMostCounted);
         if (faults.count > 0) {
             const std::uint32_t* first = inputs.data() + faults.first * OPERATION_INPUTS;
             findings.add(operationName(operation), std::string(faults.count == kMostCounted ? "at least " : "") +
-                                                       std::to_string(faults.count) + " of " + std::to_string(kSets) +
-                                                       ", first of " + hex(first[0]) + " " + hex(first[1]) + " " +
-                                                       hex(first[2]));
+                                                       std::to_string(faults.count) + " of " +
+                                                       std::to_string(bench.sets()) + ", first of " + hex(first[0]) +
+                                                       " " + hex(first[1]) + " " + hex(first[2]));
         }
     }
-    const std::size_t groups = wrongGroups(inputs, bench.results().subspan(OPERATION_GROUP * kEach));
+    const std::size_t groups = wrongGroups(inputs, bench.results().subspan(OPERATION_GROUP * each));
     if (groups > 0) {
-        findings.add("sums of work groups and subgroups", std::to_string(groups) + " of " + std::to_string(kGroups));
+        findings.add("sums of work groups and subgroups",
+                     std::to_string(groups) + " of " + std::to_string(bench.groups()));
     }
     return asked;
 }
@@ -358,10 +365,10 @@ OperationFaults operationFaults(int operation, std::span<const std::uint32_t> in
     return faults;
 }
 
-Result<ArithmeticVerdict> checkArithmetic(const Context& context, const QueueAccess& queue) {
-    Result<Bench> bench = Bench::create(context, queue, (OPERATION_COUNT + 1) * std::size_t{kSets} * OPERATION_RESULTS);
+Result<ArithmeticVerdict> checkArithmetic(const Context& context, const QueueAccess& queue, std::uint32_t groups) {
+    Result<Bench> bench = Bench::create(context, queue, groups);
     VOXTACT_TRY(bench);
-    std::ranges::copy(operationInputs(kSets), bench->inputs().begin());
+    std::ranges::copy(operationInputs(bench->sets()), bench->inputs().begin());
     ArithmeticVerdict verdict;
     Findings findings;
     for (const ScalarType type : {ScalarType::UInt8, ScalarType::UInt16, ScalarType::Int16, ScalarType::Float32}) {

@@ -17,12 +17,16 @@ struct ArithmeticVerdict {
     std::string wrong;            ///< names of those that are not the host's, and the first result; empty: none
 };
 
-/// Does every operation of shaders/operations.h on the device, on 10^5 inputs each, most of them random, and compares
-/// the results with the host's bit for bit: 32-bit floats (rounding, no contraction, no reassociation, NaN and
-/// infinities where the device promises them), conversions, 32- and 64-bit integers, additions in shared memory and of
-/// subgroups, and the texels of every type of voxels that the device takes. Denormals are left out: nothing rests on
-/// them. Blocks. Needs what the counting method `compute` needs.
-[[nodiscard]] Result<ArithmeticVerdict> checkArithmetic(const Context& context, const QueueAccess& queue);
+/// Work groups of inputs that a check takes unless it is told another number: 10^5 inputs, in whole work groups.
+inline constexpr std::uint32_t kArithmeticGroups = 1563;
+
+/// Does every operation of shaders/operations.h on the device, on 64 inputs for each of `groups` (not 0), most of them
+/// random, and compares the results with the host's bit for bit: 32-bit floats (rounding, no contraction, no
+/// reassociation, NaN and infinities where the device promises them), conversions, 32- and 64-bit integers, additions
+/// in shared memory and of subgroups, and the texels of every type of voxels that the device takes. Denormals are left
+/// out: nothing rests on them. Blocks. Needs what the counting method `compute` needs.
+[[nodiscard]] Result<ArithmeticVerdict> checkArithmetic(const Context& context, const QueueAccess& queue,
+                                                        std::uint32_t groups = kArithmeticGroups);
 
 /// The words that operations are asked about, OPERATION_INPUTS for each of `count` sets: random ones, and many that are
 /// special or nearly equal. The same for the same count.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "detect/self_test.h"
 #include "core/base/guard.h"
-
 #include "core/base/try.h"
-#include "detect/arithmetic_check.h"
-#include "voxtact/detector.h"
 
 #include <algorithm>
 #include <array>
@@ -80,7 +78,7 @@ Result<SelfTestScene> makeScene(const Context& context, const QueueAccess& queue
 }
 
 Result<SelfTestVerdict> judge(const Context& context, const QueueAccess& queue, const SelfTestScene& scene,
-                              CountingMethod method) {
+                              CountingMethod method, std::uint32_t arithmeticGroups) {
     SelfTestVerdict verdict{method, true, true, {}};
     Result<BlockingDetector> detector =
         BlockingDetector::create(context, {.method = method, .filter = defaultFilter(method)}, queue);
@@ -104,7 +102,7 @@ Result<SelfTestVerdict> judge(const Context& context, const QueueAccess& queue, 
                         (right ? "" : " WRONG");
     }
     if (defaultFilter(method) == Filter::Exact) {
-        const Result<ArithmeticVerdict> arithmetic = checkArithmetic(context, queue);
+        const Result<ArithmeticVerdict> arithmetic = checkArithmetic(context, queue, arithmeticGroups);
         VOXTACT_TRY(arithmetic);
         verdict.trusted = verdict.trusted && arithmetic->wrong.empty();
         verdict.text += arithmetic->wrong.empty()
@@ -118,6 +116,11 @@ Result<SelfTestVerdict> judge(const Context& context, const QueueAccess& queue, 
 
 Result<std::vector<SelfTestVerdict>> selfTest(const Context& context, const QueueAccess& queue,
                                               std::span<const CountingMethod> methods) {
+    return selfTest(context, queue, methods, kArithmeticGroups);
+}
+
+Result<std::vector<SelfTestVerdict>> selfTest(const Context& context, const QueueAccess& queue,
+                                              std::span<const CountingMethod> methods, std::uint32_t arithmeticGroups) {
     return guard([&]() -> Result<std::vector<SelfTestVerdict>> {
         const Result<SelfTestScene> scene = makeScene(context, queue);
         VOXTACT_TRY(scene);
@@ -130,7 +133,7 @@ Result<std::vector<SelfTestVerdict>> selfTest(const Context& context, const Queu
                 verdicts.push_back({support.method, false, false, support.reason});
                 continue;
             }
-            Result<SelfTestVerdict> verdict = judge(context, queue, *scene, support.method);
+            Result<SelfTestVerdict> verdict = judge(context, queue, *scene, support.method, arithmeticGroups);
             if (!verdict.ok() && verdict.error().code == ErrorCode::DeviceLost) {
                 return verdict.error();
             }

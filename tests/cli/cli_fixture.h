@@ -30,6 +30,10 @@ struct Ran {
 /// Runs the built program and waits for it.
 Ran run(const Arguments& arguments, const RunOptions& options = {});
 
+/// Standard error without the lines that say how far the program is: one for each minute that a run takes, which a slow
+/// machine may add to any.
+std::string withoutProgress(const std::string& err);
+
 std::vector<std::string> linesOf(const std::string& text);
 /// Fields without quotes only.
 std::vector<std::string> fieldsOf(const std::string& line);
@@ -57,9 +61,9 @@ class CliTest : public testing::Test {
     [[nodiscard]] std::size_t filesInFolder() const;
 
     /// The refusal that the contract asks for: the status, nothing on standard output, one line on standard error
-    /// that begins with "voxtact COMMAND: ". Returns that line.
+    /// (and progress) that begins with "voxtact COMMAND: ". Returns that line.
     static std::string refused(int status, const Arguments& arguments, const RunOptions& options = {});
-    /// A good run: status 0, and nothing on standard error. Returns standard output.
+    /// A good run: status 0, and nothing on standard error but progress. Returns standard output.
     static std::string output(const Arguments& arguments, const RunOptions& options = {});
 
   private:

@@ -5,6 +5,7 @@
 #include "shared.h"
 
 #include "voxtact_shaders/bricks_comp.h"
+#include "voxtact_shaders/operations_comp.h"
 
 #include <algorithm>
 #include <cstring>
@@ -35,9 +36,16 @@ std::uint64_t hashOf(std::span<const std::uint32_t> words) {
     return hash.value();
 }
 
+/// Of a shader as the library gives it to this driver.
+std::uint64_t moduleHash(std::span<const std::uint32_t> words) {
+    return hashOf(withFloatControls(words, {.keepsSpecials = true, .roundsToNearest = true}));
+}
 std::uint64_t bricksHash() {
-    static const std::uint64_t hash =
-        hashOf(withFloatControls(spirv::bricks_comp, {.keepsSpecials = true, .roundsToNearest = true}));
+    static const std::uint64_t hash = moduleHash(spirv::bricks_comp);
+    return hash;
+}
+std::uint64_t operationsHash() {
+    static const std::uint64_t hash = moduleHash(spirv::operations_comp);
     return hash;
 }
 
@@ -69,6 +77,7 @@ VkPipeline makePipeline(std::span<const VkPipelineShaderStageCreateInfo> stages,
         if (const PretendShaderModule* module = s.get(s.modules, stage.module)) {
             hash.number(module->hash);
             pipeline.bricks = pipeline.bricks || module->bricks;
+            pipeline.operations = pipeline.operations || module->operations;
         }
         specialize(pipeline, hash, stage.pSpecializationInfo);
     }
@@ -207,7 +216,7 @@ VkResult VKAPI_CALL CreateShaderModule(VkDevice, const VkShaderModuleCreateInfo*
                                        VkShaderModule* out) {
     PretendState& s = pretend();
     const std::uint64_t hash = hashOf({info->pCode, info->codeSize / sizeof(std::uint32_t)});
-    *out = s.modules.add(s.next++, {hash, hash == bricksHash()});
+    *out = s.modules.add(s.next++, {hash, hash == bricksHash(), hash == operationsHash()});
     return VK_SUCCESS;
 }
 void VKAPI_CALL DestroyShaderModule(VkDevice, VkShaderModule module, const VkAllocationCallbacks*) {

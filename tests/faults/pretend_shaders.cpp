@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What stands in for shaders: a hash of what they would read goes where they would write.
 #include "contact.h"
+#include "operations.h"
 #include "pretend_state.h"
 #include "shared.h"
 #include "voxtact/device_results.h"
@@ -47,6 +48,10 @@ class Execution {
     }
 
     void run(std::span<const std::uint32_t> numbers, std::uint32_t firstInstance, std::uint32_t instances) {
+        if (pipeline_.operations) {
+            runOperations();
+            return;
+        }
         range_ = rangeOf(numbers, firstInstance, instances);
         hash_.number(pipeline_.hash);
         hash_.add(std::as_bytes(numbers));
@@ -170,6 +175,32 @@ class Execution {
             byte = static_cast<std::byte>(next.value() >> 56U);
             next.number(byte);
         }
+    }
+
+    /// Does what the shader would: the self-test compares all of it.
+    void runOperations() const {
+        shader::OperationConstants constants{};
+        std::memcpy(&constants, bound_.constants.data(), sizeof constants);
+        const std::vector<std::uint32_t> inputs = wordsOf(VOXTACT_BINDING_TRANSFORMS);
+        std::vector<std::uint32_t> outputs = wordsOf(VOXTACT_BINDING_RESULTS);
+        if (constants.texels == 0) {
+            playOperations(inputs, outputs);
+        } else if (const PretendDescriptor* volume = descriptor(VOXTACT_SET_VOLUME, 0)) {
+            const PretendImageView* view = s_.get(s_.views, volume->view);
+            const PretendImage* image = view == nullptr ? nullptr : s_.get(s_.images, view->image);
+            playTexels(contents(*volume), image == nullptr ? 0 : image->texelBytes, outputs);
+        }
+        if (const PretendDescriptor* buffer = storageBuffer(VOXTACT_SET_PAIRS, VOXTACT_BINDING_RESULTS)) {
+            std::memcpy(contents(*buffer).data(), outputs.data(), outputs.size() * sizeof(std::uint32_t));
+        }
+    }
+    /// The words of a buffer of the pairs' set.
+    [[nodiscard]] std::vector<std::uint32_t> wordsOf(std::uint32_t binding) const {
+        const PretendDescriptor* buffer = storageBuffer(VOXTACT_SET_PAIRS, binding);
+        const std::span<const std::byte> bytes = buffer == nullptr ? std::span<std::byte>() : contents(*buffer);
+        std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+        std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+        return words;
     }
 
     [[nodiscard]] std::uint32_t survivors() const {

@@ -53,14 +53,16 @@ struct PretendPipelineLayout {
 
 struct PretendShaderModule {
     std::uint64_t hash = 0;
-    bool bricks = false; ///< the pass that fills the bricks of a volume
+    bool bricks = false;     ///< the pass that fills the bricks of a volume
+    bool operations = false; ///< the arithmetic self-test
 };
 
 struct PretendPipeline {
     std::uint64_t hash = 0;
     std::size_t sets = 0; ///< of its layout
     std::uint32_t vertexBuffers = 0;
-    bool bricks = false;
+    bool bricks = false;       ///< as in its module
+    bool operations = false;   ///< the same
     bool certified = false;    ///< the projection conservative
     bool lists = false;        ///< a list of survivors
     std::uint32_t outputs = 0; ///< OUTPUT_*
@@ -209,6 +211,12 @@ struct PretendState {
               std::uint32_t instances);
     void dispatch(const Bound& bound, std::span<const std::uint32_t> numbers);
 };
+
+/// What the arithmetic self-test's shader makes of its inputs: in all of its work groups, as the host does it. The same
+/// inputs are gone through once.
+void playOperations(std::span<const std::uint32_t> inputs, std::span<std::uint32_t> outputs);
+/// What it reads of an image of UNORM texels or 32-bit floats.
+void playTexels(std::span<const std::byte> image, std::size_t texelBytes, std::span<std::uint32_t> outputs);
 
 /// The state of the driver that there is.
 [[nodiscard]] PretendState& pretend();

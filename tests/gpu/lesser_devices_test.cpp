@@ -35,11 +35,11 @@ struct Lesser {
     std::set<VkSharingMode> sharing;
     std::set<std::uint32_t> sharedBy;
 
-    PFN_vkGetPhysicalDeviceQueueFamilyProperties families_ = nullptr;
-    PFN_vkGetPhysicalDeviceFormatProperties formats_ = nullptr;
-    PFN_vkCmdPipelineBarrier2 barrier_ = nullptr;
-    PFN_vkCreateBuffer buffer_ = nullptr;
-    PFN_vkCreateImage image_ = nullptr;
+    PFN_vkGetPhysicalDeviceQueueFamilyProperties realFamilies = nullptr;
+    PFN_vkGetPhysicalDeviceFormatProperties realFormats = nullptr;
+    PFN_vkCmdPipelineBarrier2 realBarrier = nullptr;
+    PFN_vkCreateBuffer realBuffer = nullptr;
+    PFN_vkCreateImage realImage = nullptr;
 };
 Lesser lesser;
 
@@ -50,7 +50,7 @@ void VKAPI_PTR familyProperties(VkPhysicalDevice device, std::uint32_t* count, V
     }
     std::uint32_t one = 1;
     VkQueueFamilyProperties first{};
-    lesser.families_(device, &one, &first);
+    lesser.realFamilies(device, &one, &first);
     if (lesser.onlyComputes) {
         first.queueFlags &= ~static_cast<VkQueueFlags>(VK_QUEUE_GRAPHICS_BIT);
     }
@@ -58,7 +58,7 @@ void VKAPI_PTR familyProperties(VkPhysicalDevice device, std::uint32_t* count, V
 }
 
 void VKAPI_PTR formatProperties(VkPhysicalDevice device, VkFormat format, VkFormatProperties* out) {
-    lesser.formats_(device, format, out);
+    lesser.realFormats(device, format, out);
     if (lesser.floatsUnfiltered && format == VK_FORMAT_R32_SFLOAT) {
         out->optimalTilingFeatures &=
             ~static_cast<VkFormatFeatureFlags>(VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT);
@@ -75,7 +75,7 @@ void VKAPI_PTR barrierSeen(VkCommandBuffer commandBuffer, const VkDependencyInfo
     for (std::uint32_t i = 0; i < info->bufferMemoryBarrierCount; ++i) {
         lesser.stages |= info->pBufferMemoryBarriers[i].srcStageMask | info->pBufferMemoryBarriers[i].dstStageMask;
     }
-    lesser.barrier_(commandBuffer, info);
+    lesser.realBarrier(commandBuffer, info);
 }
 
 /// Notes who shares; the real device has one family, to which all of it is exclusive.
@@ -92,13 +92,13 @@ template <class CreateInfo> CreateInfo unshared(const CreateInfo& info) {
 VkResult VKAPI_PTR createBuffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks* allocator,
                                 VkBuffer* buffer) {
     const VkBufferCreateInfo plain = unshared(*info);
-    return lesser.buffer_(device, &plain, allocator, buffer);
+    return lesser.realBuffer(device, &plain, allocator, buffer);
 }
 
 VkResult VKAPI_PTR createImage(VkDevice device, const VkImageCreateInfo* info, const VkAllocationCallbacks* allocator,
                                VkImage* image) {
     const VkImageCreateInfo plain = unshared(*info);
-    return lesser.image_(device, &plain, allocator, image);
+    return lesser.realImage(device, &plain, allocator, image);
 }
 
 class LesserDeviceTest : public GpuTest {
@@ -113,13 +113,14 @@ class LesserDeviceTest : public GpuTest {
         const ContextDesc desc = gpu().device.contextDesc();
         const auto instanceFunction = [&](const char* name) { return real(desc.instance, name); };
         const auto getDevice = reinterpret_cast<PFN_vkGetDeviceProcAddr>(instanceFunction("vkGetDeviceProcAddr"));
-        lesser.families_ = reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+        lesser.realFamilies = reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
             instanceFunction("vkGetPhysicalDeviceQueueFamilyProperties"));
-        lesser.formats_ = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
+        lesser.realFormats = reinterpret_cast<PFN_vkGetPhysicalDeviceFormatProperties>(
             instanceFunction("vkGetPhysicalDeviceFormatProperties"));
-        lesser.barrier_ = reinterpret_cast<PFN_vkCmdPipelineBarrier2>(getDevice(desc.device, "vkCmdPipelineBarrier2"));
-        lesser.buffer_ = reinterpret_cast<PFN_vkCreateBuffer>(getDevice(desc.device, "vkCreateBuffer"));
-        lesser.image_ = reinterpret_cast<PFN_vkCreateImage>(getDevice(desc.device, "vkCreateImage"));
+        lesser.realBarrier =
+            reinterpret_cast<PFN_vkCmdPipelineBarrier2>(getDevice(desc.device, "vkCmdPipelineBarrier2"));
+        lesser.realBuffer = reinterpret_cast<PFN_vkCreateBuffer>(getDevice(desc.device, "vkCreateBuffer"));
+        lesser.realImage = reinterpret_cast<PFN_vkCreateImage>(getDevice(desc.device, "vkCreateImage"));
         loader_.emplace(real);
         loader_->replace("vkGetPhysicalDeviceQueueFamilyProperties", &familyProperties);
         loader_->replace("vkGetPhysicalDeviceFormatProperties", &formatProperties);
