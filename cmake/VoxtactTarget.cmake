@@ -8,13 +8,25 @@ set(VOXTACT_CXX_RUNTIME ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
 list(FILTER VOXTACT_CXX_RUNTIME INCLUDE REGEX "^(std)?c\\+\\+$|^m$")
 list(REMOVE_DUPLICATES VOXTACT_CXX_RUNTIME)
 
+# What is warned of; and no fused multiply-add, wherever the processor has one: builtins, poses and matrices are the same
+# on every machine. -Wno-restrict: GCC 12 warns falsely about std::string's operator+ (GCC bug 105651).
+if(MSVC)
+  set(VOXTACT_WARNINGS /W4 /permissive- $<$<BOOL:${VOXTACT_WARNINGS_AS_ERRORS}>:/WX>)
+  set(VOXTACT_NO_CONTRACTION /fp:precise)
+else()
+  set(VOXTACT_WARNINGS $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor
+                       -Wold-style-cast $<$<BOOL:${VOXTACT_WARNINGS_AS_ERRORS}>:-Werror>)
+  set(VOXTACT_NO_CONTRACTION -ffp-contract=off)
+endif()
+
 function(voxtact_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                              POSITION_INDEPENDENT_CODE ON)
-  # -Wno-restrict: GCC 12 warns falsely about std::string's operator+ (GCC bug 105651).
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor
-                                           -Wold-style-cast $<$<BOOL:${VOXTACT_WARNINGS_AS_ERRORS}>:-Werror>)
+  target_compile_options(${target} PRIVATE ${VOXTACT_WARNINGS})
+  if(WIN32 AND BUILD_SHARED_LIBS)
+    target_compile_definitions(${target} PRIVATE VOXTACT_EXPORTS)
+  endif()
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "SHARED_LIBRARY" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
     target_link_options(${target} PRIVATE "LINKER:--version-script=${VOXTACT_EXPORT_MAP}")
@@ -32,8 +44,7 @@ function(voxtact_room name)
                                      PRIVATE "${PROJECT_SOURCE_DIR}/src" "${PROJECT_SOURCE_DIR}/shaders")
   # No prototypes: a call of a linked vk* function does not compile.
   target_compile_definitions(${room} PRIVATE VK_NO_PROTOTYPES)
-  # Builtins, poses and matrices are the same on every machine: no fused multiply-add, wherever the processor has one.
-  target_compile_options(${room} PRIVATE -ffp-contract=off)
+  target_compile_options(${room} PRIVATE ${VOXTACT_NO_CONTRACTION})
   target_link_libraries(${room} PUBLIC Vulkan::Headers PRIVATE glm::glm)
 endfunction()
 

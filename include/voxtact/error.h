@@ -8,7 +8,9 @@
 #include <variant>
 
 /// VOXTACT_API marks what a shared build exports. Everything else is hidden.
-#if defined(_WIN32)
+#if defined(_WIN32) && defined(VOXTACT_EXPORTS)
+#define VOXTACT_API __declspec(dllexport)
+#elif defined(_WIN32)
 #define VOXTACT_API
 #else
 #define VOXTACT_API __attribute__((visibility("default")))

@@ -107,6 +107,22 @@ TEST(CertifiedMargins, OneUndecidedFragmentAmongThousandsIsKept) {
     }
 }
 
+/// What the tasks of a pair count is added up.
+TEST(CertifiedMargins, TheCountIsThatOfAllTasks) {
+    OracleScene scene = byteScene(16, [](auto...) { return 200; });
+    scene.threshold = 0.5;
+    std::mt19937_64 random(testSeed());
+    for (int i = 0; i < 4000; ++i) {
+        const Vec3 at{uniform(random, 1, 14), uniform(random, 1, 14), uniform(random, 1, 14)};
+        addTriangle(scene.mesh, at, {at[0] + 0.1, at[1], at[2]}, {at[0], at[1] + 0.1, at[2]});
+    }
+    const PairAnswer alone = ask(scene, Certainty::Certain, 1);
+    EXPECT_GE(alone.count, 4000U);
+    for (int round = 0; round < 5; ++round) {
+        EXPECT_EQ(ask(scene, Certainty::Certain, 4).count, alone.count);
+    }
+}
+
 /// A sliver's normal is what rounding leaves of it. Its plane is not said to miss a cube whose middle the sliver passes
 /// through, which needs the error of the normal beside the displacement of the corners.
 TEST(CertifiedMargins, ASliverThroughACubeIsNotSaidToMissIt) {

@@ -158,13 +158,21 @@ TEST(OpaqueRangesTest, NeverCallsATransparentScalarOpaque) {
 }
 
 TEST(RowSpansTest, AreThePixelsThatTheRuleCovers) {
+    constexpr int kWidth = 33;
+    constexpr int kHeight = 47;
     std::mt19937_64 random(testSeed());
-    for (int round = 0; round < 3000; ++round) {
+    // Half a pixel's grid: edges go through the pixels' centres, and along rows and columns of them.
+    const auto onGrid = [&](int pixels) {
+        return static_cast<float>(static_cast<double>(below(random, 12) + 24) / pixels - 1);
+    };
+    for (int round = 0; round < 4000; ++round) {
         shader::ExactCorner corners[3];
-        const double scale = round % 3 == 0 ? 0.05 : round % 3 == 1 ? 1.5 : 500;
+        constexpr double kScales[] = {0.05, 1.5, 500};
+        const double scale = kScales[round % 3];
+        const bool grid = round % 4 == 3;
         for (shader::ExactCorner& corner : corners) {
-            corner = {static_cast<float>(uniform(random, -scale, scale)),
-                      static_cast<float>(uniform(random, -scale, scale)),
+            corner = {grid ? onGrid(kWidth) : static_cast<float>(uniform(random, -scale, scale)),
+                      grid ? onGrid(kHeight) : static_cast<float>(uniform(random, -scale, scale)),
                       0.5F,
                       1,
                       0,
@@ -172,7 +180,7 @@ TEST(RowSpansTest, AreThePixelsThatTheRuleCovers) {
                       0};
         }
         shader::ExactTriangle triangle;
-        if (!shader::exactSetUp(corners[0], corners[1], corners[2], 33, 47, triangle)) {
+        if (!shader::exactSetUp(corners[0], corners[1], corners[2], kWidth, kHeight, triangle)) {
             continue;
         }
         const cpu::RowSpans spans(triangle);
