@@ -84,7 +84,7 @@ def build(targets):
 
 
 def program(name):
-    for folder in ("cpu", "gpu", "unit", "io", "cli", "faults", "fuzz"):
+    for folder in ("cpu", "gpu", "unit", "io", "cli", "faults", "fuzz", "lab"):
         path = BUILD / "tests" / folder / name
         if path.is_file():
             return path

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws idea.svg: a volume, a transfer function, and the fragments of a mesh that survive. Everything in the picture is
-computed, the count too. Usage: idea.py > idea.svg"""
+computed, the count too. It follows the reader's light or dark scheme. Usage: idea.py > idea.svg"""
 import math
 
 VOXELS, CELL = 15, 20          # voxels a side, and pixels of the picture a voxel
@@ -40,10 +40,17 @@ def inside(x, y):
     return hit
 
 
+STYLE = f"""
+.back {{ fill: #ffffff }} .ink {{ fill: {INK} }} .line {{ fill: none; stroke: {INK} }} .hot {{ fill: {OPAQUE} }}
+.mark {{ fill: {OPAQUE} }}
+@media (prefers-color-scheme: dark) {{
+.back {{ fill: #171d23 }} .ink {{ fill: #dde4ea }} .line {{ stroke: #a9b6c1 }} .hot {{ fill: #f0745c }} }}
+"""
+
 out = []
 say = out.append
-text = lambda x, y, words, size=15, colour=INK, anchor="middle", weight="normal": say(
-    f'<text x="{x}" y="{y}" font-size="{size}" fill="{colour}" text-anchor="{anchor}" font-weight="{weight}">{words}</text>')
+text = lambda x, y, words, size=15, kind="ink", anchor="middle", weight="normal": say(
+    f'<text x="{x}" y="{y}" font-size="{size}" class="{kind}" text-anchor="{anchor}" font-weight="{weight}">{words}</text>')
 
 blade = " ".join(f"{x},{y}" for x, y in BLADE)
 
@@ -71,7 +78,8 @@ def voxels():
 
 say('<svg xmlns="http://www.w3.org/2000/svg" width="1000" height="430" viewBox="0 0 1000 430" '
     'font-family="DejaVu Sans, Helvetica, Arial, sans-serif">')
-say('<rect width="1000" height="430" fill="white"/>')
+say(f"<style>{STYLE}</style>")
+say('<rect class="back" width="1000" height="430" rx="6"/>')
 
 say('<g transform="translate(50,60)">')
 text(SIDE / 2, -22, "1  a raw volume, a mesh at a pose", 16, weight="bold")
@@ -86,20 +94,21 @@ W, H = 190, 160
 text(W / 2, -92, "2  scalar to opacity", 16, weight="bold")
 edge = LOW + THRESHOLD * (HIGH - LOW)
 say(f'<rect x="{edge * W:.1f}" y="0" width="{W - edge * W:.1f}" height="{H}" fill="{OPAQUE}" fill-opacity="0.15"/>')
-text((edge + 1) / 2 * W, H - 12, "opaque", 14, OPAQUE)
-say(f'<polyline points="0,{H} {LOW * W:.1f},{H} {HIGH * W:.1f},0 {W},0" fill="none" stroke="{INK}" stroke-width="3"/>')
+text((edge + 1) / 2 * W, H - 12, "opaque", 14, "hot")
+say(f'<polyline points="0,{H} {LOW * W:.1f},{H} {HIGH * W:.1f},0 {W},0" class="line" stroke-width="3"/>')
 say(f'<line x1="0" x2="{W}" y1="{H * (1 - THRESHOLD)}" y2="{H * (1 - THRESHOLD)}" stroke="{OPAQUE}" stroke-width="1.5" '
     'stroke-dasharray="6 4"/>')
-text(6, H * (1 - THRESHOLD) - 7, "threshold &#964;", 14, OPAQUE, "start")
-say(f'<path d="M0,-12 V{H} H{W + 12}" fill="none" stroke="{INK}"/>')
+text(6, H * (1 - THRESHOLD) - 7, "threshold &#964;", 14, "hot", "start")
+say(f'<path d="M0,-12 V{H} H{W + 12}" class="line"/>')
 text(W / 2, H + 22, "scalar, in the image's units", 14)
-say(f'<text transform="translate(-12,{H / 2}) rotate(-90)" font-size="14" fill="{INK}" text-anchor="middle">opacity</text>')
+say(f'<text transform="translate(-12,{H / 2}) rotate(-90)" font-size="14" class="ink" text-anchor="middle">opacity</text>')
 text(W / 2, 258, "edit it, and the next")
 text(W / 2, 278, "answer has seen it")
 say('</g>')
 
 say('<g transform="translate(650,60)">')
 text(SIDE / 2, -22, "3  the fragments of the mesh", 16, weight="bold")
+say(f'<rect width="{SIDE}" height="{SIDE}" fill="white"/>') # what the voxels are paled against
 say('<g opacity="0.4">')
 voxels()
 say('</g>')
@@ -115,9 +124,9 @@ for row in range(-4, SIDE // FRAGMENT):
         count += survives
         paint = f'fill="{OPAQUE}"' if survives else f'fill="white" stroke="{BAD}" stroke-width="1.2"'
         say(f'<circle cx="{x}" cy="{y}" r="{3.8 if survives else 3.1}" {paint}/>')
-text(0, SIDE + 28, f'<tspan fill="{OPAQUE}">&#9679;</tspan> in the opaque part: survives', anchor="start")
+text(0, SIDE + 28, f'<tspan class="hot">&#9679;</tspan> in the opaque part: survives', anchor="start")
 text(0, SIDE + 48, f'<tspan fill="{BAD}">&#9675;</tspan> transparent or outside: discarded', anchor="start")
-text(12, 26, f"{count} survive: they touch", 15, OPAQUE, "start", "bold")
+text(12, 26, f"{count} survive: they touch", 15, "mark", "start", "bold")
 say('</g>')
 say('</svg>')
 print("\n".join(out))
