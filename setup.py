@@ -54,22 +54,24 @@ class CMakeBuild(build_ext):
         run("cmake", "--build", folder, "--target", "voxtact_python", "--parallel", str(os.cpu_count()))
         module = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve()
         module.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(pathlib.Path(folder) / "python" / "voxtact" / module.name, module)
+        built = pathlib.Path(folder).resolve() / "python" / "voxtact" / module.name
+        shutil.copy2(built, module)
         if shutil.which("strip"):
             run("strip", "--strip-unneeded", module)
-        self.bundle(module)
+        self.bundle(built, module.parent)
 
-    def bundle(self, module):
-        """The module looks beside itself first (RUNPATH is $ORIGIN)."""
-        for name, path in needed(module).items():
+    def bundle(self, built, package):
+        """Puts libraries beside the module, which looks there first (RUNPATH is $ORIGIN)."""
+        shutil.rmtree(package / "licences", ignore_errors=True)
+        for name, path in needed(built).items():
             if COMMON.fullmatch(name):
                 continue
-            shutil.copy2(path, module.parent / name)
+            shutil.copy2(path, package / name)
             licence = licence_of(path)
             if licence is not None and licence.exists():
-                (module.parent / "licences").mkdir(exist_ok=True)
-                shutil.copy2(licence, module.parent / "licences" / f"{name}.txt")
-        shutil.copy2(ROOT / "LICENSE", module.parent / "LICENSE")
+                (package / "licences").mkdir(exist_ok=True)
+                shutil.copy2(licence, package / "licences" / f"{name}.txt")
+        shutil.copy2(ROOT / "LICENSE", package / "LICENSE")
 
 
 (ROOT / "build").mkdir(exist_ok=True)
