@@ -99,16 +99,12 @@ const Mesh& DeviceSide::onDevice(const std::shared_ptr<const Shape>& shape) {
 
 BatchAnswer DeviceSide::detect(const Request& request, std::size_t first, std::size_t count, const Question& question,
                                double threshold) {
-    constexpr std::uint32_t kPixels = 512;
     BlockingDetector& detector = detectorFor(question);
     std::vector<BatchItem> items;
     request.forPart(first, count, [&](const Request::Item& item, std::span<const Mat4> poses) {
         items.push_back({&onDevice(item.mesh), &volume_, &function_, poses, labels_ ? &*labels_ : nullptr});
     });
-    Batch batch{items, {}, threshold};
-    batch.view =
-        question.view ? *question.view : View{framingCamera(volume_.grid(), kPixels, kPixels), kPixels, kPixels};
-    return take(detector.detect(batch));
+    return take(detector.detect({items, viewOf(question, volume_.grid()), threshold}));
 }
 
 std::size_t DeviceSide::mostPairs(const Request& request, const Question& question) noexcept {

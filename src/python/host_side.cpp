@@ -76,21 +76,18 @@ cpu::ClearanceMeter& HostSide::meterFor(const Distance& distance) {
 }
 
 template <class Ask>
-auto HostSide::asked(const Part& part, double threshold, const LabelData* labels, const std::optional<View>& view,
+auto HostSide::asked(const Part& part, double threshold, const LabelData* labels, const View& view,
                      const Ask& ask) const {
-    constexpr std::uint32_t kPixels = 512;
     std::vector<cpu::BatchItem> items;
     part.request.forPart(part.first, part.count, [&](const Request::Item& item, std::span<const Mat4> poses) {
         items.push_back({&item.mesh->onHost(), &volume_, &function_, poses, labels});
     });
-    cpu::Batch batch{items, {}, threshold};
-    batch.view = view ? *view : View{framingCamera(volume_.grid(), kPixels, kPixels), kPixels, kPixels};
-    return take(ask(batch));
+    return take(ask(cpu::Batch{items, view, threshold}));
 }
 
 BatchAnswer HostSide::detect(const Part& part, const Question& question, double threshold, const LabelData* labels) {
     cpu::Detector& detector = detectorFor(question);
-    return asked(part, threshold, labels, question.view,
+    return asked(part, threshold, labels, viewOf(question, volume_.grid()),
                  [&](const cpu::Batch& batch) { return detector.detect(batch); });
 }
 

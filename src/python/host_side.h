@@ -39,8 +39,8 @@ class HostSide {
     [[nodiscard]] cpu::ClearanceMeter& meterFor(const Distance& distance);
     /// Calls `ask` with the part as a batch.
     template <class Ask>
-    [[nodiscard]] auto asked(const Part& part, double threshold, const LabelData* labels,
-                             const std::optional<View>& view, const Ask& ask) const;
+    [[nodiscard]] auto asked(const Part& part, double threshold, const LabelData* labels, const View& view,
+                             const Ask& ask) const;
 
     cpu::Volume volume_;
     cpu::TransferFunction function_;

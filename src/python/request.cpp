@@ -27,7 +27,7 @@ template <class Name, class All> Name named(const std::string& word, const char*
     refuseArgument(std::string(what) + " '" + word + "' is none of " + names);
 }
 
-View viewOf(const py::handle& value) {
+View cameraOf(const py::handle& value) {
     const auto parts = value.cast<py::tuple>();
     return {matrixOf(Doubles::ensure(parts[0]), "clip_from_world"), parts[1].cast<std::uint32_t>(),
             parts[2].cast<std::uint32_t>()};
@@ -63,7 +63,7 @@ void read(Question& question, const std::string& name, const py::handle& value) 
     } else if (name == "most_contacts") {
         question.mostContacts = value.cast<std::uint32_t>();
     } else if (name == "view") {
-        question.view = viewOf(value);
+        question.view = cameraOf(value);
     } else {
         throw py::type_error("there is no option " + name);
     }
@@ -98,6 +98,14 @@ std::size_t Request::mostTriangles() const noexcept {
         most = std::max<std::size_t>(most, item.mesh->facts().triangles);
     }
     return most;
+}
+
+View viewOf(const Question& question, const Grid& grid) {
+    constexpr std::uint32_t kPixels = 512;
+    if (!usesView(question.projection)) {
+        return {};
+    }
+    return question.view ? *question.view : View{framingCamera(grid, kPixels, kPixels), kPixels, kPixels};
 }
 
 Request requestOf(const py::object& meshes, const py::object& poses) {

@@ -73,6 +73,8 @@ struct Distance {
     using Key = std::tuple<double, double, std::uint64_t>;
 };
 
+/// The camera of a question; without one, the volume from above. Nothing where the projection has none.
+[[nodiscard]] View viewOf(const Question& question, const Grid& grid);
 /// A request of a mesh and poses, or of a list of these.
 [[nodiscard]] Request requestOf(const py::object& meshes, const py::object& poses);
 /// Names as on the command line; None is the default.

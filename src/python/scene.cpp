@@ -152,6 +152,18 @@ std::shared_ptr<Answer> Scene::again(const Answer& answer, const Outputs& output
     return answered(answer.request, question, {});
 }
 
+std::vector<double> Scene::engineSeconds(const Request& request, const Question& question, std::uint32_t times) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    std::vector<double> seconds;
+    for (std::uint32_t time = 0; time < times; ++time) {
+        const BatchAnswer answer =
+            host().detect({request, 0, request.pairs}, question, desc_.threshold, desc_.labels.get());
+        seconds.push_back(answer.wallMilliseconds / 1000);
+    }
+    return seconds;
+}
+
 std::shared_ptr<Clearances> Scene::clearance(std::shared_ptr<const Request> request, const Distance& distance,
                                              const Progress& progress) {
     const Turns::Turn turn(turns_);

@@ -40,6 +40,10 @@ class Scene {
                                                  const Progress& progress);
     /// The same request with other outputs; nothing where the scene has changed since.
     [[nodiscard]] std::shared_ptr<Answer> again(const Answer& answer, const Outputs& outputs);
+    /// Seconds that the engine alone takes for the whole request, in one call on the host, so many times: what the
+    /// bench compares detect() with.
+    [[nodiscard]] std::vector<double> engineSeconds(const Request& request, const Question& question,
+                                                    std::uint32_t times);
     [[nodiscard]] std::shared_ptr<Clearances> clearance(std::shared_ptr<const Request> request,
                                                         const Distance& distance, const Progress& progress);
     [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,

@@ -107,6 +107,14 @@ std::shared_ptr<Answer> again(Scene& scene, const Answer& answer, const std::str
     return scene.again(answer, outputs);
 }
 
+std::vector<double> engineSeconds(Scene& scene, const py::object& meshes, const py::object& poses,
+                                  const py::dict& options, std::uint32_t times) {
+    const Request request = requestOf(meshes, poses);
+    const Question question = questionOf(options);
+    const py::gil_scoped_release release;
+    return scene.engineSeconds(request, question, times);
+}
+
 std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, const py::object& poses, double tolerance,
                                       double maximum, std::uint64_t mostSteps,
                                       std::optional<std::vector<std::int32_t>> labels, const py::object& callback) {
@@ -221,6 +229,8 @@ void defineScene(py::module_& module) {
         .def("write_box", &writeBox, py::arg("first"), py::arg("voxels"))
         .def("detect", &detect, py::arg("meshes"), py::arg("poses"), py::arg("options"), py::arg("progress"))
         .def("again", &again, py::arg("answer"), py::arg("output"))
+        .def("engine_seconds", &engineSeconds, py::arg("meshes"), py::arg("poses"), py::arg("options"),
+             py::arg("times"))
         .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
              py::arg("most_steps"), py::arg("labels"), py::arg("progress"))
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("progress"))

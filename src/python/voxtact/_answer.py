@@ -24,12 +24,12 @@ class Answer:
     __slots__ = ("_core", "_scene", "_later")
     _core: core.Answer
     _scene: Optional[Scene]
-    _later: dict[str, core.Answer]
+    _later: Optional[dict[str, core.Answer]]
 
     def __init__(self, made_of: core.Answer, scene: Optional[Scene]) -> None:
         self._core = made_of
         self._scene = scene
-        self._later = {}
+        self._later = None
 
     @property
     def hit(self) -> npt.NDArray[np.bool_]:
@@ -110,6 +110,8 @@ class Answer:
         """The answer that has an output; asks again where it was not asked for."""
         if self._core.outputs[_OUTPUTS.index(name)]:
             return self._core
+        if self._later is None:
+            self._later = {}
         if name not in self._later:
             if self._scene is None:
                 raise NotReadyError(f"within() has no {name}: ask detect(), which is about touching")
