@@ -3,7 +3,8 @@
 # packages behind voxtact::cpu and voxtact::io are not there. The program installs itself, in src/app.
 #
 # Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu`,
-# `voxtact_io`, `voxtact_render`, `voxtact_samples` and `voxtact_c`.
+# `voxtact_io`, `voxtact_render`, `voxtact_samples` and `voxtact_c`. The Python package, `voxtact_python`, installs itself
+# too, in src/python.
 include(CMakePackageConfigHelpers)
 set(voxtact_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/voxtact")
 set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")

@@ -18,12 +18,13 @@ allowed() {
     samples) echo "core samples" ;;
     lab) echo "core gpu detect render io cpu samples oracle device lab" ;;
     c) echo "c" ;;
+    python) echo "python" ;;
     app) echo "core gpu detect render io cpu samples oracle device lab app" ;;
     *) return 1 ;;
     esac
 }
 
-parts="core gpu detect render io cpu samples oracle device lab c app"
+parts="core gpu detect render io cpu samples oracle device lab c python app"
 wrong=0
 complain() {
     printf '%s\n' "$1" >&2

@@ -28,6 +28,15 @@ if(VOXTACT_BUILD_IO)
   find_path(VOXTACT_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED) # a header that writes PNG
 endif()
 
+# the Python package. The system's Python is asked first: that is where Debian's numpy and pybind11 are.
+if(VOXTACT_BUILD_PYTHON)
+  find_program(VOXTACT_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  find_program(VOXTACT_PYTHON python3 REQUIRED)
+  set(Python_EXECUTABLE "${VOXTACT_PYTHON}" CACHE FILEPATH "The Python that the package is built for")
+  find_package(Python 3.9 COMPONENTS Interpreter Development.Module REQUIRED)
+  find_package(pybind11 2.10 CONFIG REQUIRED)
+endif()
+
 # the program: volk is a header and a source file that the program compiles. Chart.js draws the charts of
 # `compare --report`, which says so where it is missing; it becomes part of the program, and its licence with it.
 if(VOXTACT_BUILD_APP)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "request.h"
+#include "voxtact/clearance.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+/// Answers as columns, which numpy shows.
+namespace voxtact::python {
+
+/// What a scene said about a request, piece by piece.
+class Answer {
+  public:
+    Answer(std::shared_ptr<const Request> request, const Question& question);
+    /// The pairs from `first` on.
+    void add(std::size_t first, BatchAnswer piece);
+
+    std::shared_ptr<const Request> request;
+    Question question;
+    std::uint64_t revision = 0; ///< of the scene
+    CountingMethod method = CountingMethod::Cpu;
+    std::vector<std::uint8_t> hit;
+    std::vector<std::uint8_t> possible;
+    std::vector<std::uint8_t> exact;
+    std::vector<std::uint64_t> count;
+    std::vector<TouchedTriangle> triangles;
+    std::vector<Contact> contacts;
+    std::vector<std::array<double, 6>> bounds;
+    std::vector<LabelCount> labels;
+    std::uint64_t contactsFound = 0;
+    double milliseconds = 0;
+
+  private:
+    void addContacts(std::size_t first, std::vector<Contact> piece);
+};
+
+/// A row of Clearances::closest.
+struct ClosestRow {
+    std::int64_t triangle; ///< -1: there is none
+    std::array<double, 3> mesh;
+    std::array<double, 3> volume;
+    std::array<double, 3> perTranslation;
+    std::array<double, 3> perRotation;
+};
+
+/// Clearances of a request.
+struct Clearances {
+    std::shared_ptr<const Request> request;
+    std::vector<double> lo;
+    std::vector<double> hi;
+    std::vector<std::uint8_t> end; ///< ClearanceEnd
+    std::vector<ClosestRow> closest;
+    std::vector<std::int32_t> labels; ///< where they are to labels: lo, hi and end have a column for each
+    double milliseconds = 0;
+
+    void add(const ClearanceAnswer& piece);
+    void add(const LabelClearanceAnswer& piece);
+};
+
+void defineAnswers(py::module_& module);
+
+} // namespace voxtact::python

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edits.h"
+#include "process.h"
+#include "request.h"
+#include "voxtact/cpu.h"
+
+#include <map>
+#include <memory>
+
+namespace voxtact::python {
+
+/// A part of a request.
+struct Part {
+    const Request& request;
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+/// A scene on the host engine. One call at a time.
+class HostSide {
+  public:
+    HostSide(const VolumeView& volume, const OpacityDesc& opacity, std::uint32_t threads);
+
+    void setOpacity(const OpacityDesc& opacity);
+    void edit(const Edit& edit);
+    [[nodiscard]] BatchAnswer detect(const Part& part, const Question& question, double threshold,
+                                     const LabelData* labels);
+    [[nodiscard]] ClearanceAnswer measure(const Part& part, const Distance& distance, double threshold);
+    [[nodiscard]] LabelClearanceAnswer measureLabels(const Part& part, const Distance& distance, double threshold,
+                                                     const LabelData* labels, const std::vector<std::int32_t>& asked);
+    [[nodiscard]] BatchAnswer within(const Part& part, double margin, double threshold);
+    /// That a call runs on.
+    [[nodiscard]] std::uint32_t threads() const noexcept;
+
+  private:
+    [[nodiscard]] cpu::Detector& detectorFor(const Question& question);
+    [[nodiscard]] cpu::ClearanceMeter& meterFor(const Distance& distance);
+    /// Calls `ask` with the part as a batch.
+    template <class Ask>
+    [[nodiscard]] auto asked(const Part& part, double threshold, const LabelData* labels, const View& view,
+                             const Ask& ask) const;
+
+    cpu::Volume volume_;
+    cpu::TransferFunction function_;
+    std::uint32_t threads_;
+    // They have threads.
+    std::map<Question::Key, OfThisProcess<cpu::Detector>> detectors_;
+    std::map<Distance::Key, OfThisProcess<cpu::ClearanceMeter>> meters_;
+};
+
+} // namespace voxtact::python

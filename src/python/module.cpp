@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// voxtact._core: what the package voxtact, in voxtact/, is thin on.
+#include "failure.h"
+#include "process.h"
+#include "scene.h"
+
+#include <pybind11/pybind11.h>
+
+PYBIND11_MODULE(_core, module) {
+    using namespace voxtact;
+    module.doc() = "The compiled part of voxtact. Import voxtact instead: this has neither checks nor promises.";
+    module.attr("__version__") = VOXTACT_VERSION;
+    module.attr("DEFAULT_THRESHOLD") = kDefaultThreshold;
+    module.attr("DEFAULT_TOLERANCE") = kDefaultTolerance;
+    module.attr("DEFAULT_TABLE_SIZE") = kDefaultTableSize;
+    module.attr("DEFAULT_MOST_STEPS") = cpu::ClearanceDesc().mostSteps;
+    python::watchForks();
+    python::registerFailures();
+    python::defineData(module);
+    python::defineDevice(module);
+    python::defineAnswers(module);
+    python::defineScene(module);
+}

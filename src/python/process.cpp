@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "process.h"
+
+#include <pthread.h>
+
+namespace voxtact::python {
+
+namespace {
+
+std::atomic<std::uint64_t> count{0};
+
+} // namespace
+
+std::uint64_t forks() noexcept {
+    return count.load(std::memory_order_relaxed);
+}
+
+void watchForks() {
+    pthread_atfork(nullptr, nullptr, [] { count.fetch_add(1, std::memory_order_relaxed); });
+}
+
+} // namespace voxtact::python

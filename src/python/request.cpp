@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "request.h"
+
+#include "arrays.h"
+#include "failure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxtact::python {
+
+namespace {
+
+constexpr std::array kFilters{Filter::Hardware, Filter::Exact};
+constexpr std::array kBoundaries{Boundary::Auto, Boundary::Range, Boundary::Clamp};
+
+/// One of `all` by its name.
+template <class Name, class All> Name named(const std::string& word, const char* what, const All& all) {
+    std::string names;
+    for (const Name name : all) {
+        if (word == toString(name)) {
+            return name;
+        }
+        names += (names.empty() ? "" : ", ") + std::string(toString(name));
+    }
+    refuseArgument(std::string(what) + " '" + word + "' is none of " + names);
+}
+
+View cameraOf(const py::handle& value) {
+    const auto parts = value.cast<py::tuple>();
+    return {matrixOf(Doubles::ensure(parts[0]), "clip_from_world"), parts[1].cast<std::uint32_t>(),
+            parts[2].cast<std::uint32_t>()};
+}
+
+void read(Question& question, const std::string& name, const py::handle& value) {
+    if (name == "projection") {
+        question.projection = named<Projection>(value.cast<std::string>(), "projection", projections());
+    } else if (name == "method") {
+        question.method = named<CountingMethod>(value.cast<std::string>(), "method", countingMethods());
+    } else if (name == "filter") {
+        question.filter = named<Filter>(value.cast<std::string>(), "filter", kFilters);
+    } else if (name == "boundary") {
+        question.boundary = named<Boundary>(value.cast<std::string>(), "boundary", kBoundaries);
+    } else if (name == "triangles") {
+        question.outputs.triangles = value.cast<bool>();
+    } else if (name == "contacts") {
+        question.outputs.contacts = value.cast<bool>();
+    } else if (name == "bounds") {
+        question.outputs.bounds = value.cast<bool>();
+    } else if (name == "labels") {
+        question.outputs.labels = value.cast<bool>();
+    } else if (name == "max_depth") {
+        question.outputs.maxDepth = value.cast<double>();
+    } else if (name == "samples_per_voxel") {
+        question.samplesPerVoxel = value.cast<std::uint32_t>();
+    } else if (name == "resolution") {
+        question.resolution = value.cast<double>();
+    } else if (name == "yes_no") {
+        question.yesNo = value.cast<bool>();
+    } else if (name == "overestimate") {
+        question.overestimate = value.cast<bool>();
+    } else if (name == "most_contacts") {
+        question.mostContacts = value.cast<std::uint32_t>();
+    } else if (name == "view") {
+        question.view = cameraOf(value);
+    } else {
+        throw py::type_error("there is no option " + name);
+    }
+}
+
+bool isAffine(const Mat4& matrix) noexcept {
+    const bool finite = std::ranges::all_of(matrix, [](double element) { return std::isfinite(element); });
+    return finite && matrix[3] == 0 && matrix[7] == 0 && matrix[11] == 0 && matrix[15] == 1;
+}
+
+/// All at once, before any work: a later piece would count from its own first pose.
+void checkPoses(const std::vector<Mat4>& poses, std::size_t item) {
+    const auto wrong = std::ranges::find_if_not(poses, isAffine);
+    if (wrong != poses.end()) {
+        const std::string which = item == 0 ? "" : "item " + std::to_string(item) + ", ";
+        take(checkAffine(*wrong, which + "pose " + std::to_string(wrong - poses.begin())));
+    }
+}
+
+} // namespace
+
+void Request::add(std::shared_ptr<const Shape> mesh, std::vector<Mat4> world_from_object) {
+    checkPoses(world_from_object, items.size());
+    const std::size_t poses = world_from_object.size();
+    items.push_back({std::move(mesh), std::move(world_from_object), pairs});
+    pairs += poses;
+}
+
+std::size_t Request::mostTriangles() const noexcept {
+    std::size_t most = 1;
+    for (const Item& item : items) {
+        most = std::max<std::size_t>(most, item.mesh->facts().triangles);
+    }
+    return most;
+}
+
+View viewOf(const Question& question, const Grid& grid) {
+    constexpr std::uint32_t kPixels = 512;
+    if (!usesView(question.projection)) {
+        return {};
+    }
+    return question.view ? *question.view : View{framingCamera(grid, kPixels, kPixels), kPixels, kPixels};
+}
+
+Request requestOf(const py::object& meshes, const py::object& poses) {
+    Request request;
+    const auto add = [&](const py::handle& mesh, const py::handle& matrices) {
+        const Doubles numbers = Doubles::ensure(matrices);
+        if (!numbers) {
+            throw py::error_already_set();
+        }
+        request.add(mesh.cast<std::shared_ptr<Shape>>(), matricesOf(numbers, "poses"));
+    };
+    if (py::isinstance<Shape>(meshes)) {
+        add(meshes, poses);
+    } else {
+        for (const py::handle& pair : meshes) {
+            const auto item = pair.cast<py::tuple>();
+            add(item[0], item[1]);
+        }
+    }
+    return request;
+}
+
+Question questionOf(const py::dict& options) {
+    Question question;
+    for (const auto& [key, value] : options) {
+        const auto name = key.cast<std::string>();
+        try {
+            read(question, name, value);
+        } catch (const py::cast_error&) {
+            throw py::type_error(name + " cannot be " + py::repr(value).cast<std::string>());
+        }
+    }
+    return question;
+}
+
+} // namespace voxtact::python

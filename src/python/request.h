@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "image.h"
+#include "voxtact/results.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+/// What Python asks a scene.
+namespace voxtact::python {
+
+/// Meshes at poses, copied: what an answer is about stays known when the arrays change.
+struct Request {
+    struct Item {
+        std::shared_ptr<const Shape> mesh;
+        std::vector<Mat4> world_from_object;
+        std::size_t firstPair = 0;
+    };
+    std::vector<Item> items;
+    std::size_t pairs = 0;
+
+    void add(std::shared_ptr<const Shape> mesh, std::vector<Mat4> world_from_object);
+    /// The triangles of the largest mesh; at least 1.
+    [[nodiscard]] std::size_t mostTriangles() const noexcept;
+    /// Calls `each(item, poses)` for the part of each item that lies in `count` pairs from `first` on.
+    template <class Each> void forPart(std::size_t first, std::size_t count, const Each& each) const {
+        for (const Item& item : items) {
+            const std::size_t begin = std::max(first, item.firstPair);
+            const std::size_t end = std::min(first + count, item.firstPair + item.world_from_object.size());
+            if (begin < end) {
+                each(item, std::span(item.world_from_object).subspan(begin - item.firstPair, end - begin));
+            }
+        }
+    }
+};
+
+/// How a detector answers.
+struct Question {
+    Projection projection = Projection::Conservative;
+    std::optional<CountingMethod> method; ///< nothing: cpu on the host, else the best that the projection has
+    std::optional<Filter> filter;
+    Boundary boundary = Boundary::Auto;
+    Outputs outputs;
+    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel;
+    double resolution = kDefaultResolution;
+    bool yesNo = false;
+    bool overestimate = false;
+    std::uint32_t mostContacts = 1U << 20U;
+    std::optional<View> view; ///< nothing: the volume from above
+
+    /// What a detector is made for, without the view.
+    [[nodiscard]] auto key() const noexcept {
+        return std::tuple(projection, method, filter, boundary, outputs.triangles, outputs.contacts, outputs.bounds,
+                          outputs.labels, outputs.maxDepth, samplesPerVoxel, resolution, yesNo, overestimate,
+                          mostContacts);
+    }
+    using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
+                           bool, double, std::uint32_t, double, bool, bool, std::uint32_t>;
+};
+
+/// How a clearance is measured.
+struct Distance {
+    double tolerance = 0;
+    double maximum = 0;
+    std::uint64_t mostSteps = 0;
+
+    [[nodiscard]] auto key() const noexcept { return std::tuple(tolerance, maximum, mostSteps); }
+    using Key = std::tuple<double, double, std::uint64_t>;
+};
+
+/// The camera of a question; without one, the volume from above. Nothing where the projection has none.
+[[nodiscard]] View viewOf(const Question& question, const Grid& grid);
+/// A request of a mesh and poses, or of a list of these.
+[[nodiscard]] Request requestOf(const py::object& meshes, const py::object& poses);
+/// Names as on the command line; None is the default.
+[[nodiscard]] Question questionOf(const py::dict& options);
+
+} // namespace voxtact::python

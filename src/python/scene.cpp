@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "scene.h"
+
+#include "failure.h"
+#include "voxtact/cpu.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::python {
+
+namespace {
+
+/// Triangles that a first piece may look at: some milliseconds.
+constexpr std::size_t kFirstTriangles = std::size_t{1} << 20U;
+/// Clearances take that many times as long.
+constexpr std::size_t kClearanceCost = 16;
+constexpr std::size_t kMostHostPairs = std::size_t{1} << 20U;
+
+std::size_t firstPiece(const Request& request, std::size_t cost, std::size_t threads) {
+    return std::max(kFirstTriangles / (request.mostTriangles() * cost), threads);
+}
+
+void checkThreshold(double threshold) {
+    if (!(threshold >= 0 && threshold <= 1)) {
+        refuseArgument("threshold is " + std::to_string(threshold) + "; it must be from 0 to 1");
+    }
+}
+
+} // namespace
+
+Scene::Scene(SceneDesc desc) : desc_(std::move(desc)) {
+    checkThreshold(desc_.threshold);
+    if (desc_.device != nullptr) {
+        (void)onDevice(desc_.device);
+    } else {
+        (void)host();
+    }
+}
+
+void Scene::checkOpen() const {
+    if (!open_) {
+        refuse(ErrorCode::NotReady, "the scene is closed; make a new one");
+    }
+}
+
+HostSide& Scene::host() {
+    if (host_ == nullptr) {
+        host_ = std::make_unique<HostSide>(desc_.volume->view(), desc_.opacity, desc_.threads);
+        for (const Edit& edit : edits_) {
+            host_->edit(edit);
+        }
+    }
+    return *host_;
+}
+
+DeviceSide& Scene::onDevice(const std::shared_ptr<Device>& device) {
+    if (onDevice_.isForeign() && desc_.device != nullptr) {
+        (void)desc_.device->context(); // says why not
+    }
+    if (onDevice_.get() == nullptr) {
+        onDevice_ = OfThisProcess<DeviceSide>(
+            std::make_unique<DeviceSide>(device, desc_.volume->view(), desc_.opacity, desc_.labels.get()));
+        for (const Edit& edit : edits_) {
+            onDevice_.get()->edit(edit);
+        }
+    }
+    return *onDevice_.get();
+}
+
+void Scene::setOpacity(OpacityDesc opacity) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    if (host_ != nullptr) {
+        host_->setOpacity(opacity);
+    }
+    if (onDevice_.get() != nullptr) {
+        onDevice_.get()->setOpacity(opacity);
+    }
+    desc_.opacity = std::move(opacity);
+    ++revision_;
+}
+
+void Scene::setThreshold(double threshold) {
+    checkThreshold(threshold);
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    desc_.threshold = threshold;
+    ++revision_;
+}
+
+void Scene::edit(Edit edit) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    // The device first: both refuse the same edits, and it has more reasons to fail.
+    if (onDevice_.get() != nullptr) {
+        onDevice_.get()->edit(edit);
+    }
+    if (host_ != nullptr) {
+        host_->edit(edit);
+    }
+    append(std::move(edit));
+    ++revision_;
+}
+
+void Scene::append(Edit edit) {
+    const auto* write = std::get_if<WriteEdit>(&edit);
+    if (write != nullptr && write->box.size == desc_.volume->data().grid.size) {
+        edits_.clear(); // nothing of what was before is left
+    }
+    edits_.push_back(std::move(edit));
+}
+
+std::shared_ptr<Answer> Scene::answered(std::shared_ptr<const Request> request, const Question& question,
+                                        const Progress& progress) {
+    auto answer = std::make_shared<Answer>(request, question);
+    answer->revision = revision_;
+    if (desc_.device != nullptr) {
+        DeviceSide& side = onDevice(desc_.device);
+        inPieces(request->pairs, firstPiece(*request, 1, 1), DeviceSide::mostPairs(*request, question), progress,
+                 [&](std::size_t first, std::size_t count) {
+                     answer->add(first, side.detect(*request, first, count, question, desc_.threshold));
+                 });
+    } else {
+        HostSide& side = host();
+        inPieces(request->pairs, firstPiece(*request, 1, side.threads()), kMostHostPairs, progress,
+                 [&](std::size_t first, std::size_t count) {
+                     answer->add(first,
+                                 side.detect({*request, first, count}, question, desc_.threshold, desc_.labels.get()));
+                 });
+    }
+    return answer;
+}
+
+std::shared_ptr<Answer> Scene::detect(std::shared_ptr<const Request> request, const Question& question,
+                                      const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    return answered(std::move(request), question, progress);
+}
+
+std::shared_ptr<Answer> Scene::again(const Answer& answer, const Outputs& outputs) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    if (answer.revision != revision_) {
+        return nullptr;
+    }
+    Question question = answer.question;
+    question.outputs = outputs;
+    question.outputs.maxDepth = answer.question.outputs.maxDepth;
+    question.yesNo = false;
+    return answered(answer.request, question, {});
+}
+
+std::vector<double> Scene::engineSeconds(const Request& request, const Question& question, std::uint32_t times) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    std::vector<double> seconds;
+    for (std::uint32_t time = 0; time < times; ++time) {
+        const BatchAnswer answer =
+            host().detect({request, 0, request.pairs}, question, desc_.threshold, desc_.labels.get());
+        seconds.push_back(answer.wallMilliseconds / 1000);
+    }
+    return seconds;
+}
+
+std::shared_ptr<Clearances> Scene::clearance(std::shared_ptr<const Request> request, const Distance& distance,
+                                             const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    HostSide& side = host();
+    auto found = std::make_shared<Clearances>();
+    found->request = request;
+    inPieces(request->pairs, firstPiece(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
+             [&](std::size_t first, std::size_t count) {
+                 found->add(side.measure({*request, first, count}, distance, desc_.threshold));
+             });
+    return found;
+}
+
+std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request> request, const Distance& distance,
+                                                  std::vector<std::int32_t> labels, const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    HostSide& side = host();
+    auto found = std::make_shared<Clearances>();
+    found->request = request;
+    found->labels = std::move(labels);
+    inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), side.threads()),
+             kMostHostPairs, progress, [&](std::size_t first, std::size_t count) {
+                 found->add(side.measureLabels({*request, first, count}, distance, desc_.threshold, desc_.labels.get(),
+                                               found->labels));
+             });
+    return found;
+}
+
+std::shared_ptr<Answer> Scene::within(std::shared_ptr<const Request> request, double margin, const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    HostSide& side = host();
+    Question question;
+    question.yesNo = true;
+    auto answer = std::make_shared<Answer>(request, question);
+    answer->revision = revision_;
+    inPieces(request->pairs, firstPiece(*request, 1, side.threads()), kMostHostPairs, progress,
+             [&](std::size_t first, std::size_t count) {
+                 answer->add(first, side.within({*request, first, count}, margin, desc_.threshold));
+             });
+    return answer;
+}
+
+Picture Scene::picture(const PictureWish& wish, const std::shared_ptr<Device>& device) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    PictureWish complete = wish;
+    complete.threshold = desc_.threshold;
+    return onDevice(desc_.device != nullptr ? desc_.device : device).picture(complete, desc_.opacity);
+}
+
+void Scene::close() {
+    const Turns::Turn turn(turns_);
+    open_ = false;
+    host_.reset();
+    onDevice_.reset();
+    edits_.clear();
+}
+
+} // namespace voxtact::python

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "answer.h"
+#include "device_side.h"
+#include "host_side.h"
+#include "turn.h"
+
+#include <memory>
+#include <optional>
+
+namespace voxtact::python {
+
+/// What a scene is made of.
+struct SceneDesc {
+    std::shared_ptr<const Image> volume;
+    OpacityDesc opacity;
+    double threshold = kDefaultThreshold;
+    std::shared_ptr<const LabelData> labels; ///< may be null
+    std::shared_ptr<Device> device;          ///< null: the host engine
+    std::uint32_t threads = 0;
+};
+
+/// A volume, what of it is opaque, and engines to ask. The side that was made first answers; the other one is made when
+/// something needs it (pictures a device, clearances the host), and gets the edits that there were. Threads wait for
+/// each other.
+class Scene {
+  public:
+    explicit Scene(SceneDesc desc);
+
+    [[nodiscard]] const SceneDesc& desc() const noexcept { return desc_; }
+    /// Another after every change.
+    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+
+    // The interpreter's lock must not be held for any of these.
+    void setOpacity(OpacityDesc opacity);
+    void setThreshold(double threshold);
+    void edit(Edit edit);
+    [[nodiscard]] std::shared_ptr<Answer> detect(std::shared_ptr<const Request> request, const Question& question,
+                                                 const Progress& progress);
+    /// The same request with other outputs; nothing where the scene has changed since.
+    [[nodiscard]] std::shared_ptr<Answer> again(const Answer& answer, const Outputs& outputs);
+    /// Seconds that the engine alone takes for the whole request, in one call on the host, so many times: what the
+    /// bench compares detect() with.
+    [[nodiscard]] std::vector<double> engineSeconds(const Request& request, const Question& question,
+                                                    std::uint32_t times);
+    [[nodiscard]] std::shared_ptr<Clearances> clearance(std::shared_ptr<const Request> request,
+                                                        const Distance& distance, const Progress& progress);
+    [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,
+                                                             const Distance& distance, std::vector<std::int32_t> labels,
+                                                             const Progress& progress);
+    [[nodiscard]] std::shared_ptr<Answer> within(std::shared_ptr<const Request> request, double margin,
+                                                 const Progress& progress);
+    /// `device` is for a scene that has none.
+    [[nodiscard]] Picture picture(const PictureWish& wish, const std::shared_ptr<Device>& device);
+    void close();
+
+  private:
+    void checkOpen() const;
+    void append(Edit edit);
+    [[nodiscard]] HostSide& host();
+    [[nodiscard]] DeviceSide& onDevice(const std::shared_ptr<Device>& device);
+    [[nodiscard]] std::shared_ptr<Answer> answered(std::shared_ptr<const Request> request, const Question& question,
+                                                   const Progress& progress);
+
+    SceneDesc desc_;
+    bool open_ = true;
+    std::atomic<std::uint64_t> revision_ = 0;
+    std::vector<Edit> edits_; ///< since the volume was given
+    Turns turns_;
+    std::unique_ptr<HostSide> host_;
+    OfThisProcess<DeviceSide> onDevice_;
+};
+
+void defineScene(py::module_& module);
+
+} // namespace voxtact::python

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Scenes as Python sees them. Arguments are read with the interpreter's lock, and the work is done without.
+#include "arrays.h"
+#include "failure.h"
+#include "scene.h"
+#include "voxtact/looks.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxtact::python {
+
+namespace {
+
+/// 0..255 for uint8, else the volume's values, made wider where that is one value: as the program has it.
+ValueRange domainOf(const Image& volume, const py::object& domain) {
+    if (!domain.is_none()) {
+        const auto [lo, hi] = domain.cast<std::pair<double, double>>();
+        return {lo, hi};
+    }
+    if (volume.data().type == ScalarType::UInt8) {
+        return {0, 255};
+    }
+    const ValueRange& range = volume.range();
+    if (range.lo < range.hi) {
+        return range;
+    }
+    const double half = std::max(0.5, std::abs(range.lo) * 1e-6);
+    return {range.lo - half, range.lo + half};
+}
+
+OpacityDesc opacityOf(const Image& volume, const py::object& points, const py::object& domain,
+                      std::uint32_t tableSize) {
+    OpacityDesc opacity{{}, domainOf(volume, domain), tableSize};
+    opacity.points = points.is_none() ? std::vector<ControlPoint>{{opacity.domain.lo, 0}, {opacity.domain.hi, 1}}
+                                      : pointsOf(points.cast<Doubles>());
+    return opacity;
+}
+
+/// What Python is told of the way: (done, all).
+Progress progressOf(const py::object& callback, std::size_t all) {
+    if (callback.is_none()) {
+        return {};
+    }
+    return [&callback, all](std::size_t done) { callback(done, all); };
+}
+
+std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object& points, const py::object& domain,
+                                 std::uint32_t tableSize, double threshold, std::shared_ptr<LabelData> labels,
+                                 std::shared_ptr<Device> device, std::uint32_t threads) {
+    OpacityDesc opacity = opacityOf(*volume, points, domain, tableSize);
+    SceneDesc desc{std::move(volume), std::move(opacity), threshold, std::move(labels), std::move(device), threads};
+    const py::gil_scoped_release release;
+    return std::make_shared<Scene>(std::move(desc));
+}
+
+void setOpacity(Scene& scene, const py::object& points, const py::object& domain, std::uint32_t tableSize) {
+    OpacityDesc opacity = opacityOf(*scene.desc().volume, points, domain, tableSize);
+    const py::gil_scoped_release release;
+    scene.setOpacity(std::move(opacity));
+}
+
+void setBall(Scene& scene, const Doubles& centre, double radius, double value) {
+    Edit edit = SetEdit{Ball{vectorOf(centre, "the ball's centre"), radius}, value};
+    const py::gil_scoped_release release;
+    scene.edit(std::move(edit));
+}
+
+void setBox(Scene& scene, const std::array<std::uint32_t, 3>& first, const std::array<std::uint32_t, 3>& size,
+            double value) {
+    const py::gil_scoped_release release;
+    scene.edit(SetEdit{VoxelBox{first, size}, value});
+}
+
+/// `voxels`: z, y, x, of the volume's type and in C order.
+void writeBox(Scene& scene, const std::array<std::uint32_t, 3>& first, const py::array& voxels) {
+    WriteEdit edit;
+    edit.box.first = first;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        edit.box.size[axis] = static_cast<std::uint32_t>(voxels.shape(static_cast<py::ssize_t>(2 - axis)));
+    }
+    const auto* begin = static_cast<const std::byte*>(voxels.data());
+    edit.voxels.assign(begin, begin + voxels.nbytes());
+    const py::gil_scoped_release release;
+    scene.edit(std::move(edit));
+}
+
+std::shared_ptr<Answer> detect(Scene& scene, const py::object& meshes, const py::object& poses, const py::dict& options,
+                               const py::object& callback) {
+    const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
+    const Question question = questionOf(options);
+    const Progress progress = progressOf(callback, request->pairs);
+    const py::gil_scoped_release release;
+    return scene.detect(request, question, progress);
+}
+
+std::shared_ptr<Answer> again(Scene& scene, const Answer& answer, const std::string& output) {
+    Outputs outputs;
+    outputs.triangles = output == "triangles";
+    outputs.contacts = output == "contacts";
+    outputs.bounds = output == "bounds";
+    outputs.labels = output == "labels";
+    const py::gil_scoped_release release;
+    return scene.again(answer, outputs);
+}
+
+std::vector<double> engineSeconds(Scene& scene, const py::object& meshes, const py::object& poses,
+                                  const py::dict& options, std::uint32_t times) {
+    const Request request = requestOf(meshes, poses);
+    const Question question = questionOf(options);
+    const py::gil_scoped_release release;
+    return scene.engineSeconds(request, question, times);
+}
+
+std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, const py::object& poses, double tolerance,
+                                      double maximum, std::uint64_t mostSteps,
+                                      std::optional<std::vector<std::int32_t>> labels, const py::object& callback) {
+    const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
+    const Progress progress = progressOf(callback, request->pairs);
+    const Distance distance{tolerance, maximum, mostSteps};
+    const py::gil_scoped_release release;
+    return labels ? scene.labelClearance(request, distance, std::move(*labels), progress)
+                  : scene.clearance(request, distance, progress);
+}
+
+std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py::object& poses, double margin,
+                               const py::object& callback) {
+    const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
+    const Progress progress = progressOf(callback, request->pairs);
+    const py::gil_scoped_release release;
+    return scene.within(request, margin, progress);
+}
+
+Paint paintOf(const std::string& name) {
+    constexpr std::array<std::pair<const char*, Paint>, 3> kPaints{
+        {{"contacts", Paint::Contacts}, {"discarded", Paint::Discarded}, {"plain", Paint::Plain}}};
+    for (const auto& [word, paint] : kPaints) {
+        if (name == word) {
+            return paint;
+        }
+    }
+    refuseArgument("show '" + name + "' is none of contacts, discarded, plain");
+}
+
+/// A name, (azimuth, elevation), or a matrix clip_from_world.
+Mat4 cameraOf(const py::object& view, const PictureWish& wish, const Grid& grid) {
+    ViewDirection direction;
+    if (py::isinstance<py::str>(view)) {
+        const auto name = view.cast<std::string>();
+        const std::optional<ViewDirection> found = directionNamed(name);
+        if (!found) {
+            refuseArgument("view '" + name + "' is none of front, back, left, right, top, bottom");
+        }
+        direction = *found;
+    } else if (py::isinstance<py::tuple>(view) && py::len(view) == 2) {
+        const auto [azimuth, elevation] = view.cast<std::pair<double, double>>();
+        direction = {azimuth, elevation};
+    } else {
+        return matrixOf(view.cast<Doubles>(), "view");
+    }
+    std::optional<Box> around;
+    for (const Mat4& pose : wish.world_from_object) {
+        const Box box = transformBox(pose, wish.mesh->facts().bounds);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!around) {
+                around = box;
+            }
+            around->lo[axis] = std::min(around->lo[axis], box.lo[axis]);
+            around->hi[axis] = std::max(around->hi[axis], box.hi[axis]);
+        }
+    }
+    return viewFrom(direction, grid, around, wish.width, wish.height);
+}
+
+py::array_t<std::uint8_t> picture(Scene& scene, std::shared_ptr<Shape> mesh, const py::object& poses,
+                                  std::uint32_t width, std::uint32_t height, const py::object& view,
+                                  const std::optional<std::string>& preset, const Colour& background,
+                                  const std::string& show, double through, const std::shared_ptr<Device>& device) {
+    if (width == 0 || height == 0) {
+        refuseArgument("size has a 0; a picture has at least one pixel");
+    }
+    const Image& volume = *scene.desc().volume;
+    PictureWish wish;
+    if (mesh != nullptr) {
+        wish.world_from_object = matricesOf(poses.cast<Doubles>(), "poses");
+    }
+    wish.mesh = std::move(mesh);
+    wish.width = width;
+    wish.height = height;
+    wish.colours = preset ? take(lookNamed(*preset, volume.range())).colours : plainColours();
+    wish.background = background;
+    wish.paint = paintOf(show);
+    wish.through = through;
+    wish.clip_from_world = cameraOf(view, wish, volume.data().grid);
+    Picture made;
+    {
+        const py::gil_scoped_release release;
+        made = scene.picture(wish, device);
+    }
+    py::array_t<std::uint8_t> pixels(
+        {static_cast<py::ssize_t>(made.height), static_cast<py::ssize_t>(made.width), py::ssize_t{4}});
+    std::copy(made.rgba.begin(), made.rgba.end(), pixels.mutable_data());
+    return pixels;
+}
+
+} // namespace
+
+void defineScene(py::module_& module) {
+    py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene")
+        .def(py::init(&makeScene), py::arg("volume"), py::arg("opacity"), py::arg("domain"), py::arg("table_size"),
+             py::arg("threshold"), py::arg("labels"), py::arg("device"), py::arg("threads"))
+        .def("set_opacity", &setOpacity, py::arg("opacity"), py::arg("domain"), py::arg("table_size"))
+        .def("set_threshold", &Scene::setThreshold, py::arg("threshold"), py::call_guard<py::gil_scoped_release>())
+        .def_property_readonly("opacity",
+                               [](const Scene& scene) { return pointsInPython(scene.desc().opacity.points); })
+        .def_property_readonly("domain",
+                               [](const Scene& scene) {
+                                   return py::make_tuple(scene.desc().opacity.domain.lo,
+                                                         scene.desc().opacity.domain.hi);
+                               })
+        .def_property_readonly("table_size", [](const Scene& scene) { return scene.desc().opacity.tableSize; })
+        .def_property_readonly("threshold", [](const Scene& scene) { return scene.desc().threshold; })
+        .def_property_readonly("revision", &Scene::revision)
+        .def("set_ball", &setBall, py::arg("centre"), py::arg("radius"), py::arg("value"))
+        .def("set_box", &setBox, py::arg("first"), py::arg("size"), py::arg("value"))
+        .def("write_box", &writeBox, py::arg("first"), py::arg("voxels"))
+        .def("detect", &detect, py::arg("meshes"), py::arg("poses"), py::arg("options"), py::arg("progress"))
+        .def("again", &again, py::arg("answer"), py::arg("output"))
+        .def("engine_seconds", &engineSeconds, py::arg("meshes"), py::arg("poses"), py::arg("options"),
+             py::arg("times"))
+        .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
+             py::arg("most_steps"), py::arg("labels"), py::arg("progress"))
+        .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("progress"))
+        .def("picture", &picture, py::arg("mesh"), py::arg("poses"), py::arg("width"), py::arg("height"),
+             py::arg("view"), py::arg("preset"), py::arg("background"), py::arg("show"), py::arg("through"),
+             py::arg("device"))
+        .def("close", &Scene::close, py::call_guard<py::gil_scoped_release>());
+}
+
+} // namespace voxtact::python

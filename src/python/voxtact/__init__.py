@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""voxtact: does this mesh, at this pose, touch what is visible of this volume? How much of it, where, and how near?
+
+    import voxtact as vx
+
+    head = vx.read_volume("ch2.nii.gz")            # or an array with affine=, or an image of nibabel, SimpleITK, VTK
+    knife = vx.read_mesh("tool.stl")               # or (vertices, faces), or a mesh of trimesh, meshio, VTK
+    scene = vx.Scene(head, opacity=[(40, 0), (80, 1)], threshold=0.1)
+
+    answer = scene.detect(knife, poses)            # (N,4,4), world_from_object
+    answer.hit, answer.count, answer.triangles, answer.contacts
+    scene.clearance(knife, poses).lo               # mm
+    scene.opacity = [(100, 0), (200, 1)]           # the next answer has seen it
+    scene.edit(ball=(x, y, z, r), value=-1000)     # so it has this
+
+A sample of the volume is opaque where its opacity reaches the threshold. The default answer is certified: *no* means no
+contact, *yes* comes with a point that proves it, and the rare pair that rounding leaves open is `possible`. No GPU is
+needed; ``device=True`` takes a Vulkan one.
+
+Arrays of voxels are indexed [z, y, x]; points, spacings and voxel numbers are x, y, z. The world is LPS (+x left, +y
+posterior, +z superior), in millimetres. Matrices are written row by row and multiply columns.
+
+Everything that is refused raises a `voxtact.Error`, which says what, why and what to do.
+"""
+from ._answer import Answer, Clearance
+from ._core import __version__
+from ._data import (
+    LPS_FROM_RAS,
+    Labels,
+    Mesh,
+    Volume,
+    read_camera,
+    read_label_names,
+    read_labels,
+    read_mesh,
+    read_opacity,
+    read_poses,
+    read_volume,
+    write_png,
+)
+from ._errors import (
+    DeviceLostError,
+    Error,
+    FileError,
+    FormatError,
+    InternalError,
+    InvalidArgumentError,
+    LimitExceededError,
+    NotReadyError,
+    OutOfMemoryError,
+    UnsupportedError,
+    VulkanError,
+)
+from ._scene import Device, DeviceInfo, Scene, View, devices
+
+__all__ = [
+    "LPS_FROM_RAS",
+    "Answer",
+    "Clearance",
+    "Device",
+    "DeviceInfo",
+    "DeviceLostError",
+    "Error",
+    "FileError",
+    "FormatError",
+    "InternalError",
+    "InvalidArgumentError",
+    "Labels",
+    "LimitExceededError",
+    "Mesh",
+    "NotReadyError",
+    "OutOfMemoryError",
+    "Scene",
+    "UnsupportedError",
+    "View",
+    "Volume",
+    "VulkanError",
+    "__version__",
+    "devices",
+    "read_camera",
+    "read_label_names",
+    "read_labels",
+    "read_mesh",
+    "read_opacity",
+    "read_poses",
+    "read_volume",
+    "write_png",
+]
+
+# Where its users have them from.
+for _name in __all__:
+    if isinstance(globals()[_name], type) or callable(globals()[_name]):
+        globals()[_name].__module__ = "voxtact"
+del _name

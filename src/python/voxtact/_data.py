@@ -1,0 +1,570 @@
+# SPDX-License-Identifier: MIT
+"""Volumes, label maps and meshes: from files, from arrays, and from the objects of other libraries."""
+from __future__ import annotations
+
+import os
+import sys
+from typing import Any, Literal, NoReturn, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core as core
+from ._errors import InvalidArgumentError
+
+#: "ras": +x right, +y anterior, +z superior, as NIfTI and nibabel have it; "lps": +x left, +y posterior, +z superior,
+#: as DICOM, ITK and voxtact have it. Both in millimetres.
+Space = Literal["ras", "lps"]
+
+#: Takes points of RAS to LPS, and back: ``poses = LPS_FROM_RAS @ poses``.
+LPS_FROM_RAS: npt.NDArray[np.float64] = np.diag([-1.0, -1.0, 1.0, 1.0])
+LPS_FROM_RAS.setflags(write=False)
+
+_BUILTIN = "builtin:"
+_MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
+
+
+def not_pickled(of: object) -> NoReturn:
+    """What `__reduce__` of each class does."""
+    name = type(of).__name__
+    raise TypeError(f"a voxtact.{name} cannot be pickled or copied: it is made of memory of this process; "
+                    "make another one from the same file or arrays")
+
+
+def check_space(space: str, argument: str) -> None:
+    if space not in ("ras", "lps"):
+        raise InvalidArgumentError(f"{argument}={space!r} is neither 'ras' nor 'lps'")
+
+
+class Volume:
+    """A 3D image with its place in the world. `read_volume` makes one.
+
+    It does not change: a `Scene` has voxels of its own to edit. Where it was made of an array without a copy, the array
+    must not change as long as scenes are made of it.
+    """
+
+    __slots__ = ("_core",)
+    _core: core.Volume
+
+    def __init__(self) -> None:
+        raise TypeError("voxtact.read_volume() makes volumes: from a file, an array with affine=, or an image object")
+
+    @classmethod
+    def _of(cls, made_of: core.Volume) -> Volume:
+        made = cls.__new__(cls)
+        made._core = made_of
+        return made
+
+    @property
+    def array(self) -> npt.NDArray[Any]:
+        """The voxels, indexed [z, y, x]: uint8, int16, uint16 or float32, in the image's own units; read-only."""
+        return self._core.array
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Voxels along z, y and x, as `array` has them."""
+        x, y, z = self._core.size
+        return (z, y, x)
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Of the voxels."""
+        return self._core.array.dtype
+
+    @property
+    def spacing(self) -> npt.NDArray[np.float64]:
+        """mm from voxel to voxel along x, y and z."""
+        return self._core.spacing
+
+    @property
+    def origin(self) -> npt.NDArray[np.float64]:
+        """The centre of voxel (0, 0, 0): LPS, mm."""
+        return self._core.origin
+
+    @property
+    def direction(self) -> npt.NDArray[np.float64]:
+        """(3,3): its columns are the unit vectors along the index axes x, y and z, LPS."""
+        return self._core.direction
+
+    @property
+    def world_from_index(self) -> npt.NDArray[np.float64]:
+        """(4,4): takes voxel numbers (x, y, z, 1) to LPS, mm."""
+        return self._core.world_from_index
+
+    @property
+    def affine(self) -> npt.NDArray[np.float64]:
+        """(4,4): takes voxel numbers (x, y, z, 1) to RAS, mm: nibabel's."""
+        return LPS_FROM_RAS @ self._core.world_from_index
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Smallest and largest voxel."""
+        return self._core.range
+
+    @property
+    def name(self) -> str:
+        """The file's name, or what the array came from."""
+        return self._core.name
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was done on the way that you may want to know: copies, conversions, what a file does not say."""
+        return tuple(self._core.notes)
+
+    def write(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending."""
+        self._core.write(os.fsencode(path))
+
+    def __repr__(self) -> str:
+        x, y, z = self._core.size
+        spacing = " x ".join(f"{step:.4g}" for step in self.spacing)
+        lo, hi = self.range
+        return f"<voxtact.Volume {self.name!r}: {x} x {y} x {z} {self._core.type}, {spacing} mm, values {lo:g} to {hi:g}>"
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)
+
+
+class Labels:
+    """A label map: which structure each voxel belongs to. `read_labels` makes one."""
+
+    __slots__ = ("_core", "volume", "names")
+    _core: core.Labels
+    #: What it was made of.
+    volume: Volume
+    #: What the labels are called, where that is known.
+    names: dict[int, str]
+
+    def __init__(self, volume: Volume, names: Optional[dict[int, str]] = None) -> None:
+        self._core = core.Labels(volume._core)
+        self.volume = volume
+        self.names = dict(names or {})
+
+    @property
+    def values(self) -> npt.NDArray[np.int32]:
+        """The labels that there are, ascending; 0 is always among them."""
+        return self._core.values
+
+    def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
+        """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
+        return self._core.at(points)
+
+    def __repr__(self) -> str:
+        return f"<voxtact.Labels {self.volume.name!r}: {len(self.values)} labels, {len(self.names)} names>"
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)
+
+
+class Mesh:
+    """A triangle mesh in its own coordinates, mm. `read_mesh` makes one. It does not change."""
+
+    __slots__ = ("_core",)
+    _core: core.Mesh
+
+    def __init__(self) -> None:
+        raise TypeError("voxtact.read_mesh() makes meshes: from a file, (vertices, faces), or a mesh object")
+
+    @classmethod
+    def _of(cls, made_of: core.Mesh) -> Mesh:
+        made = cls.__new__(cls)
+        made._core = made_of
+        return made
+
+    @property
+    def vertices(self) -> npt.NDArray[np.float32]:
+        """(V,3): mm, read-only."""
+        return self._core.vertices
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """(T,3): numbers of vertices, read-only. Answers number the triangles by their rows here."""
+        return self._core.faces
+
+    @property
+    def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The least and the greatest corner, mm."""
+        return self._core.bounds
+
+    @property
+    def degenerate(self) -> int:
+        """Triangles without an area: allowed, they never touch."""
+        return self._core.degenerate
+
+    @property
+    def name(self) -> str:
+        """The file's name, or what the arrays came from."""
+        return self._core.name
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was done on the way that you may want to know."""
+        return tuple(self._core.notes)
+
+    def write(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes STL, OBJ or PLY, by the ending."""
+        self._core.write(os.fsencode(path))
+
+    def __repr__(self) -> str:
+        lo, hi = self.bounds
+        size = " x ".join(f"{length:.4g}" for length in hi - lo)
+        return f"<voxtact.Mesh {self.name!r}: {len(self.faces)} triangles, {len(self.vertices)} vertices, {size} mm>"
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)
+
+
+# Arrays of voxels
+
+
+def _in_z_y_x(array: npt.NDArray[Any], axes: Optional[str]) -> npt.NDArray[Any]:
+    """The same array, indexed [z, y, x]. Which axis is which is said, not guessed."""
+    if axes not in (None, "zyx", "xyz"):
+        raise InvalidArgumentError(f"axes={axes!r} is neither 'zyx' nor 'xyz'")
+    if axes is None:
+        steps = [abs(step) for step, length in zip(array.strides, array.shape) if length > 1]
+        if steps != sorted(steps, reverse=True):
+            raise InvalidArgumentError(
+                f"the array of shape {array.shape} is not in C order, so its last index may not be x: say "
+                "axes='xyz' if it is indexed [x, y, z], as nibabel's arrays are, or axes='zyx' if [z, y, x]")
+    return array.T if axes == "xyz" else array
+
+
+def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
+    """One of the types that voxtact keeps, as its readers of files choose them."""
+    kind, size = array.dtype.kind, array.dtype.itemsize
+    if kind == "b":
+        return array.view(np.uint8)
+    if kind == "f":
+        if size == 4:
+            return array
+        if size > 4:
+            with np.errstate(over="ignore"):
+                rounded = array.astype(np.float32)
+            if not np.isfinite(rounded).all() and np.isfinite(array).all():
+                raise InvalidArgumentError("a voxel is too large for a float32")
+            notes.append(f"voxels converted from {array.dtype} to float32, rounded")
+            return rounded
+        notes.append(f"voxels converted from {array.dtype} to float32, exactly")
+        return array.astype(np.float32)
+    if kind not in "iu":
+        raise InvalidArgumentError(f"voxels of {array.dtype} cannot be used: whole numbers and floats can")
+    if (kind, size) in (("u", 1), ("i", 2), ("u", 2)) or array.size == 0:
+        return array
+    lo, hi = int(array.min()), int(array.max())
+    for target in (np.dtype(np.int16), np.dtype(np.uint16)):
+        limits = np.iinfo(target)
+        if limits.min <= lo and hi <= limits.max:
+            notes.append(f"voxels converted from {array.dtype} to {target}, exactly")
+            return array.astype(target)
+    floats = array.astype(np.float32)
+    if max(-lo, hi) > 2**24 and not (floats.astype(np.float64) == array).all():
+        raise InvalidArgumentError(f"voxels of {array.dtype} from {lo} to {hi} fit neither 16-bit integers nor, exactly, "
+                                   "float32")
+    notes.append(f"voxels converted from {array.dtype} to float32, exactly")
+    return floats
+
+
+def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64], ...]:
+    """Spacing, origin and direction of voxel numbers (x, y, z) -> world."""
+    matrix = np.asarray(affine, dtype=np.float64)
+    if matrix.shape != (4, 4):
+        raise InvalidArgumentError(f"affine has the shape {matrix.shape}; (4, 4) is needed")
+    if not np.isfinite(matrix).all():
+        raise InvalidArgumentError("affine has an element that is not finite")
+    if (matrix[3] != (0, 0, 0, 1)).any():
+        raise InvalidArgumentError(f"affine has the last row {matrix[3].tolist()}; 0 0 0 1 is needed")
+    check_space(space, "space")
+    if space == "ras":
+        matrix = LPS_FROM_RAS @ matrix
+    spacing = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        direction = matrix[:3, :3] / spacing
+    if not (spacing > 0).all():
+        raise InvalidArgumentError(f"affine has a step of 0 mm along an axis: {spacing.tolist()}")
+    return spacing, matrix[:3, 3], direction
+
+
+def _volume_of_array(array: Any, affine: npt.ArrayLike, space: Space, axes: Optional[str], name: str,
+                     notes: Optional[list[str]] = None) -> Volume:
+    said = [] if notes is None else notes
+    voxels = np.asarray(array)
+    if voxels.ndim != 3:
+        raise InvalidArgumentError(f"the array has the shape {voxels.shape}; three dimensions are needed")
+    voxels = _in_z_y_x(voxels, axes)
+    if voxels.dtype.byteorder not in "=|" and not voxels.dtype.isnative:
+        voxels = voxels.astype(voxels.dtype.newbyteorder("="))
+        said.append("voxels copied: they were in the other byte order")
+    voxels = _stored(voxels, said)
+    if not voxels.flags.c_contiguous:
+        voxels = np.ascontiguousarray(voxels)
+        said.append("voxels copied: they were not next to each other, x fastest")
+    elif not voxels.flags.aligned:
+        voxels = voxels.copy()
+        said.append("voxels copied: they were not aligned")
+    spacing, origin, direction = _grid(affine, space)
+    return Volume._of(core.Volume.wrap(voxels, spacing, origin, direction, name, said))
+
+
+# Objects of other libraries, by what they have
+
+
+def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
+    array = np.asanyarray(image.dataobj)
+    while array.ndim > 3 and array.shape[-1] == 1:
+        array = array[..., 0]
+    if array.ndim == 4:
+        if frame is None:
+            raise InvalidArgumentError(f"the image holds {array.shape[3]} volumes: choose one with frame=")
+        if not 0 <= frame < array.shape[3]:
+            raise InvalidArgumentError(f"frame={frame}: the image holds {array.shape[3]} volumes, counted from 0")
+        array = array[..., frame]
+    notes: list[str] = []
+    affine = np.array(image.affine, dtype=np.float64)
+    units = getattr(image.header, "get_xyzt_units", lambda: ("mm",))()[0]
+    factor = _MILLIMETRES.get(units, 1.0)
+    if factor != 1.0:
+        affine[:3] *= factor
+        notes.append(f"lengths converted from {units} to mm")
+    name = image.get_filename() if hasattr(image, "get_filename") else None
+    return _volume_of_array(array, affine, "ras", "xyz", os.path.basename(name or "nibabel image"), notes)
+
+
+def _of_itk(image: Any) -> Volume:
+    """SimpleITK's images, and itk's."""
+    if hasattr(image, "GetNumberOfComponentsPerPixel") and image.GetNumberOfComponentsPerPixel() != 1:
+        raise InvalidArgumentError("the image has several numbers a voxel; one is needed")
+    spacing = np.array([float(step) for step in image.GetSpacing()])
+    origin = np.array([float(at) for at in image.GetOrigin()])
+    if len(spacing) != 3:
+        raise InvalidArgumentError(f"the image has {len(spacing)} dimensions; three are needed")
+    direction = image.GetDirection()
+    if hasattr(direction, "GetVnlMatrix"):
+        matrix = direction.GetVnlMatrix()
+        columns = np.array([[matrix.get(row, column) for column in range(3)] for row in range(3)])
+    else:
+        columns = np.array([float(element) for element in direction]).reshape(3, 3)
+    module = sys.modules.get(type(image).__module__.split(".")[0])
+    view = getattr(module, "GetArrayViewFromImage", None) or getattr(module, "array_view_from_image", None)
+    array = view(image) if view is not None else np.asarray(image)
+    affine = np.eye(4)
+    affine[:3, :3] = columns * spacing
+    affine[:3, 3] = origin
+    return _volume_of_array(array, affine, "lps", "zyx", "ITK image")
+
+
+def _of_vtk_image(image: Any, space: Space) -> Volume:
+    from vtkmodules.util.numpy_support import vtk_to_numpy  # the object is VTK's, so VTK is there
+
+    scalars = image.GetPointData().GetScalars()
+    if scalars is None:
+        raise InvalidArgumentError("the vtkImageData has no scalars")
+    if scalars.GetNumberOfComponents() != 1:
+        raise InvalidArgumentError("the vtkImageData has several numbers a voxel; one is needed")
+    x, y, z = image.GetDimensions()
+    first = np.array(image.GetExtent()[::2], dtype=np.float64)
+    directions = image.GetDirectionMatrix()
+    columns = np.array([[directions.GetElement(row, column) for column in range(3)] for row in range(3)])
+    affine = np.eye(4)
+    affine[:3, :3] = columns * np.array(image.GetSpacing())
+    affine[:3, 3] = np.array(image.GetOrigin()) + affine[:3, :3] @ first
+    return _volume_of_array(vtk_to_numpy(scalars).reshape(z, y, x), affine, space, "zyx", "vtkImageData")
+
+
+def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: Optional[Space] = None,
+                axes: Optional[Literal["zyx", "xyz"]] = None, frame: Optional[int] = None, series: str = "") -> Volume:
+    """A volume from a file, an array, or an image of another library.
+
+    source
+        - a path: NIfTI, NRRD, MetaImage, or a folder with a DICOM series; ``"builtin:head:64"`` and the other names of
+          the program's builtins. `frame` chooses one of a 4D file, `series` a SeriesInstanceUID.
+        - an array of three dimensions with `affine`, (4,4): it takes voxel numbers (x, y, z, 1) to the world in mm, to
+          RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [z, y, x], in C order. One that is in
+          another order is refused until you say `axes`: "xyz" (nibabel's) or "zyx".
+        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (which knows no space: LPS,
+          unless ``space="ras"``).
+
+    uint8, int16, uint16 and float32 in C order are taken without a copy, and must not change then. Other whole numbers
+    become int16, uint16 or, where that is exact, float32; float64 is rounded. Every copy is told in `Volume.notes`.
+
+    Raises FileError, FormatError, and InvalidArgumentError, for NaN and infinite voxels too.
+    """
+    if isinstance(source, Volume):
+        return source
+    if isinstance(source, (str, bytes, os.PathLike)):
+        if affine is not None or space is not None or axes is not None:
+            raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
+        if isinstance(source, str) and source.startswith(_BUILTIN):
+            return Volume._of(core.Volume.builtin(source[len(_BUILTIN):]))
+        return Volume._of(core.Volume.read(os.fsencode(source), frame, series))
+    if hasattr(source, "affine") and hasattr(source, "dataobj"):
+        return _of_nibabel(source, frame)
+    if frame is not None or series:
+        raise InvalidArgumentError("frame= and series= are for files and nibabel's images")
+    if hasattr(source, "GetSpacing") and hasattr(source, "GetPointData"):
+        return _of_vtk_image(source, space or "lps")
+    if hasattr(source, "GetSpacing") and hasattr(source, "GetDirection"):
+        return _of_itk(source)
+    if not (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
+            or isinstance(source, (list, memoryview))):
+        raise TypeError(f"no volume can be made of a {type(source).__module__}.{type(source).__qualname__}: give a path, "
+                        "an array with affine=, or an image of nibabel, SimpleITK, itk or VTK")
+    if affine is None:
+        raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "
+                                   "voxels of 1 mm with the first one at the origin")
+    return _volume_of_array(source, affine, space or "ras", axes, "array")
+
+
+def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathLike[str]] = None,
+                **options: Any) -> Labels:
+    """A label map: whatever `read_volume` reads, with whole numbers, on a grid of its own.
+
+    names: what the labels are called, as a dict or a file (see `read_label_names`).
+    """
+    known = names if names is None or isinstance(names, dict) else read_label_names(names)
+    if isinstance(source, Labels):
+        return source if known is None else Labels(source.volume, known)
+    return Labels(read_volume(source, **options), known)
+
+
+# Meshes
+
+
+def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name: str,
+                    notes: Optional[list[str]] = None) -> Mesh:
+    said = [] if notes is None else notes
+    places = np.asarray(vertices)
+    corners = np.asarray(faces)
+    if places.ndim != 2 or places.shape[1] != 3 or places.dtype.kind not in "fiu":
+        raise InvalidArgumentError(f"vertices are {places.dtype} of shape {places.shape}; numbers of shape (V, 3) are "
+                                   "needed")
+    if corners.ndim != 2 or corners.shape[1] != 3:
+        raise InvalidArgumentError(f"faces have the shape {corners.shape}; triangles are needed: (T, 3)")
+    if corners.dtype.kind not in "iu":
+        raise InvalidArgumentError(f"faces are {corners.dtype}; whole numbers of vertices are needed")
+    if corners.size and (corners.min() < 0 or corners.max() >= len(places)):
+        bad = int(np.argmax(((corners < 0) | (corners >= len(places))).any(axis=1)))
+        raise InvalidArgumentError(f"face {bad} is {corners[bad].tolist()}; there are {len(places)} vertices, from 0 on")
+    if not (np.isfinite(scale) and scale > 0):
+        raise InvalidArgumentError(f"scale={scale} must be positive and finite: mm in a unit of the vertices")
+    check_space(space, "space")
+    exact = places.astype(np.float64) * scale
+    if space == "ras":
+        exact[:, :2] *= -1
+    with np.errstate(over="ignore"):
+        floats = np.ascontiguousarray(exact, dtype=np.float32)
+    if not np.isfinite(floats).all():
+        bad = int(np.argmin(np.isfinite(floats).all(axis=1)))
+        raise InvalidArgumentError(f"vertex {bad} is {places[bad].tolist()}, which no float32 holds")
+    if places.dtype != np.float32 and (floats != exact).any():
+        said.append(f"vertices rounded from {places.dtype} to float32")
+    return Mesh._of(core.Mesh.make(floats, np.ascontiguousarray(corners, dtype=np.uint32), name, said))
+
+
+def _of_meshio(mesh: Any, space: Space, scale: float) -> Mesh:
+    parts: list[npt.NDArray[Any]] = []
+    notes: list[str] = []
+    for block in mesh.cells:
+        cells = np.asarray(block.data)
+        if block.type == "triangle":
+            parts.append(cells)
+        elif block.type == "quad":
+            parts.append(cells[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+            notes.append(f"{len(cells)} quads cut into triangles")
+        else:
+            notes.append(f"{len(cells)} cells of type {block.type} left out")
+    if not parts:
+        raise InvalidArgumentError("the mesh has no triangles; " + "; ".join(notes))
+    return _mesh_of_arrays(mesh.points, np.concatenate(parts), space, scale, "meshio mesh", notes)
+
+
+def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    notes: list[str] = []
+    if mesh.GetNumberOfStrips() or (np.diff(vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())) != 3).any():
+        from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+        cut = vtkTriangleFilter()
+        cut.SetInputData(mesh)
+        cut.PassVertsOff()
+        cut.PassLinesOff()
+        cut.Update()
+        mesh = cut.GetOutput()
+        notes.append("polygons and strips cut into triangles by VTK")
+    if not mesh.GetNumberOfPolys():
+        raise InvalidArgumentError("the vtkPolyData has no polygons")
+    if mesh.GetNumberOfVerts() or mesh.GetNumberOfLines():
+        notes.append("points and lines left out")
+    faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return _mesh_of_arrays(vtk_to_numpy(mesh.GetPoints().GetData()), faces, space, scale, "vtkPolyData", notes)
+
+
+def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
+    """A mesh from a file, from arrays, or from a mesh of another library.
+
+    source
+        - a path: STL, OBJ, PLY, OFF, glTF or GLB; ``"builtin:scalpel"`` and the other names of the program's builtins
+        - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
+        - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
+
+    space: of the vertices. "ras" negates x and y; what comes out is always LPS.
+    scale: millimetres in a unit of the vertices; 1000 for metres.
+
+    Vertices become float32; where that rounds, `Mesh.notes` says so. Raises FileError, FormatError, and
+    InvalidArgumentError, which names the vertex or face.
+    """
+    if isinstance(source, Mesh):
+        if space != "lps" or scale != 1.0:
+            return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name)
+        return source
+    check_space(space, "space")
+    if isinstance(source, (str, bytes, os.PathLike)):
+        if isinstance(source, str) and source.startswith(_BUILTIN):
+            mesh = Mesh._of(core.Mesh.builtin(source[len(_BUILTIN):]))
+            return read_mesh(mesh, space=space, scale=scale)
+        return Mesh._of(core.Mesh.read(os.fsencode(source), space == "ras", scale))
+    if isinstance(source, (tuple, list)) and len(source) == 2:
+        return _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
+    if hasattr(source, "vertices") and hasattr(source, "faces"):
+        return _mesh_of_arrays(source.vertices, source.faces, space, scale, "trimesh")
+    if hasattr(source, "points") and hasattr(source, "cells"):
+        return _of_meshio(source, space, scale)
+    if hasattr(source, "GetPolys") and hasattr(source, "GetPoints"):
+        return _of_vtk_mesh(source, space, scale)
+    raise TypeError(f"no mesh can be made of a {type(source).__module__}.{type(source).__qualname__}: give a path, "
+                    "(vertices, faces), or a mesh of trimesh, meshio or VTK")
+
+
+# Text files
+
+
+def read_poses(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
+    """(N,4,4) from the program's files: one matrix a line, 16 numbers row by row; `#` comments."""
+    return core.read_poses(os.fsencode(path))
+
+
+def read_camera(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
+    """(4,4), clip_from_world, from one of the program's files."""
+    return core.read_camera(os.fsencode(path))
+
+
+def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
+    """(N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like "40:0,80:1"."""
+    if isinstance(source, str) and ":" in source and not os.path.exists(source):
+        return core.parse_opacity(source)
+    return core.read_opacity(os.fsencode(source))
+
+
+def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
+    """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables."""
+    return core.read_label_names(os.fsencode(path))
+
+
+def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]) -> None:
+    """Writes a picture (H,W,4) of uint8 as PNG."""
+    pixels = np.ascontiguousarray(picture)
+    if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
+        raise InvalidArgumentError(f"the picture is {pixels.dtype} of shape {pixels.shape}; uint8 of (H, W, 4) is needed")
+    core.write_png(os.fsencode(path), pixels)
+

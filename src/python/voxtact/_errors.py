@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""What voxtact raises. Every text is one line: what, which argument or file, why, and what to do."""
+from __future__ import annotations
+
+
+class Error(Exception):
+    """Anything that voxtact refuses, or that failed. The classes below say what kind of thing it was."""
+
+    #: What kind, as a word: "invalid-argument", "unsupported", …
+    code = "error"
+    #: The VkResult behind it; 0 where there is none.
+    vk_result = 0
+
+
+class InvalidArgumentError(Error, ValueError):
+    """An argument that can never be right: a wrong shape, a NaN, a number out of its range."""
+
+    code = "invalid-argument"
+
+
+class UnsupportedError(Error):
+    """This device, this engine or this machine cannot do it; another one may."""
+
+    code = "unsupported"
+
+
+class LimitExceededError(Error):
+    """A limit, named in the text with its size."""
+
+    code = "limit-exceeded"
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """Memory of the host or the device."""
+
+    code = "out-of-memory"
+
+
+class DeviceLostError(Error):
+    """The Vulkan device is gone. Whatever was made with it refuses from now on; open it again."""
+
+    code = "device-lost"
+
+
+class VulkanError(Error):
+    """Another failure of a Vulkan call; `vk_result` has its number."""
+
+    code = "vulkan"
+
+
+class FileError(Error, OSError):
+    """A file that cannot be read or written."""
+
+    code = "file"
+
+
+class FormatError(Error, ValueError):
+    """A file that can be read, but what it holds cannot be used."""
+
+    code = "format"
+
+
+class NotReadyError(Error):
+    """What is asked for does not exist, or no longer: a closed scene, an output that was not asked for."""
+
+    code = "not-ready"
+
+
+class InternalError(Error):
+    """A bug in voxtact."""
+
+    code = "internal"
+
+
+# By the numbers of voxtact::ErrorCode.
+_CLASSES: dict[int, type[Error]] = {
+    1: InvalidArgumentError,
+    2: UnsupportedError,
+    3: LimitExceededError,
+    4: OutOfMemoryError,
+    5: DeviceLostError,
+    6: VulkanError,
+    7: FileError,
+    8: FormatError,
+    9: NotReadyError,
+    10: InternalError,
+}
+
+
+def exception(code: int, text: str, vk_result: int) -> Error:
+    """The exception of an error of the compiled part, which calls this."""
+    made = _CLASSES.get(code, Error)(text)
+    made.vk_result = vk_result
+    return made

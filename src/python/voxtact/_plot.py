@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""Plots, with matplotlib where it is there."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._answer import Answer, Clearance
+
+
+def _axes(ax: Any) -> Any:
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+
+    return pyplot.subplots()[1]
+
+
+def plot_answer(answer: Answer, ax: Any) -> Any:
+    axes = _axes(ax)
+    rows = np.arange(len(answer))
+    touching, possible = answer.hit, answer.possible
+    free = ~touching & ~possible
+    axes.plot(rows[free], answer.count[free], ".", color="tab:gray", label="free")
+    axes.plot(rows[touching], answer.count[touching], ".", color="tab:red", label="touches")
+    axes.plot(rows[possible], answer.count[possible], "o", color="tab:red", fillstyle="none", label="possible")
+    axes.set_xlabel("pose")
+    axes.set_ylabel("fragments in contact")
+    axes.legend()
+    return axes
+
+
+def plot_clearance(clearance: Clearance, ax: Any) -> Any:
+    axes = _axes(ax)
+    rows = np.arange(len(clearance))
+    columns = clearance.lo.reshape(len(clearance), -1).shape[1] if len(clearance) else 0
+    for column in range(columns):
+        lo = clearance.lo.reshape(len(clearance), -1)[:, column]
+        hi = clearance.hi.reshape(len(clearance), -1)[:, column]
+        name = f"label {clearance.labels[column]}" if clearance.labels.size else "clearance"
+        line = axes.plot(rows, lo, label=name)[0]
+        axes.fill_between(rows, lo, np.where(np.isfinite(hi), hi, lo), color=line.get_color(), alpha=0.3)
+    axes.set_xlabel("pose")
+    axes.set_ylabel("mm")
+    axes.legend()
+    return axes

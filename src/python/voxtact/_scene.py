@@ -1,0 +1,481 @@
+# SPDX-License-Identifier: MIT
+"""Scenes, which are asked, and the devices that they may be on."""
+from __future__ import annotations
+
+import os
+import struct
+import zlib
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, Literal, NamedTuple, NoReturn, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core as core
+from ._answer import Answer, Clearance
+from ._data import Labels, Mesh, Volume, not_pickled, read_labels, read_opacity, read_volume
+from ._errors import Error, InvalidArgumentError
+
+Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
+Method = Literal["query", "query-any", "atomic", "subgroup", "compute", "cpu"]
+#: Points (value, opacity), ascending; or text, "40:0,80:1"; or a file. None: from 0 to 1 over the domain.
+Opacity = Union[None, npt.ArrayLike, str, "os.PathLike[str]"]
+#: (N,4,4) or (4,4).
+Poses = npt.ArrayLike
+#: ``f(done, all)``, a bar of tqdm, or tqdm itself.
+Progress = Union[None, Callable[[int, int], object], Any]
+
+_RESOLUTION = 1 / 64
+_MOST_CONTACTS = 2**20
+_INFINITE = float("inf")
+
+
+class DeviceInfo(NamedTuple):
+    """A Vulkan device of this machine."""
+
+    #: What `Device` takes.
+    number: int
+    name: str
+    #: "discrete", "integrated", "virtual", "cpu" or "other"
+    kind: str
+    driver: str
+    #: of Vulkan, as "1.3.230"
+    api: str
+
+
+def devices() -> list[DeviceInfo]:
+    """The Vulkan devices of this machine. UnsupportedError where there is none, with what to install."""
+    return [DeviceInfo(*facts) for facts in core.Device.list()]
+
+
+class Device:
+    """A Vulkan device, opened: for the `device` of scenes and pictures, which may share it.
+
+    which: its number in `devices()`, a part of its name, or nothing for the best one.
+    """
+
+    __slots__ = ("_core",)
+    _core: core.Device
+
+    def __init__(self, which: Union[None, int, str] = None) -> None:
+        self._core = core.Device.open("" if which is None else str(which))
+
+    @property
+    def info(self) -> DeviceInfo:
+        """Which one it is."""
+        return DeviceInfo(*self._core.facts)
+
+    @property
+    def methods(self) -> dict[str, Optional[str]]:
+        """Every counting method: None where the device has it, else why not."""
+        return self._core.methods
+
+    def __repr__(self) -> str:
+        info = self.info
+        return f"<voxtact.Device {info.number} {info.name!r}, {info.kind}, {info.driver}, Vulkan {info.api}>"
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)
+
+
+_default_device: Optional[Device] = None
+
+
+def _best_device() -> Device:
+    """Opened once."""
+    global _default_device
+    if _default_device is None:
+        _default_device = Device()
+    return _default_device
+
+
+def _opened(device: Union[None, bool, int, str, Device]) -> Optional[Device]:
+    if device is None or device is False:
+        return None
+    if isinstance(device, Device):
+        return device
+    return _best_device() if device is True else Device(device)
+
+
+class View(NamedTuple):
+    """The camera of the projections "view" and "two-view"."""
+
+    #: (4,4): Vulkan's clip space (x right, y down, depth 0 to 1); orthographic or perspective
+    clip_from_world: npt.ArrayLike
+    #: pixels
+    width: int = 512
+    height: int = 512
+
+
+@contextmanager
+def _told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int], object]]]:
+    """What the compiled part calls as callback(done, all)."""
+    if progress is None:
+        yield None
+        return
+    mine = isinstance(progress, type)
+    bar: Any = progress(total=pairs) if mine else progress  # type: ignore[call-arg]
+    if not hasattr(bar, "update"):
+        if not callable(bar):
+            raise TypeError("progress is a function of (done, all), a bar of tqdm, or tqdm itself")
+        yield bar
+        return
+    if getattr(bar, "total", 0) is None:
+        bar.total = pairs
+    before = 0
+
+    def tell(done: int, _: int) -> None:
+        nonlocal before
+        bar.update(done - before)
+        before = done
+
+    try:
+        yield tell
+    finally:
+        if mine:
+            bar.close()
+
+
+def _asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
+    """What the compiled part takes: a mesh and its poses, or a list of such pairs."""
+    if isinstance(mesh, Mesh):
+        if poses is None:
+            raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
+        return mesh._core, np.asarray(poses, dtype=np.float64)
+    if poses is None and isinstance(mesh, Sequence):
+        pairs = []
+        for one in mesh:
+            if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
+                raise TypeError("a list of what is asked has pairs (mesh, poses)")
+            pairs.append((one[0]._core, np.asarray(one[1], dtype=np.float64)))
+        return pairs, None
+    raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
+
+
+def _count_of(poses: npt.NDArray[np.float64]) -> int:
+    return 1 if poses.ndim == 2 else len(poses) if poses.ndim == 3 else 0
+
+
+def _pairs_in(mesh: Any, poses: Any) -> int:
+    return _count_of(poses) if poses is not None else sum(_count_of(one[1]) for one in mesh)
+
+
+def _points(opacity: Opacity) -> Optional[npt.NDArray[np.float64]]:
+    if opacity is None:
+        return None
+    if isinstance(opacity, (str, os.PathLike)):
+        return read_opacity(opacity)
+    return np.asarray(opacity, dtype=np.float64)
+
+
+def _whole(numbers: Any, count: int, what: str) -> list[int]:
+    array = np.asarray(numbers)
+    if array.shape != (count,) or array.dtype.kind not in "iu" or (array < 0).any() or (array >= 2**32).any():
+        raise InvalidArgumentError(f"{what} is {numbers!r}; {count} whole numbers from 0 on are needed")
+    return [int(number) for number in array]
+
+
+def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    """A picture as PNG, in memory."""
+    height, width, _ = pixels.shape
+
+    def chunk(kind: bytes, content: bytes) -> bytes:
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with its filter, none
+    rows[:, 1:] = pixels.reshape(height, 4 * width)
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
+            + chunk(b"IEND", b""))
+
+
+class Scene:
+    """A volume, and what of it is opaque: what meshes are put to.
+
+    volume
+        whatever `read_volume` takes without options
+    opacity
+        points (value, opacity), ascending, in the volume's own units: linear between, constant outside, two with one
+        value make a step. Or text ("40:0,80:1"), or a file. None: from 0 to 1 over the domain
+    threshold
+        a sample is opaque where its opacity is at least this: 0 to 1
+    domain, table_size
+        opacity is sampled into that many entries over these values; None: 0 to 255 for uint8, else the volume's values
+    labels
+        what `read_labels` takes: for the labels of contacts, and for clearances to labels
+    device
+        None: the host engine, on all processors. True: the best Vulkan device. Or a number or name of `devices()`, or a
+        `Device`. Clearances are measured by the host engine, and pictures are made by a device, wherever the scene is
+    threads
+        of the host engine; 0: one for each processor
+
+    Poses are (N,4,4) or (4,4), world_from_object, written row by row (``pose @ [x, y, z, 1]``), affine; the world is
+    LPS, millimetres (`LPS_FROM_RAS` is the way there from RAS). What is asked sees all changes that were made before.
+
+    Scenes can be used by threads, one call at a time: the others wait. Work does not hold the interpreter's lock. A
+    KeyboardInterrupt ends it between two pieces of about a tenth of a second.
+    """
+
+    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "__weakref__")
+
+    def __init__(self, volume: Any, opacity: Opacity = None, threshold: float = core.DEFAULT_THRESHOLD, *,
+                 domain: Optional[tuple[float, float]] = None, table_size: int = core.DEFAULT_TABLE_SIZE,
+                 labels: Any = None, device: Union[None, bool, int, str, Device] = None, threads: int = 0) -> None:
+        self._volume = read_volume(volume)
+        self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
+        self._device = _opened(device)
+        self._domain = domain
+        self._table_size = table_size
+        self._closed = False
+        self._core = core.Scene(self._volume._core, _points(opacity), domain, table_size, threshold,
+                                 None if self._labels is None else self._labels._core,
+                                 None if self._device is None else self._device._core, threads)
+
+    # What it is
+
+    @property
+    def volume(self) -> Volume:
+        """What it was made of, without edits."""
+        return self._volume
+
+    @property
+    def labels(self) -> Optional[Labels]:
+        """Its label map."""
+        return self._labels
+
+    @property
+    def device(self) -> Optional[Device]:
+        """The device that it is on; None: the host."""
+        return self._device
+
+    @property
+    def opacity(self) -> npt.NDArray[np.float64]:
+        """(N,2): value and opacity. Set it, and the next answer has seen it."""
+        return self._core.opacity
+
+    @opacity.setter
+    def opacity(self, opacity: Opacity) -> None:
+        self._core.set_opacity(_points(opacity), self._domain, self._table_size)
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """The values that the table of opacity covers."""
+        return self._core.domain
+
+    @property
+    def threshold(self) -> float:
+        """The opacity from which a sample is opaque. Set it, and the next answer has seen it."""
+        return self._core.threshold
+
+    @threshold.setter
+    def threshold(self, threshold: float) -> None:
+        self._core.set_threshold(threshold)
+
+    # Changes
+
+    def edit(self, *, ball: Optional[Sequence[float]] = None, box: Optional[Sequence[int]] = None,
+             value: Optional[float] = None, at: Optional[Sequence[int]] = None,
+             voxels: Optional[npt.ArrayLike] = None) -> None:
+        """Changes voxels; the next answer has seen it. One of:
+
+        edit(ball=(x, y, z, r), value=v)
+            all voxels whose centre is at most r mm from a point of the world (LPS, mm)
+        edit(box=(x, y, z, nx, ny, nz), value=v)
+            nx * ny * nz voxels from voxel (x, y, z) on
+        edit(at=(x, y, z), voxels=array)
+            those of an array indexed [z, y, x], from voxel (x, y, z) on
+
+        Refuses values that the voxels' type cannot have, and boxes that leave the volume; then nothing is changed.
+        """
+        if sum(choice is not None for choice in (ball, box, at)) != 1:
+            raise InvalidArgumentError("an edit has one of ball=, box= and at=")
+        if (at is None) != (voxels is None) or (at is None) != (value is not None):
+            raise InvalidArgumentError("ball= and box= come with value=, and at= comes with voxels=")
+        if ball is not None:
+            numbers = np.asarray(ball, dtype=np.float64)
+            if numbers.shape != (4,):
+                raise InvalidArgumentError(f"ball is {ball!r}; four numbers are needed: x, y, z and the radius, mm")
+            self._core.set_ball(numbers[:3], float(numbers[3]), float(value))  # type: ignore[arg-type]
+        elif box is not None:
+            corner = _whole(box, 6, "box")
+            self._core.set_box(corner[:3], corner[3:], float(value))  # type: ignore[arg-type]
+        else:
+            given = np.asarray(voxels)
+            if given.ndim != 3:
+                raise InvalidArgumentError(f"voxels have the shape {given.shape}; three dimensions are needed: z, y, x")
+            stored = np.ascontiguousarray(given, dtype=self._volume.dtype)
+            if stored.dtype.kind in "iu" and (stored != given).any():
+                raise InvalidArgumentError(f"voxels of {given.dtype} do not all fit the volume's {stored.dtype}")
+            self._core.write_box(_whole(at, 3, "at"), stored)
+
+    # Questions
+
+    def detect(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
+               triangles: bool = False, contacts: bool = False, bounds: bool = False, labels: bool = False,
+               yes_no: bool = False, projection: Projection = "conservative", method: Optional[Method] = None,
+               filter: Optional[Literal["hardware", "exact"]] = None,
+               boundary: Literal["auto", "range", "clamp"] = "auto", resolution: float = _RESOLUTION,
+               samples_per_voxel: int = 1, max_depth: float = 10.0, most_contacts: int = _MOST_CONTACTS,
+               overestimate: bool = False, view: Optional[View] = None, progress: Progress = None) -> Answer:
+        """Which poses touch, how much, and where: an `Answer` with a row for each pose, in order.
+
+        mesh, poses
+            a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
+        triangles, contacts, bounds, labels
+            asks for these in the same go. What was not asked for is found out when you look at it, as long as the scene
+            has not changed since; that costs another detection
+        yes_no
+            whether it touches is enough: it stops at the first contact, which is much faster for deep poses
+        projection
+            "conservative" is certified: no contact is missed, and *possible* says where rounding decides. "view",
+            "two-view" (of `view`; without, from above) and "dominant-axis" (`samples_per_voxel`, 1 to 16) count pixels
+        method, filter, boundary, overestimate
+            how a device counts; see docs/counting.md. The host engine has "cpu" and "exact"
+        resolution
+            conservative: how small, in voxels, the pieces of a triangle may get
+        max_depth
+            mm, how far a contact's depth is followed
+        most_contacts
+            longer lists of contacts are cut, arbitrarily; `Answer.contacts_found` still has their number
+        progress
+            a function of (done, all), a bar of tqdm, or tqdm itself
+
+        Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (the first one is named).
+        """
+        options: dict[str, Any] = {}
+        if triangles:
+            options["triangles"] = True
+        if contacts:
+            options["contacts"] = True
+        if bounds:
+            options["bounds"] = True
+        if labels:
+            options["labels"] = True
+        if yes_no:
+            options["yes_no"] = True
+        if projection != "conservative":
+            options["projection"] = projection
+        if method is not None:
+            options["method"] = method
+        if filter is not None:
+            options["filter"] = filter
+        if boundary != "auto":
+            options["boundary"] = boundary
+        if resolution != _RESOLUTION:
+            options["resolution"] = resolution
+        if samples_per_voxel != 1:
+            options["samples_per_voxel"] = samples_per_voxel
+        if max_depth != 10.0:
+            options["max_depth"] = max_depth
+        if most_contacts != _MOST_CONTACTS:
+            options["most_contacts"] = most_contacts
+        if overestimate:
+            options["overestimate"] = True
+        if view is not None:
+            options["view"] = tuple(view)
+        meshes, matrices = _asked(mesh, poses)
+        if progress is None:
+            return Answer(self._core.detect(meshes, matrices, options, None), self)
+        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+            return Answer(self._core.detect(meshes, matrices, options, tell), self)
+
+    def clearance(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
+                  tolerance: float = core.DEFAULT_TOLERANCE, maximum: float = _INFINITE,
+                  labels: Union[None, Literal[True], Sequence[int]] = None,
+                  most_steps: int = core.DEFAULT_MOST_STEPS, progress: Progress = None) -> Clearance:
+        """How many mm are left between the mesh's surface and what is opaque: certified bounds for each pose.
+
+        tolerance
+            mm, from 1e-6 on: how near to each other the bounds are brought
+        maximum
+            mm: what is farther is not measured; `lo` is then the maximum, and `hi` infinite
+        labels
+            measures to the opaque part of each of these labels instead (True: all but 0): a column for each. The
+            scene's label map must be on its volume's grid
+        most_steps
+            a pose that takes more is left with the bounds that it has
+
+        The host engine measures, also for scenes on a device.
+        """
+        wanted: Optional[list[int]] = None
+        if labels is not None:
+            if self._labels is None:
+                raise InvalidArgumentError("clearances to labels need a scene with labels=")
+            every = [int(label) for label in self._labels.values if label != 0]
+            wanted = every if labels is True else [int(label) for label in labels]
+        meshes, matrices = _asked(mesh, poses)
+        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+            return Clearance(self._core.clearance(meshes, matrices, tolerance, maximum, most_steps, wanted, tell))
+
+    def within(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float,
+               progress: Progress = None) -> Answer:
+        """Whether something opaque is within `margin` mm of the mesh's surface: an `Answer` with `hit` and `possible`.
+
+        Faster than `clearance`. A margin of 0 is the touch. The host engine measures, also for scenes on a device.
+        """
+        meshes, matrices = _asked(mesh, poses)
+        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+            return Answer(self._core.within(meshes, matrices, margin, tell), None)
+
+    # Pictures
+
+    def picture(self, mesh: Optional[Mesh] = None, pose: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512),
+                view: Union[str, tuple[float, float], npt.ArrayLike] = "front", preset: Optional[str] = None,
+                background: tuple[float, float, float] = (0.0, 0.0, 0.0),
+                show: Literal["contacts", "discarded", "plain"] = "contacts", through: float = 0.0) -> npt.NDArray[np.uint8]:
+        """A picture of the volume under its opacity, and of the mesh in it: (H,W,4), uint8, the uppermost row first.
+
+        A Vulkan device makes it: the scene's, else the best one of this machine; UnsupportedError where there is none.
+
+        size
+            (width, height), pixels
+        view
+            "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 before the face and
+            90 beside the left ear; or (4,4), clip_from_world
+        preset
+            colours of a preset of `voxtact render` ("mr", "ct-bone", …); None: one warm white
+        show
+            what is red on the mesh: "contacts", as the projection "view" counts them; "discarded" also shows the rest in
+            blue; "plain": nothing
+        through
+            0 to 1: how much of the contacts is seen through the volume before them
+        """
+        if mesh is not None and not isinstance(mesh, Mesh):
+            raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
+        width, height = _whole(size, 2, "size")
+        device = self._device if self._device is not None or self._closed else _best_device()
+        camera = view if isinstance(view, (str, tuple)) else np.asarray(view, dtype=np.float64)
+        matrices = np.asarray(np.eye(4) if pose is None else pose, dtype=np.float64)
+        return self._core.picture(None if mesh is None else mesh._core, matrices, width, height, camera, preset,
+                                  background, show, through, None if device is None else device._core)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        """For notebooks; nothing where no device can draw."""
+        try:
+            return _png(self.picture(size=(320, 320)))
+        except Error:
+            return None
+
+    # Its end
+
+    def close(self) -> None:
+        """Frees what it holds, on the host and on the device; whatever is asked later is refused (NotReadyError)."""
+        self._closed = True
+        self._core.close()
+
+    def __enter__(self) -> Scene:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        x, y, z = self._volume._core.size
+        points = ", ".join(f"{value:g}:{opacity:g}" for value, opacity in self.opacity[:8])
+        where = "closed" if self._closed else "on the host" if self._device is None else f"on {self._device.info.name!r}"
+        return (f"<voxtact.Scene of {self._volume.name!r}, {x} x {y} x {z}: opacity {points}"
+                f"{', …' if len(self.opacity) > 8 else ''}, threshold {self.threshold:g}, {where}>")
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What `scene.detect` costs beside the C++ call that it makes, in one run: one pose, and 100,000 poses.
+
+usage: python_bench.py [POSES]
+
+The C++ call is cpu::Detector::detect(); its time is its own (BatchAnswer::wallMilliseconds). For one pose it is the
+call that Python makes: what is around it is what Python adds. For many, Python calls in pieces; so the engine is also
+asked for all of them in one call, in turn with Python. A line says how much more Python takes: the median, and the
+smallest and the largest.
+"""
+import statistics
+import sys
+import time
+
+import numpy as np
+
+import voxtact as vx
+
+
+def poses_around(number, reach):
+    generator = np.random.default_rng(1)
+    poses = np.tile(np.eye(4), (number, 1, 1))
+    poses[:, :3, 3] = generator.uniform(-reach, reach, (number, 3))
+    return poses
+
+
+def one_pose(scene, mesh, pose, times):
+    """Seconds of the engine, and what Python adds to them."""
+    engine, more = [], []
+    for _ in range(times):
+        begin = time.perf_counter()
+        answer = scene.detect(mesh, pose, yes_no=True)
+        hit, count = answer.hit, answer.count
+        seconds = time.perf_counter() - begin
+        assert hit.shape == count.shape
+        engine.append(answer.seconds)
+        more.append(seconds - answer.seconds)
+    return engine, more
+
+
+def many_poses(scene, mesh, poses, rounds):
+    """Seconds of the engine in one call, and of Python."""
+    engine, python = [], []
+    for _ in range(rounds):
+        engine += scene._core.engine_seconds(mesh._core, poses, {"yes_no": True}, 1)
+        begin = time.perf_counter()
+        answer = scene.detect(mesh, poses, yes_no=True)
+        hit, count = answer.hit, answer.count
+        python.append(time.perf_counter() - begin)
+        assert hit.shape == count.shape
+    return engine, python
+
+
+def main():
+    number = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+    mesh = vx.read_mesh("builtin:scalpel")
+    for threads in (1, 0):
+        scene = vx.Scene("builtin:head:128", opacity=[(40, 0), (80, 1)], threads=threads)
+        name = "one thread" if threads == 1 else "all threads"
+        engine, more = one_pose(scene, mesh, poses_around(1, 0)[0], 5000)
+        more = np.percentile(np.array(more) * 1e6, [5, 50, 95])
+        print(f"{name}, one pose: the engine {1e6 * statistics.median(engine):.1f} us, Python {more[1]:.1f} us more (90 % "
+              f"are {more[0]:.1f} to {more[2]:.1f})")
+        engine, python = many_poses(scene, mesh, poses_around(number, 120), 15)
+        more = [100 * (p / e - 1) for e, p in zip(engine, python)]
+        print(f"{name}, {number} poses: the engine {statistics.median(engine):.3f} s, Python {statistics.median(more):.1f} % "
+              f"more ({min(more):.1f} to {max(more):.1f}; of the fastest of each {100 * (min(python) / min(engine) - 1):.1f})")
+
+
+if __name__ == "__main__":
+    main()

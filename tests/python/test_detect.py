@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: MIT
+"""Answers: their arrays, and that they are those of the program for the same files."""
+import csv
+
+import numpy as np
+import pytest
+
+import voxtact as vx
+from conftest import cube, half_space, placed, program, random_poses
+
+EIGHT = ("--number", 8, "--seed", 7)
+
+
+@pytest.fixture(scope="module", params=["head", "ct", "noise"])
+def files(request, tmp_path_factory):
+    """Three kinds of voxels; ct is oblique and anisotropic."""
+    folder = tmp_path_factory.mktemp(request.param)
+    program("make", "volume", f"builtin:{request.param}:32", "volume.nii.gz", cwd=folder)
+    program("make", "mesh", "builtin:scalpel:300", "tool.stl", cwd=folder)
+    program("make", "poses", "--volume", "volume.nii.gz", "--mesh", "tool.stl", "--count", 12, "--seed", 7, "--output",
+            "poses.txt", cwd=folder)
+    return folder, {"head": "40:0,80:1", "ct": "0:0,300:1", "noise": "1500:0,2500:1"}[request.param]
+
+
+def asked(files):
+    folder, opacity = files
+    scene = vx.Scene(folder / "volume.nii.gz", opacity=opacity)
+    return scene, vx.read_mesh(folder / "tool.stl"), vx.read_poses(folder / "poses.txt")
+
+
+def ask_program(files, *options):
+    folder, opacity = files
+    return program("detect", "--volume", "volume.nii.gz", "--mesh", "tool.stl", "--poses", "poses.txt", "--opacity",
+                   opacity, "--count", "cpu", *options, cwd=folder)
+
+
+def test_counts_are_those_of_the_program(files):
+    scene, mesh, poses = asked(files)
+    rows = ask_program(files)
+    answer = scene.detect(mesh, poses)
+    assert answer.count.tolist() == [int(row["count"]) for row in rows]
+    assert answer.hit.tolist() == [row["hit"] == "1" for row in rows]
+    assert answer.exact.tolist() == [row["exact"] == "1" for row in rows]
+    assert answer.hit.any() and not answer.hit.all(), "the poses say nothing"
+    assert (answer.method, answer.projection) == ("cpu", "conservative")
+
+
+@pytest.mark.parametrize("projection", ["view", "two-view", "dominant-axis"])
+def test_projections_are_those_of_the_program(files, projection):
+    scene, mesh, poses = asked(files)
+    rows = ask_program(files, "--projection", projection)
+    answer = scene.detect(mesh, poses, projection=projection)
+    assert answer.count.tolist() == [int(row["count"]) for row in rows]
+    assert answer.projection == projection
+
+
+def test_contacts_and_triangles_are_those_of_the_program(files, tmp_path):
+    scene, mesh, poses = asked(files)
+    ask_program(files, "--contacts", tmp_path / "contacts.csv", "--triangles", tmp_path / "triangles.csv")
+    answer = scene.detect(mesh, poses, contacts=True, triangles=True)
+    expected = list(csv.DictReader((tmp_path / "contacts.csv").open()))
+    assert len(answer.contacts) == len(expected) == answer.contacts_found > 0
+    for name, columns in (("position", "x y z"), ("normal", "nx ny nz")):
+        numbers = np.array([[float(row[column]) for column in columns.split()] for row in expected])
+        np.testing.assert_allclose(answer.contacts[name], numbers, atol=2e-6)
+    for name in ("depth", "value", "opacity"):
+        numbers = np.array([float(row[name]) for row in expected])
+        np.testing.assert_allclose(answer.contacts[name], numbers, rtol=1e-5, atol=2e-6)
+    assert answer.contacts["pair"].tolist() == [int(row["pose"]) for row in expected]
+    assert answer.contacts["triangle"].tolist() == [int(row["triangle"]) for row in expected]
+    expected = list(csv.DictReader((tmp_path / "triangles.csv").open()))
+    assert answer.triangles.tolist() == [(int(row["pose"]), int(row["triangle"]), int(row["count"])) for row in expected]
+
+
+def test_clearances_are_those_of_the_program(files):
+    scene, mesh, poses = asked(files)
+    rows = ask_program(files, "--clearance")
+    found = scene.clearance(mesh, poses)
+    np.testing.assert_allclose(found.lo, [float(row["clearance_lo"]) for row in rows], atol=1e-6)
+    np.testing.assert_allclose(found.hi, [float(row["clearance_hi"]) for row in rows], atol=1e-6)
+    assert (found.lo > 0).any() and (found.lo == 0).any(), "the poses say nothing"
+
+
+def test_what_was_not_asked_for_is_found_when_it_is_looked_at(scene, knife):
+    poses = random_poses(6, 1)
+    later, sooner = scene.detect(knife, poses), scene.detect(knife, poses, contacts=True, triangles=True, bounds=True)
+    for name in ("contacts", "triangles", "bounds"):
+        np.testing.assert_array_equal(getattr(later, name), getattr(sooner, name))
+    assert later.contacts is not None and len(sooner.contacts) > 0
+    touched = np.unique(sooner.contacts["pair"])
+    assert np.isnan(sooner.bounds).all(axis=(1, 2)).tolist() == [pair not in touched for pair in range(6)]
+    first = sooner.contacts[sooner.contacts["pair"] == touched[0]]
+    np.testing.assert_allclose(sooner.bounds[touched[0]],
+                               [first["position"].min(axis=0), first["position"].max(axis=0)], atol=1e-4)
+
+
+def test_what_was_not_asked_for_is_not_about_another_scene(scene, knife):
+    answer = scene.detect(knife, np.eye(4))
+    scene.threshold = 0.5
+    with pytest.raises(vx.NotReadyError, match="the scene has changed.*contacts=True"):
+        answer.contacts
+
+
+def test_arrays_keep_what_they_show(scene, knife):
+    count = scene.detect(knife, random_poses(50, 3)).count
+    contacts = scene.detect(knife, random_poses(50, 3)).contacts
+    again = scene.detect(knife, random_poses(50, 3), contacts=True)
+    np.testing.assert_array_equal(count, again.count)
+    np.testing.assert_array_equal(contacts, again.contacts)
+
+
+def test_shapes_and_types(scene, knife):
+    poses = random_poses(5, 4)
+    answer = scene.detect(knife, poses)
+    assert len(answer) == 5
+    for array, dtype in ((answer.hit, bool), (answer.possible, bool), (answer.exact, bool), (answer.count, np.uint64),
+                         (answer.item, np.uint32), (answer.pose, np.uint32)):
+        assert array.shape == (5,) and array.dtype == dtype
+    assert answer.bounds.shape == (5, 2, 3)
+    assert answer.contacts.dtype.names == ("pair", "triangle", "position", "normal", "depth", "value", "opacity", "label")
+    assert answer.contacts.dtype["position"].shape == (3,)
+    assert answer.triangles.dtype.names == ("pair", "triangle", "count")
+    np.from_dlpack(answer.count)  # what other libraries take
+    assert scene.detect(knife, poses[0]).count.tolist() == answer.count[:1].tolist()
+    assert scene.detect(knife, poses.tolist()).count.tolist() == answer.count.tolist()
+    assert scene.detect(knife, poses.astype(np.float32)).count.shape == (5,)
+    np.testing.assert_array_equal(scene.detect(knife, np.asfortranarray(poses)).count, answer.count)
+    np.testing.assert_array_equal(scene.detect(knife, np.repeat(poses, 2, axis=0)[::2]).count, answer.count)
+    nothing = scene.detect(knife, np.empty((0, 4, 4)))
+    assert len(nothing) == 0 and nothing.count.shape == (0,) and nothing.contacts.shape == (0,)
+
+
+def test_known_counts_and_places():
+    """A cube of 2 mm, half of it in voxels of 200: x up to 5.5, where the interpolant falls from 200 to 0."""
+    scene = vx.Scene(vx.read_volume(half_space(), affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+    inside, across, outside = placed((3, 4, 4), (6, 4, 4), (9, 4, 4))
+    answer = scene.detect(cube(), [inside, across, outside], contacts=True, bounds=True)
+    assert answer.hit.tolist() == [True, True, False] and not answer.possible.any()
+    touching = answer.contacts[answer.contacts["pair"] == 1]
+    assert touching["position"][:, 0].min() >= 5 and touching["position"][:, 0].max() < 5.52
+    np.testing.assert_allclose(touching["normal"], np.broadcast_to([1, 0, 0], (len(touching), 3)), atol=1e-6)
+    np.testing.assert_allclose(touching["position"][:, 0] + touching["depth"], 5.5, atol=0.02)
+    assert np.isnan(answer.bounds[2]).all()
+    found = scene.clearance(cube(), [outside])
+    assert found.lo[0] == pytest.approx(8 - 5.5, abs=0.02) and found.hi[0] - found.lo[0] <= 0.01
+    closest = found.closest[0]
+    assert closest["mesh"][0] == pytest.approx(8) and closest["per_translation"] == pytest.approx([1, 0, 0], abs=1e-3)
+    assert found.closest["triangle"].tolist()[0] >= 0 and found.end.tolist() == ["closed"]
+    assert scene.within(cube(), [outside, across], margin=2).hit.tolist() == [False, True]
+    assert scene.within(cube(), [outside], margin=3).hit.tolist() == [True]
+
+
+def test_several_meshes(scene, knife, head):
+    small = cube(10)
+    a, b = random_poses(300, 5), random_poses(40, 6)
+    both = scene.detect([(knife, a), (small, b)], contacts=True, triangles=True)
+    one, other = scene.detect(knife, a, contacts=True), scene.detect(small, b, contacts=True)
+    np.testing.assert_array_equal(both.count, np.concatenate([one.count, other.count]))
+    assert both.item.tolist() == [0] * 300 + [1] * 40
+    assert both.pose.tolist() == list(range(300)) + list(range(40))
+    second = both.contacts[both.contacts["pair"] >= 300]
+    np.testing.assert_array_equal(second["position"], other.contacts["position"])
+    np.testing.assert_array_equal(second["pair"] - 300, other.contacts["pair"])
+    assert len(scene.detect([])) == 0
+
+
+def test_pieces_change_nothing(head):
+    """More poses than a first piece has: the rest comes in pieces, whose pairs go on counting."""
+    mesh = vx.read_mesh("builtin:ellipsoid:49998")  # a first piece has some twenty poses
+    scene = vx.Scene(head, opacity=[(40, 0), (80, 1)])
+    poses = random_poses(60, 8, reach=180)
+    told = []
+    answer = scene.detect(mesh, poses, contacts=True, most_contacts=2**22, progress=lambda *way: told.append(way))
+    assert len(told) >= 2 and told[-1] == (60, 60)
+    for pair in (0, 21, 40, 59):
+        alone = scene.detect(mesh, poses[pair], contacts=True)
+        assert alone.count[0] == answer.count[pair]
+        np.testing.assert_array_equal(alone.contacts["position"],
+                                      answer.contacts["position"][answer.contacts["pair"] == pair])
+
+
+def test_a_cut_list_of_contacts_says_so(scene, knife):
+    poses = random_poses(2000, 9)
+    answer = scene.detect(knife, poses, contacts=True, most_contacts=100)
+    assert len(answer.contacts) == 100
+    assert answer.contacts_found == answer.count.sum()
+
+
+def test_yes_or_no(scene, knife):
+    poses = random_poses(100, 10)
+    answer, counted = scene.detect(knife, poses, yes_no=True), scene.detect(knife, poses)
+    np.testing.assert_array_equal(answer.hit, counted.hit)
+    assert set(answer.count.tolist()) == {0, 1} and answer.hit.any()
+    np.testing.assert_array_equal(answer.contacts, counted.contacts)
+
+
+def test_labels(head, knife):
+    labels = vx.read_labels(head, names={90: "brain"})
+    scene = vx.Scene(head, opacity=[(40, 0), (80, 1)], labels=labels)
+    answer = scene.detect(knife, random_poses(30, 11), labels=True, contacts=True)
+    assert answer.labels["count"].sum() == answer.count.sum() > 0
+    np.testing.assert_array_equal(answer.contacts["label"], labels.at(answer.contacts["position"]))
+    assert set(answer.labels["label"]) <= set(labels.values)
+    found = scene.clearance(knife, random_poses(5, 11), labels=[90, 120])
+    assert found.lo.shape == found.hi.shape == found.end.shape == (5, 2) and found.labels.tolist() == [90, 120]
+    assert scene.clearance(knife, np.eye(4), labels=True).lo.shape == (1, len(labels.values) - 1)
+    with pytest.raises(vx.NotReadyError, match="closest"):
+        found.closest
+
+
+def test_bounds_of_clearances(scene, knife):
+    far = placed((1000, 0, 0))
+    beyond = scene.clearance(knife, far, maximum=5)
+    assert beyond.lo[0] == 5 and beyond.hi[0] == np.inf and beyond.end[0] == "beyond"
+    assert beyond.closest["triangle"].tolist() == [-1] and np.isnan(beyond.closest["mesh"]).all()
+    tight, loose = scene.clearance(knife, far, tolerance=1e-3), scene.clearance(knife, far, tolerance=1)
+    assert tight.hi[0] - tight.lo[0] <= 1e-3 and loose.lo[0] <= tight.hi[0] and tight.lo[0] <= loose.hi[0]
+    with pytest.raises(vx.InvalidArgumentError, match="tolerance"):
+        scene.clearance(knife, far, tolerance=0)
+
+
+def test_a_camera(scene, knife):
+    from_front = vx.View(np.array([[0.01, 0, 0, 0], [0, 0, -0.01, 0], [0, 0.002, 0, 0.5], [0, 0, 0, 1]]), 256, 128)
+    answer = scene.detect(knife, random_poses(20, 12), projection="view", view=from_front)
+    assert answer.hit.any()
+    with pytest.raises(vx.InvalidArgumentError, match="singular|inverted"):
+        scene.detect(knife, np.eye(4), projection="view", view=vx.View(np.zeros((4, 4))))
+
+
+def test_names_of_options_are_listed(scene, knife):
+    for option in ("projection", "method", "filter", "boundary"):
+        with pytest.raises(vx.InvalidArgumentError, match=f"{option} 'nonsense' is none of "):
+            scene.detect(knife, np.eye(4), **{option: "nonsense"})
+    with pytest.raises(vx.UnsupportedError, match="query needs a Vulkan device"):
+        scene.detect(knife, np.eye(4), method="query")
+
+
+def test_progress(scene, knife):
+    class Bar:  # what tqdm's has
+        total = None
+        n = 0
+        closed = False
+
+        def __init__(self, total=None):
+            self.total = total
+            bars.append(self)
+
+        def update(self, more):
+            self.n += more
+
+        def close(self):
+            self.closed = True
+
+    bars = []
+    poses = random_poses(1000, 13)
+    mine = Bar()
+    scene.detect(knife, poses, progress=mine)
+    assert (mine.n, mine.total, mine.closed) == (1000, 1000, False)
+    scene.clearance(knife, poses[:20], maximum=1, progress=Bar)
+    assert (bars[-1].n, bars[-1].total, bars[-1].closed) == (20, 20, True)
+    with pytest.raises(TypeError, match="progress"):
+        scene.detect(knife, poses, progress=3)
+    tqdm = pytest.importorskip("tqdm").tqdm
+    scene.within(knife, poses, margin=1, progress=tqdm)
+
+
+def test_plots(scene, knife):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = scene.detect(knife, random_poses(9, 14)).plot()
+    assert axes.get_xlabel() == "pose"
+    assert scene.clearance(knife, random_poses(9, 14), maximum=3).plot().get_ylabel() == "mm"

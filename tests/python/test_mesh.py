@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Meshes from arrays and from the objects of other libraries."""
+import numpy as np
+import pytest
+
+import voxtact as vx
+from conftest import cube, program
+
+TRIANGLES = np.array([[0, 1, 2], [1, 3, 2]])
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [1, 2, 3.5]])
+
+
+def test_arrays():
+    mesh = vx.read_mesh((CORNERS, TRIANGLES))
+    assert mesh.vertices.dtype == np.float32 and mesh.faces.dtype == np.uint32 and mesh.notes == ()
+    np.testing.assert_array_equal(mesh.vertices, CORNERS)
+    np.testing.assert_array_equal(mesh.faces, TRIANGLES)
+    assert not mesh.vertices.flags.writeable and not mesh.faces.flags.writeable
+    np.testing.assert_array_equal(mesh.bounds, [[0, 0, 0], [1, 2, 3.5]])
+    np.testing.assert_array_equal(vx.read_mesh((CORNERS.tolist(), TRIANGLES.tolist())).faces, TRIANGLES)
+    np.testing.assert_array_equal(vx.read_mesh((np.asfortranarray(CORNERS), TRIANGLES[::-1])).faces, TRIANGLES[::-1])
+    assert "rounded" in vx.read_mesh((CORNERS + 0.1, TRIANGLES)).notes[0]
+
+
+def test_space_and_scale():
+    mesh = vx.read_mesh((CORNERS, TRIANGLES), space="ras", scale=1000)
+    np.testing.assert_array_equal(mesh.vertices, CORNERS * [-1000, -1000, 1000])
+    np.testing.assert_array_equal(vx.read_mesh(mesh, space="ras", scale=0.001).vertices, CORNERS.astype(np.float32))
+    assert vx.read_mesh(mesh) is mesh
+
+
+@pytest.mark.parametrize("vertices, faces, text", [
+    (CORNERS, [[0, 1, 4]], r"face 0 is \[0, 1, 4\]; there are 4 vertices"),
+    (CORNERS, [[0, 1, 2], [0, -1, 2]], "face 1"),
+    (CORNERS, TRIANGLES.astype(float), "float64"),
+    (CORNERS, [[0, 1, 2, 3]], r"\(T, 3\)"),
+    (CORNERS[:, :2], TRIANGLES, r"\(V, 3\)"),
+    (CORNERS, np.empty((0, 3), dtype=int), "triangle"),
+    (CORNERS * np.nan, TRIANGLES, "vertex 0"),
+    (CORNERS * 1e300, TRIANGLES, "no float32 holds"),
+    (np.array([["a"] * 3] * 4), TRIANGLES, "vertices are"),
+])
+def test_what_is_wrong_is_named(vertices, faces, text):
+    with pytest.raises(vx.InvalidArgumentError, match=text):
+        vx.read_mesh((vertices, faces))
+
+
+def test_wrong_options_and_things():
+    for scale in (0, -1, np.nan, np.inf):
+        with pytest.raises(vx.InvalidArgumentError, match="scale"):
+            vx.read_mesh((CORNERS, TRIANGLES), scale=scale)
+    with pytest.raises(vx.InvalidArgumentError, match="space"):
+        vx.read_mesh((CORNERS, TRIANGLES), space="LPS")
+    for thing in (3, object(), None, (1, 2, 3)):
+        with pytest.raises(TypeError, match="no mesh can be made"):
+            vx.read_mesh(thing)
+    with pytest.raises(vx.FileError, match="nowhere.stl"):
+        vx.read_mesh("nowhere.stl")
+
+
+def test_files(tmp_path, knife):
+    for ending in ("stl", "obj", "ply"):
+        knife.write(tmp_path / f"mesh.{ending}")
+        again = vx.read_mesh(tmp_path / f"mesh.{ending}")
+        assert len(again.faces) == len(knife.faces)
+    program("make", "mesh", "builtin:scalpel:300", tmp_path / "theirs.stl", cwd=tmp_path)
+    np.testing.assert_array_equal(vx.read_mesh(tmp_path / "theirs.stl").vertices, vx.read_mesh(tmp_path / "mesh.stl").vertices)
+
+
+def test_trimesh():
+    class Trimesh:  # what its meshes have
+        vertices, faces = CORNERS, TRIANGLES
+
+    np.testing.assert_array_equal(vx.read_mesh(Trimesh()).vertices, CORNERS)
+
+
+def test_meshio(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    mesh = meshio.Mesh(CORNERS, [("triangle", TRIANGLES), ("quad", [[0, 1, 3, 2]]), ("line", [[0, 1]])])
+    read = vx.read_mesh(mesh)
+    np.testing.assert_array_equal(read.faces, [[0, 1, 2], [1, 3, 2], [0, 1, 3], [0, 3, 2]])
+    assert read.notes == ("1 quads cut into triangles", "1 cells of type line left out")
+    with pytest.raises(vx.InvalidArgumentError, match="no triangles; 1 cells of type line"):
+        vx.read_mesh(meshio.Mesh(CORNERS, [("line", [[0, 1]])]))
+    cube(3).write(tmp_path / "cube.stl")
+    theirs, ours = vx.read_mesh(meshio.read(tmp_path / "cube.stl")), vx.read_mesh(tmp_path / "cube.stl")
+    np.testing.assert_array_equal(theirs.vertices[theirs.faces], ours.vertices[ours.faces])
+
+
+def test_vtk(tmp_path):
+    pytest.importorskip("vtkmodules.vtkIOGeometry")
+    from vtkmodules.vtkFiltersSources import vtkCubeSource
+    from vtkmodules.vtkIOGeometry import vtkSTLReader
+
+    cube(3).write(tmp_path / "cube.stl")
+    reader = vtkSTLReader()
+    reader.SetFileName(str(tmp_path / "cube.stl"))
+    reader.Update()
+    theirs, ours = vx.read_mesh(reader.GetOutput()), vx.read_mesh(tmp_path / "cube.stl")
+    np.testing.assert_array_equal(theirs.vertices[theirs.faces], ours.vertices[ours.faces])
+    source = vtkCubeSource()  # of quads
+    source.Update()
+    mesh = vx.read_mesh(source.GetOutput())
+    assert len(mesh.faces) == 12 and "cut into triangles" in mesh.notes[0]

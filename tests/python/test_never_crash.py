@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: MIT
+"""Wrong arguments, other threads, signals, forks and what is no longer there: an exception, never a crash or a hang."""
+import copy
+import gc
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import voxtact as vx
+from conftest import cube, half_space, placed, random_poses
+
+
+@pytest.mark.parametrize("poses", [np.zeros(16), np.zeros((3, 4)), np.zeros((2, 3, 3)), np.zeros((1, 1, 4, 4)), 3.0, [],
+                                   np.zeros((4, 4, 5)), [[1, 2], [3, 4]]])
+def test_poses_of_another_shape(scene, knife, poses):
+    for ask in (scene.detect, scene.clearance, lambda *asked: scene.within(*asked, margin=1)):
+        with pytest.raises(vx.InvalidArgumentError, match=r"poses have the shape .*\(4,4\) or \(N,4,4\) is needed"):
+            ask(knife, poses)
+
+
+@pytest.mark.parametrize("poses", ["text", object(), [["a"] * 4] * 4, {"a": 1}])
+def test_poses_that_are_no_numbers(scene, knife, poses):
+    with pytest.raises((TypeError, ValueError)):
+        scene.detect(knife, poses)
+
+
+@pytest.mark.parametrize("row, value, text", [(0, np.nan, "not finite"), (1, np.inf, "not finite"), (3, 0.5, "0 0 0 1")])
+def test_poses_that_are_no_poses_are_named(scene, knife, row, value, text):
+    poses = random_poses(5, 1)
+    poses[3, row, 1] = value
+    with pytest.raises(vx.InvalidArgumentError, match=f"pose 3.*{text}"):
+        scene.detect(knife, poses)
+
+
+def test_a_bad_pose_of_a_later_piece_is_named_by_its_own_number(head):
+    poses = random_poses(100, 1)
+    poses[97, 0, 0] = np.nan
+    with pytest.raises(vx.InvalidArgumentError, match="pose 97"):
+        vx.Scene(head).detect(vx.read_mesh("builtin:ellipsoid:49998"), poses)
+
+
+def test_things_that_are_no_meshes(scene):
+    for thing in (None, "tool.stl", 3, (cube().vertices, cube().faces), [(1, 2)], [(cube(),)]):
+        with pytest.raises(TypeError):
+            scene.detect(thing, np.eye(4) if not isinstance(thing, list) else None)
+    with pytest.raises(TypeError, match="poses are missing"):
+        scene.detect(cube())
+
+
+def test_options_of_another_type(scene, knife, head):
+    for option, value in (("resolution", "fine"), ("samples_per_voxel", -1), ("most_contacts", 2**40), ("view", 3),
+                          ("projection", 3), ("max_depth", None)):
+        try:
+            scene.detect(knife, np.eye(4), **{option: value})
+        except (TypeError, RuntimeError, ValueError) as error:
+            assert "Unable to cast" not in str(error), error
+    for option, value in (("resolution", 0), ("resolution", np.nan), ("samples_per_voxel", 99), ("max_depth", -1)):
+        with pytest.raises(vx.InvalidArgumentError):
+            scene.detect(knife, np.eye(4), contacts=True, projection="conservative" if option == "resolution" else
+                         "dominant-axis", **{option: value})
+    with pytest.raises(vx.InvalidArgumentError, match="threshold"):
+        vx.Scene(head, threshold=2)
+    for wrong in ({"domain": (3, 3)}, {"table_size": 1}, {"opacity": [(0, np.nan)]}):
+        with pytest.raises(vx.InvalidArgumentError):
+            vx.Scene(head, **wrong)
+
+
+def test_what_is_made_of_nothing():
+    for thing in (vx.Volume, vx.Mesh):
+        with pytest.raises(TypeError, match="makes"):
+            thing()
+    for hollow in (vx.Volume, vx.Mesh, vx.Scene, vx.Labels, vx.Answer, vx.Clearance, vx.Device):
+        with pytest.raises((AttributeError, TypeError)):
+            repr(hollow.__new__(hollow))
+    from voxtact import _core
+
+    for hollow in (_core.Scene, _core.Volume, _core.Mesh, _core.Answer, _core.Device):
+        with pytest.raises(TypeError):
+            hollow().revision
+
+
+def test_pickling_and_copying_are_refused_by_name(scene, knife, head):
+    answer = scene.detect(knife, np.eye(4))
+    for thing in (head, knife, scene, vx.read_labels(head), answer, scene.clearance(knife, np.eye(4))):
+        for way in (pickle.dumps, copy.copy, copy.deepcopy):
+            with pytest.raises(TypeError, match=f"voxtact.{type(thing).__name__} cannot be pickled"):
+                way(thing)
+
+
+def test_a_closed_scene(head, knife):
+    with vx.Scene(head, opacity=[(40, 0), (80, 1)]) as scene:
+        answer = scene.detect(knife, np.eye(4))
+    scene.close()
+    assert "closed" in repr(scene) and answer.count.shape == (1,)
+    for ask in (lambda: scene.detect(knife, np.eye(4)), lambda: scene.clearance(knife, np.eye(4)),
+                lambda: scene.edit(ball=(0, 0, 0, 1), value=0), lambda: setattr(scene, "threshold", 0.2),
+                lambda: answer.contacts, lambda: scene.picture(knife)):
+        with pytest.raises(vx.NotReadyError, match="closed"):
+            ask()
+    assert scene._repr_png_() is None
+
+
+def test_arrays_outlive_what_they_came_from():
+    def made():
+        array = half_space()
+        scene = vx.Scene(vx.read_volume(array, affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+        answer = scene.detect(cube(), placed((4, 4, 4), (9, 4, 4)))
+        return scene.volume.array, cube().vertices, answer.count, answer.contacts, scene.clearance(cube(), np.eye(4)).closest
+
+    arrays = made()
+    gc.collect()
+    copies = [array.copy() for array in arrays]
+    filler = [np.full(1000, 7.5) for _ in range(200)]
+    for array, before in zip(arrays, copies):
+        np.testing.assert_array_equal(array, before)
+    assert len(filler) == 200
+
+
+def test_a_callback_that_uses_its_scene_is_refused(scene, knife):
+    with pytest.raises(vx.NotReadyError, match="at work for this very thread"):
+        scene.detect(knife, random_poses(10, 2), progress=lambda *_: scene.detect(knife, np.eye(4)))
+    assert len(scene.detect(knife, np.eye(4))) == 1
+
+
+def test_a_callback_that_raises_ends_the_call(scene, knife):
+    class Enough(Exception):
+        pass
+
+    def progress(done, of):
+        raise Enough(f"{done} of {of}")
+
+    for ask in (scene.detect, scene.clearance):
+        with pytest.raises(Enough):
+            ask(knife, random_poses(10, 2), progress=progress)
+    assert len(scene.detect(knife, np.eye(4))) == 1
+
+
+def test_threads(head, knife):
+    """Answers of threads that share scenes and meshes are those of one thread; edits come between."""
+    scene, other = vx.Scene(head, opacity=[(40, 0), (80, 1)]), vx.Scene(head, opacity=[(100, 0), (200, 1)])
+    poses = random_poses(400, 3)
+    mesh = vx.read_mesh("builtin:scalpel:302")  # nobody has used it yet
+    expected, wrong = {}, []
+    for one in (scene, other):
+        expected[one] = one.detect(vx.read_mesh("builtin:scalpel:302"), poses).count
+
+    def ask(one):
+        for _ in range(5):
+            if not np.array_equal(one.detect(mesh, poses).count, expected[one]):
+                wrong.append(one)
+            one.threshold = 0.1
+
+    threads = [threading.Thread(target=ask, args=(one,)) for one in (scene, other) * 3]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(120)
+        assert not thread.is_alive()
+    assert not wrong
+
+
+def test_work_does_not_hold_the_interpreters_lock(scene, knife):
+    """Another thread counts on while this one measures."""
+    counted, done = [], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begin = time.perf_counter()
+    scene.clearance(knife, random_poses(300, 4), tolerance=1e-6)
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    while_measuring = [at for at in counted if begin < at < end]
+    assert len(while_measuring) > (end - begin) / 0.05, (len(while_measuring), end - begin)
+
+
+INTERRUPTED = """
+import os, signal, sys, threading, time
+import numpy as np
+import voxtact as vx
+scene = vx.Scene("builtin:head:64", opacity=[(40, 0), (80, 1)])
+mesh = vx.read_mesh("builtin:scalpel")
+poses = np.tile(np.eye(4), (500_000, 1, 1))
+poses[:, 2, 3] = np.linspace(-90, 90, len(poses))
+def press():
+    time.sleep(0.05)
+    global pressed
+    pressed = time.perf_counter()
+    os.kill(os.getpid(), signal.SIGINT)
+begun = threading.Event()
+def progress(done, of):
+    if not begun.is_set():
+        begun.set()
+        threading.Thread(target=press).start()
+try:
+    getattr(scene, sys.argv[1])(mesh, poses, progress=progress)
+except KeyboardInterrupt:
+    print("interrupted after", time.perf_counter() - pressed)
+    print("still there:", len(scene.detect(mesh, np.eye(4))))
+"""
+
+
+@pytest.mark.parametrize("question", ["detect", "clearance"])
+def test_ctrl_c_stops_a_long_batch_within_a_second(question):
+    done = subprocess.run([sys.executable, "-c", INTERRUPTED, question], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert "still there: 1" in done.stdout, done.stdout
+    assert float(done.stdout.split()[2]) < 1, done.stdout
+
+
+@pytest.mark.parametrize("number", range(3))
+def test_a_fork_after_use(head, knife, number):
+    """In a child the threads of its parent are not there: it gets its own. One that asks nothing just ends."""
+    scene = vx.Scene(head, opacity=[(40, 0), (80, 1)])
+    poses = random_poses(50, 5)
+    expected = scene.detect(knife, poses)
+    scene.clearance(knife, poses[:2])
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            if number == 0:
+                status = 0 if np.array_equal(scene.detect(knife, poses).count, expected.count) else 2
+                scene.clearance(knife, poses[:2])
+            elif number == 1:
+                scene.close()
+                del scene
+                gc.collect()
+                status = 0
+            else:
+                scene.opacity = [(100, 0), (200, 1)]
+                status = 0 if vx.Scene(head, opacity=[(40, 0), (80, 1)]).detect(knife, poses).hit.any() else 2
+        finally:
+            os._exit(status)
+    for _ in range(600):
+        ended, status = os.waitpid(child, os.WNOHANG)
+        if ended:
+            break
+        time.sleep(0.1)
+    else:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        pytest.fail("the child hangs")
+    assert os.waitstatus_to_exitcode(status) == 0
+    np.testing.assert_array_equal(scene.detect(knife, poses).count, expected.count)
+
+
+def test_errors_are_what_they_say():
+    for error in (vx.InvalidArgumentError, vx.UnsupportedError, vx.LimitExceededError, vx.OutOfMemoryError,
+                  vx.DeviceLostError, vx.VulkanError, vx.FileError, vx.FormatError, vx.NotReadyError, vx.InternalError):
+        assert issubclass(error, vx.Error) and error.code != vx.Error.code and error.__module__ == "voxtact"
+    assert issubclass(vx.InvalidArgumentError, ValueError) and issubclass(vx.FileError, OSError)
+    with pytest.raises(vx.Error) as caught:
+        vx.read_volume("builtin:nonsense")
+    assert caught.value.code == "invalid-argument" and caught.value.vk_result == 0
+    assert "\n" not in str(caught.value) and "nonsense" in str(caught.value)
+    with pytest.raises(vx.InvalidArgumentError, match="device"):
+        vx.InvalidArgumentError("device")
+        raise vx.InvalidArgumentError("device")
+
+
+def test_broken_files(tmp_path):
+    for name, content in (("a.nii", b"\0" * 400), ("a.nii.gz", b"\x1f\x8b"), ("a.stl", b"solid"), ("a.ply", b"ply\n"),
+                          ("\udcff.nii", b"x")):
+        path = tmp_path / name
+        path.write_bytes(content)
+        with pytest.raises((vx.FormatError, vx.FileError, vx.InvalidArgumentError)) as caught:
+            (vx.read_volume if ".nii" in name else vx.read_mesh)(path)
+        assert "\n" not in str(caught.value)
+    (tmp_path / "poses.txt").write_text("1 2 3\n")
+    with pytest.raises(vx.Error, match="line 1"):
+        vx.read_poses(tmp_path / "poses.txt")

@@ -1,0 +1,326 @@
+# SPDX-License-Identifier: MIT
+"""Volumes from arrays and from the objects of other libraries: the same answers, wherever they come from."""
+import os
+
+import numpy as np
+import pytest
+
+import voxtact as vx
+from conftest import cube, half_space, placed, program, random_poses
+
+# Oblique, anisotropic and flipped.
+TURN = np.array([[0.96, -0.28, 0], [0.28, 0.96, 0], [0, 0, -1]])
+
+
+def oblique(spacing=(0.7, 1.1, 2.3), origin=(-20.0, 11.0, 5.0)):
+    affine = np.eye(4)
+    affine[:3, :3] = TURN * np.array(spacing)
+    affine[:3, 3] = origin
+    return affine
+
+
+def noise(dtype=np.int16, shape=(14, 18, 22), seed=2):
+    return np.random.default_rng(seed).integers(0, 200, shape).astype(dtype)
+
+
+def answers(volume):
+    scene = vx.Scene(volume, opacity=[(90, 0), (110, 1)])
+    return scene.detect(cube(5), random_poses(80, 21, reach=25)).count
+
+
+def test_an_array_is_not_copied():
+    for dtype in (np.uint8, np.int16, np.uint16, np.float32):
+        array = noise(dtype)
+        volume = vx.read_volume(array, affine=np.eye(4))
+        assert np.shares_memory(volume.array, array) and volume.notes == ()
+        assert volume.dtype == dtype and volume.shape == (14, 18, 22)
+        assert not volume.array.flags.writeable
+        array.setflags(write=False)
+        assert np.shares_memory(vx.read_volume(array, affine=np.eye(4)).array, array)
+
+
+def test_the_order_of_the_axes_is_said():
+    array = noise()
+    expected = answers(vx.read_volume(array, affine=oblique()))
+    assert 0 < (expected > 0).sum() < len(expected), "the poses say nothing"
+    turned = np.ascontiguousarray(array.transpose(2, 1, 0))  # [x, y, z], C order
+    as_nibabel = array.transpose(2, 1, 0)  # [x, y, z], Fortran order
+    with pytest.raises(vx.InvalidArgumentError, match="not in C order.*axes='xyz'.*axes='zyx'"):
+        vx.read_volume(as_nibabel, affine=oblique())
+    volume = vx.read_volume(as_nibabel, affine=oblique(), axes="xyz")
+    assert np.shares_memory(volume.array, array) and volume.notes == ()
+    np.testing.assert_array_equal(answers(volume), expected)
+    volume = vx.read_volume(turned, affine=oblique(), axes="xyz")
+    assert "voxels copied" in volume.notes[0]
+    np.testing.assert_array_equal(answers(volume), expected)
+    fortran = np.asfortranarray(array)  # [z, y, x], Fortran order
+    with pytest.raises(vx.InvalidArgumentError, match="axes="):
+        vx.read_volume(fortran, affine=oblique())
+    np.testing.assert_array_equal(answers(vx.read_volume(fortran, affine=oblique(), axes="zyx")), expected)
+    with pytest.raises(vx.InvalidArgumentError, match="axes='yxz'"):
+        vx.read_volume(array, affine=np.eye(4), axes="yxz")
+
+
+def test_strides_of_all_kinds():
+    wide = noise(shape=(28, 18, 44))
+    part = wide[::2, :, ::2]
+    volume = vx.read_volume(part, affine=oblique())
+    assert "copied" in volume.notes[0]
+    np.testing.assert_array_equal(volume.array, part)
+    np.testing.assert_array_equal(answers(volume), answers(vx.read_volume(part.copy(), affine=oblique())))
+    upside_down = vx.read_volume(noise()[::-1], affine=oblique())
+    np.testing.assert_array_equal(upside_down.array, noise()[::-1])
+    raw = np.frombuffer(b"\0" + noise().tobytes(), dtype=np.uint8)[1:].view(np.int16).reshape(14, 18, 22)
+    assert "not aligned" in vx.read_volume(raw, affine=np.eye(4)).notes[0]
+
+
+@pytest.mark.parametrize("dtype, stored", [("bool", "uint8"), ("int8", "int16"), ("int32", "int16"), ("uint32", "int16"),
+                                           ("int64", "int16"), ("float16", "float32"), ("float64", "float32"),
+                                           (">i2", "int16"), (">f4", "float32")])
+def test_types_become_those_that_there_are(dtype, stored):
+    array = (noise() % 2).astype(dtype)
+    volume = vx.read_volume(array, affine=np.eye(4))
+    assert volume.dtype == np.dtype(stored)
+    np.testing.assert_array_equal(volume.array, array)
+    assert dtype == "bool" or len(volume.notes) == 1
+
+
+def test_whole_numbers_keep_their_values():
+    large = np.full((2, 2, 2), 40000, dtype=np.int32)
+    assert vx.read_volume(large, affine=np.eye(4)).dtype == np.uint16
+    large[0, 0, 0] = -1
+    assert vx.read_volume(large, affine=np.eye(4)).dtype == np.float32
+    large[0, 0, 0] = 2**24 + 1
+    with pytest.raises(vx.InvalidArgumentError, match="fit neither"):
+        vx.read_volume(large, affine=np.eye(4))
+    with pytest.raises(vx.InvalidArgumentError, match="too large for a float32"):
+        vx.read_volume(np.full((2, 2, 2), 1e300), affine=np.eye(4))
+    with pytest.raises(vx.InvalidArgumentError, match="complex128"):
+        vx.read_volume(np.zeros((2, 2, 2), dtype=complex), affine=np.eye(4))
+
+
+def test_spaces():
+    array = half_space()
+    lps = vx.read_volume(array, affine=np.eye(4), space="lps")
+    ras = vx.read_volume(array, affine=vx.LPS_FROM_RAS)
+    np.testing.assert_array_equal(ras.world_from_index, lps.world_from_index)
+    np.testing.assert_array_equal(ras.affine, vx.LPS_FROM_RAS)
+    assert vx.read_volume(array, affine=oblique()).direction @ np.diag([1, 1, 1]) == pytest.approx(
+        np.diag([-1, -1, 1]) @ TURN)
+    assert vx.read_volume(array, affine=oblique()).spacing == pytest.approx([0.7, 1.1, 2.3])
+    with pytest.raises(vx.InvalidArgumentError, match="space='RAS'"):
+        vx.read_volume(array, affine=np.eye(4), space="RAS")
+
+
+@pytest.mark.parametrize("array, affine, text", [
+    (np.zeros((3, 3)), np.eye(4), "three dimensions"),
+    (np.zeros((3, 3, 3)), None, "needs affine="),
+    (np.zeros((3, 3, 3)), np.eye(3), r"\(4, 4\) is needed"),
+    (np.zeros((3, 3, 3)), np.full((4, 4), np.nan), "not finite"),
+    (np.zeros((3, 3, 3)), np.zeros((4, 4)), "last row"),
+    (np.zeros((3, 3, 3)), np.diag([1, 0, 1, 1]), "0 mm"),
+    (np.zeros((3, 3, 3)), [[1, 1, 0, 0], [1, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "singular"),
+    (np.full((3, 3, 3), np.nan), np.eye(4), "nan|NaN"),
+    (np.zeros((0, 3, 3)), np.eye(4), "size|empty"),
+    (np.array([["a"]] * 3), np.eye(4), "three dimensions"),
+])
+def test_what_is_wrong_is_named(array, affine, text):
+    with pytest.raises(vx.InvalidArgumentError, match=text):
+        vx.read_volume(array, affine=affine)
+
+
+def test_other_objects_are_refused_by_name():
+    for thing in (3, object(), {"a": 1}, None):
+        with pytest.raises(TypeError, match="no volume can be made of a builtins"):
+            vx.read_volume(thing)
+    with pytest.raises(vx.FileError, match="nowhere.nii"):
+        vx.read_volume("nowhere.nii")
+    with pytest.raises(OSError):
+        vx.read_volume(b"/nowhere/\xff.nii")
+    with pytest.raises(vx.InvalidArgumentError, match="a file says where"):
+        vx.read_volume("nowhere.nii", affine=np.eye(4))
+
+
+def same_place(volume, expected):
+    np.testing.assert_allclose(volume.world_from_index, expected.world_from_index, rtol=1e-6, atol=1e-5)
+    np.testing.assert_array_equal(volume.array, expected.array)
+
+
+@pytest.fixture(params=["head", "ct", "oblique"])
+def nifti(request, tmp_path):
+    path = tmp_path / "volume.nii.gz"
+    if request.param == "oblique":
+        vx.read_volume(noise(), affine=oblique()).write(path)
+    else:
+        program("make", "volume", f"builtin:{request.param}:24", path, cwd=tmp_path)
+    return path
+
+
+def test_nibabel(nifti, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    image, expected = nibabel.load(nifti), vx.read_volume(nifti)
+    volume = vx.read_volume(image)
+    same_place(volume, expected)
+    np.testing.assert_array_equal(answers(volume), answers(expected))
+    np.testing.assert_allclose(volume.affine, image.affine, atol=1e-5)
+    rounded = vx.read_volume(image.get_fdata(), affine=image.affine, axes="xyz")
+    np.testing.assert_array_equal(answers(rounded), answers(expected))
+
+
+def test_nibabel_scaling_units_and_frames(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    path = tmp_path / "scaled.nii"
+    affine = oblique(spacing=(0.001, 0.001, 0.002), origin=(0, 0.01, 0))
+    image = nibabel.Nifti1Image(noise(shape=(6, 7, 8, 3)), affine)
+    image.header.set_xyzt_units("meter")
+    image.header.set_slope_inter(0.5, -3)
+    nibabel.save(image, path)
+    with pytest.raises(vx.InvalidArgumentError, match="holds 3 volumes"):
+        vx.read_volume(nibabel.load(path))
+    with pytest.raises(vx.InvalidArgumentError, match="frame=3"):
+        vx.read_volume(nibabel.load(path), frame=3)
+    volume = vx.read_volume(nibabel.load(path), frame=2)
+    same_place(volume, vx.read_volume(path, frame=2))
+    assert any("from meter to mm" in note for note in volume.notes)
+
+
+def test_vtk(nifti):
+    vtk_util = pytest.importorskip("vtkmodules.util.numpy_support")
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+
+    expected = vx.read_volume(nifti)
+    z, y, x = expected.shape
+    image = vtkImageData()
+    image.SetDimensions(x, y, z)
+    image.SetSpacing(*expected.spacing)
+    image.SetOrigin(*expected.origin)
+    image.SetDirectionMatrix(*expected.direction.ravel())
+    image.GetPointData().SetScalars(vtk_util.numpy_to_vtk(expected.array.ravel()))
+    same_place(vx.read_volume(image), expected)
+    np.testing.assert_array_equal(answers(vx.read_volume(image)), answers(expected))
+    assert vx.read_volume(image, space="ras").origin == pytest.approx(expected.origin * [-1, -1, 1])
+
+
+class ItkImage:
+    """The methods of a SimpleITK image that are asked; the place is LPS."""
+
+    def __init__(self, volume):
+        self.volume = volume
+
+    def GetSpacing(self):
+        return tuple(self.volume.spacing)
+
+    def GetOrigin(self):
+        return tuple(self.volume.origin)
+
+    def GetDirection(self):
+        return tuple(self.volume.direction.ravel())
+
+    def GetNumberOfComponentsPerPixel(self):
+        return 1
+
+    def __array__(self, dtype=None):
+        return self.volume.array
+
+
+def test_simple_itk(nifti):
+    expected = vx.read_volume(nifti)
+    same_place(vx.read_volume(ItkImage(expected)), expected)
+    np.testing.assert_array_equal(answers(vx.read_volume(ItkImage(expected))), answers(expected))
+
+
+def test_dicom_by_pydicom(tmp_path):
+    """Slices that pydicom wrote, read by us from their folder and by pydicom into an array."""
+    pydicom = pytest.importorskip("pydicom")
+    from pydicom.dataset import FileDataset, FileMetaDataset
+    from pydicom.uid import CTImageStorage, ExplicitVRLittleEndian, generate_uid
+
+    array = noise(shape=(5, 8, 9))
+    rows, columns, normal = np.array([0.96, 0.28, 0]), np.array([-0.28, 0.96, 0]), np.array([0, 0, 1])
+    series, study, frame = generate_uid(), generate_uid(), generate_uid()
+    for number, voxels in enumerate(array):
+        meta = FileMetaDataset()
+        meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID = CTImageStorage, generate_uid()
+        meta.TransferSyntaxUID = ExplicitVRLittleEndian
+        dicom = FileDataset(None, {}, file_meta=meta, preamble=b"\0" * 128)
+        dicom.is_little_endian, dicom.is_implicit_VR = True, False
+        dicom.SOPClassUID, dicom.SOPInstanceUID = CTImageStorage, meta.MediaStorageSOPInstanceUID
+        dicom.SeriesInstanceUID, dicom.StudyInstanceUID, dicom.FrameOfReferenceUID = series, study, frame
+        dicom.Modality, dicom.InstanceNumber = "CT", number + 1
+        dicom.Rows, dicom.Columns, dicom.PixelSpacing = 8, 9, [1.5, 0.5]
+        dicom.ImageOrientationPatient = [*rows, *columns]
+        dicom.ImagePositionPatient = [*(np.array([10.0, -5, 3]) + 2.5 * number * normal)]
+        dicom.BitsAllocated, dicom.BitsStored, dicom.HighBit, dicom.PixelRepresentation = 16, 16, 15, 1
+        dicom.SamplesPerPixel, dicom.PhotometricInterpretation = 1, "MONOCHROME2"
+        dicom.RescaleSlope, dicom.RescaleIntercept = 1, 0
+        dicom.PixelData = voxels.tobytes()
+        dicom.save_as(tmp_path / f"{number}.dcm", write_like_original=False)
+    slices = [pydicom.dcmread(path) for path in sorted(tmp_path.iterdir())]
+    affine = np.eye(4)
+    affine[:3, :3] = np.stack([rows * 0.5, columns * 1.5, normal * 2.5], axis=1)
+    affine[:3, 3] = slices[0].ImagePositionPatient
+    volume = vx.read_volume(np.stack([one.pixel_array for one in slices]), affine=affine, space="lps")
+    same_place(volume, vx.read_volume(tmp_path))
+
+
+def test_files_of_all_formats(tmp_path):
+    expected = vx.read_volume(noise(), affine=oblique())
+    for ending in ("nii", "nii.gz", "nrrd", "mha"):
+        expected.write(tmp_path / f"volume.{ending}")
+        same_place(vx.read_volume(os.fspath(tmp_path / f"volume.{ending}")), expected)
+    with pytest.raises(vx.InvalidArgumentError, match="jpg"):
+        expected.write(tmp_path / "volume.jpg")
+
+
+def test_edits(head, knife):
+    scene = vx.Scene(vx.read_volume(half_space(np.int16), affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+    touching, free = placed((4, 4, 4)), placed((9, 4, 4))
+    assert scene.detect(cube(), touching).hit[0] and not scene.detect(cube(), free).hit[0]
+    scene.edit(ball=(4, 4, 4, 3), value=-1000)
+    assert not scene.detect(cube(), touching).hit[0]
+    scene.edit(box=(8, 3, 3, 2, 2, 2), value=200)
+    assert scene.detect(cube(), free).hit[0]
+    scene.edit(at=(8, 3, 3), voxels=np.zeros((2, 2, 2)))
+    assert not scene.detect(cube(), free).hit[0]
+    scene.edit(at=(0, 0, 0), voxels=np.ascontiguousarray(half_space(np.int16)))
+    assert scene.detect(cube(), touching).hit[0]
+    assert (scene.volume.array == half_space()).all(), "the volume itself is not edited"
+    for wrong, text in (({"ball": (1, 2, 3), "value": 1}, "four numbers"), ({"ball": (1, 2, 3, -4), "value": 1}, "radius"),
+                        ({"ball": (1, 2, 3, 4), "value": 1.5}, "1.5"), ({"ball": (1, 2, 3, 4), "value": 40000}, "40000"),
+                        ({"box": (0, 0, 0, 99, 1, 1), "value": 1}, "box"), ({"box": (0, 0, -1, 1, 1, 1), "value": 1}, "box"),
+                        ({"at": (0, 0, 0), "voxels": [[[70000]]]}, "do not all fit"), ({"value": 3}, "one of"),
+                        ({"at": (0, 0, 0), "voxels": np.zeros((2, 2))}, "three dimensions"),
+                        ({"ball": (1, 2, 3, 4)}, "value="), ({"at": (11, 0, 0), "voxels": np.zeros((1, 1, 2))}, "box"),
+                        ({"ball": (1, 2, 3, 4), "box": (0, 0, 0, 1, 1, 1), "value": 3}, "one of")):
+        with pytest.raises(vx.InvalidArgumentError, match=text):
+            scene.edit(**wrong)
+
+
+def test_opacity_and_threshold(scene, knife):
+    poses = random_poses(30, 5)
+    before = scene.detect(knife, poses).count
+    scene.opacity = [(100, 0), (200, 1)]
+    after = scene.detect(knife, poses).count
+    assert (after <= before).all() and (after < before).any()
+    np.testing.assert_array_equal(scene.opacity, [(100, 0), (200, 1)])
+    scene.opacity = "40:0,80:1"
+    np.testing.assert_array_equal(scene.detect(knife, poses).count, before)
+    scene.threshold = 0.0
+    assert scene.detect(knife, poses).count.sum() > before.sum() and scene.threshold == 0
+    for wrong in (2, -1, float("nan")):
+        with pytest.raises(vx.InvalidArgumentError, match="threshold"):
+            scene.threshold = wrong
+    for wrong in ([(80, 1), (40, 0)], [(0, 2)], [1, 2], [], "a:b"):
+        with pytest.raises((vx.InvalidArgumentError, vx.FormatError)):
+            scene.opacity = wrong
+    assert scene.threshold == 0 and scene.opacity.tolist() == [[40, 0], [80, 1]]
+
+
+def test_words():
+    scene = vx.Scene(vx.read_volume("builtin:ct:32"), "0:0,300:1", 0.2, domain=(-1000, 2000), table_size=1024)
+    assert repr(scene) == "<voxtact.Scene of 'ct', 32 x 32 x 11: opacity 0:0, 300:1, threshold 0.2, on the host>"
+    assert "int16" in repr(scene.volume) and "mm" in repr(scene.volume) and scene.domain == (-1000, 2000)
+    assert repr(cube()) == "<voxtact.Mesh 'arrays': 12 triangles, 8 vertices, 2 x 2 x 2 mm>"
+    answer = scene.detect(cube(150), placed((0, 0, 0), (500, 0, 0)))
+    assert repr(answer) == "<voxtact.Answer: 1 of 2 poses touch; conservative, cpu>"
+    assert repr(scene.clearance(cube(150), np.eye(4))).startswith("<voxtact.Clearance of 1 poses: the least is 0 to 0 mm")
