@@ -378,14 +378,19 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
 /// What certifiedBegin() and certifiedBeginAgain() return beside a polygon's corners.
 #define CERTIFIED_NO_POLYGON -1
 
+/// Whether a fragment may have an opaque point, before it is cut out of its triangle. Expects a cell that may have one.
+EXACT bool certifiedBeginMay(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell, int x, int y, int z) {
+    return certifiedCellAllOpaque(table, cell) ||
+           certifiedPartMayBeOpaque(table, triangle, cell, voxelPoint(float(x), float(y), float(z)));
+}
+
 /// The polygon of a fragment. None where it has no opaque point. Expects a cell that may have one.
 EXACT int certifiedBegin(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell, int x, int y, int z,
                          ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
-    const VoxelPoint origin = voxelPoint(float(x), float(y), float(z));
-    if (!certifiedCellAllOpaque(table, cell) && !certifiedPartMayBeOpaque(table, triangle, cell, origin)) {
+    if (!certifiedBeginMay(table, triangle, cell, x, y, z)) {
         return 0;
     }
-    return certifiedClip(triangle, cell, origin, polygon);
+    return certifiedClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), polygon);
 }
 
 /// The same of a precise triangle, in the cell of preciseCell(), or of what is certainly in the domain, `within`, in

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both passes of the projection `conservative` read, and how they find a triangle's cells. Expects
+// What the passes of the projection `conservative` read, and how they find a triangle's cells. Expects
 // VOXTACT_COMPUTE_GROUP lanes, and shared.h before it.
 #ifndef VOXTACT_CERTIFIED_SCENE_GLSL
 #define VOXTACT_CERTIFIED_SCENE_GLSL
@@ -17,27 +17,27 @@ layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = VOXTACT_BINDING_EXTREMES, 
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) readonly buffer Transforms {
     CertifiedPair transforms[];
 };
-// Behind the transforms, in the same buffer.
-layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Opens { CertifiedOpen opens[]; };
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffer Results { PairResult results[]; };
 layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) readonly buffer Vertices { float vertices[]; };
 layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Item { CertifiedConstants constants; };
 
-// One addition a subgroup: a carry that is not needed costs nothing.
+// One addition a work group: a carry that is not needed costs nothing.
 const bool kCarry = true;
 
 #include "stored.glsl"
 #include "certified.h"
 #include "count.glsl"
+#include "certified_queues.glsl"
 #include "mesh.glsl"
 #ifdef OUTPUTS
 #include "survives.glsl"
 #include "outputs.glsl"
 #endif
 
-/// A triangle of no more cells is one lane's, one of more is shared by a work group.
-const int kMostCellsOfALane = 27;
+/// A triangle of no more cells is one lane's, one of more is shared by work groups.
+#define VOXTACT_CELLS_OF_A_LANE 27
+const int kMostCellsOfALane = VOXTACT_CELLS_OF_A_LANE;
 const int kBrickSide = 1 << VOXTACT_BRICK_SHIFT;
 
 /// A box of cells, both ends inclusive, numbered from -1; or of bricks, from 0.
@@ -45,9 +45,6 @@ struct CellBox {
     ivec3 lo;
     ivec3 hi;
 };
-
-uint pair;
-uint survivors = 0;
 
 OpacityTable opacities() {
     return OpacityTable(constants.item.tableSize, constants.item.tableLevels, constants.item.threshold);
@@ -137,12 +134,6 @@ bool isLarge(CellBox cells) {
     return any(greaterThan(sides, ivec3(kMostCellsOfALane))) || volumeOf(cells) > kMostCellsOfALane;
 }
 
-/// A triangle of so many bricks is left to the second pass, whose work groups share them: the first does not decide it.
-bool isHuge(CellBox cells) {
-    const int kMostBricks = 64;
-    return volumeOf(bricksOf(cells)) > kMostBricks;
-}
-
 vec3 brickCentre(ivec3 brick) {
     return vec3((brick << VOXTACT_BRICK_SHIFT) - 1) + float(kBrickSide / 2);
 }
@@ -163,9 +154,61 @@ bool isCut() {
     return rounds < 2u;
 }
 
+/// Where stopAtFirst is wanted, what is found of a pair that has a survivor is of no use.
+bool isDone(uint pair) {
+    return kStopAtFirst && results[pair].countLow > 0;
+}
+
+/// The triangle of that place in the mesh's runs.
+uint triangleAt(uint place) {
+    if (constants.clusterWord == VOXTACT_NO_CLUSTERS) {
+        return place;
+    }
+    const uint clusters = (constants.triangleCount + VOXTACT_CLUSTER_TRIANGLES - 1) / VOXTACT_CLUSTER_TRIANGLES;
+    const uint runs = (constants.triangleCount + VOXTACT_RUN_TRIANGLES - 1) / VOXTACT_RUN_TRIANGLES;
+    return indices[constants.clusterWord + 6 * (clusters + runs) + place];
+}
+
+/// A lane of the passes that have a lane for each triangle: of the work group `group`, four entries of the queue of
+/// runs.
+struct TriangleLane {
+    bool some; // false: there is none
+    uint pair;
+    uint number; // of the triangle
+};
+
+TriangleLane triangleLane(uint group, uint lane) {
+    const uint entry = group * VOXTACT_CLUSTER_RUNS + lane / VOXTACT_RUN_TRIANGLES;
+    TriangleLane own = TriangleLane(false, 0, 0);
+    if (entry < queueCount(VOXTACT_QUEUE_RUNS)) {
+        const uint word = constants.queueWord + VOXTACT_WORD_RUNS(constants.queueRoom) + 2 * entry;
+        const uint place = queues[word + 1] * VOXTACT_RUN_TRIANGLES + lane % VOXTACT_RUN_TRIANGLES;
+        own.pair = queues[word];
+        own.some = place < constants.triangleCount && !isDone(own.pair);
+        own.number = own.some ? triangleAt(place) : 0;
+    }
+    return own;
+}
+
+#include "exact_language.h"
+
+/// Whether a fragment needs a decision: false where the cheaper tests show that it has no opaque point.
+bool fragmentMayTouch(CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single) {
+    const vec3 centre = vec3(cell) + 0.5;
+    if (!single && certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), 0.5)) {
+        return false;
+    }
+    const CertifiedCell known =
+        certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
+    return certifiedCellMayBeOpaque(opacities(), known) &&
+           certifiedBeginMay(opacities(), triangle, known, cell.x, cell.y, cell.z);
+}
+
+#include "exact_language.h"
+
 #ifdef OUTPUTS
 /// `number` is that of the triangle.
-void emitWitness(uint number, CertifiedCorners corners, CertifiedWitness witness, ivec3 cell) {
+void emitWitness(uint pair, uint number, CertifiedCorners corners, CertifiedWitness witness, ivec3 cell) {
     const CertifiedProof proof =
         certifiedProof(opacities(), constants.item, corners, witness, cell.x, cell.y, cell.z);
     emitSurvivor(pair, number, contactVector(proof.texture.x, proof.texture.y, proof.texture.z),

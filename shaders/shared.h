@@ -105,33 +105,57 @@ struct CertifiedItem {
     float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there
 };
 
-/// Push constants of the projection `conservative`.
+/// Push constants of the projection `conservative`, of all its passes.
 struct CertifiedConstants {
     CertifiedItem item;
     MeshConstants mesh;
-    uint firstPair;
     uint triangleCount;
-    uint clusterCount; // 0: the mesh has none on the device
-    uint clusterWord;  // of the words of the index buffer, where the clusters are: of each the box, lo and hi; and then
-                       // the triangles, cluster by cluster, VOXTACT_COMPUTE_GROUP in each but the last
-    uint firstOpen;    // number of the CertifiedOpen of pair 0 in the buffer of the transforms
+    uint clusterWord; // of the words of the index buffer, where the clusters are: the box of each, lo and hi, those of
+                      // the runs, and then the triangles, run by run; VOXTACT_NO_CLUSTERS where the mesh has none there
+    uint firstPair;   // of the round
+    uint firstCluster;
+    uint endCluster;
+    uint queueWord;  // of the words of the transforms' buffer, where the queues begin
+    uint headerWord; // where the round's queue headers are
+    uint queueRoom;  // clusters; that of the other queues follows from it
 };
 
-/// Triangles of a pair that that the projection `conservative` lists for its second pass.
-#define VOXTACT_OPEN_TRIANGLES 59
-/// Work groups of a pair that has large ones.
-#define VOXTACT_OPEN_GROUPS 64
+#define VOXTACT_NO_CLUSTERS 0xffffffffu
+/// Triangles of a cluster, and of each of its runs: src/core/geometry/clusters.h.
+#define VOXTACT_CLUSTER_TRIANGLES 64
+#define VOXTACT_RUN_TRIANGLES 16
+#define VOXTACT_CLUSTER_RUNS (VOXTACT_CLUSTER_TRIANGLES / VOXTACT_RUN_TRIANGLES)
 
-/// What the first pass of the projection `conservative` leaves to the second; element `firstOpen + pair` of a std430
-/// buffer, zero before.
-struct CertifiedOpen {
-    uint count;   // of all triangles that are undecided in some cell, be they listed or not
-    uint pair;    // of a dispatch that begins at pair p, element p + i: the i-th pair that has some
-    uint groupsX; // element p: VkDispatchIndirectCommand of the second pass
-    uint groupsY;
-    uint groupsZ;
-    uint triangles[VOXTACT_OPEN_TRIANGLES]; // the first of them
-};
+// The queues of the projection `conservative` lie behind the transforms, in the same buffer: headers for some rounds,
+// and then the queues, which each round uses anew. A header has for each queue the VkDispatchIndirectCommand of the
+// pass that empties it, and how many entries were put into it.
+#define VOXTACT_QUEUE_CLUSTERS 0 // pair, cluster: for certified_refine
+#define VOXTACT_QUEUE_RUNS 1     // pair, run: for certified_expand
+#define VOXTACT_QUEUE_LARGE 2    // pair, triangle, part, parts: for certified_large
+#define VOXTACT_QUEUE_CELLS 3    // pair, triangle, place: for certified_decide
+#define VOXTACT_QUEUE_OPEN 4     // numbers of cells; and its command counts the entries of the next, too: for certified_finish
+#define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_*, where from
+#define VOXTACT_QUEUES 6
+#define VOXTACT_HEADER_WORDS 32 // of a round
+#define VOXTACT_HEADERS 64
+// Entries of each.
+#define VOXTACT_ROOM_RUNS(room) ((room) * VOXTACT_CLUSTER_RUNS)
+#define VOXTACT_ROOM_LARGE(room) ((room) / 4)
+#define VOXTACT_ROOM_CELLS(room) ((room) * 32)
+#define VOXTACT_ROOM_LEFT(room) ((room) * 2 + VOXTACT_ROOM_LARGE(room))
+// Where each begins, in words behind the first header. `room` is a multiple of 16.
+#define VOXTACT_WORD_CELLS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
+#define VOXTACT_WORD_LARGE(room) (VOXTACT_WORD_CELLS + 4 * VOXTACT_ROOM_CELLS(room))
+#define VOXTACT_WORD_OPEN(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_ROOM_LARGE(room))
+#define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
+#define VOXTACT_WORD_RUNS(room) (VOXTACT_WORD_CLUSTERS(room) + 2 * (room))
+#define VOXTACT_WORD_LEFT(room) (VOXTACT_WORD_RUNS(room) + 2 * VOXTACT_ROOM_RUNS(room))
+#define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 2 * VOXTACT_ROOM_LEFT(room))
+// What certified_finish is left, where the queue of cells or of large triangles was full: a number and what it is of.
+#define VOXTACT_LEFT_SMALL 0  // the small triangles of a work group of certified_expand
+#define VOXTACT_LEFT_GROUP 1  // its large ones
+#define VOXTACT_LEFT_LARGE 2  // an entry of the queue of large triangles, from a brick on
+#define VOXTACT_LEFT_SHIFT 28 // these are above so many bits of a number
 
 // Descriptor sets.
 #define VOXTACT_SET_VOLUME 0
@@ -179,8 +203,8 @@ static_assert(VOXTACT_OFFSET_DOMINANT + sizeof(DominantConstants) <= 128, "Vulka
 static_assert(sizeof(ComputeConstants) == 76);
 static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
-static_assert(sizeof(CertifiedConstants) == 116);
-static_assert(sizeof(CertifiedOpen) == 256 && offsetof(CertifiedOpen, groupsX) == 8);
+static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
+static_assert(4 * VOXTACT_QUEUES <= VOXTACT_HEADER_WORDS);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of docs/architecture.md next to this file: flow.svg, passes.svg, spaces.svg. Plain SVG, which follows
+"""Draws the pictures of docs/architecture.md and docs/engine.md: flow.svg, passes.svg, engine.svg, spaces.svg. Plain SVG, which follows
 the reader's light or dark scheme. Usage: draw.py [FOLDER]"""
 import math
 import pathlib
@@ -127,11 +127,51 @@ def passes():
         (240, "survives?", ("eight voxels, fp32 additions and", "multiplications in a written order"), "box", "exact.h"),
         (244, "count", ("summed over the work group,", "one addition to the pair"), "ours", "count.glsl")])
     chain(510, "certified (conservative): no pixel, every voxel cell that a triangle passes through", [
-        (150, "clusters, bricks", ("skipped where", "nothing can be opaque"), "box", "certified.comp"),
-        (165, "cells", ("the triangle cut to", "each; halved while open"), "data", "certified_cell.h"),
-        (205, "bounds", ("none: excluded", "certain: two points enclose it", ), "box", "certified.h"),
-        (155, "what stays open", ("listed; the next is", "an indirect dispatch"), "data", ""),
-        (177, "again, precisely", ("none, certain,", "or possible"), "ours", "certified_again.comp")])
+        (160, "clusters, bricks", ("skipped where", "nothing can be opaque"), "box", "certified_cull.comp"),
+        (175, "cells", ("listed, where they", "need a decision"), "data", "certified_expand.comp"),
+        (190, "bounds", ("the triangle cut to each;", "halved: none, certain, open"), "box", "certified_decide.comp"),
+        (140, "what stays open", ("listed; the next is", "an indirect dispatch"), "data", ""),
+        (177, "again, precisely", ("none, certain,", "or possible"), "ours", "certified_finish.comp")])
+    return p
+
+
+def engine():
+    p = Picture(980, 430, "The passes of the certified engine on a device, and the queues between them")
+    p.text(20, 30, "a round: as many clusters of as many pairs as the queues have room for", "title", "start")
+
+    def step(x, y, w, title, lines, name):
+        p.box(x, y, w, 96, title, lines, "box", name)
+
+    def queue(x, y, w, title, line):
+        p.add(f'<rect class="data" x="{x:g}" y="{y:g}" width="{w:g}" height="44" rx="14"/>')
+        p.text(x + w / 2, y + 18, title, "small title")
+        p.text(x + w / 2, y + 35, line, "small faint")
+
+    step(20, 50, 180, "cull", ("a lane a cluster:", "does its box meet a brick?"), "certified_cull")
+    step(400, 50, 180, "refine", ("a lane a run", "of 16 triangles"), "certified_cull, RUNS")
+    step(780, 50, 180, "expand", ("a lane a triangle:", "which cells need a decision"), "certified_expand")
+    step(780, 190, 180, "large", ("work groups share", "what has many cells"), "certified_large")
+    step(400, 190, 180, "decide", ("a lane a cell: clip,", "bound, halve"), "certified_decide")
+    step(20, 190, 180, "finish", ("a lane an open cell:", "again, precisely"), "certified_finish")
+    queue(235, 76, 130, "clusters", "1 each")
+    queue(615, 76, 130, "runs", "4 each")
+    queue(615, 216, 130, "cells", "32 each")
+    queue(235, 216, 130, "open cells", "32 each")
+    for x in (200, 365, 580, 745):
+        p.arrow((x, 98), (x + 33, 98))
+    p.arrow((870, 146), (870, 188), label="large ones", at=(878, 172), anchor="start")
+    for x in (780, 615, 400, 235):
+        p.arrow((x, 238), (x - 33, 238))
+    p.arrow((815, 146), (730, 214))
+    p.box(20, 330, 195, 62, "none, certain, possible", ("64-bit counts of the pairs",), "ours")
+    p.arrow((110, 286), (110, 328))
+    p.arrow((450, 286), (450, 352), (217, 352), label="certain", at=(395, 345))
+    p.arrow((910, 286), (910, 310), (160, 310), (160, 288), label="what a full queue cannot take: found again, and decided in place",
+            at=(690, 304))
+    p.text(235, 388, "A queue's room is a multiple of the clusters of a round. Each arrow into a pass is an indirect dispatch behind a",
+           "small faint", "start")
+    p.text(235, 406, "barrier; cull is dispatched. For a yes or no, a vertex in opaque matter ends the work on its pair in the first two.", "small faint",
+           "start")
     return p
 
 
@@ -217,7 +257,7 @@ def spaces():
 
 def main(arguments):
     folder = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent
-    for draw in (flow, passes, spaces):
+    for draw in (flow, passes, engine, spaces):
         draw().write(folder / f"{draw.__name__}.svg")
 
 

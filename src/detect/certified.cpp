@@ -3,15 +3,20 @@
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
+#include "detect/certified_queues.h"
 #include "detect/outputs.h"
 #include "detect/recording.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
-#include "voxtact_shaders/certified_again_comp.h"
-#include "voxtact_shaders/certified_again_outputs_comp.h"
-#include "voxtact_shaders/certified_comp.h"
-#include "voxtact_shaders/certified_outputs_comp.h"
+#include "voxtact_shaders/certified_cull_comp.h"
+#include "voxtact_shaders/certified_decide_comp.h"
+#include "voxtact_shaders/certified_decide_outputs_comp.h"
+#include "voxtact_shaders/certified_expand_comp.h"
+#include "voxtact_shaders/certified_finish_comp.h"
+#include "voxtact_shaders/certified_finish_outputs_comp.h"
+#include "voxtact_shaders/certified_large_comp.h"
+#include "voxtact_shaders/certified_refine_comp.h"
 
 #include <algorithm>
 
@@ -19,27 +24,49 @@ namespace voxtact {
 
 namespace {
 
-Result<Owned<VkPipeline>> makePass(ContextImpl& context, const DetectorDesc& desc, std::span<const std::uint32_t> plain,
-                                   std::span<const std::uint32_t> withOutputs, const char* name) {
-    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
-                                        {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)}};
-    return desc.outputs.any()
-               ? makeComputePipeline(context, withOutputs, constants, context.computeOutputLayout, name)
-               : makeComputePipeline(context, plain, std::span(constants).first(1), context.computeLayout, name);
+/// A pass, and the queue that it empties.
+struct PassKind {
+    std::span<const std::uint32_t> plain;
+    std::span<const std::uint32_t> withOutputs;
+    const char* name;
+    std::uint32_t queue;
+};
+
+/// In the order in which they run. The first has no queue.
+constexpr std::uint32_t kNoQueue = VOXTACT_QUEUES;
+const PassKind kPasses[] = {
+    {spirv::certified_cull_comp, spirv::certified_cull_comp, "conservative cull", kNoQueue},
+    {spirv::certified_refine_comp, spirv::certified_refine_comp, "conservative refine", VOXTACT_QUEUE_CLUSTERS},
+    {spirv::certified_expand_comp, spirv::certified_expand_comp, "conservative expand", VOXTACT_QUEUE_RUNS},
+    {spirv::certified_large_comp, spirv::certified_large_comp, "conservative large", VOXTACT_QUEUE_LARGE},
+    {spirv::certified_decide_comp, spirv::certified_decide_outputs_comp, "conservative decide", VOXTACT_QUEUE_CELLS},
+    {spirv::certified_finish_comp, spirv::certified_finish_outputs_comp, "conservative finish", VOXTACT_QUEUE_OPEN},
+};
+
+/// Behind a pass, for the next one: what it has put into queues.
+void queuesBarrier(const ContextImpl& context, VkCommandBuffer commandBuffer) {
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
 } // namespace
 
 Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const DetectorDesc& desc) {
     CertifiedPass pass(context, desc);
-    Result<Owned<VkPipeline>> first =
-        makePass(context, desc, spirv::certified_comp, spirv::certified_outputs_comp, "compute conservative");
-    VOXTACT_TRY(first);
-    Result<Owned<VkPipeline>> again = makePass(context, desc, spirv::certified_again_comp,
-                                               spirv::certified_again_outputs_comp, "compute conservative again");
-    VOXTACT_TRY(again);
-    pass.first_ = std::move(*first);
-    pass.again_ = std::move(*again);
+    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)}};
+    static_assert(std::size(kPasses) == kCertifiedPasses);
+    const bool outputs = desc.outputs.any();
+    for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
+        const PassKind& kind = kPasses[i];
+        Result<Owned<VkPipeline>> made =
+            makeComputePipeline(context, outputs ? kind.withOutputs : kind.plain, constants,
+                                outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
+        VOXTACT_TRY(made);
+        pass.pipelines_[i] = std::move(*made);
+    }
     return pass;
 }
 
@@ -62,12 +89,12 @@ Result<void> CertifiedPass::check(const Batch& batch) const {
                          which + "a transfer function whose table the host knows (WrappedTransferFunction::table)"};
         }
         VOXTACT_TRY(checkStorage(item, "the projection conservative"));
-        VOXTACT_TRY(checkGroups(*context_, *item.mesh));
     }
     return {};
 }
 
-shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const BatchItem& item) const {
+shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const BatchItem& item,
+                                                      const ResultsImpl& results) const {
     const VolumeImpl& volume = item.volume->impl();
     const TransferFunctionImpl& function = item.transferFunction->impl();
     const MeshImpl& mesh = item.mesh->impl();
@@ -78,51 +105,74 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
     constants.item.storedUnit = static_cast<float>(volume.storedUnit);
     constants.mesh = meshConstants(mesh);
     constants.triangleCount = mesh.triangleCount;
-    constants.clusterCount = mesh.clusterCount;
-    constants.clusterWord = mesh.clusterWord;
+    constants.clusterWord = mesh.clusterWord.value_or(VOXTACT_NO_CLUSTERS);
+    constants.queueWord = static_cast<std::uint32_t>(firstQueueByte(results) / sizeof(std::uint32_t));
+    constants.queueRoom = results.queueRoom;
     return constants;
 }
 
-template <class Dispatch>
-void CertifiedPass::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
-                                VkPipeline pipeline, const Dispatch& dispatch) const {
-    const DeviceFunctions& vk = context_->vk;
-    const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+std::uint32_t CertifiedPass::clustersOfRound(const ResultsImpl& results) const noexcept {
+    // A count has as many cells as the mesh has in opaque matter; a yes or no is found before most of them are.
+    return desc_.stopAtFirst ? results.queueRoom : results.queueRoom / 4;
+}
+
+void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
     std::uint32_t firstPair = 0;
+    std::uint32_t rounds = 0;
     for (const BatchItem& item : batch.items) {
         const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
         const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
-        shader::CertifiedConstants constants = constantsOf(batch, item);
-        constants.firstOpen = firstOpen(results.pairs);
-        for (std::uint32_t done = 0; done < pairs; done += std::min(atOnce, pairs - done)) {
-            constants.firstPair = firstPair + done;
-            vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
-            dispatch(item, constants.firstPair, std::min(atOnce, pairs - done));
+        shader::CertifiedConstants constants = constantsOf(batch, item, results);
+        const std::uint32_t clusters = groupsOf(*item.mesh);
+        const std::uint32_t most = clustersOfRound(results);
+        const std::uint32_t pairsAtOnce =
+            std::min(std::max(most / clusters, 1U), context_->limits.maxComputeWorkGroupCount[1]);
+        for (std::uint32_t pair = 0; pair < pairs; pair += std::min(pairsAtOnce, pairs - pair)) {
+            for (std::uint32_t cluster = 0; cluster < clusters; cluster += std::min(most, clusters - cluster)) {
+                constants.firstPair = firstPair + pair;
+                constants.firstCluster = cluster;
+                constants.endCluster = cluster + std::min(most, clusters - cluster);
+                recordRound(commandBuffer, results, layout, constants, std::min(pairsAtOnce, pairs - pair), rounds++);
+            }
         }
         firstPair += pairs;
     }
 }
 
-void CertifiedPass::recordFirst(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
-    recordItems(commandBuffer, batch, results, first_.get(),
-                [&](const BatchItem& item, std::uint32_t /*firstPair*/, std::uint32_t pairs) {
-                    context_->vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), pairs, 1);
-                });
+void CertifiedPass::recordRound(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
+                                const shader::CertifiedConstants& given, std::uint32_t pairs,
+                                std::uint32_t round) const {
+    const DeviceFunctions& vk = context_->vk;
+    if (round > 0 && round % VOXTACT_HEADERS == 0) {
+        renewHeaders(commandBuffer, results);
+    } else if (round > 0) {
+        queuesBarrier(*context_, commandBuffer);
+    }
+    shader::CertifiedConstants constants = given;
+    constants.headerWord = given.queueWord + round % VOXTACT_HEADERS * VOXTACT_HEADER_WORDS;
+    vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
+    for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
+        vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[i].get());
+        if (kPasses[i].queue == kNoQueue) {
+            const std::uint32_t clusters = constants.endCluster - constants.firstCluster;
+            vk.CmdDispatch(commandBuffer, (clusters + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, pairs, 1);
+            continue;
+        }
+        queuesBarrier(*context_, commandBuffer);
+        const VkDeviceSize command = VkDeviceSize{constants.headerWord} + 4 * kPasses[i].queue;
+        vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(), command * sizeof(std::uint32_t));
+    }
 }
 
-void CertifiedPass::recordAgain(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
-    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+void CertifiedPass::renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results) const {
+    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    recordQueueHeaders(*context_, commandBuffer, results);
+    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                 VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
-    recordItems(commandBuffer, batch, results, again_.get(),
-                [&](const BatchItem& /*item*/, std::uint32_t firstPair, std::uint32_t /*pairs*/) {
-                    const VkDeviceSize at = VkDeviceSize{firstOpen(results.pairs)} + firstPair;
-                    context_->vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(),
-                                                     at * sizeof(shader::CertifiedOpen) +
-                                                         offsetof(shader::CertifiedOpen, groupsX));
-                });
 }
 
 } // namespace voxtact

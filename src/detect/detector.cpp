@@ -181,6 +181,12 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                              std::to_string(slot.maxTransforms / (transforms / *pairs)) + " by the projection " +
                              toString(live(impl_).desc.projection) + " within the device's maxStorageBufferRange"};
         }
+        if (rowOf(live(impl_).desc.projection).certified && slot.queueRoom == 0) {
+            return Error{ErrorCode::LimitExceeded, 0,
+                         "the Results have room for " + std::to_string(slot.maxPairs) +
+                             " pairs, and beside them none for the queues of the projection conservative within the "
+                             "device's maxStorageBufferRange; make Results for fewer pairs"};
+        }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));
         slot.pairs = *pairs;

@@ -5,6 +5,7 @@
 #include "core/method/method_table.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
+#include "detect/certified_queues.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
@@ -12,9 +13,7 @@ namespace voxtact {
 
 namespace {
 
-static_assert(sizeof(shader::CertifiedPair) <= sizeof(shader::CertifiedOpen) &&
-                  2 * sizeof(shader::CertifiedOpen) <= kMostTransformsPerPair * sizeof(shader::PairTransform),
-              "they share a buffer");
+static_assert(sizeof(shader::CertifiedPair) <= kMostTransformsPerPair * sizeof(shader::PairTransform));
 
 /// Where a method's shaders run. One that computes names no stage of graphics: its queue may have none.
 VkPipelineStageFlags2 shadersOf(const DetectorDesc& desc) {
@@ -54,9 +53,7 @@ void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuf
         }
     }
     update.finish();
-    constexpr VkDeviceSize kBytes = sizeof(shader::CertifiedOpen);
-    context.vk.CmdFillBuffer(commandBuffer, results.transforms.get(), firstOpen(results.pairs) * kBytes,
-                             results.pairs * kBytes, 0);
+    recordQueueHeaders(context, commandBuffer, results);
 }
 
 /// Results with a count of zero that say which pair they are.
@@ -86,11 +83,6 @@ void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, c
 }
 
 } // namespace
-
-std::uint32_t firstOpen(std::uint32_t pairs) noexcept {
-    constexpr std::uint64_t kBytes = sizeof(shader::CertifiedOpen);
-    return static_cast<std::uint32_t>((pairs * std::uint64_t{sizeof(shader::CertifiedPair)} + kBytes - 1) / kBytes);
-}
 
 std::uint32_t transformsPerPair(Projection projection) noexcept {
     return rowOf(projection).certified ? kMostTransformsPerPair : viewsPerPair(projection);

@@ -6,11 +6,8 @@
 
 namespace voxtact {
 
-/// What the projection conservative has in the buffer of the transforms: a CertifiedPair for each pair, and behind them
-/// a CertifiedOpen for each, from this number on.
-[[nodiscard]] std::uint32_t firstOpen(std::uint32_t pairs) noexcept;
-/// PairTransforms whose room a pair takes there: the most with conservative.
-inline constexpr std::uint32_t kMostTransformsPerPair = 5;
+/// PairTransforms whose room a pair takes in the buffer of the transforms: the most of all projections.
+inline constexpr std::uint32_t kMostTransformsPerPair = 2;
 [[nodiscard]] std::uint32_t transformsPerPair(Projection projection) noexcept;
 
 /// What every pass needs before it: the transforms of a checked batch, and results of zero that say which pair they

@@ -2,6 +2,7 @@
 #include "core/base/guard.h"
 #include "core/base/live.h"
 #include "core/base/try.h"
+#include "detect/certified_queues.h"
 #include "detect/recording.h"
 #include "detect/results_impl.h"
 #include "gpu/barriers.h"
@@ -33,9 +34,13 @@ Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type,
         context, handle, [](ContextImpl& c, VkQueryPool pool) { c.vk.DestroyQueryPool(c.device, pool, c.allocator); });
 }
 
-/// For any projection, as far as the device has room for them.
+VkDeviceSize bytesFor(const ContextImpl& context) {
+    return std::min<VkDeviceSize>(context.limits.maxStorageBufferRange, context.maxAllocation);
+}
+
+/// For any projection, as far as the device has room for them, and for the least queues beside them.
 std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
-    const VkDeviceSize bytes = std::min<VkDeviceSize>(context.limits.maxStorageBufferRange, context.maxAllocation);
+    const VkDeviceSize bytes = bytesFor(context) - std::min(bytesFor(context), queueBytes(kLeastQueueRoom));
     const VkDeviceSize room = std::min<VkDeviceSize>(bytes / sizeof(shader::PairTransform), UINT32_MAX);
     return static_cast<std::uint32_t>(std::max<VkDeviceSize>(
         std::min<VkDeviceSize>(VkDeviceSize{kMostTransformsPerPair} * maxPairs, room), maxPairs));
@@ -75,8 +80,8 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     };
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
-        {out.transforms, VkDeviceSize{out.maxTransforms} * sizeof(shader::PairTransform),
-         kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, MemoryUse::Device, "pair transforms"},
+        {out.transforms, firstQueueByte(out) + queueBytes(out.queueRoom), kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+         MemoryUse::Device, "pair transforms"},
         {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
         {out.readBack, resultBytes + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
          "pair results on the host"},
@@ -163,6 +168,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         VOXTACT_TRY(checkDesc(c, desc));
         auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = c, .maxPairs = desc.maxPairs});
         impl->maxTransforms = transformsFor(c, desc.maxPairs);
+        impl->queueRoom = queueRoomFor(desc.maxPairs, bytesFor(c), firstQueueByte(*impl));
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         VOXTACT_TRY(makeBuffers(*impl, desc.readBack));
         for (const auto make : {makeQueries, makeDescriptors}) {

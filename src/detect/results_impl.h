@@ -17,7 +17,8 @@ struct ResultsImpl {
     bool readBackRecorded = false;   ///< cmdReadBack() came after the last cmdDetect()
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
-    Buffer transforms{};             ///< maxTransforms PairTransforms
+    std::uint32_t queueRoom = 0;     ///< of the projection conservative, in clusters: shaders/shared.h
+    Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
     Buffer results{};                ///< maxPairs PairResults
     Buffer readBack{};               ///< the host's copy, then the number of it; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries

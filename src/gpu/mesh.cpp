@@ -21,17 +21,25 @@ namespace {
 
 constexpr VkDeviceSize kPositionBytes = 3 * sizeof(float);
 
-/// The words that are kept of clusters: their boxes, and then the triangles.
-std::vector<std::uint32_t> clusterWords(const MeshClusters& clusters) {
-    static_assert(kClusterTriangles == VOXTACT_COMPUTE_GROUP, "a work group decides a cluster");
-    std::vector<std::uint32_t> words;
-    words.reserve(6 * clusters.clusters.size() + clusters.triangles.size());
-    for (const MeshCluster& cluster : clusters.clusters) {
-        for (const std::array<float, 3>& corner : {cluster.lo, cluster.hi}) {
-            for (const float coordinate : corner) {
-                words.push_back(std::bit_cast<std::uint32_t>(coordinate));
-            }
+void addBox(std::vector<std::uint32_t>& words, const std::array<float, 3>& lo, const std::array<float, 3>& hi) {
+    for (const std::array<float, 3>& corner : {lo, hi}) {
+        for (const float coordinate : corner) {
+            words.push_back(std::bit_cast<std::uint32_t>(coordinate));
         }
+    }
+}
+
+/// The words that are kept of clusters: their boxes, those of their runs, and then the triangles.
+std::vector<std::uint32_t> clusterWords(const MeshView& mesh, const MeshClusters& clusters) {
+    static_assert(kClusterTriangles == VOXTACT_CLUSTER_TRIANGLES && kRunTriangles == VOXTACT_RUN_TRIANGLES);
+    const std::vector<RunBox> runs = runBoxes(mesh, clusters);
+    std::vector<std::uint32_t> words;
+    words.reserve(6 * (clusters.clusters.size() + runs.size()) + clusters.triangles.size());
+    for (const MeshCluster& cluster : clusters.clusters) {
+        addBox(words, cluster.lo, cluster.hi);
+    }
+    for (const RunBox& run : runs) {
+        addBox(words, run.lo, run.hi);
     }
     words.insert(words.end(), clusters.triangles.begin(), clusters.triangles.end());
     return words;
@@ -41,14 +49,14 @@ Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions
     ContextImpl& context = mesh.context;
     std::vector<std::uint32_t> clusters;
     if (options.clusters) {
-        const MeshClusters made = makeClusters(data);
-        clusters = clusterWords(made);
-        mesh.clusterCount = static_cast<std::uint32_t>(made.clusters.size());
+        clusters = clusterWords(data, makeClusters(data));
     }
     const VkDeviceSize positions = data.positions.size_bytes();
     const VkDeviceSize described = positions + data.indices.size_bytes();
     const VkDeviceSize total = described + clusters.size() * sizeof(std::uint32_t);
-    mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
+    if (options.clusters) {
+        mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
+    }
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     VOXTACT_TRY(makeStaged(context, total, kUsage, name, mesh.buffer, mesh.staging));

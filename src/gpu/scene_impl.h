@@ -61,8 +61,7 @@ struct MeshImpl {
     DescriptorSet descriptors{}; ///< for shaders that read the mesh as storage; empty where `noStorage` says why
     std::string noStorage{};
     Buffer buffer{}; ///< positions, indices, then clusters as CertifiedConstants says; empty when wrapped
-    std::uint32_t clusterCount = 0; ///< 0: none on the device
-    std::uint32_t clusterWord = 0;
+    std::optional<std::uint32_t> clusterWord{}; ///< of the indices; nothing: no clusters on the device
     Buffer staging{};
     bool uploaded = false; ///< recorded, or the caller's own
 };

@@ -267,7 +267,7 @@ TEST_F(ConservativeTest, WhatDependsOnDenormalsIsPossible) {
 }
 
 /// Triangles that single precision cannot decide: in faces of the domain,
-/// with an edge or a corner in one, and of so many voxels that the first pass decides no cell of them.
+/// with an edge or a corner in one, and of so many voxels that single precision decides no cell of them.
 MeshData openTriangles(const Grid& grid, std::uint32_t copies) {
     const double near = grid.origin[0] - grid.spacing[0] / 2;
     const double far = near + grid.size[0] * grid.spacing[0];
@@ -297,7 +297,7 @@ MeshData openTriangles(const Grid& grid, std::uint32_t copies) {
     return mesh;
 }
 
-/// The last copies have more open triangles than a pair's list holds.
+/// The last copies have more large triangles than the queue of them holds.
 TEST_F(ConservativeTest, WhatIsOpenIsDecidedAgainAsOnTheHost) {
     Grid grid;
     grid.size = {5, 6, 7};
@@ -327,7 +327,7 @@ TEST_F(ConservativeTest, WhatIsOpenIsDecidedAgainAsOnTheHost) {
             EXPECT_TRUE(onDevice.pairs[0].hit);
             if (!stopAtFirst) {
                 expectSameOutputs(onDevice, onHost);
-                std::uint64_t ofHuge = 0; // which only the second pass can have found
+                std::uint64_t ofHuge = 0; // which only the last pass can have found
                 for (const TouchedTriangle& triangle : onDevice.triangles) {
                     ofHuge += triangle.pair == 0 && triangle.triangle % 7 >= 5 ? triangle.count : 0;
                 }
@@ -352,6 +352,70 @@ TEST_F(ConservativeTest, APlateThroughALargeVolumeIsTheHosts) {
     const BatchAnswer onHost = take(hostDetector().detect({{&hostItem, 1}, {}, 0.05}));
     expectSame(onDevice.pairs[0], onHost.pairs[0], "a plate");
     EXPECT_GT(onHost.pairs[0].count, 30000U);
+}
+
+/// The first to prove a touch ends the work on a pair: a vertex while boxes are looked at, or a fragment later.
+TEST_F(ConservativeTest, YesAndNoAreTheHostsOnManyPoses) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData head = take(makeBuiltinVolume("head:64"));
+    const MeshData scalpel = take(makeScalpel());
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const Sides sides(context(), queue(), head.view(), {points, {0, 255}, kDefaultTableSize}, scalpel.view(), true);
+    const std::vector<Mat4> poses = randomPoses(head.grid, 400, 1, random);
+    const BatchItem item = sides.item(poses);
+    const cpu::BatchItem hostItem = sides.hostItem(poses);
+    DetectorDesc desc = kDevice;
+    desc.stopAtFirst = true;
+    const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, kDefaultThreshold}));
+    const BatchAnswer onHost = take(hostDetector(true).detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        expectSame(onDevice.pairs[i], onHost.pairs[i], "seed " + std::to_string(seed) + ", pose " + std::to_string(i));
+        hits += onHost.pairs[i].hit ? 1U : 0U;
+    }
+    EXPECT_GT(hits, poses.size() / 10) << seed;
+    EXPECT_LT(hits, poses.size() - poses.size() / 10) << seed;
+}
+
+/// More cells of small triangles than the queue of cells holds: work groups of the pass that finds them are left to the
+/// last one, and one of them in the middle of what there was room for.
+TEST_F(ConservativeTest, CellsThatNoQueueHoldsAreDecidedInPlace) {
+    const VolumeData ball = take(makeBuiltinVolume("sphere:128"));
+    const MeshData body = take(makeEllipsoid(12000));
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const Sides sides(context(), queue(), ball.view(), {points, {0, 255}, kDefaultTableSize}, body.view(), true);
+    Mat4 wide = identity(); // some 20 cells a triangle, where they are in the image
+    wide[0] = wide[5] = wide[10] = 3;
+    const std::array poses{wide, identity()};
+    const BatchItem item = sides.item(poses);
+    const cpu::BatchItem hostItem = sides.hostItem(poses);
+    const BatchAnswer onDevice = take(detector(kDevice).detect({{&item, 1}, {}, 0.01}));
+    const BatchAnswer onHost = take(hostDetector().detect({{&hostItem, 1}, {}, 0.01}));
+    expectSame(onDevice.pairs[0], onHost.pairs[0], "wide");
+    expectSame(onDevice.pairs[1], onHost.pairs[1], "as it is");
+    // The queues of Results for so few pairs: VOXTACT_ROOM_CELLS(kLeastQueueRoom).
+    EXPECT_GT(onHost.pairs[0].count, 65536U);
+}
+
+/// More rounds than queues have headers, and what touches is in the first and in the last of them.
+TEST_F(ConservativeTest, ManyRoundsAreOneBatch) {
+    const VolumeData head = take(makeBuiltinVolume("head:32"));
+    const MeshData body = take(makeEllipsoid(12800)); // 200 clusters
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const Sides sides(context(), queue(), head.view(), {points, {0, 255}, kDefaultTableSize}, body.view(), true);
+    std::vector<Mat4> poses(1400, translation({1e4, 0, 0})); // 20 of them a round
+    poses.front() = poses[700] = poses.back() = identity();
+    const BatchItem item = sides.item(poses);
+    const Mat4 touching = identity();
+    const cpu::BatchItem hostItem = sides.hostItem({&touching, 1});
+    const BatchAnswer onDevice = take(detector(kDevice).detect({{&item, 1}, {}, kDefaultThreshold}));
+    const BatchAnswer onHost = take(hostDetector().detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+    EXPECT_GT(onHost.pairs[0].count, 0U);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const bool touches = i == 0 || i == 700 || i + 1 == poses.size();
+        ASSERT_EQ(onDevice.pairs[i].count, touches ? onHost.pairs[0].count : 0U) << "pose " << i;
+    }
 }
 
 /// What one batch leaves in the buffers is not the next one's answer: the same Results hold pairs that are undecided,

@@ -125,6 +125,28 @@ class Splitter {
 
 } // namespace
 
+void grow(RunBox& box, const RunBox& by) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = std::min(box.lo[axis], by.lo[axis]);
+        box.hi[axis] = std::max(box.hi[axis], by.hi[axis]);
+    }
+}
+
+std::vector<RunBox> runBoxes(const MeshView& mesh, const MeshClusters& clusters) {
+    std::vector<RunBox> runs;
+    // All clusters but the last are full: runs are not cut by their ends.
+    for (std::size_t i = 0; i < clusters.triangles.size(); ++i) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Point point = vertexAt(mesh, mesh.indices[std::size_t{3} * clusters.triangles[i] + corner]);
+            if (i % kRunTriangles == 0 && corner == 0) {
+                runs.push_back({point, point});
+            }
+            grow(runs.back(), {point, point});
+        }
+    }
+    return runs;
+}
+
 MeshClusters makeClusters(const MeshView& mesh) {
     MeshClusters out;
     out.triangles.resize(mesh.indices.size() / 3);

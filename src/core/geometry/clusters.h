@@ -24,6 +24,12 @@ struct MeshCluster {
     std::array<float, 3> hi{};
 };
 
+/// A box of object space.
+struct RunBox {
+    std::array<float, 3> lo{};
+    std::array<float, 3> hi{};
+};
+
 /// Every triangle of a mesh in exactly one cluster of at most 64.
 struct MeshClusters {
     std::vector<MeshCluster> clusters;
@@ -36,5 +42,9 @@ struct MeshClusters {
 /// full. The same mesh gives the same
 /// clusters. Expects a mesh that checkMesh() accepts.
 [[nodiscard]] MeshClusters makeClusters(const MeshView& mesh);
+
+void grow(RunBox& box, const RunBox& by);
+/// Around each kRunTriangles of the triangles of `clusters`, one run after the other.
+[[nodiscard]] std::vector<RunBox> runBoxes(const MeshView& mesh, const MeshClusters& clusters);
 
 } // namespace voxtact

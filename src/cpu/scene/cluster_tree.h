@@ -11,12 +11,6 @@
 
 namespace voxtact::cpu {
 
-/// A box of object space.
-struct RunBox {
-    std::array<float, 3> lo{};
-    std::array<float, 3> hi{};
-};
-
 /// Boxes around runs of kRunTriangles triangles, around clusters, and around more and more clusters, which are near
 /// each other because makeClusters() splits in half again and again. Level 0 has a box for each run, each further level
 /// one for kFanOut consecutive boxes of the level below, the last level at most kFanOut.

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The cells that a work group finds, collected in shared memory and put into the queue of cells at once. Expects
+// certified_scene.glsl, and VOXTACT_CELL_LIST, the most cells of a list.
+#ifndef VOXTACT_CERTIFIED_CELLS_GLSL
+#define VOXTACT_CERTIFIED_CELLS_GLSL
+
+shared uint listed;
+shared uint list[VOXTACT_CELL_LIST];
+shared uint firstOfList; // in the queue
+
+/// Reserves what is listed; asked by all lanes together, behind a barrier. False where the queue has no room for all of
+/// it: nothing is then to be put there.
+bool reserveList() {
+    if (gl_LocalInvocationIndex == 0 && listed > 0) {
+        firstOfList =
+            reserve(VOXTACT_QUEUE_CELLS, listed, VOXTACT_ROOM_CELLS(constants.queueRoom), VOXTACT_COMPUTE_GROUP);
+    }
+    barrier();
+    const uint room = VOXTACT_ROOM_CELLS(constants.queueRoom);
+    if (listed == 0 || firstOfList + listed <= room) {
+        return true;
+    }
+    for (uint entry = firstOfList + gl_LocalInvocationIndex; entry < room; entry += VOXTACT_COMPUTE_GROUP) {
+        quads[quadOf(VOXTACT_WORD_CELLS, entry)] = uvec4(kNoPair, 0, 0, 0);
+    }
+    return false;
+}
+
+void putCell(uint place, uint pair, uint triangle, ivec3 cell) {
+    quads[quadOf(VOXTACT_WORD_CELLS, firstOfList + place)] = uvec4(pair, triangle, packCell(cell));
+}
+
+#endif

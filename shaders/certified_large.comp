@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The projection `conservative`, the cells of large triangles: a work group has a part of one, blocks of as many bricks
+// as it has lanes. The lanes share the bricks, and then the cells of each brick that may touch.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#include "shared.h"
+#include "voxtact/device_results.h"
+
+layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
+#include "certified_scene.glsl"
+
+// The cells of a brick.
+#define VOXTACT_CELL_LIST 512
+#include "certified_cells.glsl"
+
+shared uint bricksKept[VOXTACT_COMPUTE_GROUP / 32];
+
+/// Lists those of a brick's cells that need a decision, and puts them into the queue. False where it has no room.
+bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 brick) {
+    const uint lane = gl_LocalInvocationIndex;
+    const CellBox inside = within(cells, brick);
+    const vec4 range = brickAt(brick);
+    const int most = volumeOf(inside);
+    if (lane == 0) {
+        listed = 0;
+    }
+    barrier();
+    for (int i = int(lane); i < most; i += VOXTACT_COMPUTE_GROUP) {
+        if (fragmentMayTouch(triangle, placeIn(inside, i), range, false)) {
+            list[atomicAdd(listed, 1u)] = uint(i);
+        }
+    }
+    barrier();
+    const bool fits = reserveList();
+    for (uint i = lane; fits && i < listed; i += VOXTACT_COMPUTE_GROUP) {
+        putCell(i, entry.x, entry.y, placeIn(inside, int(list[i])));
+    }
+    barrier();
+    return fits;
+}
+
+void main() {
+    const uint lane = gl_LocalInvocationIndex;
+    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), gl_WorkGroupID.x)];
+    if (entry.x == kNoPair || isDone(entry.x)) {
+        return;
+    }
+    const TriangleVertices at = verticesOf(transforms[entry.x], entry.y);
+    const CertifiedBounds bounds = boundsOf(at);
+    if (!bounds.usable) {
+        if (lane == 0) {
+            leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, entry.z);
+        }
+        return;
+    }
+    const CertifiedTriangle triangle = triangleOf(at, bounds.delta);
+    const CellBox cells = cellsOf(bounds);
+    const CellBox box = bricksOf(cells);
+    const int count = volumeOf(box);
+    bool fits = true;
+    for (int block = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && block < count;
+         block += int(entry.w) * VOXTACT_COMPUTE_GROUP) {
+        if (lane < VOXTACT_COMPUTE_GROUP / 32) {
+            bricksKept[lane] = 0;
+        }
+        barrier();
+        const int own = block + int(lane);
+        if (own < count) {
+            const ivec3 brick = placeIn(box, own);
+            const vec3 centre = brickCentre(brick);
+            if (brickMayBeOpaque(brickAt(brick)) &&
+                !(count > 1 &&
+                  certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), float(kBrickSide / 2)))) {
+                atomicOr(bricksKept[lane >> 5], 1u << (lane & 31));
+            }
+        }
+        barrier();
+        for (int word = 0; word < VOXTACT_COMPUTE_GROUP / 32; ++word) {
+            uint left = bricksKept[word];
+            while (fits && left != 0) {
+                const int brick = block + 32 * word + findLSB(left);
+                left &= left - 1;
+                fits = putBrick(entry, triangle, cells, placeIn(box, brick));
+                if (!fits && lane == 0) {
+                    leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, uint(brick));
+                }
+            }
+        }
+        barrier();
+    }
+    if (lane == 0 && isCut()) {
+        atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);
+    }
+}

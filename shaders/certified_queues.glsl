@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The queues between the passes of the projection `conservative`: shared.h says where they lie. A work group puts all
+// that it has into a queue at once, with one atomic for the place and one for the work groups of the pass that empties
+// it. Expects `constants`.
+#ifndef VOXTACT_CERTIFIED_QUEUES_GLSL
+#define VOXTACT_CERTIFIED_QUEUES_GLSL
+
+// Behind the transforms, in the same buffer.
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Queues { uint queues[]; };
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Quads { uvec4 quads[]; };
+
+uint queueCount(uint queue) {
+    return queues[constants.headerWord + 4 * queue + 3];
+}
+
+/// Room for `entries` of a queue, and work groups of `lanes` entries each for the pass that empties it, as far as the
+/// queue has room. Returns the number of the first; those from `room` on are not there.
+uint reserve(uint queue, uint entries, uint room, uint lanes) {
+    const uint word = constants.headerWord + 4 * queue;
+    const uint before = atomicAdd(queues[word + 3], entries);
+    const uint first = min(before, room);
+    const uint end = min(before + entries, room);
+    const uint groups = (end + lanes - 1) / lanes - (first + lanes - 1) / lanes;
+    if (groups > 0) {
+        atomicAdd(queues[word], groups);
+    }
+    return before;
+}
+
+/// Number of the element of `quads` where entry `entry` of a queue of four words begins.
+uint quadOf(uint word, uint entry) {
+    return (constants.queueWord + word) / 4 + entry;
+}
+
+/// A voxel cell in two words.
+uvec2 packCell(ivec3 cell) {
+    return uvec2(uint(cell.x + 1) | uint(cell.y + 1) << 16, uint(cell.z + 1));
+}
+
+ivec3 unpackCell(uvec2 words) {
+    return ivec3(words.x & 0xffffu, words.x >> 16, words.y) - 1;
+}
+
+/// In place of a pair: the entry is a gap.
+const uint kNoPair = 0xffffffffu;
+
+/// An entry of certified_finish.
+void leave(uint what, uint number, uint brick) {
+    const uint word = constants.headerWord + 4 * VOXTACT_QUEUE_LEFT;
+    const uint entry = atomicAdd(queues[word + 3], 1u);
+    atomicAdd(queues[constants.headerWord + 4 * VOXTACT_QUEUE_OPEN], 1u);
+    const uint to = constants.queueWord + VOXTACT_WORD_LEFT(constants.queueRoom) + 2 * entry;
+    queues[to] = what << VOXTACT_LEFT_SHIFT | number;
+    queues[to + 1] = brick;
+}
+
+#endif

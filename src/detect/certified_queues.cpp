@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "detect/certified_queues.h"
+#include "gpu/barriers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+
+namespace voxtact {
+
+VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept {
+    constexpr VkDeviceSize kAlignment = 256;
+    const VkDeviceSize transforms = VkDeviceSize{results.maxTransforms} * sizeof(shader::PairTransform);
+    return (transforms + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+std::uint32_t queueRoomFor(std::uint32_t maxPairs, VkDeviceSize bytes, VkDeviceSize first) noexcept {
+    constexpr std::uint32_t kClustersOfPair = 64;
+    const std::uint32_t pairs = std::bit_ceil(std::min(maxPairs, kMostQueueRoom / kClustersOfPair));
+    std::uint32_t room = std::max(kLeastQueueRoom, pairs * kClustersOfPair);
+    while (room >= kLeastQueueRoom && first + queueBytes(room) > bytes) {
+        room /= 2;
+    }
+    return room >= kLeastQueueRoom ? room : 0;
+}
+
+void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
+    std::array<std::uint32_t, VOXTACT_HEADERS * VOXTACT_HEADER_WORDS> words{};
+    for (std::size_t round = 0; round < VOXTACT_HEADERS; ++round) {
+        for (std::size_t queue = 0; queue < VOXTACT_QUEUES; ++queue) {
+            const std::size_t command = round * VOXTACT_HEADER_WORDS + 4 * queue;
+            words[command + 1] = 1;
+            words[command + 2] = 1;
+        }
+    }
+    cmdUpdateBuffer(context, commandBuffer, results.transforms.get(), firstQueueByte(results),
+                    std::as_bytes(std::span(words)));
+}
+
+} // namespace voxtact
