@@ -5,8 +5,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #ifdef OUTPUTS
 #extension GL_EXT_samplerless_texture_functions : require
 #endif
@@ -28,7 +26,7 @@ layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) reado
 layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Item { ComputeConstants constants; };
 
-// One addition a subgroup: a carry that is not needed costs nothing.
+// One addition a work group: a carry that is not needed costs nothing.
 const bool kCarry = true;
 
 #include "survives.glsl"
@@ -49,6 +47,8 @@ const float kDomainMargin = 1e-3;
 
 shared uint queue[VOXTACT_COMPUTE_GROUP * MOST_PIECES];
 shared uint queued;
+shared uint groupLow; // survivors of the work group: together they are more than 32 bits hold
+shared uint groupHigh;
 
 bool beyond(float a, float b, float c) {
     return (a < -kDomainMargin && b < -kDomainMargin && c < -kDomainMargin) ||
@@ -139,6 +139,8 @@ uint countQueued(PairTransform transform, uint entry) {
 void main() {
     if (gl_LocalInvocationIndex == 0) {
         queued = 0;
+        groupLow = 0;
+        groupHigh = 0;
     }
     barrier();
     const uint view = constants.firstTransform + gl_WorkGroupID.y;
@@ -153,8 +155,14 @@ void main() {
     for (uint i = 0; i < queued; ++i) {
         survivors += countQueued(transform, queue[i]);
     }
-    const uint total = subgroupAdd(survivors);
-    if (subgroupElect() && total > 0) {
-        addSurvivors(pair, total);
+    if (survivors > 0) {
+        const uint before = atomicAdd(groupLow, survivors);
+        if (before + survivors < before) {
+            atomicAdd(groupHigh, 1u);
+        }
+    }
+    barrier();
+    if (gl_LocalInvocationIndex == 0) {
+        addSurvivors(pair, groupLow, groupHigh);
     }
 }

@@ -11,4 +11,14 @@ void addSurvivors(uint pair, uint survivors) {
     }
 }
 
+/// The same of high * 2^32 + low.
+void addSurvivors(uint pair, uint low, uint high) {
+    if (low > 0) {
+        addSurvivors(pair, low);
+    }
+    if (high > 0) {
+        atomicAdd(results[pair].countHigh, high);
+    }
+}
+
 #endif

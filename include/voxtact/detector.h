@@ -64,6 +64,12 @@ struct ResultsDesc {
     bool timestamps = false;    ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
+    /// Clusters of 64 triangles, once for each pair, that a dispatch of the projection conservative looks at, at most:
+    /// a batch of more is more dispatches. No answer depends on it. 16 to 16384, as many as a GPU can do before its
+    /// driver takes it for stuck; each takes 700 bytes of device memory. 0: none, for Results that are for other
+    /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
+    /// so many.
+    std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
 };
 
 /// A part of a device buffer: where a descriptor of it begins, and how many bytes it has. The offset is a multiple of

@@ -83,6 +83,9 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         ResultsDesc resultsDesc;
         resultsDesc.timestamps = context.impl().timestampBits(queue.family) > 0;
         resultsDesc.queueFamily = queue.family;
+        if (!rowOf(desc.projection).certified) {
+            resultsDesc.clustersAtOnce = 0;
+        }
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }

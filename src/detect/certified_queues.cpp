@@ -15,14 +15,15 @@ VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept {
     return (transforms + kAlignment - 1) / kAlignment * kAlignment;
 }
 
-std::uint32_t queueRoomFor(std::uint32_t maxPairs, VkDeviceSize bytes, VkDeviceSize first) noexcept {
+std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
     constexpr std::uint32_t kClustersOfPair = 64;
-    const std::uint32_t pairs = std::bit_ceil(std::min(maxPairs, kMostQueueRoom / kClustersOfPair));
-    std::uint32_t room = std::max(kLeastQueueRoom, pairs * kClustersOfPair);
+    constexpr std::uint32_t kStep = 16; // shaders/shared.h
+    const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, kMostQueueRoom / kClustersOfPair));
+    std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
     while (room >= kLeastQueueRoom && first + queueBytes(room) > bytes) {
         room /= 2;
     }
-    return room >= kLeastQueueRoom ? room : 0;
+    return room >= kLeastQueueRoom ? room / kStep * kStep : 0;
 }
 
 void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {

@@ -182,10 +182,11 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                              toString(live(impl_).desc.projection) + " within the device's maxStorageBufferRange"};
         }
         if (rowOf(live(impl_).desc.projection).certified && slot.queueRoom == 0) {
-            return Error{ErrorCode::LimitExceeded, 0,
-                         "the Results have room for " + std::to_string(slot.maxPairs) +
-                             " pairs, and beside them none for the queues of the projection conservative within the "
-                             "device's maxStorageBufferRange; make Results for fewer pairs"};
+            return Error{
+                ErrorCode::LimitExceeded, 0,
+                "the Results, for " + std::to_string(slot.maxPairs) +
+                    " pairs, have no queues for the projection conservative: ResultsDesc::clustersAtOnce is 0, "
+                    "or the device's maxStorageBufferRange has no room for them beside so many pairs"};
         }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));

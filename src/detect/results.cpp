@@ -40,7 +40,7 @@ VkDeviceSize bytesFor(const ContextImpl& context) {
 
 /// For any projection, as far as the device has room for them, and for the least queues beside them.
 std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
-    const VkDeviceSize bytes = bytesFor(context) - std::min(bytesFor(context), queueBytes(kLeastQueueRoom));
+    const VkDeviceSize bytes = bytesFor(context) - std::min(bytesFor(context), queueBytes(kUsualQueueRoom));
     const VkDeviceSize room = std::min<VkDeviceSize>(bytes / sizeof(shader::PairTransform), UINT32_MAX);
     return static_cast<std::uint32_t>(std::max<VkDeviceSize>(
         std::min<VkDeviceSize>(VkDeviceSize{kMostTransformsPerPair} * maxPairs, room), maxPairs));
@@ -49,6 +49,12 @@ std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) 
 Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.maxPairs == 0) {
         return Error{ErrorCode::InvalidArgument, 0, "ResultsDesc::maxPairs is 0"};
+    }
+    if (const std::uint32_t clusters = desc.clustersAtOnce.value_or(0);
+        clusters != 0 && (clusters < kLeastQueueRoom || clusters > kMostQueueRoom)) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "ResultsDesc::clustersAtOnce is " + std::to_string(clusters) + "; 0, or " +
+                         std::to_string(kLeastQueueRoom) + " to " + std::to_string(kMostQueueRoom) + ", is possible"};
     }
     const std::uint64_t bytes = std::uint64_t{desc.maxPairs} * sizeof(shader::PairTransform);
     if (bytes > context.limits.maxStorageBufferRange) {
@@ -80,8 +86,8 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     };
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
-        {out.transforms, firstQueueByte(out) + queueBytes(out.queueRoom), kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-         MemoryUse::Device, "pair transforms"},
+        {out.transforms, out.queueRoom == 0 ? firstQueueByte(out) : firstQueueByte(out) + queueBytes(out.queueRoom),
+         kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, MemoryUse::Device, "pair transforms"},
         {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
         {out.readBack, resultBytes + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
          "pair results on the host"},
@@ -168,7 +174,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         VOXTACT_TRY(checkDesc(c, desc));
         auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = c, .maxPairs = desc.maxPairs});
         impl->maxTransforms = transformsFor(c, desc.maxPairs);
-        impl->queueRoom = queueRoomFor(desc.maxPairs, bytesFor(c), firstQueueByte(*impl));
+        impl->queueRoom = queueRoomFor(desc, bytesFor(c), firstQueueByte(*impl));
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         VOXTACT_TRY(makeBuffers(*impl, desc.readBack));
         for (const auto make : {makeQueries, makeDescriptors}) {

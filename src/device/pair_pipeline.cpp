@@ -213,11 +213,13 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                                           const PipelineDesc& desc) {
     PipelineDesc how = desc;
     how.timestamps = desc.timestamps && device.hasTimestamps();
+    const bool certified = detector.desc().projection == Projection::Conservative;
     const ResultsDesc results{.maxPairs = how.pairsPerSubmission,
                               .readBack = true,
                               .timestamps = how.timestamps,
                               .queueFamily = device.queueAccess().family,
-                              .room = how.room};
+                              .room = how.room,
+                              .clustersAtOnce = certified ? std::nullopt : std::optional(0U)};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));

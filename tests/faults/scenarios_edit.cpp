@@ -19,7 +19,8 @@ std::string ring(Play& play, const DetectorDesc& desc, const Change& change) {
     const ResultsDesc room{.maxPairs = 3,
                            .room = desc.outputs.any()
                                        ? std::optional(OutputRoom{.triangles = 60, .labels = 1000, .contacts = 9})
-                                       : std::nullopt};
+                                       : std::nullopt,
+                           .clustersAtOnce = 16};
     ResultRing results =
         play.ask("ResultRing::create", [&] { return ResultRing::create(setting.context, kFrames, room); });
     std::string answers;
@@ -93,8 +94,9 @@ std::string cmdUploads(Play& play) {
     const Detector detector = play.ask("Detector::create", [&] {
         return Detector::create(setting.context, {.method = CountingMethod::Compute, .filter = Filter::Exact});
     });
-    Results results = play.ask("Results::create",
-                               [&] { return Results::create(setting.context, {.maxPairs = 2, .timestamps = true}); });
+    Results results = play.ask("Results::create", [&] {
+        return Results::create(setting.context, {.maxPairs = 2, .timestamps = true, .clustersAtOnce = 0});
+    });
     const VkCommandBuffer commands = embedder.begin();
     play.ask("Volume::cmdUpload", [&] { return volume.cmdUpload(commands); });
     play.ask("TransferFunction::cmdUpload", [&] { return function.cmdUpload(commands); });

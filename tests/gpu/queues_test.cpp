@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The queues between the passes of the projection `conservative`: answers do not depend on their room.
+#include "raw_fixture.h"
+
+#include "support/scenes.h"
+#include "voxtact/cpu.h"
+#include "voxtact/samples.h"
+
+#include <gmock/gmock.h>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+class QueuesTest : public RawGpuTest {
+  protected:
+    /// What a batch gives where so many clusters are looked at at once.
+    BatchAnswer detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
+        const Detector detector = take(Detector::create(context(), desc));
+        Results results = take(Results::create(context(), {.maxPairs = pairs,
+                                                           .room = OutputRoom{.triangles = std::size_t{pairs} * 4096},
+                                                           .clustersAtOnce = clusters}));
+        const VkCommandBuffer commands = raw().begin();
+        take(detector.cmdDetect(commands, batch, results));
+        take(results.cmdReadBack(commands));
+        raw().submitAndWait(commands);
+        BatchAnswer answer;
+        take(results.readOutputs(answer));
+        const std::span<const PairResult> found = take(results.read());
+        for (const PairResult& pair : found) {
+            answer.pairs.push_back(unpack(pair));
+        }
+        return answer;
+    }
+};
+
+void expectSame(const BatchAnswer& device, const BatchAnswer& host, const std::string& which) {
+    ASSERT_EQ(device.pairs.size(), host.pairs.size()) << which;
+    for (std::size_t i = 0; i < host.pairs.size(); ++i) {
+        EXPECT_EQ(device.pairs[i].count, host.pairs[i].count) << which << ", pair " << i;
+        EXPECT_EQ(device.pairs[i].possible, host.pairs[i].possible) << which << ", pair " << i;
+        EXPECT_EQ(device.pairs[i].exactness, host.pairs[i].exactness) << which << ", pair " << i;
+    }
+    ASSERT_EQ(device.triangles.size(), host.triangles.size()) << which;
+    for (std::size_t i = 0; i < host.triangles.size(); ++i) {
+        EXPECT_EQ(device.triangles[i].triangle, host.triangles[i].triangle) << which;
+        EXPECT_EQ(device.triangles[i].count, host.triangles[i].count) << which;
+    }
+}
+
+/// A scalpel of small triangles, and one whose triangles are large: with room for all, and with queues that hold a few
+/// triangles' cells, so that nearly everything is left to the last pass.
+TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData head = take(makeBuiltinVolume("head:48"));
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const TransferFunctionDesc table{points, {0, 255}, kDefaultTableSize};
+    const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
+    const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
+    const cpu::Volume hostVolume = take(cpu::Volume::create(head.view()));
+    const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
+    const std::vector<Mat4> poses = randomPoses(head.grid, 6, 1, random);
+    for (const char* source : {"scalpel:1500", "scalpel:100"}) {
+        const MeshData data = take(makeBuiltinMesh(source));
+        const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
+        const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+        const BatchItem item{&mesh, &volume, &function, poses};
+        const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
+        for (const bool stopAtFirst : {false, true}) {
+            const Outputs outputs{.triangles = !stopAtFirst};
+            const BatchAnswer onHost =
+                take(take(cpu::Detector::create(
+                              {.stopAtFirst = stopAtFirst, .projection = Projection::Conservative, .outputs = outputs}))
+                         .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+            const DetectorDesc desc{.method = CountingMethod::Compute,
+                                    .projection = Projection::Conservative,
+                                    .outputs = outputs,
+                                    .stopAtFirst = stopAtFirst};
+            for (const std::uint32_t clusters : {16U, 16384U}) {
+                const auto pairs = static_cast<std::uint32_t>(poses.size());
+                expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, pairs, clusters), onHost,
+                           std::string(source) + ", " + std::to_string(clusters) + " clusters at once, seed " +
+                               std::to_string(seed));
+            }
+        }
+    }
+}
+
+TEST_F(QueuesTest, RoomsThatCannotBe) {
+    for (const std::uint32_t clusters : {1U, 15U, 16385U}) {
+        const Result<Results> refused = Results::create(context(), {.clustersAtOnce = clusters});
+        ASSERT_FALSE(refused.ok());
+        EXPECT_THAT(refused.error().text, HasSubstr("ResultsDesc::clustersAtOnce is " + std::to_string(clusters)));
+    }
+}
+
+TEST_F(QueuesTest, ResultsWithoutThemAreForOtherProjections) {
+    const Volume volume = take(Volume::upload(
+        context(), queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view(), {.bricks = true}));
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const Mat4 pose = identity();
+    const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
+    Results results = take(Results::create(context(), {.clustersAtOnce = 0}));
+    const VkCommandBuffer commands = raw().begin();
+    const Batch batch{{&item, 1}, flatView(0, 1, 64, 64), 0.5};
+    const Detector view = take(Detector::create(context(), {.method = CountingMethod::Compute}));
+    const Detector certified =
+        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Conservative}));
+    take(view.cmdDetect(commands, batch, results));
+    const Result<void> refused = certified.cmdDetect(commands, batch, results);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().text, HasSubstr("ResultsDesc::clustersAtOnce is 0"));
+    raw().submitAndWait(commands);
+}
+
+} // namespace
+} // namespace voxtact::test
