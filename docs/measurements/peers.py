@@ -248,9 +248,19 @@ class Python:
 
 
 def ask(engine, poses, truth):
+    if hasattr(engine, "hits"):  # milliseconds: as `voxtact bench` has it, the median of five
+        times = []
+        for _ in range(5):
+            begin = time.process_time()
+            answers = engine.hits(poses)
+            times.append(time.process_time() - begin)
+        return judged(answers, poses, truth, float(numpy.median(times)))
     begin = time.process_time()
-    answers = engine.hits(poses) if hasattr(engine, "hits") else numpy.array([bool(engine.hit(pose)) for pose in poses])
-    seconds = time.process_time() - begin
+    answers = numpy.array([bool(engine.hit(pose)) for pose in poses])
+    return judged(answers, poses, truth, time.process_time() - begin)
+
+
+def judged(answers, poses, truth, seconds):
     contacts, misses = truth == 1, truth == 0
     return {"contacts": int(contacts.sum()), "no_contacts": int(misses.sum()),
             "missed": int((contacts & ~answers).sum()), "false": int((misses & answers).sum()),
