@@ -11,6 +11,8 @@ namespace {
 
 /// Sets of threads that are kept for ways of asking; the oldest make room.
 constexpr std::size_t kMostKept = 8;
+/// Where a yes or no is asked about so few, waking threads takes longer than the answer.
+constexpr std::size_t kFewTriangles = std::size_t{1} << 14U;
 
 /// The one of this process that is kept for a key, or a new one.
 template <class T, class Key, class Make>
@@ -30,7 +32,7 @@ T& keptOrMade(std::map<Key, OfThisProcess<T>>& all, const Key& key, const Make& 
 
 HostSide::HostSide(const VolumeView& volume, const OpacityDesc& opacity, std::uint32_t threads)
     : volume_(take(cpu::Volume::create(volume))), function_(take(cpu::TransferFunction::create(opacity.desc()))),
-      threads_(threads) {}
+      threads_(threads != 0 ? threads : std::max(std::thread::hardware_concurrency(), 1U)) {}
 
 void HostSide::setOpacity(const OpacityDesc& opacity) {
     function_ = take(cpu::TransferFunction::create(opacity.desc()));
@@ -45,7 +47,7 @@ void HostSide::edit(const Edit& edit) {
     }
 }
 
-cpu::Detector& HostSide::detectorFor(const Question& question) {
+cpu::Detector& HostSide::detectorFor(const Question& question, std::uint32_t threads) {
     if (question.method.value_or(CountingMethod::Cpu) != CountingMethod::Cpu) {
         refuse(ErrorCode::Unsupported, std::string("the method ") + toString(*question.method) +
                                            " needs a Vulkan device; make the scene with device=");
@@ -54,8 +56,8 @@ cpu::Detector& HostSide::detectorFor(const Question& question) {
         refuse(ErrorCode::Unsupported, "the host engine has the filter exact alone, and no overestimate; for others "
                                        "make the scene with device=");
     }
-    return keptOrMade(detectors_, Question::Key(question.key()), [&] {
-        return cpu::Detector::create({.threads = threads_,
+    return keptOrMade(detectors_, std::pair(Question::Key(question.key()), threads), [&] {
+        return cpu::Detector::create({.threads = threads,
                                       .boundary = question.boundary,
                                       .stopAtFirst = question.yesNo,
                                       .projection = question.projection,
@@ -86,7 +88,8 @@ auto HostSide::asked(const Part& part, double threshold, const LabelData* labels
 }
 
 BatchAnswer HostSide::detect(const Part& part, const Question& question, double threshold, const LabelData* labels) {
-    cpu::Detector& detector = detectorFor(question);
+    const bool few = question.yesNo && part.count * part.request.mostTriangles() <= kFewTriangles;
+    cpu::Detector& detector = detectorFor(question, few ? 1 : threads_);
     return asked(part, threshold, labels, viewOf(question, volume_.grid()),
                  [&](const cpu::Batch& batch) { return detector.detect(batch); });
 }
@@ -107,10 +110,6 @@ BatchAnswer HostSide::within(const Part& part, double margin, double threshold) 
     const cpu::ClearanceDesc usual;
     cpu::ClearanceMeter& meter = meterFor({usual.tolerance, usual.maximum, usual.mostSteps});
     return asked(part, threshold, nullptr, {}, [&](const cpu::Batch& batch) { return meter.within(batch, margin); });
-}
-
-std::uint32_t HostSide::threads() const noexcept {
-    return threads_ != 0 ? threads_ : std::max(std::thread::hardware_concurrency(), 1U);
 }
 
 } // namespace voxtact::python

@@ -32,10 +32,10 @@ class HostSide {
                                                      const LabelData* labels, const std::vector<std::int32_t>& asked);
     [[nodiscard]] BatchAnswer within(const Part& part, double margin, double threshold);
     /// That a call runs on.
-    [[nodiscard]] std::uint32_t threads() const noexcept;
+    [[nodiscard]] std::uint32_t threads() const noexcept { return threads_; }
 
   private:
-    [[nodiscard]] cpu::Detector& detectorFor(const Question& question);
+    [[nodiscard]] cpu::Detector& detectorFor(const Question& question, std::uint32_t threads);
     [[nodiscard]] cpu::ClearanceMeter& meterFor(const Distance& distance);
     /// Calls `ask` with the part as a batch.
     template <class Ask>
@@ -44,9 +44,9 @@ class HostSide {
 
     cpu::Volume volume_;
     cpu::TransferFunction function_;
-    std::uint32_t threads_;
+    std::uint32_t threads_; ///< known once: asking the system takes longer than an answer
     // They have threads.
-    std::map<Question::Key, OfThisProcess<cpu::Detector>> detectors_;
+    std::map<std::pair<Question::Key, std::uint32_t>, OfThisProcess<cpu::Detector>> detectors_;
     std::map<Distance::Key, OfThisProcess<cpu::ClearanceMeter>> meters_;
 };
 

@@ -65,14 +65,20 @@ py::array Image::array(const py::object& self) const {
 }
 
 Shape::Shape(MeshData data) : data_(std::move(data)), facts_(take(checkMesh(data_.view()))) {}
-Shape::~Shape() = default;
+Shape::~Shape() {
+    delete onHost_.load();
+}
 
 const cpu::Mesh& Shape::onHost() const {
-    const std::lock_guard lock(mutex_);
-    if (onHost_ == nullptr) {
-        onHost_ = std::make_unique<cpu::Mesh>(take(cpu::Mesh::create(data_.view())));
+    const cpu::Mesh* known = onHost_.load();
+    if (known != nullptr) {
+        return *known;
     }
-    return *onHost_;
+    auto made = std::make_unique<const cpu::Mesh>(take(cpu::Mesh::create(data_.view())));
+    if (onHost_.compare_exchange_strong(known, made.get())) {
+        return *made.release();
+    }
+    return *known;
 }
 
 } // namespace voxtact::python

@@ -6,8 +6,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -60,8 +60,8 @@ class Shape {
   private:
     MeshData data_;
     MeshFacts facts_;
-    mutable std::mutex mutex_;
-    mutable std::unique_ptr<cpu::Mesh> onHost_;
+    /// Of two threads that make it, one is first; a lock could be held by a thread that a fork leaves behind.
+    mutable std::atomic<const cpu::Mesh*> onHost_ = nullptr;
 };
 
 void defineData(py::module_& module);

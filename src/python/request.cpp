@@ -74,19 +74,35 @@ bool isAffine(const Mat4& matrix) noexcept {
     return finite && matrix[3] == 0 && matrix[7] == 0 && matrix[11] == 0 && matrix[15] == 1;
 }
 
-/// All at once, before any work: a later piece would count from its own first pose.
-void checkPoses(const std::vector<Mat4>& poses, std::size_t item) {
-    const auto wrong = std::ranges::find_if_not(poses, isAffine);
-    if (wrong != poses.end()) {
-        const std::string which = item == 0 ? "" : "item " + std::to_string(item) + ", ";
-        take(checkAffine(*wrong, which + "pose " + std::to_string(wrong - poses.begin())));
+/// Of one item, in one go over the numbers. All are looked at before any work: a later piece of it would count from its
+/// own first pose.
+std::vector<Mat4> posesOf(const Doubles& rows, std::size_t item) {
+    if (rows.ndim() != 3 || rows.shape(1) != 4 || rows.shape(2) != 4) {
+        const std::vector<Mat4> one = matricesOf(rows, "poses"); // or refuses it
+        take(checkAffine(one.front(), "pose 0"));
+        return one;
     }
+    std::vector<Mat4> poses;
+    poses.reserve(static_cast<std::size_t>(rows.shape(0)));
+    const double* from = rows.data();
+    for (py::ssize_t pose = 0; pose < rows.shape(0); ++pose, from += std::tuple_size_v<Mat4>) {
+        Mat4& matrix = poses.emplace_back();
+        for (std::size_t row = 0; row < 4; ++row) {
+            for (std::size_t column = 0; column < 4; ++column) {
+                matrix[4 * column + row] = from[4 * row + column];
+            }
+        }
+        if (!isAffine(matrix)) {
+            const std::string which = item == 0 ? "" : "item " + std::to_string(item) + ", ";
+            take(checkAffine(matrix, which + "pose " + std::to_string(pose)));
+        }
+    }
+    return poses;
 }
 
 } // namespace
 
 void Request::add(std::shared_ptr<const Shape> mesh, std::vector<Mat4> world_from_object) {
-    checkPoses(world_from_object, items.size());
     const std::size_t poses = world_from_object.size();
     items.push_back({std::move(mesh), std::move(world_from_object), pairs});
     pairs += poses;
@@ -115,7 +131,7 @@ Request requestOf(const py::object& meshes, const py::object& poses) {
         if (!numbers) {
             throw py::error_already_set();
         }
-        request.add(mesh.cast<std::shared_ptr<Shape>>(), matricesOf(numbers, "poses"));
+        request.add(mesh.cast<std::shared_ptr<Shape>>(), posesOf(numbers, request.items.size()));
     };
     if (py::isinstance<Shape>(meshes)) {
         add(meshes, poses);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 
 namespace voxtact::python {
 
@@ -32,32 +33,40 @@ void handleSignals() {
     }
 }
 
-Turns::Lock& Turns::lock() {
-    // A fork while this is held is a fork while the interpreter's lock is held by another thread: there is none then.
-    const std::lock_guard guard(guard_);
-    if (lock_.get() == nullptr) {
-        lock_ = OfThisProcess<Lock>(std::make_unique<Lock>());
+Turns::~Turns() {
+    const Lock* const last = lock_.load();
+    if (last != nullptr && last->born == forks()) {
+        delete last;
     }
-    return *lock_.get();
 }
 
-Turns::Turn::Turn(Turns& turns) : turns_(turns), mutex_(nullptr) {
-    Lock& lock = turns.lock();
-    if (lock.owner.load() == std::this_thread::get_id()) {
+Turns::Lock& Turns::lock() {
+    Lock* known = lock_.load();
+    if (known != nullptr && known->born == forks()) {
+        return *known;
+    }
+    auto made = std::make_unique<Lock>();
+    if (lock_.compare_exchange_strong(known, made.get())) {
+        return *made.release();
+    }
+    return *known; // another thread was first
+}
+
+Turns::Turn::Turn(Turns& turns) : lock_(turns.lock()) {
+    if (lock_.owner.load() == std::this_thread::get_id()) {
         refuse(ErrorCode::NotReady,
                "the scene is at work for this very thread: a progress callback or a signal handler "
                "cannot use it; let it take notes, and use the scene when the call is done");
     }
-    while (!lock.mutex.try_lock_for(kPatience)) {
+    while (!lock_.mutex.try_lock_for(kPatience)) {
         handleSignals();
     }
-    lock.owner.store(std::this_thread::get_id());
-    mutex_ = &lock.mutex;
+    lock_.owner.store(std::this_thread::get_id());
 }
 
 Turns::Turn::~Turn() {
-    turns_.lock().owner.store(std::thread::id());
-    mutex_->unlock();
+    lock_.owner.store(std::thread::id());
+    lock_.mutex.unlock();
 }
 
 void inPieces(std::size_t total, std::size_t first, std::size_t most, const Progress& progress,

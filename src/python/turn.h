@@ -22,7 +22,18 @@ void handleSignals();
 
 /// One thread at a time.
 class Turns {
+    struct Lock {
+        std::uint64_t born = forks();
+        std::timed_mutex mutex;
+        std::atomic<std::thread::id> owner;
+    };
+
   public:
+    Turns() = default;
+    Turns(const Turns&) = delete;
+    Turns& operator=(const Turns&) = delete;
+    ~Turns();
+
     /// Waits for the turn, and lets Python handle signals meanwhile. The interpreter's lock must not be held. Refuses a
     /// thread whose turn it is already: a callback of its own call.
     class Turn {
@@ -33,20 +44,14 @@ class Turns {
         Turn& operator=(const Turn&) = delete;
 
       private:
-        Turns& turns_;
-        std::timed_mutex* mutex_;
+        Lock& lock_;
     };
 
   private:
-    struct Lock {
-        std::timed_mutex mutex;
-        std::atomic<std::thread::id> owner;
-    };
-    /// That of this process: in a child, a thread that is not there may hold the old one.
-    Lock& lock();
+    /// That of this process: in a child, a thread that is not there may hold the old one, which is left alone.
+    [[nodiscard]] Lock& lock();
 
-    std::mutex guard_;
-    OfThisProcess<Lock> lock_;
+    std::atomic<Lock*> lock_ = nullptr;
 };
 
 /// Who hears how far it is: called with the interpreter's lock held.

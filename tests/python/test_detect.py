@@ -191,6 +191,7 @@ def test_yes_or_no(scene, knife):
     answer, counted = scene.detect(knife, poses, yes_no=True), scene.detect(knife, poses)
     np.testing.assert_array_equal(answer.hit, counted.hit)
     assert set(answer.count.tolist()) == {0, 1} and answer.hit.any()
+    assert [scene.detect(knife, pose, yes_no=True).hit[0] for pose in poses[:20]] == counted.hit[:20].tolist()
     np.testing.assert_array_equal(answer.contacts, counted.contacts)
 
 

@@ -67,6 +67,15 @@ def test_options_of_another_type(scene, knife, head):
                          "dominant-axis", **{option: value})
     with pytest.raises(vx.InvalidArgumentError, match="threshold"):
         vx.Scene(head, threshold=2)
+    for wrong in ({"threads": -1}, {"threads": 1.5}, {"table_size": "many"}, {"threshold": "high"}, {"domain": ("a", "b")}):
+        with pytest.raises((ValueError, TypeError)) as caught:
+            vx.Scene(head, **wrong)
+        assert "_core" not in str(caught.value), "no words of what is inside"
+    for ask in (lambda: scene.clearance(knife, np.eye(4), tolerance="fine"), lambda: scene.within(knife, np.eye(4), margin="2 mm"),
+                lambda: scene.clearance(knife, np.eye(4), most_steps=-1), lambda: scene.within(knife, np.eye(4), margin=-1)):
+        with pytest.raises((ValueError, TypeError)) as caught:
+            ask()
+        assert "_core" not in str(caught.value)
     for wrong in ({"domain": (3, 3)}, {"table_size": 1}, {"opacity": [(0, np.nan)]}):
         with pytest.raises(vx.InvalidArgumentError):
             vx.Scene(head, **wrong)

@@ -79,15 +79,16 @@ class Device:
         not_pickled(self)
 
 
-_default_device: Optional[Device] = None
+# By process: a device does not live on in the child of a fork.
+_best_devices: dict[int, Device] = {}
 
 
 def _best_device() -> Device:
     """Opened once."""
-    global _default_device
-    if _default_device is None:
-        _default_device = Device()
-    return _default_device
+    process = os.getpid()
+    if process not in _best_devices:
+        _best_devices[process] = Device()
+    return _best_devices[process]
 
 
 def _opened(device: Union[None, bool, int, str, Device]) -> Optional[Device]:
@@ -225,12 +226,13 @@ class Scene:
         self._volume = read_volume(volume)
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = _opened(device)
-        self._domain = domain
-        self._table_size = table_size
+        self._domain = None if domain is None else (float(domain[0]), float(domain[1]))
+        self._table_size = _whole([table_size], 1, "table_size")[0]
         self._closed = False
-        self._core = core.Scene(self._volume._core, _points(opacity), domain, table_size, threshold,
+        self._core = core.Scene(self._volume._core, _points(opacity), self._domain, self._table_size, float(threshold),
                                  None if self._labels is None else self._labels._core,
-                                 None if self._device is None else self._device._core, threads)
+                                 None if self._device is None else self._device._core,
+                                 _whole([threads], 1, "threads")[0])
 
     # What it is
 
@@ -270,7 +272,7 @@ class Scene:
 
     @threshold.setter
     def threshold(self, threshold: float) -> None:
-        self._core.set_threshold(threshold)
+        self._core.set_threshold(float(threshold))
 
     # Changes
 
@@ -404,9 +406,10 @@ class Scene:
                 raise InvalidArgumentError("clearances to labels need a scene with labels=")
             every = [int(label) for label in self._labels.values if label != 0]
             wanted = every if labels is True else [int(label) for label in labels]
+        (steps,) = _whole([most_steps], 1, "most_steps")
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _pairs_in(meshes, matrices)) as tell:
-            return Clearance(self._core.clearance(meshes, matrices, tolerance, maximum, most_steps, wanted, tell))
+            return Clearance(self._core.clearance(meshes, matrices, float(tolerance), float(maximum), steps, wanted, tell))
 
     def within(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float,
                progress: Progress = None) -> Answer:
@@ -416,7 +419,7 @@ class Scene:
         """
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _pairs_in(meshes, matrices)) as tell:
-            return Answer(self._core.within(meshes, matrices, margin, tell), None)
+            return Answer(self._core.within(meshes, matrices, float(margin), tell), None)
 
     # Pictures
 
@@ -448,7 +451,7 @@ class Scene:
         camera = view if isinstance(view, (str, tuple)) else np.asarray(view, dtype=np.float64)
         matrices = np.asarray(np.eye(4) if pose is None else pose, dtype=np.float64)
         return self._core.picture(None if mesh is None else mesh._core, matrices, width, height, camera, preset,
-                                  background, show, through, None if device is None else device._core)
+                                  [float(channel) for channel in background], show, float(through), None if device is None else device._core)
 
     def _repr_png_(self) -> Optional[bytes]:
         """For notebooks; nothing where no device can draw."""
