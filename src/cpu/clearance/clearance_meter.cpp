@@ -4,6 +4,7 @@
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "cpu/batch_check.h"
+#include "cpu/clearance/label_fingerprint.h"
 #include "cpu/clearance/label_part.h"
 #include "cpu/clearance/workers.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace voxtact::cpu {
 
@@ -24,7 +26,7 @@ constexpr double kLeastTolerance = 1e-6;
 /// The pyramids of labels that were asked for last.
 struct KeptLabels {
     std::shared_ptr<const OpaquePart> part; ///< keeps its address from being another's
-    const LabelData* labels = nullptr;
+    std::uint64_t labels = 0;               ///< fingerprint of the map
     std::vector<std::uint32_t> indices;
     std::shared_ptr<const LabelPyramids> pyramids;
 };
@@ -172,11 +174,11 @@ std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const st
 }
 
 std::shared_ptr<const LabelPyramids> pyramidsOf(ClearanceMeterImpl& impl, const BatchItem& item,
-                                                const std::shared_ptr<const OpaquePart>& part,
+                                                const std::shared_ptr<const OpaquePart>& part, std::uint64_t labels,
                                                 const std::vector<std::uint32_t>& indices) {
     constexpr std::size_t kMostKept = 4;
     for (const KeptLabels& kept : impl.labels) {
-        if (kept.part == part && kept.labels == item.labels && kept.indices == indices) {
+        if (kept.part == part && kept.labels == labels && kept.indices == indices) {
             return kept.pyramids;
         }
     }
@@ -184,7 +186,7 @@ std::shared_ptr<const LabelPyramids> pyramidsOf(ClearanceMeterImpl& impl, const 
     if (impl.labels.size() == kMostKept) {
         impl.labels.erase(impl.labels.begin());
     }
-    impl.labels.push_back({part, item.labels, indices, made});
+    impl.labels.push_back({part, labels, indices, made});
     return made;
 }
 
@@ -275,9 +277,13 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
         const Parts parts = impl_->workers.partsOf(batch, impl_->desc.resolution);
         std::vector<std::vector<std::uint32_t>> indices;
         std::vector<std::shared_ptr<const LabelPyramids>> pyramids;
+        std::map<const LabelData*, std::uint64_t> fingerprints; // each of the call's maps is read once
         for (std::size_t i = 0; i < batch.items.size(); ++i) {
-            indices.push_back(indicesOf(*batch.items[i].labels, labels));
-            pyramids.push_back(pyramidsOf(*impl_, batch.items[i], parts[i], indices[i]));
+            const BatchItem& item = batch.items[i];
+            const auto [print, isNew] = fingerprints.try_emplace(item.labels);
+            print->second = isNew ? labelFingerprint(*item.labels) : print->second;
+            indices.push_back(indicesOf(*item.labels, labels));
+            pyramids.push_back(pyramidsOf(*impl_, item, parts[i], print->second, indices[i]));
         }
         LabelClearanceAnswer answer;
         answer.labels = numberedPairs<LabelClearance>(batch, labels.size());
