@@ -29,11 +29,8 @@ class MeshPlace {
         return {normal, sweep_ ? &*sweep_ : nullptr};
     }
     /// A point that is about the closest one, of all places where it may be.
-    [[nodiscard]] glm::dvec3 near(const PlacedBox& box, const glm::dvec3& from) const noexcept {
-        return sweep_ ? sweep_->near(box.near(from), from) : box.near(from);
-    }
-    [[nodiscard]] glm::dvec3 near(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept {
-        return sweep_ ? sweep_->near(sweep_->nearest(triangle, from), from) : triangle.near(from);
+    template <class Placed> [[nodiscard]] glm::dvec3 near(const Placed& placed, const glm::dvec3& from) const noexcept {
+        return sweep_ ? sweep_->near(placed, from) : placed.near(from);
     }
     /// The point that gets there, at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept {

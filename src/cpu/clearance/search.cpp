@@ -79,14 +79,14 @@ OpenPairs ClosestSearch::left() const {
 }
 
 bool ClosestSearch::goesOn() {
-    if (mesh_->isSwept() && found_.lo <= 0 && !goal_.untilMet) {
+    constexpr std::uint64_t kMostInDoubt = 1000;
+    if (mesh_->isSwept() && found_.lo <= 0 && (!goal_.untilMet || ++stepsInDoubt_ > kMostInDoubt)) {
         return false; // it is not apart, and that is all that is asked
     }
     if (found_.hi <= goal_.enough || (!dive_ && (heap_.empty() || heap_.front().lo >= cut()))) {
         return false;
     }
     // Rounding has set the lower bound already: some more steps may find a nearer point, and then it is enough.
-    constexpr std::uint64_t kMostInDoubt = 1000;
     if (!dive_ && heap_.front().lo >= found_.lo && ++stepsInDoubt_ > kMostInDoubt) {
         return false;
     }

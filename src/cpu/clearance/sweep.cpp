@@ -86,26 +86,70 @@ double Sweep::wide(const PlacedBox& box) const noexcept {
     return most;
 }
 
-dvec3 Sweep::near(const dvec3& x, const dvec3& from) const noexcept {
-    dvec3 at = x;
-    if (turn > 0) {
-        const dvec3 arm = x - centre;
-        const dvec3 wanted = from - centre;
-        const dvec3 axis = cross(arm, wanted);
-        if (const double size = glm::length(axis); size > 0) {
-            const double angle = std::min(std::atan2(size, dot(arm, wanted)), turn);
-            at = centre + std::cos(angle) * arm + std::sin(angle) / size * cross(axis, arm);
-        }
-    } else {
-        const dvec3 way = linear * at + offset;
-        const double square = dot(way, way);
-        if (square > 0) {
-            at += std::clamp(dot(from - at, way) / square, -1.0, 1.0) * way;
-        }
-    }
+dvec3 Sweep::withSlack(const dvec3& at, const dvec3& from) const noexcept {
     const dvec3 off = from - at;
     const double size = glm::length(off);
     return size > slack ? at + slack / size * off : from;
+}
+
+/// By turns: the closest point there, and how far on that one gets the closest.
+template <class Closest> dvec3 Sweep::onTheWay(const dvec3& from, const Closest& closest) const noexcept {
+    constexpr int kMostTurns = 6;
+    constexpr double kWorthwhile = 1e-2;
+    double part = 0;
+    dvec3 at = closest(part);
+    for (int i = 0; i < kMostTurns; ++i) {
+        const dvec3 way = linear * at + offset;
+        const double square = dot(way, way);
+        if (!(square > 0)) {
+            break;
+        }
+        const double next = std::clamp(part + dot(from - at, way) / square, -1.0, 1.0);
+        const double gained = std::abs(next - part);
+        part = next;
+        at = closest(part);
+        if (gained < kWorthwhile) {
+            break;
+        }
+    }
+    return at;
+}
+
+dvec3 Sweep::near(const dvec3& x, const dvec3& from) const noexcept {
+    if (!(turn > 0)) {
+        return withSlack(onTheWay(from, [&](double part) { return x + part * (linear * x + offset); }), from);
+    }
+    const dvec3 arm = x - centre;
+    const dvec3 wanted = from - centre;
+    const dvec3 axis = cross(arm, wanted);
+    const double size = glm::length(axis);
+    if (!(size > 0)) {
+        return withSlack(x, from);
+    }
+    const double angle = std::min(std::atan2(size, dot(arm, wanted)), turn);
+    return withSlack(centre + std::cos(angle) * arm + std::sin(angle) / size * cross(axis, arm), from);
+}
+
+dvec3 Sweep::near(const PlacedBox& box, const dvec3& from) const noexcept {
+    if (turn > 0) {
+        return near(box.near(from), from);
+    }
+    const dvec3 way = linear * box.middle + offset;
+    return withSlack(onTheWay(from, [&](double part) { return box.near(from - part * way) + part * way; }), from);
+}
+
+dvec3 Sweep::near(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
+    if (turn > 0) {
+        return near(nearest(triangle, from), from);
+    }
+    const auto closest = [&](double part) {
+        WorldTriangle there = triangle.corners;
+        for (dvec3& corner : there) {
+            corner += part * (linear * corner + offset);
+        }
+        return closestPoint(there, from);
+    };
+    return withSlack(onTheWay(from, closest), from);
 }
 
 dvec3 Sweep::nearest(const PlacedTriangle& triangle, const dvec3& from) const noexcept {

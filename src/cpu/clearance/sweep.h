@@ -32,12 +32,19 @@ struct Sweep {
     [[nodiscard]] double wide(const PlacedBox& box) const noexcept;
     /// About the closest to `from` of the places where `x` may be.
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& x, const glm::dvec3& from) const noexcept;
-    /// Of a triangle the point that gets about the closest to `from`: where it is at its pose. What is turned may be
-    /// any.
+    /// The same of all points of something.
+    [[nodiscard]] glm::dvec3 near(const PlacedBox& box, const glm::dvec3& from) const noexcept;
+    [[nodiscard]] glm::dvec3 near(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
+    /// The point of a triangle that gets there, where it is at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
 
   private:
     [[nodiscard]] double turnedReach(const glm::dvec3& normal, const glm::dvec3& x) const noexcept;
+    [[nodiscard]] glm::dvec3 withSlack(const glm::dvec3& at, const glm::dvec3& from) const noexcept;
+    /// How far on its way something gets the closest to `from`, from -1 to 1: `closest(part)` is its closest point
+    /// there.
+    template <class Closest>
+    [[nodiscard]] glm::dvec3 onTheWay(const glm::dvec3& from, const Closest& closest) const noexcept;
 };
 
 /// A direction, and how far along it something of a mesh may be: the greatest dot product of a point with the normal.
