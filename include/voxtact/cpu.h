@@ -3,6 +3,7 @@
 
 #include "voxtact/clearance.h"
 #include "voxtact/data.h"
+#include "voxtact/motion.h"
 #include "voxtact/results.h"
 
 #include <limits>
@@ -23,6 +24,7 @@ struct TransferFunctionImpl;
 struct MeshImpl;
 struct DetectorImpl;
 struct ClearanceMeterImpl;
+struct MotionCheckerImpl;
 
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
@@ -167,9 +169,9 @@ class ClearanceMeter {
     [[nodiscard]] VOXTACT_API Result<ClearanceAnswer> measure(const Batch& batch);
     /// The clearance of every pair to each label's part of what is opaque: a label fills the closed boxes of its
     /// voxels, so that a face between two labels belongs to both. Where it touches, the bounds are 0 and some
-    /// millionths. Every item needs labels, on the grid of its volume; a map must not change as long as the meter is
-    /// used with it. Labels that a map does not have are infinitely far. Refuses what measure() refuses, other grids
-    /// (Unsupported), and more than kMostMeasuredLabels labels (LimitExceeded).
+    /// millionths. Every item needs labels, on the grid of its volume; labels that a map does not have are infinitely
+    /// far. Refuses what measure() refuses, other grids (Unsupported), and more than kMostMeasuredLabels labels
+    /// (LimitExceeded).
     [[nodiscard]] VOXTACT_API Result<LabelClearanceAnswer> measureLabels(const Batch& batch,
                                                                          std::span<const std::int32_t> labels);
     /// Whether something opaque is within `margin` mm of the surface, for every pair: `hit` where it certainly is,
@@ -183,6 +185,42 @@ class ClearanceMeter {
   private:
     explicit ClearanceMeter(std::unique_ptr<ClearanceMeterImpl> impl) noexcept;
     std::unique_ptr<ClearanceMeterImpl> impl_;
+};
+
+/// What a MotionChecker is made for.
+struct MotionDesc {
+    std::uint32_t threads = 0;                          ///< 0: one for each processor
+    Interpolation interpolation = Interpolation::Screw; ///< of the poses in between
+    /// mm, from 1e-6 on: how far the mesh moves at most between the end of what is free and a touch.
+    double resolution = kDefaultMotionResolution;
+    double touchResolution = kDefaultResolution; ///< of the touch, as DetectorDesc::resolution
+    std::uint64_t mostSteps = 1U << 20U;         ///< a segment that takes more is left with what is known; at least 1
+};
+
+/// Says whether meshes touch on the way from pose to pose. What it answers depends on nothing but the segment and its
+/// desc. Keeps its threads from call to call, and what it makes of the last volumes and transfer functions.
+/// Thread-safety: one call at a time.
+class MotionChecker {
+  public:
+    /// Starts its threads. Refuses numbers outside the ranges of MotionDesc.
+    [[nodiscard]] VOXTACT_API static Result<MotionChecker> create(const MotionDesc& desc = {});
+    VOXTACT_API MotionChecker(MotionChecker&&) noexcept;
+    VOXTACT_API MotionChecker& operator=(MotionChecker&&) noexcept;
+    VOXTACT_API ~MotionChecker();
+
+    /// The segments between consecutive poses of each item: one fewer than it has poses. Labels and view are not looked
+    /// at. Refuses what Detector::detect() and poseBetween() refuse.
+    [[nodiscard]] VOXTACT_API Result<MotionAnswer> check(const Batch& batch);
+    /// Whether a mesh touches at some pose that is off by no more than the tolerance, for every pair: `hit` where it
+    /// certainly does, neither that nor `possible` where it does at none of them. The count is 0 or 1. Refuses what
+    /// Detector::detect() refuses, and numbers outside the ranges of PoseTolerance.
+    [[nodiscard]] VOXTACT_API Result<BatchAnswer> around(const Batch& batch, const PoseTolerance& tolerance);
+    /// How many threads it runs on.
+    [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
+
+  private:
+    explicit MotionChecker(std::unique_ptr<MotionCheckerImpl> impl) noexcept;
+    std::unique_ptr<MotionCheckerImpl> impl_;
 };
 
 } // namespace voxtact::cpu

@@ -32,4 +32,6 @@ template <class Batch, class Item> class BatchOf {
     double threshold_ = 0;
 };
 
+using HostBatchOf = BatchOf<cpu::Batch, cpu::BatchItem>;
+
 } // namespace voxtact::c

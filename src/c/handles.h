@@ -39,6 +39,12 @@ struct vxt_host_mesh {
 struct vxt_host_detector {
     voxtact::cpu::Detector object;
 };
+struct vxt_host_clearance_meter {
+    voxtact::cpu::ClearanceMeter object;
+};
+struct vxt_host_motion_checker {
+    voxtact::cpu::MotionChecker object;
+};
 
 namespace voxtact::c {
 

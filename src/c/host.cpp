@@ -73,7 +73,7 @@ vxt_result vxt_host_detector_detect(vxt_host_detector* detector, const vxt_host_
     return call([&] {
         cpu::Detector& by = need(detector, "detector").object;
         vxt_answer& to = need(answer, "answer");
-        const BatchOf<cpu::Batch, cpu::BatchItem> of(batch, vxt_host_batch_init(), vxt_host_item_init());
+        const HostBatchOf of(batch, vxt_host_batch_init(), vxt_host_item_init());
         to = toAnswer(take(by.detect(of.batch())));
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The host engine through the C interface: the C++ interface's answers, every one of them.
+#include "both_interfaces.h"
 #include "cpu/random_scene.h"
 #include "support/c_calls.h"
 #include "support/contact_scenes.h"
@@ -12,81 +13,6 @@
 
 namespace voxtact::test {
 namespace {
-
-template <class T> T take(Result<T> result) {
-    if (!result.ok()) {
-        throw std::runtime_error(result.error().text);
-    }
-    return std::move(*result);
-}
-
-void take(const Result<void>& result) {
-    if (!result.ok()) {
-        throw std::runtime_error(result.error().text);
-    }
-}
-
-/// A scene through both interfaces.
-struct BothInterfaces {
-    cpu::Volume volume;
-    cpu::TransferFunction function;
-    cpu::Mesh mesh;
-    LabelData labels;
-    Owned<vxt_host_volume> cVolumeHandle;
-    Owned<vxt_host_transfer_function> cFunctionHandle;
-    Owned<vxt_host_mesh> cMeshHandle;
-    Owned<vxt_labels> cLabels;
-
-    BothInterfaces(const RandomScene& scene, const VolumeData& labelImage)
-        : volume(take(cpu::Volume::create(scene.volume.view()))),
-          function(take(cpu::TransferFunction::create(scene.transferFunction()))),
-          mesh(take(cpu::Mesh::create(scene.mesh.view()))), labels(take(makeLabels(labelImage.view()))),
-          cVolumeHandle(made<vxt_host_volume>(vxt_host_volume_destroy,
-                                              [&](auto out) {
-                                                  const vxt_volume_view view = cVolume(scene.volume);
-                                                  return vxt_host_volume_create(&view, out);
-                                              })),
-          cFunctionHandle(made<vxt_host_transfer_function>(vxt_host_transfer_function_destroy,
-                                                           [&](auto out) {
-                                                               const auto points = cPoints(scene.points);
-                                                               const auto desc =
-                                                                   cFunction(points, scene.domain, scene.tableSize);
-                                                               return vxt_host_transfer_function_create(&desc, out);
-                                                           })),
-          cMeshHandle(made<vxt_host_mesh>(vxt_host_mesh_destroy,
-                                          [&](auto out) {
-                                              const vxt_mesh_view view = cMesh(scene.mesh);
-                                              return vxt_host_mesh_create(&view, out);
-                                          })),
-          cLabels(made<vxt_labels>(vxt_labels_destroy, [&](auto out) {
-              const vxt_volume_view view = cVolume(labelImage);
-              return vxt_labels_create(&view, out);
-          })) {}
-
-    [[nodiscard]] BatchAnswer byCpp(cpu::Detector& detector, const RandomScene& scene) const {
-        const cpu::BatchItem item{&mesh, &volume, &function, scene.poses, &labels};
-        return take(detector.detect({std::span(&item, 1), scene.view, scene.threshold}));
-    }
-
-    [[nodiscard]] BatchAnswer byC(vxt_host_detector& detector, const RandomScene& scene) const {
-        vxt_host_item item = vxt_host_item_init();
-        item.mesh = cMeshHandle.get();
-        item.volume = cVolumeHandle.get();
-        item.transfer_function = cFunctionHandle.get();
-        item.world_from_object = scene.poses.data()->data();
-        item.pose_count = scene.poses.size();
-        item.labels = cLabels.get();
-        const vxt_view view = cView(scene.view);
-        vxt_host_batch batch = vxt_host_batch_init();
-        batch.items = &item;
-        batch.item_count = 1;
-        batch.view = &view;
-        batch.threshold = scene.threshold;
-        const Owned<vxt_answer> answer = newAnswer();
-        need(vxt_host_detector_detect(&detector, &batch, answer.get()));
-        return answerOf(*answer);
-    }
-};
 
 Owned<vxt_host_detector> detectorOf(const vxt_host_detector_desc& desc) {
     return made<vxt_host_detector>(vxt_host_detector_destroy,

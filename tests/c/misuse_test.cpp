@@ -33,12 +33,15 @@ TEST(CMisuse, EndingNothingIsNothing) {
     vxt_answer_destroy(nullptr);
     vxt_blocking_detector_destroy(nullptr);
     vxt_box_pairs_destroy(nullptr);
+    vxt_clearances_destroy(nullptr);
     vxt_context_destroy(nullptr);
     vxt_control_points_destroy(nullptr);
     vxt_detector_destroy(nullptr);
     vxt_features_destroy(nullptr);
+    vxt_host_clearance_meter_destroy(nullptr);
     vxt_host_detector_destroy(nullptr);
     vxt_host_mesh_destroy(nullptr);
+    vxt_host_motion_checker_destroy(nullptr);
     vxt_host_transfer_function_destroy(nullptr);
     vxt_host_volume_destroy(nullptr);
     vxt_label_map_destroy(nullptr);
@@ -48,6 +51,7 @@ TEST(CMisuse, EndingNothingIsNothing) {
     vxt_mesh_data_destroy(nullptr);
     vxt_mesh_destroy(nullptr);
     vxt_mesh_release_staging(nullptr);
+    vxt_motions_destroy(nullptr);
     vxt_poses_destroy(nullptr);
     vxt_report_destroy(nullptr);
     vxt_result_ring_destroy(nullptr);

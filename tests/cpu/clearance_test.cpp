@@ -400,6 +400,32 @@ TEST(Clearance, SeesEditsAndNewTransferFunctions) {
     EXPECT_NEAR(held.measure(pose).bounds.hi, 10.5, 1e-6);
 }
 
+/// Of label 1 in front of a needle that points along -x from x = 30.
+double clearanceToOne(cpu::ClearanceMeter& meter, const Held& held, const LabelData& labels) {
+    const Mat4 pose = translation({30, 10, 10});
+    const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1), &labels};
+    const std::vector<std::int32_t> one{1};
+    return take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, one)).labels.at(0).bounds.hi;
+}
+
+/// A map is the caller's: what a meter keeps of one must not outlive what it held.
+TEST(Clearance, SeesLabelMapsThatAreEditedInPlace) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const Held held(needle(), makeBytes(grid, [](auto...) { return 255; }), byteRamp(), {0, 255});
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    LabelData labels = take(makeLabels(makeBytes(grid, [](auto x, auto, auto) { return x == 2 ? 1 : 0; }).view()));
+    EXPECT_NEAR(clearanceToOne(meter, held, labels), 27.5, 1e-4);
+    // The brick of this voxel had no label 1 before.
+    labels.indices[(10 * 20 + 10) * 20 + 17] = 1;
+    EXPECT_NEAR(clearanceToOne(meter, held, labels), 12.5, 1e-4);
+    // The other way round: the numbers of the labels change, and no voxel does.
+    labels.values = {-1, 0};
+    EXPECT_EQ(clearanceToOne(meter, held, labels), kInfinity);
+    labels = take(makeLabels(makeBytes(grid, [](auto x, auto, auto) { return x == 9 ? 1 : 0; }).view()));
+    EXPECT_NEAR(clearanceToOne(meter, held, labels), 20.5, 1e-4);
+}
+
 TEST(Clearance, RefusesWhatItCannotUse) {
     const auto refused = [](const cpu::ClearanceDesc& desc) {
         const Result<cpu::ClearanceMeter> meter = cpu::ClearanceMeter::create(desc);

@@ -51,6 +51,7 @@ Examples:
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses - --count cpu --answer yes-no --threads 2 < poses.txt
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --clearance --closest closest.csv
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --margin 2
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --pose-tolerance 1,2
   voxtact detect --jobs jobs.csv --output rows.csv)";
 
 /// More only wait for each other.
@@ -217,6 +218,22 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
         parser, "--margin", [&options](double mm) { options.margin = mm; },
         "mm: hit says whether anything opaque is so near, as certified as a touch; 0 is the touch itself",
         [](double mm) { return mm >= 0; }, "at least 0", "none");
+    addTexts(
+        parser, "--pose-tolerance",
+        [&options](const std::string& text) -> std::optional<std::string> {
+            const std::size_t comma = text.find(',');
+            const std::optional<double> mm = parseFinite(std::string_view(text).substr(0, comma));
+            const std::optional<double> degrees =
+                comma == std::string::npos ? std::nullopt : parseFinite(std::string_view(text).substr(comma + 1));
+            if (!mm || !degrees || *mm < 0 || *degrees < 0 || *degrees > 180) {
+                return "is not two numbers MM,DEG, at least 0, and the second at most 180";
+            }
+            options.poseTolerance = PoseTolerance{*mm, *degrees};
+            return {};
+        },
+        "hit says whether anything opaque is touched at some pose that is off by no more: turned by up to DEG degrees "
+        "about any axis through the object's origin, and moved by up to MM; as certified as a touch",
+        "MM,DEG");
 }
 
 } // namespace

@@ -25,9 +25,10 @@ struct HostVolume {
 class HostEngine : public PairEngine {
   public:
     HostEngine(const DetectOptions& options, const DetectInputs& inputs, cpu::Detector detector,
-               std::optional<cpu::ClearanceMeter> meter, std::vector<cpu::Mesh> meshes)
+               std::optional<cpu::ClearanceMeter> meter, std::optional<cpu::MotionChecker> checker,
+               std::vector<cpu::Mesh> meshes)
         : options_(options), inputs_(inputs), detector_(std::move(detector)), meter_(std::move(meter)),
-          meshes_(std::move(meshes)), shelf_(options.jobs, kMostVolumeBytes),
+          checker_(std::move(checker)), meshes_(std::move(meshes)), shelf_(options.jobs, kMostVolumeBytes),
           pace_(pairsPerBatch(options, inputs, 1), options.batch.has_value() || options.timing) {}
 
     [[nodiscard]] std::string device() const override { return "host"; }
@@ -54,7 +55,8 @@ class HostEngine : public PairEngine {
     const DetectOptions& options_;
     const DetectInputs& inputs_;
     cpu::Detector detector_;
-    std::optional<cpu::ClearanceMeter> meter_; ///< where something is asked for about distances
+    std::optional<cpu::ClearanceMeter> meter_;  ///< where something is asked for about distances
+    std::optional<cpu::MotionChecker> checker_; ///< the same
     std::vector<cpu::Mesh> meshes_;
     VolumeShelf<HostVolume> shelf_;
     HostVolume* volume_ = nullptr;
@@ -82,10 +84,12 @@ Result<Grid> HostEngine::use(std::uint32_t job) {
     return volume_->volume.grid();
 }
 
-/// Does it touch, or what is within the margin.
+/// Does it touch, or does what is within the margin, or a pose within the tolerance.
 Result<BatchAnswer> HostEngine::answer(const cpu::Batch& batch) {
-    const std::optional<double>& margin = options_.distance.margin;
-    return margin ? meter_->within(batch, *margin) : detector_.detect(batch);
+    const DistanceOptions& distance = options_.distance;
+    return distance.margin          ? meter_->within(batch, *distance.margin)
+           : distance.poseTolerance ? checker_->around(batch, *distance.poseTolerance)
+                                    : detector_.detect(batch);
 }
 
 /// Nothing where clearances are not asked for.
@@ -177,7 +181,14 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
         meshes.push_back(std::move(*mesh));
     }
     std::optional<cpu::ClearanceMeter> meter;
-    if (options.distance.any()) {
+    std::optional<cpu::MotionChecker> checker;
+    if (options.distance.poseTolerance) {
+        Result<cpu::MotionChecker> made = cpu::MotionChecker::create(
+            {.threads = options.threads, .touchResolution = method.resolution.value_or(kDefaultResolution)});
+        VOXTACT_TRY(made);
+        checker = std::move(*made);
+    }
+    if (options.distance.clearance || options.distance.margin) {
         const DistanceOptions& distance = options.distance;
         Result<cpu::ClearanceMeter> made =
             cpu::ClearanceMeter::create({.threads = options.threads,
@@ -187,7 +198,7 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
         VOXTACT_TRY(made);
         meter = std::move(*made);
     }
-    HostEngine engine(options, inputs, std::move(*detector), std::move(meter), std::move(meshes));
+    HostEngine engine(options, inputs, std::move(*detector), std::move(meter), std::move(checker), std::move(meshes));
     return answer(engine);
 }
 

@@ -10,24 +10,14 @@ namespace voxtact::app {
 
 namespace {
 
-/// A domain that leaves out some of the data is the user's right, and easily a slip.
-void noteValuesOutside(const ValueRange& domain, const ValueRange& data, const std::string& source) {
-    if (data.lo < domain.lo || data.hi > domain.hi) {
-        printNote(source + ": its values " + number(data.lo) + ":" + number(data.hi) +
-                  " go beyond --tf-domain; they take the opacity at its ends");
-    }
-}
-
 Result<void> readLabels(const ExtraOptions& options, DetectInputs& inputs) {
     if (options.labels.empty()) {
         return {};
     }
-    Result<LabelData> labels = loadLabels(options.labels);
-    VOXTACT_TRY(labels);
-    inputs.labels = std::move(*labels);
-    Result<std::map<std::int32_t, std::string>> names = loadLabelNames(options.labelNames, options.labels);
-    VOXTACT_TRY(names);
-    inputs.labelNames = std::move(*names);
+    Result<NamedLabels> named = loadNamedLabels(options.labels, options.labelNames);
+    VOXTACT_TRY(named);
+    inputs.labels = std::move(named->labels);
+    inputs.labelNames = std::move(named->names);
     return {};
 }
 
@@ -82,8 +72,7 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
 VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,
                            const VolumeData& data, const ValueRange& values) {
     const auto [width, height] = options.view.size;
-    const ValueRange domain = tableDomain(options.transferFunction, data.type, values);
-    noteValuesOutside(domain, values, options.jobs.volumes[volume]);
+    const ValueRange domain = usedDomain(options.transferFunction, data.type, values, options.jobs.volumes[volume]);
     return {.domain = domain,
             .points = inputs.points.empty() ? defaultRamp(domain) : inputs.points,
             .view = {inputs.clip_from_world ? *inputs.clip_from_world : framingCamera(data.grid, width, height), width,

@@ -81,7 +81,11 @@ Result<void> checkDistance(DetectOptions& options) {
     if (!distance.any()) {
         return {};
     }
-    const std::string option = distance.clearance ? "--clearance" : "--margin";
+    if (distance.margin && distance.poseTolerance) {
+        return badArgument(
+            "--margin: with --pose-tolerance the distance is its first number; leave out one of the two");
+    }
+    const std::string option = distance.clearance ? "--clearance" : distance.margin ? "--margin" : "--pose-tolerance";
     MethodOptions& method = options.method;
     if (method.count && !rowOf(*method.count).host) {
         return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +
@@ -156,7 +160,9 @@ Result<void> checkExtra(const DetectOptions& options) {
                              : extra.bounds             ? "--bounds"
                                                         : "--labels";
         return badArgument(std::string(yesNo ? "--answer yes-no stops at the first contact, and "
-                                             : "--margin is answered by yes or no, without contacts, and ") +
+                                       : options.distance.margin
+                                           ? "--margin is answered by yes or no, without contacts, and "
+                                           : "--pose-tolerance is answered by yes or no, without contacts, and ") +
                            option + " is about all of them; leave out one of the two");
     }
     return {};

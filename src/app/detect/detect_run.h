@@ -9,6 +9,7 @@
 #include "device/pair_pipeline.h"
 #include "voxtact/clearance.h"
 #include "voxtact/data.h"
+#include "voxtact/motion.h"
 
 #include <map>
 #include <optional>
@@ -38,6 +39,7 @@ struct ExtraOptions {
 /// What is asked for about distances.
 struct DistanceOptions {
     std::optional<double> margin; ///< mm
+    std::optional<PoseTolerance> poseTolerance;
     bool clearance = false;
     std::optional<double> tolerance; ///< mm
     std::optional<double> maximum;   ///< mm
@@ -45,7 +47,9 @@ struct DistanceOptions {
     std::filesystem::path labels;    ///< another
     std::vector<std::int32_t> to;    ///< labels; empty: all but 0
 
-    [[nodiscard]] bool any() const { return clearance || margin.has_value(); }
+    [[nodiscard]] bool any() const { return clearance || isMargin(); }
+    /// Whether what is asked is not if a pose touches, but if it or something near does.
+    [[nodiscard]] bool isMargin() const { return margin.has_value() || poseTolerance.has_value(); }
 };
 
 struct DetectOptions {
@@ -67,7 +71,7 @@ struct DetectOptions {
     std::uint32_t threads = 0; ///< 0: one for each processor
 
     /// A margin is kept, or it is not: that stops at the first proof, as yes-no does.
-    [[nodiscard]] bool yesNo() const { return answer == "yes-no" || distance.margin.has_value(); }
+    [[nodiscard]] bool yesNo() const { return answer == "yes-no" || distance.isMargin(); }
     [[nodiscard]] std::uint32_t mostPairs() const { return batch.value_or(kDefaultBatch); }
     /// Whether the numbers of pose and triangle alone do not say which mesh and volume are meant.
     [[nodiscard]] bool hasSeveralJobs() const { return jobs.jobs.size() > 1; }

@@ -4,6 +4,8 @@
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
 #include "app/output/text_for_messages.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
 #include "voxtact/io.h"
 #include "voxtact/samples.h"
 
@@ -118,6 +120,17 @@ ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, 
     return {data.lo - half, data.lo + half};
 }
 
+/// A domain that leaves out some of the data is the user's right, and easily a slip.
+ValueRange usedDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data,
+                      const std::string& source) {
+    const ValueRange domain = tableDomain(options, type, data);
+    if (data.lo < domain.lo || data.hi > domain.hi) {
+        printNote(source + ": its values " + number(data.lo) + ":" + number(data.hi) +
+                  " go beyond --tf-domain; they take the opacity at its ends");
+    }
+    return domain;
+}
+
 std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
     return {{domain.lo, 0}, {domain.hi, 1}};
 }
@@ -165,6 +178,14 @@ Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem
         byLabel.emplace(entry.label, std::move(entry.name));
     }
     return byLabel;
+}
+
+Result<NamedLabels> loadNamedLabels(const std::filesystem::path& labels, const std::filesystem::path& names) {
+    Result<LabelData> map = loadLabels(labels);
+    VOXTACT_TRY(map);
+    Result<std::map<std::int32_t, std::string>> read = loadLabelNames(names, labels);
+    VOXTACT_TRY(read);
+    return NamedLabels{std::move(*map), std::move(*read)};
 }
 
 Result<std::vector<Mat4>> readStandardPoses() {

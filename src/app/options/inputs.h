@@ -19,6 +19,9 @@ namespace voxtact::app {
 [[nodiscard]] Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOptions& options);
 /// The domain that the user gave; else 0..255 for uint8 and the data's range, made wider where that is one value.
 [[nodiscard]] ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data);
+/// The same for the volume of a source; says so where some values lie outside of it.
+[[nodiscard]] ValueRange usedDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data,
+                                    const std::string& source);
 /// Opacity from 0 to 1 over the domain.
 [[nodiscard]] std::vector<ControlPoint> defaultRamp(const ValueRange& domain);
 
@@ -31,6 +34,13 @@ namespace voxtact::app {
 /// The names of its labels from there; none where `names` is empty and that file is not there or cannot be read.
 [[nodiscard]] Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
                                                                          const std::filesystem::path& labels);
+/// Both.
+struct NamedLabels {
+    LabelData labels;
+    std::map<std::int32_t, std::string> names;
+};
+[[nodiscard]] Result<NamedLabels> loadNamedLabels(const std::filesystem::path& labels,
+                                                  const std::filesystem::path& names);
 
 /// All that standard input holds.
 [[nodiscard]] Result<std::vector<Mat4>> readStandardPoses();

@@ -3,6 +3,7 @@
 
 #include "core/method/method_table.h"
 #include "voxtact/clearance.h"
+#include "voxtact/motion.h"
 
 namespace voxtact {
 
@@ -65,6 +66,22 @@ const char* toString(ClearanceEnd end) noexcept {
     case ClearanceEnd::Rounding:
         return "rounding";
     case ClearanceEnd::Budget:
+        break;
+    }
+    return "budget";
+}
+
+const char* toString(Interpolation interpolation) noexcept {
+    return interpolation == Interpolation::Slerp ? "slerp" : "screw";
+}
+
+const char* toString(MotionEnd end) noexcept {
+    switch (end) {
+    case MotionEnd::Decided:
+        return "decided";
+    case MotionEnd::Grazes:
+        return "grazes";
+    case MotionEnd::Budget:
         break;
     }
     return "budget";

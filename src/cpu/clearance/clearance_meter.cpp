@@ -4,18 +4,15 @@
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "cpu/batch_check.h"
-#include "cpu/certified/certified_pair.h"
+#include "cpu/clearance/label_fingerprint.h"
 #include "cpu/clearance/label_part.h"
-#include "cpu/clearance/search.h"
-#include "cpu/raster/occupancy_cache.h"
-#include "cpu/tasks.h"
+#include "cpu/clearance/workers.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <thread>
+#include <map>
 
 namespace voxtact::cpu {
 
@@ -29,27 +26,18 @@ constexpr double kLeastTolerance = 1e-6;
 /// The pyramids of labels that were asked for last.
 struct KeptLabels {
     std::shared_ptr<const OpaquePart> part; ///< keeps its address from being another's
-    const LabelData* labels = nullptr;
+    std::uint64_t labels = 0;               ///< fingerprint of the map
     std::vector<std::uint32_t> indices;
     std::shared_ptr<const LabelPyramids> pyramids;
-};
-
-/// What a thread keeps from pair to pair.
-struct ThreadMemory {
-    MeshPlace mesh;
-    ClosestSearch search;
 };
 
 } // namespace
 
 struct ClearanceMeterImpl {
-    ClearanceMeterImpl(const ClearanceDesc& chosen, std::uint32_t threads)
-        : desc(chosen), pool(threads), memories(pool.threads()) {}
+    explicit ClearanceMeterImpl(const ClearanceDesc& chosen) : desc(chosen), workers(chosen.threads) {}
 
     ClearanceDesc desc;
-    ThreadPool pool;
-    std::vector<ThreadMemory> memories;
-    OccupancyCache<OpaquePart, 2> parts;
+    Workers workers;
     std::vector<KeptLabels> labels;
 };
 
@@ -77,36 +65,6 @@ Vec3 toVec3(const dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// One pair on one thread.
-struct PairAt {
-    const BatchItem& item;
-    const OpaquePart& part;
-    std::uint32_t pose;
-
-    [[nodiscard]] const VolumeImpl& volume() const { return item.volume->impl(); }
-    [[nodiscard]] const MeshImpl& mesh() const { return item.mesh->impl(); }
-    [[nodiscard]] const Mat4& world_from_object() const { return item.world_from_object[pose]; }
-
-    [[nodiscard]] CertifiedTally touch(const CertifiedSink& sink = {}) const {
-        const VolumeImpl& in = volume();
-        const CertifiedJob job{mesh(),
-                               in,
-                               part.occupancy,
-                               certifiedPair(in.grid, in.texture_from_world, world_from_object()),
-                               0,
-                               static_cast<std::uint32_t>(mesh().clusters.size()),
-                               true};
-        return decide(job, sink);
-    }
-    [[nodiscard]] Found search(ThreadMemory& memory, const SearchGoal& goal) const {
-        return search(memory, SearchedPart(part), goal);
-    }
-    [[nodiscard]] Found search(ThreadMemory& memory, const SearchedPart& searched, const SearchGoal& goal) const {
-        memory.mesh.begin(mesh(), part.space, world_from_object());
-        return memory.search.run(memory.mesh, volume(), part, searched, goal);
-    }
-};
-
 ClosestPoints closestOf(const Found& found, const MeshPlace& mesh, const VolumeSpace& space) {
     ClosestPoints out;
     out.triangle = mesh.mesh().numbers[found.triangle];
@@ -124,15 +82,15 @@ ClosestPoints closestOf(const Found& found, const MeshPlace& mesh, const VolumeS
 
 /// A touch, and its witness.
 bool touches(const PairAt& at, CertifiedTally& tally, PairClearance& out) {
-    ClosestPoints closest;
-    tally = at.touch([&](std::uint32_t triangle, const shader::CertifiedProof& proof) {
-        closest.triangle = triangle;
-        const Vec3 texture{static_cast<double>(proof.texture.x), static_cast<double>(proof.texture.y),
-                           static_cast<double>(proof.texture.z)};
-        closest.mesh = closest.volume = transformPoint(worldFromTexture(at.volume().grid), texture);
-    });
+    std::optional<TouchPoint> point;
+    tally = at.touch(point);
     if (tally.certain == 0) {
         return false;
+    }
+    ClosestPoints closest;
+    if (point) {
+        closest.triangle = point->triangle;
+        closest.mesh = closest.volume = point->position;
     }
     out.closest = closest;
     return true;
@@ -187,64 +145,20 @@ void measureLabel(const PairAt& at, const SearchedPart& searched, const Clearanc
 
 void decideMargin(const PairAt& at, double margin, const ClearanceDesc& desc, ThreadMemory& memory, PairAnswer& out) {
     // What touches is within every margin, and that is soon known.
-    const CertifiedTally touch = at.touch();
-    out.hit = touch.certain > 0;
-    out.possible = !out.hit && touch.undecided;
-    if (!out.hit && margin > 0) {
+    std::optional<TouchPoint> point;
+    const CertifiedTally touch = at.touch(point);
+    bool hit = touch.certain > 0;
+    bool possible = !hit && touch.undecided;
+    if (!hit && margin > 0) {
         const Found found = at.search(memory, {.tolerance = 0,
                                                .maximum = std::nextafter(margin, kInfinity),
                                                .enough = margin,
                                                .finest = kDefaultTolerance / 4,
                                                .mostSteps = desc.mostSteps});
-        out.hit = found.hi <= margin;
-        out.possible = !out.hit && (touch.undecided || found.lo <= margin);
+        hit = found.hi <= margin;
+        possible = !hit && (touch.undecided || found.lo <= margin);
     }
-    out.count = out.hit ? 1 : 0;
-}
-
-using Parts = std::vector<std::shared_ptr<const OpaquePart>>;
-
-/// Of the batch's items.
-Parts partsOf(ClearanceMeterImpl& impl, const Batch& batch) {
-    Parts parts;
-    for (const BatchItem& item : batch.items) {
-        parts.push_back(
-            impl.parts.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold, impl.desc.resolution));
-    }
-    return parts;
-}
-
-/// `copies` entries for each pair, with the numbers of pair, item and pose.
-template <class Answer> std::vector<Answer> numbered(const Batch& batch, std::size_t copies) {
-    std::vector<Answer> answers;
-    std::uint32_t pair = 0;
-    for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
-        for (std::uint32_t pose = 0; pose < batch.items[item].world_from_object.size(); ++pose, ++pair) {
-            Answer answer;
-            answer.pair = pair;
-            answer.item = item;
-            answer.pose = pose;
-            answers.insert(answers.end(), copies, answer);
-        }
-    }
-    return answers;
-}
-
-/// Calls `fill(at, answer, memory)` for each of the answers, on all threads.
-template <class Answer, class Fill>
-void fillAll(ClearanceMeterImpl& impl, const Batch& batch, const Parts& parts, std::vector<Answer>& answers,
-             const Fill& fill) {
-    if (answers.empty()) {
-        return;
-    }
-    std::atomic<std::size_t> next{0};
-    const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(impl.pool.threads(), answers.size()));
-    impl.pool.run(threads, [&](std::uint32_t thread) {
-        for (std::size_t i = next++; i < answers.size(); i = next++) {
-            Answer& answer = answers[i];
-            fill(PairAt{batch.items[answer.item], *parts[answer.item], answer.pose}, answer, impl.memories[thread]);
-        }
-    });
+    out = yesOrNo(out, hit, possible);
 }
 
 /// Numbers of labels that the map does not have are left out.
@@ -260,11 +174,11 @@ std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const st
 }
 
 std::shared_ptr<const LabelPyramids> pyramidsOf(ClearanceMeterImpl& impl, const BatchItem& item,
-                                                const std::shared_ptr<const OpaquePart>& part,
+                                                const std::shared_ptr<const OpaquePart>& part, std::uint64_t labels,
                                                 const std::vector<std::uint32_t>& indices) {
     constexpr std::size_t kMostKept = 4;
     for (const KeptLabels& kept : impl.labels) {
-        if (kept.part == part && kept.labels == item.labels && kept.indices == indices) {
+        if (kept.part == part && kept.labels == labels && kept.indices == indices) {
             return kept.pyramids;
         }
     }
@@ -272,7 +186,7 @@ std::shared_ptr<const LabelPyramids> pyramidsOf(ClearanceMeterImpl& impl, const 
     if (impl.labels.size() == kMostKept) {
         impl.labels.erase(impl.labels.begin());
     }
-    impl.labels.push_back({part, item.labels, indices, made});
+    impl.labels.push_back({part, labels, indices, made});
     return made;
 }
 
@@ -316,88 +230,86 @@ ClearanceMeter::~ClearanceMeter() = default;
 Result<ClearanceMeter> ClearanceMeter::create(const ClearanceDesc& desc) {
     return guard([&]() -> Result<ClearanceMeter> {
         VOXTACT_TRY(checkDesc(desc));
-        const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
-        return ClearanceMeter(
-            std::make_unique<ClearanceMeterImpl>(desc, desc.threads == 0 ? processors : desc.threads));
+        return ClearanceMeter(std::make_unique<ClearanceMeterImpl>(desc));
     });
 }
 
 Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
     return guard([&]() -> Result<ClearanceAnswer> {
-        const auto start = std::chrono::steady_clock::now();
+        const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
         ClearanceAnswer answer;
-        answer.pairs = numbered<PairClearance>(batch, 1);
-        fillAll(*impl_, batch, partsOf(*impl_, batch), answer.pairs,
-                [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
-                    measurePair(at, impl_->desc, memory, pair);
-                });
-        answer.wallMilliseconds =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        answer.pairs = numberedPairs<PairClearance>(batch);
+        Workers& workers = impl_->workers;
+        workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
+                            [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
+                                measurePair(at, impl_->desc, memory, pair);
+                            });
+        answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
 }
 
 Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
     return guard([&]() -> Result<BatchAnswer> {
-        const auto start = std::chrono::steady_clock::now();
+        const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
         if (!(margin >= 0 && margin < kInfinity)) {
             return refuse("the margin " + number(margin) + " mm is not a number from 0 on");
         }
         BatchAnswer answer;
-        answer.pairs = numbered<PairAnswer>(batch, 1);
-        fillAll(*impl_, batch, partsOf(*impl_, batch), answer.pairs,
-                [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
-                    pair.exactness = Exactness::LowerBound;
-                    pair.method = CountingMethod::Cpu;
-                    pair.projection = Projection::Conservative;
-                    decideMargin(at, margin, impl_->desc, memory, pair);
-                });
-        answer.wallMilliseconds =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        answer.pairs = numberedPairs<PairAnswer>(batch);
+        Workers& workers = impl_->workers;
+        workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
+                            [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+                                decideMargin(at, margin, impl_->desc, memory, pair);
+                            });
+        answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
 }
 
 Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, std::span<const std::int32_t> labels) {
     return guard([&]() -> Result<LabelClearanceAnswer> {
-        const auto start = std::chrono::steady_clock::now();
+        const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
         VOXTACT_TRY(checkMeasuredLabels(batch, labels));
-        const Parts parts = partsOf(*impl_, batch);
+        const Parts parts = impl_->workers.partsOf(batch, impl_->desc.resolution);
         std::vector<std::vector<std::uint32_t>> indices;
         std::vector<std::shared_ptr<const LabelPyramids>> pyramids;
+        std::map<const LabelData*, std::uint64_t> fingerprints; // each of the call's maps is read once
         for (std::size_t i = 0; i < batch.items.size(); ++i) {
-            indices.push_back(indicesOf(*batch.items[i].labels, labels));
-            pyramids.push_back(pyramidsOf(*impl_, batch.items[i], parts[i], indices[i]));
+            const BatchItem& item = batch.items[i];
+            const auto [print, isNew] = fingerprints.try_emplace(item.labels);
+            print->second = isNew ? labelFingerprint(*item.labels) : print->second;
+            indices.push_back(indicesOf(*item.labels, labels));
+            pyramids.push_back(pyramidsOf(*impl_, item, parts[i], print->second, indices[i]));
         }
         LabelClearanceAnswer answer;
-        answer.labels = numbered<LabelClearance>(batch, labels.size());
+        answer.labels = numberedPairs<LabelClearance>(batch, labels.size());
         for (std::size_t i = 0; i < answer.labels.size(); ++i) {
             answer.labels[i].label = labels[i % labels.size()];
             answer.labels[i].bounds = {kInfinity, kInfinity};
         }
-        fillAll(*impl_, batch, parts, answer.labels,
-                [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
-                    const LabelData& map = *at.item.labels;
-                    const std::vector<std::uint32_t>& known = indices[label.item];
-                    for (std::size_t i = 0; i < known.size(); ++i) {
-                        if (map.values[known[i]] == label.label) {
-                            const SearchedPart searched(pyramids[label.item]->at(i), map, known[i]);
-                            measureLabel(at, searched, impl_->desc, memory, label);
-                            return;
-                        }
-                    }
-                });
-        answer.wallMilliseconds =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        impl_->workers.forEachPair(batch, parts, answer.labels,
+                                   [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
+                                       const LabelData& map = *at.item.labels;
+                                       const std::vector<std::uint32_t>& known = indices[label.item];
+                                       for (std::size_t i = 0; i < known.size(); ++i) {
+                                           if (map.values[known[i]] == label.label) {
+                                               const SearchedPart searched(pyramids[label.item]->at(i), map, known[i]);
+                                               measureLabel(at, searched, impl_->desc, memory, label);
+                                               return;
+                                           }
+                                       }
+                                   });
+        answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
 }
 
 std::uint32_t ClearanceMeter::threads() const noexcept {
-    return impl_->pool.threads();
+    return impl_->workers.threads();
 }
 
 } // namespace voxtact::cpu

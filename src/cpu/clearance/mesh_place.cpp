@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +24,8 @@ constexpr double kGreatest = 1e100;
 
 } // namespace
 
-void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object) {
+void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object,
+                      const std::optional<Sweep>& sweep) {
     // Another mesh may be where one was before; after 2^32 pairs nothing is in place.
     const bool fits = clusters_.size() == mesh.clusters.size() && vertices_.size() == mesh.x.size() &&
                       boxes_.size() == mesh.tree.levels() && boxes_[0].size() == mesh.tree.boxes(0).size();
@@ -45,6 +47,7 @@ void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4
     }
     voxel_from_object_ = space.voxel_from_local * local_from_object_;
     origin_ = dvec3(world_from_object[12], world_from_object[13], world_from_object[14]) - space.middle;
+    sweep_ = sweep ? std::optional(sweep->from(space.middle)) : std::nullopt;
     findError(world_from_object);
 }
 
@@ -65,6 +68,12 @@ void MeshPlace::findError(const Mat4& world_from_object) {
 }
 
 void MeshPlace::voxelBounds(const RunBox& box, dvec3& lo, dvec3& hi) const {
+    if (sweep_) {
+        const PlacedBox inPlace = placed(box);
+        lo = inPlace.lo;
+        hi = inPlace.hi;
+        return;
+    }
     const dvec3 least(static_cast<double>(box.lo[0]), static_cast<double>(box.lo[1]), static_cast<double>(box.lo[2]));
     const dvec3 most(static_cast<double>(box.hi[0]), static_cast<double>(box.hi[1]), static_cast<double>(box.hi[2]));
     const dvec3 middle = voxel_from_object_ * (0.5 * (least + most)) + space_->toVoxel(origin_);
@@ -77,13 +86,16 @@ void MeshPlace::voxelBounds(const RunBox& box, dvec3& lo, dvec3& hi) const {
 
 const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {
     Slot<PlacedBox>& slot = boxes_[level][node];
-    if (slot.pair == pair_) {
-        return slot.placed;
+    if (slot.pair != pair_) {
+        slot.pair = pair_;
+        slot.placed = placed(mesh_->tree.boxes(level)[node]);
     }
-    slot.pair = pair_;
-    const RunBox& box = mesh_->tree.boxes(level)[node];
+    return slot.placed;
+}
+
+PlacedBox MeshPlace::placed(const RunBox& box) const {
     dvec3 middle;
-    PlacedBox& out = slot.placed;
+    PlacedBox out;
     dvec3 diagonal(0);
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<std::size_t>(axis);
@@ -100,9 +112,17 @@ const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {
     for (const dvec3& side : out.sides) {
         extent += glm::abs(space_->toVoxel(side));
     }
+    out.diameter = 2 * length(diagonal);
     out.lo = centre - extent;
     out.hi = centre + extent;
-    out.diameter = 2 * length(diagonal);
+    if (sweep_) {
+        out.wide = sweep_->wide(out);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Direction along(glm::row(space_->voxel_from_local, axis), &*sweep_);
+            out.hi[axis] = along.reach(out);
+            out.lo[axis] = -Direction(-along.normal(), &*sweep_).reach(out);
+        }
+    }
     return out;
 }
 
@@ -136,12 +156,30 @@ std::uint32_t MeshPlace::count(std::uint32_t run) const {
     return count;
 }
 
+MeshPlace::PlacedVertex MeshPlace::placedVertex(const dvec3& local) const {
+    const dvec3 voxel = space_->toVoxel(local);
+    PlacedVertex out{voxel, voxel, 0};
+    if (sweep_) {
+        out.wide = sweep_->wide(local);
+        for (int axis = 0; axis < 3; ++axis) {
+            const dvec3 row = glm::row(space_->voxel_from_local, axis);
+            const double beside = length(row) * out.wide;
+            out.hi[axis] = sweep_->reach(row, local) + beside;
+            out.lo[axis] = -sweep_->reach(-row, local) - beside;
+        }
+    }
+    return out;
+}
+
 void MeshPlace::placeCluster(std::uint32_t cluster) {
     const ClusterPlace& place = mesh_->clusters[cluster];
-    for (std::size_t i = place.firstVertex; i < std::size_t{place.firstVertex} + place.vertexCount; ++i) {
-        const dvec3 vertex(static_cast<double>(mesh_->x[i]), static_cast<double>(mesh_->y[i]),
-                           static_cast<double>(mesh_->z[i]));
-        vertices_[i] = local_from_object_ * vertex + origin_;
+    clusterVertices_.resize(std::max<std::size_t>(clusterVertices_.size(), place.vertexCount));
+    for (std::size_t i = 0; i < place.vertexCount; ++i) {
+        const std::size_t at = place.firstVertex + i;
+        const dvec3 vertex(static_cast<double>(mesh_->x[at]), static_cast<double>(mesh_->y[at]),
+                           static_cast<double>(mesh_->z[at]));
+        vertices_[at] = local_from_object_ * vertex + origin_;
+        clusterVertices_[i] = placedVertex(vertices_[at]);
     }
     for (std::uint32_t i = 0; i < countOfCluster(cluster); ++i) {
         const std::size_t at = std::size_t{place.firstTriangle} + i;
@@ -149,18 +187,24 @@ void MeshPlace::placeCluster(std::uint32_t cluster) {
         const std::array<std::uint8_t, 3> corners{mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]};
         for (std::size_t corner = 0; corner < 3; ++corner) {
             out.corners[corner] = vertices_[std::size_t{place.firstVertex} + corners[corner]];
-            const dvec3 voxel = space_->toVoxel(out.corners[corner]);
-            out.lo = corner == 0 ? voxel : glm::min(out.lo, voxel);
-            out.hi = corner == 0 ? voxel : glm::max(out.hi, voxel);
+            const PlacedVertex& vertex = clusterVertices_[corners[corner]];
+            out.lo = corner == 0 ? vertex.lo : glm::min(out.lo, vertex.lo);
+            out.hi = corner == 0 ? vertex.hi : glm::max(out.hi, vertex.hi);
+            out.wide = corner == 0 ? vertex.wide : std::max(out.wide, vertex.wide);
         }
     }
 }
 
 void MeshPlace::addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const {
     const ClusterPlace& place = mesh_->clusters[cluster];
+    points.wide = 0;
     std::array<bool, PointList::kMost> added{};
     for (std::uint64_t left = triangles; left != 0; left &= left - 1) {
-        const std::size_t at = std::size_t{place.firstTriangle} + static_cast<std::size_t>(std::countr_zero(left));
+        const auto number = static_cast<std::size_t>(std::countr_zero(left));
+        const std::size_t at = std::size_t{place.firstTriangle} + number;
+        if (sweep_) {
+            points.wide = std::max(points.wide, triangles_[std::size_t{cluster} * kClusterTriangles + number].wide);
+        }
         for (const std::uint8_t corner : {mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]}) {
             if (!added[corner]) {
                 added[corner] = true;
@@ -172,21 +216,6 @@ void MeshPlace::addCorners(std::uint32_t cluster, std::uint64_t triangles, Point
             }
         }
     }
-}
-
-double PointList::reach(const dvec3& normal) const noexcept {
-    // Two at a time, for the processor.
-    double even = -std::numeric_limits<double>::infinity();
-    double odd = even;
-    std::size_t i = 0;
-    for (; i + 1 < count; i += 2) {
-        even = std::max(even, normal.x * x[i] + normal.y * y[i] + normal.z * z[i]);
-        odd = std::max(odd, normal.x * x[i + 1] + normal.y * y[i + 1] + normal.z * z[i + 1]);
-    }
-    if (i < count) {
-        even = std::max(even, normal.x * x[i] + normal.y * y[i] + normal.z * z[i]);
-    }
-    return std::max(even, odd);
 }
 
 } // namespace voxtact::cpu

@@ -1,56 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/clearance/closest_point.h"
+#include "cpu/clearance/placed.h"
+#include "cpu/clearance/sweep.h"
 #include "cpu/clearance/volume_space.h"
 #include "cpu/scene/scene_impl.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace voxtact::cpu {
-
-/// A box of a mesh's tree in place: a parallelepiped, and the box around it.
-struct PlacedBox {
-    glm::dvec3 middle{};               ///< local (VolumeSpace)
-    std::array<glm::dvec3, 3> sides{}; ///< half of each
-    glm::dvec3 lo{};                   ///< centred voxel coordinates
-    glm::dvec3 hi{};
-    double diameter = 0; ///< mm
-};
-
-/// A triangle in place.
-struct PlacedTriangle {
-    WorldTriangle corners; ///< local
-    glm::dvec3 lo{};       ///< centred voxel coordinates
-    glm::dvec3 hi{};
-};
-
-/// Some points, and how far they reach along a direction.
-struct PointList {
-    static constexpr std::size_t kMost = 3 * std::size_t{kClusterTriangles};
-    std::array<double, kMost> x{};
-    std::array<double, kMost> y{};
-    std::array<double, kMost> z{};
-    std::size_t count = 0;
-
-    /// The greatest dot product. Expects some points.
-    [[nodiscard]] double reach(const glm::dvec3& normal) const noexcept;
-};
 
 /// A mesh at a pose in the space of a volume: boxes and triangles are placed when they are first asked for.
 /// One thread's; kept from pair to pair for its memory.
 class MeshPlace {
   public:
-    /// All must live until the next call.
-    void begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object);
+    /// All must live until the next call. `sweep`: where else the mesh may be; in the world's coordinates.
+    void begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object,
+               const std::optional<Sweep>& sweep = {});
 
     [[nodiscard]] const MeshImpl& mesh() const noexcept { return *mesh_; }
+    /// Whether it may be elsewhere, too.
+    [[nodiscard]] bool isSwept() const noexcept { return sweep_.has_value(); }
+    [[nodiscard]] Direction along(const glm::dvec3& normal) const noexcept {
+        return {normal, sweep_ ? &*sweep_ : nullptr};
+    }
+    /// A point that is about the closest one, of all places where it may be.
+    template <class Placed> [[nodiscard]] glm::dvec3 near(const Placed& placed, const glm::dvec3& from) const noexcept {
+        return sweep_ ? sweep_->near(placed, from) : placed.near(from);
+    }
+    /// The point that gets there, at its pose.
+    [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept {
+        return sweep_ ? sweep_->nearest(triangle, from) : triangle.near(from);
+    }
     /// Of the mesh's tree.
     [[nodiscard]] const PlacedBox& box(std::uint32_t level, std::uint32_t node);
-    /// The box in centred voxel coordinates around a box of object space.
+    /// The box in centred voxel coordinates around a box of object space, wherever it may be.
     void voxelBounds(const RunBox& box, glm::dvec3& lo, glm::dvec3& hi) const;
     /// Of a run (ClusterTree): kRunTriangles of them, as many as it has in place. Valid until the next begin().
     [[nodiscard]] const PlacedTriangle* run(std::uint32_t run);
@@ -78,11 +66,13 @@ class MeshPlace {
         std::uint32_t pair = 0;
         Placed placed;
     };
+    [[nodiscard]] PlacedBox placed(const RunBox& box) const;
     void placeCluster(std::uint32_t cluster);
     void findError(const Mat4& world_from_object);
 
     const MeshImpl* mesh_ = nullptr;
     const VolumeSpace* space_ = nullptr;
+    std::optional<Sweep> sweep_; ///< local
     glm::dmat3 local_from_object_{1};
     glm::dmat3 voxel_from_object_{1};
     glm::dvec3 origin_{};
@@ -90,7 +80,15 @@ class MeshPlace {
     std::uint32_t pair_ = 0; ///< what was placed for another is not in place
     std::vector<std::vector<Slot<PlacedBox>>> boxes_;
     std::vector<std::uint32_t> clusters_; ///< the pair that they are placed for
-    std::vector<glm::dvec3> vertices_;    ///< local
+    /// A vertex, and where it may be.
+    struct PlacedVertex {
+        glm::dvec3 lo{}; ///< centred voxel coordinates
+        glm::dvec3 hi{};
+        double wide = 0; ///< mm, of a sweep
+    };
+    [[nodiscard]] PlacedVertex placedVertex(const glm::dvec3& local) const;
+    std::vector<glm::dvec3> vertices_;          ///< local
+    std::vector<PlacedVertex> clusterVertices_; ///< of the cluster that is placed
     std::vector<PlacedTriangle> triangles_;
 };
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/motion.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace voxtact {
+
+/// The motion from a pose to another (voxtact/motion.h): a world point x is at t at c(t) + R(t * angle) (x - c(0)), R
+/// turning about the axis, and c(t) the way of one point, the centre of the mesh. For a screw that is an arc.
+class RigidMotion {
+  public:
+    /// `which` names the poses in an error.
+    [[nodiscard]] static Result<RigidMotion> between(const Mat4& from, const Mat4& to, Interpolation interpolation,
+                                                     const Vec3& centre, const std::string& which);
+
+    /// world_from_object at a parameter from 0 to 1.
+    [[nodiscard]] Mat4 at(double parameter) const;
+
+    /// How the motion goes on from a parameter. The velocity of what is at x is linear * x + offset, mm for the whole
+    /// parameter; within a step s it goes no farther off its tangent than s^2 / 2 * angle() times its speed without
+    /// `straight`: both motions have a constant acceleration.
+    struct Tangent {
+        glm::dmat3 linear{0};
+        glm::dvec3 offset{};
+        glm::dvec3 straight{};
+    };
+    [[nodiscard]] Tangent tangent(double parameter) const;
+    [[nodiscard]] double angle() const noexcept { return angle_; } ///< radians, 0 to pi
+    /// No point of a box of object space moves faster, mm for the whole parameter.
+    [[nodiscard]] double speed(const Box& box) const;
+    /// What a point of such a box is off the tangent's velocity, mm for the whole parameter: what is no rigid motion.
+    [[nodiscard]] double deformation(const Box& box) const;
+    /// No coordinate of a point of such a box on the way, nor a term of one, is larger, mm.
+    [[nodiscard]] double magnitude(const Box& box) const;
+
+  private:
+    [[nodiscard]] glm::dvec3 centreAt(double parameter) const;
+
+    glm::dmat4 from_{1};
+    glm::dmat4 to_{1};
+    glm::dmat4 deformation_{0}; ///< what the rigid motion leaves of `to_` at 1
+    glm::dvec3 centre_{};       ///< world, at 0
+    glm::dvec3 axis_{0, 0, 1};
+    double angle_ = 0;
+    glm::dvec3 along_{};  ///< of the centre's way: what goes straight
+    glm::dvec3 across_{}; ///< the chord of its arc; none for slerp
+};
+
+} // namespace voxtact

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/clearance/sweep.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using glm::cross;
+using glm::dot;
+using glm::dvec3;
+
+} // namespace
+
+dvec3 PlacedBox::near(const dvec3& from) const noexcept {
+    const dvec3 off = from - middle;
+    dvec3 point = middle;
+    for (const dvec3& side : sides) {
+        const double square = dot(side, side);
+        if (square > 0) {
+            point += std::clamp(dot(off, side) / square, -1.0, 1.0) * side;
+        }
+    }
+    return point;
+}
+
+Sweep Sweep::from(const dvec3& origin) const noexcept {
+    Sweep out = *this;
+    out.offset += linear * origin;
+    out.centre -= origin;
+    return out;
+}
+
+/// Turned towards the normal as far as it may, in their plane.
+double Sweep::turnedReach(const dvec3& normal, const dvec3& x) const noexcept {
+    const dvec3 arm = x - centre;
+    const double along = dot(normal, arm);
+    const double across = glm::length(cross(normal, arm));
+    const bool gets = across * std::cos(turn) <= along * std::sin(turn);
+    return dot(normal, centre) +
+           (gets ? glm::length(normal) * glm::length(arm) : along * std::cos(turn) + across * std::sin(turn));
+}
+
+double Sweep::reach(const dvec3& normal, const dvec3& x) const noexcept {
+    return turn > 0 ? turnedReach(normal, x) : dot(normal, x) + std::abs(dot(normal, linear * x + offset));
+}
+
+double Sweep::wide(const dvec3& x) const noexcept {
+    return slack + bend * glm::length(linear * x + offset - straight);
+}
+
+double Sweep::reach(const dvec3& normal, const PlacedBox& box) const noexcept {
+    if (turn > 0) {
+        // Each rotation is linear: a corner reaches farthest.
+        double most = -std::numeric_limits<double>::infinity();
+        for (unsigned i = 0; i < 8; ++i) {
+            const dvec3 corner = box.middle + ((i & 1U) != 0 ? 1.0 : -1.0) * box.sides[0] +
+                                 ((i & 2U) != 0 ? 1.0 : -1.0) * box.sides[1] +
+                                 ((i & 4U) != 0 ? 1.0 : -1.0) * box.sides[2];
+            most = std::max(most, turnedReach(normal, corner));
+        }
+        return most;
+    }
+    const dvec3 moved = normal * linear;
+    const double way = dot(moved, box.middle) + dot(normal, offset);
+    double ahead = way;
+    double back = -way;
+    for (const dvec3& side : box.sides) {
+        ahead += std::abs(dot(normal + moved, side));
+        back += std::abs(dot(normal - moved, side));
+    }
+    return dot(normal, box.middle) + std::max(ahead, back);
+}
+
+double Sweep::wide(const PlacedBox& box) const noexcept {
+    double most = wide(box.middle);
+    for (const dvec3& side : box.sides) {
+        most += bend * glm::length(linear * side);
+    }
+    return most;
+}
+
+dvec3 Sweep::withSlack(const dvec3& at, const dvec3& from) const noexcept {
+    const dvec3 off = from - at;
+    const double size = glm::length(off);
+    return size > slack ? at + slack / size * off : from;
+}
+
+/// By turns: the closest point there, and how far on that one gets the closest.
+template <class Closest> dvec3 Sweep::onTheWay(const dvec3& from, const Closest& closest) const noexcept {
+    constexpr int kMostTurns = 6;
+    constexpr double kWorthwhile = 1e-2;
+    double part = 0;
+    dvec3 at = closest(part);
+    for (int i = 0; i < kMostTurns; ++i) {
+        const dvec3 way = linear * at + offset;
+        const double square = dot(way, way);
+        if (!(square > 0)) {
+            break;
+        }
+        const double next = std::clamp(part + dot(from - at, way) / square, -1.0, 1.0);
+        const double gained = std::abs(next - part);
+        part = next;
+        at = closest(part);
+        if (gained < kWorthwhile) {
+            break;
+        }
+    }
+    return at;
+}
+
+dvec3 Sweep::near(const dvec3& x, const dvec3& from) const noexcept {
+    if (!(turn > 0)) {
+        return withSlack(onTheWay(from, [&](double part) { return x + part * (linear * x + offset); }), from);
+    }
+    const dvec3 arm = x - centre;
+    const dvec3 wanted = from - centre;
+    const dvec3 axis = cross(arm, wanted);
+    const double size = glm::length(axis);
+    if (!(size > 0)) {
+        return withSlack(x, from);
+    }
+    const double angle = std::min(std::atan2(size, dot(arm, wanted)), turn);
+    return withSlack(centre + std::cos(angle) * arm + std::sin(angle) / size * cross(axis, arm), from);
+}
+
+dvec3 Sweep::near(const PlacedBox& box, const dvec3& from) const noexcept {
+    if (turn > 0) {
+        return near(box.near(from), from);
+    }
+    const dvec3 way = linear * box.middle + offset;
+    return withSlack(onTheWay(from, [&](double part) { return box.near(from - part * way) + part * way; }), from);
+}
+
+dvec3 Sweep::near(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
+    if (turn > 0) {
+        return near(nearest(triangle, from), from);
+    }
+    const auto closest = [&](double part) {
+        WorldTriangle there = triangle.corners;
+        for (dvec3& corner : there) {
+            corner += part * (linear * corner + offset);
+        }
+        return closestPoint(there, from);
+    };
+    return withSlack(onTheWay(from, closest), from);
+}
+
+dvec3 Sweep::nearest(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
+    dvec3 best = triangle.near(from);
+    if (turn > 0) {
+        double least = glm::distance(near(best, from), from);
+        for (const dvec3& corner : triangle.corners) {
+            const double distance = glm::distance(near(corner, from), from);
+            if (distance < least) {
+                least = distance;
+                best = corner;
+            }
+        }
+    }
+    return best;
+}
+
+Direction::Direction(const dvec3& normal, const Sweep* sweep) noexcept
+    : normal_(normal), length_(glm::length(normal)), sweep_(sweep) {}
+
+double Direction::reach(const PlacedBox& box) const noexcept {
+    if (sweep_ != nullptr) {
+        return sweep_->reach(normal_, box) + length_ * box.wide;
+    }
+    return dot(normal_, box.middle) + (std::abs(dot(normal_, box.sides[0])) + std::abs(dot(normal_, box.sides[1])) +
+                                       std::abs(dot(normal_, box.sides[2])));
+}
+
+double Direction::reach(const PlacedTriangle& triangle) const noexcept {
+    const auto& [a, b, c] = triangle.corners;
+    if (sweep_ == nullptr) {
+        return std::max({dot(normal_, a), dot(normal_, b), dot(normal_, c)});
+    }
+    return std::max({sweep_->reach(normal_, a), sweep_->reach(normal_, b), sweep_->reach(normal_, c)}) +
+           length_ * triangle.wide;
+}
+
+double Direction::reach(const PointList& points) const noexcept {
+    // Two at a time, for the processor.
+    double even = -std::numeric_limits<double>::infinity();
+    double odd = even;
+    std::size_t i = 0;
+    if (sweep_ != nullptr) {
+        for (; i < points.count; ++i) {
+            even = std::max(even, sweep_->reach(normal_, dvec3(points.x[i], points.y[i], points.z[i])));
+        }
+        return even + length_ * points.wide;
+    }
+    const auto at = [&](std::size_t k) {
+        return normal_.x * points.x[k] + normal_.y * points.y[k] + normal_.z * points.z[k];
+    };
+    for (; i + 1 < points.count; i += 2) {
+        even = std::max(even, at(i));
+        odd = std::max(odd, at(i + 1));
+    }
+    if (i < points.count) {
+        even = std::max(even, at(i));
+    }
+    return std::max(even, odd);
+}
+
+} // namespace voxtact::cpu

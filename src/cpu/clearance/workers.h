@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/clearance/pair_at.h"
+#include "cpu/raster/occupancy_cache.h"
+#include "cpu/thread_pool.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// Of a batch's items.
+using Parts = std::vector<std::shared_ptr<const OpaquePart>>;
+
+/// Threads, and what is kept from call to call. One call at a time.
+class Workers {
+  public:
+    /// 0: one for each processor.
+    explicit Workers(std::uint32_t threads)
+        : pool_(threads == 0 ? std::max(std::thread::hardware_concurrency(), 1U) : threads),
+          memories_(pool_.threads()) {}
+
+    [[nodiscard]] std::uint32_t threads() const noexcept { return pool_.threads(); }
+
+    [[nodiscard]] Parts partsOf(const Batch& batch, double resolution) {
+        Parts parts;
+        for (const BatchItem& item : batch.items) {
+            parts.push_back(
+                parts_.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold, resolution));
+        }
+        return parts;
+    }
+
+    /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. It must not throw.
+    template <class Answer, class Fill> void forEach(std::vector<Answer>& answers, const Fill& fill) {
+        if (answers.empty()) {
+            return;
+        }
+        std::atomic<std::size_t> next{0};
+        const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(pool_.threads(), answers.size()));
+        pool_.run(threads, [&](std::uint32_t thread) {
+            for (std::size_t i = next++; i < answers.size(); i = next++) {
+                fill(answers[i], memories_[thread]);
+            }
+        });
+    }
+    /// Calls `fill(at, answer, memory)` for answers that have an item and a pose.
+    template <class Answer, class Fill>
+    void forEachPair(const Batch& batch, const Parts& parts, std::vector<Answer>& answers, const Fill& fill) {
+        forEach(answers, [&](Answer& answer, ThreadMemory& memory) {
+            const BatchItem& item = batch.items[answer.item];
+            fill(PairAt{item, *parts[answer.item], item.world_from_object[answer.pose]}, answer, memory);
+        });
+    }
+
+  private:
+    ThreadPool pool_;
+    std::vector<ThreadMemory> memories_;
+    OccupancyCache<OpaquePart, 2> parts_;
+};
+
+/// `copies` entries for each pair, with the numbers of pair, item and pose.
+template <class Answer> std::vector<Answer> numberedPairs(const Batch& batch, std::size_t copies = 1) {
+    std::vector<Answer> answers;
+    std::uint32_t pair = 0;
+    for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
+        for (std::uint32_t pose = 0; pose < batch.items[item].world_from_object.size(); ++pose, ++pair) {
+            Answer answer;
+            answer.pair = pair;
+            answer.item = item;
+            answer.pose = pose;
+            answers.insert(answers.end(), copies, answer);
+        }
+    }
+    return answers;
+}
+
+/// An answer without its pairs: yes or no, as a Detector that stops at the first proof says it.
+[[nodiscard]] inline PairAnswer yesOrNo(PairAnswer answer, bool hit, bool possible) {
+    answer.exactness = Exactness::LowerBound;
+    answer.method = CountingMethod::Cpu;
+    answer.projection = Projection::Conservative;
+    answer.hit = hit;
+    answer.possible = possible;
+    answer.count = hit ? 1 : 0;
+    return answer;
+}
+
+/// Milliseconds since it was made.
+class StopWatch {
+  public:
+    [[nodiscard]] double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace voxtact::cpu

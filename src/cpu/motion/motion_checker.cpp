@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/guard.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/method/certified_constants.h"
+#include "cpu/batch_check.h"
+#include "cpu/clearance/workers.h"
+#include "cpu/motion/pose_tolerance.h"
+#include "cpu/motion/segment_search.h"
+
+#include <cmath>
+
+namespace voxtact::cpu {
+
+struct MotionCheckerImpl {
+    explicit MotionCheckerImpl(const MotionDesc& chosen) : desc(chosen), workers(chosen.threads) {}
+
+    MotionDesc desc;
+    Workers workers;
+};
+
+namespace {
+
+constexpr double kLeastResolution = 1e-6;
+
+Error refuse(const std::string& text) {
+    return Error{ErrorCode::InvalidArgument, 0, text};
+}
+
+Result<void> checkDesc(const MotionDesc& desc) {
+    if (!(desc.resolution >= kLeastResolution && std::isfinite(desc.resolution))) {
+        return refuse("the resolution " + number(desc.resolution) + " mm is not a number from " +
+                      number(kLeastResolution) + " mm on");
+    }
+    if (desc.interpolation != Interpolation::Screw && desc.interpolation != Interpolation::Slerp) {
+        return refuse("the interpolation is none of the enumeration's");
+    }
+    if (desc.mostSteps == 0) {
+        return refuse("mostSteps is 0, a motion takes at least one step");
+    }
+    return checkResolution(desc.touchResolution);
+}
+
+Result<void> checkTolerance(const PoseTolerance& tolerance) {
+    if (!(tolerance.distance >= 0 && std::isfinite(tolerance.distance))) {
+        return refuse("the distance " + number(tolerance.distance) + " mm of the tolerance is not a number from 0 on");
+    }
+    if (!(tolerance.angle >= 0 && tolerance.angle <= 180)) {
+        return refuse("the angle " + number(tolerance.angle) + " degrees of the tolerance is outside of 0 to 180");
+    }
+    return {};
+}
+
+Result<void> checkMotionBatch(const Batch& batch) {
+    DetectorDesc desc;
+    desc.projection = Projection::Conservative;
+    VOXTACT_TRY(checkBatch(desc, batch));
+    return {};
+}
+
+Vec3 centreOf(const Box& box) {
+    return {0.5 * (box.lo[0] + box.hi[0]), 0.5 * (box.lo[1] + box.hi[1]), 0.5 * (box.lo[2] + box.hi[2])};
+}
+
+/// Of all segments, in order.
+Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation interpolation) {
+    std::vector<RigidMotion> motions;
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        const BatchItem& item = batch.items[i];
+        const Vec3 centre = centreOf(item.mesh->facts().bounds);
+        for (std::size_t pose = 0; pose + 1 < item.world_from_object.size(); ++pose) {
+            const std::string which = "batch item " + std::to_string(i) + ", poses " + std::to_string(pose) + " and " +
+                                      std::to_string(pose + 1);
+            Result<RigidMotion> motion = RigidMotion::between(
+                item.world_from_object[pose], item.world_from_object[pose + 1], interpolation, centre, which);
+            VOXTACT_TRY(motion);
+            motions.push_back(*motion);
+        }
+    }
+    return motions;
+}
+
+std::vector<SegmentMotion> numberedSegments(const Batch& batch) {
+    std::vector<SegmentMotion> segments;
+    for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
+        for (std::uint32_t pose = 0; pose + 1 < batch.items[item].world_from_object.size(); ++pose) {
+            SegmentMotion segment;
+            segment.segment = static_cast<std::uint32_t>(segments.size());
+            segment.item = item;
+            segment.pose = pose;
+            segments.push_back(segment);
+        }
+    }
+    return segments;
+}
+
+} // namespace
+
+MotionChecker::MotionChecker(std::unique_ptr<MotionCheckerImpl> impl) noexcept : impl_(std::move(impl)) {}
+MotionChecker::MotionChecker(MotionChecker&&) noexcept = default;
+MotionChecker& MotionChecker::operator=(MotionChecker&&) noexcept = default;
+MotionChecker::~MotionChecker() = default;
+
+Result<MotionChecker> MotionChecker::create(const MotionDesc& desc) {
+    return guard([&]() -> Result<MotionChecker> {
+        VOXTACT_TRY(checkDesc(desc));
+        return MotionChecker(std::make_unique<MotionCheckerImpl>(desc));
+    });
+}
+
+Result<MotionAnswer> MotionChecker::check(const Batch& batch) {
+    return guard([&]() -> Result<MotionAnswer> {
+        const StopWatch watch;
+        VOXTACT_TRY(checkMotionBatch(batch));
+        const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl_->desc.interpolation);
+        VOXTACT_TRY(motions);
+        const Parts parts = impl_->workers.partsOf(batch, impl_->desc.touchResolution);
+        MotionAnswer answer;
+        answer.segments = numberedSegments(batch);
+        impl_->workers.forEach(answer.segments, [&](SegmentMotion& segment, ThreadMemory& memory) {
+            SegmentSearch(batch.items[segment.item], *parts[segment.item], (*motions)[segment.segment], impl_->desc,
+                          memory, segment.pose)
+                .run(segment);
+        });
+        answer.wallMilliseconds = watch.milliseconds();
+        return answer;
+    });
+}
+
+Result<BatchAnswer> MotionChecker::around(const Batch& batch, const PoseTolerance& tolerance) {
+    return guard([&]() -> Result<BatchAnswer> {
+        const StopWatch watch;
+        VOXTACT_TRY(checkMotionBatch(batch));
+        VOXTACT_TRY(checkTolerance(tolerance));
+        BatchAnswer answer;
+        answer.pairs = numberedPairs<PairAnswer>(batch);
+        Workers& workers = impl_->workers;
+        workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.touchResolution), answer.pairs,
+                            [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+                                PoseToleranceSearch(at, tolerance, impl_->desc.mostSteps, memory).run(pair);
+                            });
+        answer.wallMilliseconds = watch.milliseconds();
+        return answer;
+    });
+}
+
+std::uint32_t MotionChecker::threads() const noexcept {
+    return impl_->workers.threads();
+}
+
+} // namespace voxtact::cpu

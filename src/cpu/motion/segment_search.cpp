@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/motion/segment_search.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace voxtact::cpu {
+
+namespace {
+
+/// Of the largest coordinate: a pose on the way is made of a few dozen operations.
+constexpr double kPoseError = 0x1p-46;
+/// Of the resolution: a touch that begins just where two pieces meet is seen in the middle of the second.
+constexpr double kLastPiece = 0.25;
+/// Where a graze has been found, only a touch is still looked for, at places that are this part of the way from there.
+constexpr double kCoarser = 0.5;
+
+} // namespace
+
+SegmentSearch::SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion,
+                             const MotionDesc& desc, ThreadMemory& memory, std::uint32_t firstPose)
+    : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), firstPose_(firstPose),
+      speed_(motion.speed(item.mesh->facts().bounds)), deformation_(motion.deformation(item.mesh->facts().bounds)),
+      rounding_(kPoseError * motion.magnitude(item.mesh->facts().bounds)) {}
+
+Mat4 SegmentSearch::poseAt(double parameter) const {
+    // The ends are what was given, to the last bit.
+    return parameter == 0   ? item_.world_from_object[firstPose_]
+           : parameter == 1 ? item_.world_from_object[firstPose_ + 1]
+                            : motion_.at(parameter);
+}
+
+SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
+    // A longer one that is not soon found to be free is halved, which makes it easier.
+    constexpr std::uint64_t kSoon = 600;
+    constexpr std::uint64_t kMost = 1U << 16U; // more decide no more than whether it grazes
+    constexpr double kFinest = 1.0 / 16;
+    constexpr double kEnough = 1e-3;
+    const double half = 0.5 * (interval.to - interval.from);
+    const RigidMotion::Tangent tangent = motion_.tangent(interval.middle());
+    Sweep sweep;
+    sweep.linear = half * tangent.linear;
+    sweep.offset = half * tangent.offset;
+    sweep.straight = half * tangent.straight;
+    sweep.bend = 0.5 * half * motion_.angle();
+    sweep.slack = half * deformation_ + rounding_;
+    const SearchGoal goal{.tolerance = 0,
+                          .maximum = std::numeric_limits<double>::denorm_min(),
+                          .enough = (last ? kEnough : 1) * desc_.resolution,
+                          .finest = std::max(kLastPiece * desc_.resolution, last ? 0 : kFinest * length(interval)),
+                          .mostSteps =
+                              std::min(desc_.mostSteps - std::min(steps_, desc_.mostSteps - 1), last ? kMost : kSoon)};
+    const Found found =
+        PairAt{item_, part_, poseAt(interval.middle())}.search(memory_, goal, sweep, interval.open.get());
+    steps_ += found.steps + 1;
+    return {found.lo > 0, found.hi <= goal.enough};
+}
+
+bool SegmentSearch::touches(double parameter, SegmentMotion& out) {
+    constexpr std::uint64_t kTouchSteps = 256; // where it is hard to say, it takes as long as many of a search
+    const PairAt at{item_, part_, poseAt(parameter)};
+    std::optional<TouchPoint> point;
+    steps_ += kTouchSteps;
+    if (at.touch(point).certain == 0) {
+        return false;
+    }
+    MotionTouch touch;
+    touch.at = parameter;
+    touch.world_from_object = at.world_from_object;
+    if (point) {
+        touch.position = point->position;
+        touch.triangle = point->triangle;
+    }
+    out.touch = touch;
+    left_.clear();
+    return true;
+}
+
+/// All before it is free, or a graze is known.
+void SegmentSearch::look(const Interval& interval, SegmentMotion& out) {
+    const bool grazes = out.freeUntil < interval.from;
+    const double finest =
+        std::max(kLastPiece * desc_.resolution, grazes ? kCoarser * speed_ * (interval.from - out.freeUntil) : 0.0);
+    const bool last = length(interval) <= finest || interval.middle() <= interval.from;
+    const Seen seen = see(interval, last);
+    if (seen.isFree) {
+        out.freeUntil = grazes ? out.freeUntil : interval.to;
+        return;
+    }
+    if (last) {
+        // What follows is looked at in its own middle, unless nothing does.
+        static_cast<void>(touches(interval.middle(), out) || (interval.to == 1 && touches(1, out)));
+        return;
+    }
+    // What was apart all the time is so in each half.
+    const auto open = std::make_shared<const OpenPairs>(memory_.search.left());
+    if (!(seen.isMet && touches(interval.middle(), out))) {
+        left_.push_back({interval.middle(), interval.to, open});
+    }
+    left_.push_back({interval.from, interval.middle(), open});
+}
+
+void SegmentSearch::run(SegmentMotion& out) {
+    if (touches(0, out)) {
+        return;
+    }
+    left_.emplace_back();
+    while (!left_.empty() && steps_ < desc_.mostSteps) {
+        const Interval next = left_.back();
+        left_.pop_back();
+        look(next, out);
+    }
+    if (!left_.empty()) {
+        out.end = MotionEnd::Budget;
+    } else if (out.touch ? length({out.freeUntil, out.touch->at}) > desc_.resolution : out.freeUntil < 1) {
+        out.end = MotionEnd::Grazes;
+    }
+    out.possible = !out.touch && out.freeUntil < 1;
+}
+
+} // namespace voxtact::cpu

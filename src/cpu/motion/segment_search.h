@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/geometry/rigid_motion.h"
+#include "cpu/clearance/pair_at.h"
+
+#include <memory>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// One segment on one thread: halves of it, the earliest first, until each is free or has no more than the resolution.
+///
+/// A half is free where the mesh at its middle, swept as far as it moves in half of it (Sweep), is apart from what is
+/// opaque. Nothing is sampled: what is called free is free at all of its poses.
+class SegmentSearch {
+  public:
+    /// All must live as long as it.
+    SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion, const MotionDesc& desc,
+                  ThreadMemory& memory, std::uint32_t firstPose);
+
+    void run(SegmentMotion& out);
+
+  private:
+    struct Interval {
+        double from = 0;
+        double to = 1;
+        /// What of mesh and volume may meet in it; null: all.
+        std::shared_ptr<const OpenPairs> open{};
+
+        [[nodiscard]] double middle() const noexcept { return 0.5 * (from + to); }
+    };
+
+    [[nodiscard]] double length(const Interval& interval) const noexcept {
+        return (interval.to - interval.from) * speed_;
+    }
+    [[nodiscard]] Mat4 poseAt(double parameter) const;
+    /// How near what is opaque comes to the mesh in an interval.
+    struct Seen {
+        bool isFree = false;
+        bool isMet = false; ///< it seems that some of it is met
+    };
+    [[nodiscard]] Seen see(const Interval& interval, bool last);
+    /// The poses after it are not looked at any more.
+    [[nodiscard]] bool touches(double parameter, SegmentMotion& out);
+    void look(const Interval& interval, SegmentMotion& out);
+
+    const BatchItem& item_;
+    const OpaquePart& part_;
+    const RigidMotion& motion_;
+    const MotionDesc& desc_;
+    ThreadMemory& memory_;
+    std::uint32_t firstPose_;
+    double speed_;               ///< mm for the whole segment: of the fastest point
+    double deformation_;         ///< mm: RigidMotion::deformation()
+    double rounding_;            ///< mm, of a pose
+    std::uint64_t steps_ = 0;    ///< so far
+    std::vector<Interval> left_; ///< the earliest at the end
+};
+
+} // namespace voxtact::cpu
