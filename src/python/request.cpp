@@ -78,7 +78,7 @@ bool isAffine(const Mat4& matrix) noexcept {
 /// own first pose.
 std::vector<Mat4> posesOf(const Doubles& rows, std::size_t item) {
     if (rows.ndim() != 3 || rows.shape(1) != 4 || rows.shape(2) != 4) {
-        const std::vector<Mat4> one = matricesOf(rows, "poses"); // or refuses it
+        std::vector<Mat4> one = matricesOf(rows, "poses"); // or refuses it
         take(checkAffine(one.front(), "pose 0"));
         return one;
     }
