@@ -312,7 +312,7 @@ TEST(PoseTolerance, NoPoseThatIsOffTouches) {
     std::size_t safe = 0;
     std::size_t hits = 0;
     std::size_t possible = 0;
-    for (std::size_t number = 0; number < randomCases(4000, 20); ++number) {
+    for (std::size_t number = 0; number < randomCases(4000, 200); ++number) {
         SCOPED_TRACE(number);
         const RandomScene scene = makeRandomScene(random, 1);
         const cpu::Mesh mesh = take(cpu::Mesh::create(scene.mesh.view()));

@@ -442,16 +442,13 @@ void ClosestSearch::openLeaf(const Pair& pair) {
     if (!piece.mayBeOpaque(part_->intervals)) {
         return;
     }
-    const PlacedTriangle& nearest = mesh_->cluster(pair.mesh)[pair.nearest];
-    const dvec3 seen = PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
-                           .run(pair.place(), error_, pair.mesh * kClusterTriangles + pair.nearest, found_);
     const dvec3 ascent = piece.ascent(part_->space);
     const auto along = [&](const dvec3& normal) { return PieceAlong(piece, part_->space, mesh_->along(normal)); };
-    const std::array<PieceAlong, 3> always{along(seen), along(ascent), along(-ascent)};
+    const std::array<PieceAlong, 2> always{along(ascent), along(-ascent)};
     PieceAlong own;
     const dvec3 middle = part_->space.toWorld(piece.middle());
     Pair child = pair;
-    const bool left = keep(child, [&](const PlacedTriangle& triangle) {
+    const bool mayBeNear = keep(child, [&](const PlacedTriangle& triangle) {
         double lo = 0;
         for (const PieceAlong& one : always) {
             lo = std::max(lo, error_.below(one.from(triangle)));
@@ -466,7 +463,15 @@ void ClosestSearch::openLeaf(const Pair& pair) {
         }
         return std::max(lo, error_.below(own.from(triangle)));
     });
-    if (!left) {
+    if (!mayBeNear) {
+        return;
+    }
+    // A look takes as long as all of that.
+    const PlacedTriangle& nearest = mesh_->cluster(pair.mesh)[child.nearest];
+    const PieceAlong seen =
+        along(PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
+                  .run(pair.place(), error_, pair.mesh * kClusterTriangles + child.nearest, found_));
+    if (!keep(child, [&](const PlacedTriangle& triangle) { return error_.below(seen.from(triangle)); })) {
         return;
     }
     const bool inDoubt = !piece.someOpaque(part_->intervals);

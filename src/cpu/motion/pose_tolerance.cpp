@@ -71,16 +71,18 @@ void PoseToleranceSearch::run(PairAnswer& out) const {
         out = yesOrNo(out, false, false);
         return;
     }
-    const bool hit = swept.hi < kInfinity && isReached(swept);
+    const bool hit = isReached(swept);
     out = yesOrNo(out, hit, !hit);
 }
 
 /// By the points that the search found, or the closest of all.
 bool PoseToleranceSearch::isReached(const Found& swept) const {
-    const PlacedTriangle& triangle =
-        memory_.mesh.cluster(swept.triangle / kClusterTriangles)[swept.triangle % kClusterTriangles];
-    const dvec3 onMesh = memory_.mesh.nearest(triangle, swept.inVolume);
-    if (touches(onMesh, swept.inVolume)) {
+    const auto triangleOf = [this](const Found& found) -> const PlacedTriangle& {
+        return memory_.mesh.cluster(found.triangle / kClusterTriangles)[found.triangle % kClusterTriangles];
+    };
+    const bool isMet = swept.hi < kInfinity;
+    const dvec3 onMesh = isMet ? memory_.mesh.nearest(triangleOf(swept), swept.inVolume) : dvec3(0);
+    if (isMet && touches(onMesh, swept.inVolume)) {
         return true;
     }
     const Found still = at_.search(
@@ -89,8 +91,15 @@ bool PoseToleranceSearch::isReached(const Found& swept) const {
         return false;
     }
     const dvec3 nearest = still.inVolume - still.onMesh;
-    return touches(still.onMesh, still.inVolume) || touchesAlong(onMesh, nearest) ||
-           touchesAlong(onMesh, swept.inVolume - onMesh) || touchesAlong(still.onMesh, nearest);
+    if (touches(still.onMesh, still.inVolume) || touchesAlong(still.onMesh, nearest)) {
+        return true;
+    }
+    if (isMet && (touchesAlong(onMesh, nearest) || touchesAlong(onMesh, swept.inVolume - onMesh))) {
+        return true;
+    }
+    const PlacedTriangle& triangle = triangleOf(still);
+    return std::any_of(triangle.corners.begin(), triangle.corners.end(),
+                       [&](const dvec3& corner) { return touchesAlong(corner, nearest); });
 }
 
 /// Turns and moves a point along a direction, as far as it may and then less far.
