@@ -133,16 +133,16 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUE_RUNS 1     // pair, run: for certified_expand
 #define VOXTACT_QUEUE_LARGE 2    // pair, triangle, part, parts: for certified_large
 #define VOXTACT_QUEUE_CELLS 3    // pair, triangle, place: for certified_decide
-#define VOXTACT_QUEUE_OPEN 4     // numbers of cells; and its command counts the entries of the next, too: for certified_finish
+#define VOXTACT_QUEUE_OPEN 4     // numbers of cells; its command counts the next queue, too: for certified_finish
 #define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_*, where from
 #define VOXTACT_QUEUES 6
 #define VOXTACT_HEADER_WORDS 32 // of a round
 #define VOXTACT_HEADERS 64
 // Entries of each.
-#define VOXTACT_ROOM_RUNS(room) ((room) * VOXTACT_CLUSTER_RUNS)
+#define VOXTACT_ROOM_RUNS(room) ((room)*VOXTACT_CLUSTER_RUNS)
 #define VOXTACT_ROOM_LARGE(room) ((room) / 4)
-#define VOXTACT_ROOM_CELLS(room) ((room) * 32)
-#define VOXTACT_ROOM_LEFT(room) ((room) * 2 + VOXTACT_ROOM_LARGE(room))
+#define VOXTACT_ROOM_CELLS(room) ((room)*32)
+#define VOXTACT_ROOM_LEFT(room) ((room)*2 + VOXTACT_ROOM_LARGE(room))
 // Where each begins, in words behind the first header. `room` is a multiple of 16.
 #define VOXTACT_WORD_CELLS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
 #define VOXTACT_WORD_LARGE(room) (VOXTACT_WORD_CELLS + 4 * VOXTACT_ROOM_CELLS(room))
