@@ -38,8 +38,8 @@ TEST_F(MotionTest, HasARowForEachSegment) {
     ASSERT_EQ(found.size(), 4U);
     EXPECT_EQ(found[0], (std::vector<std::string>{"segment", "mesh", "volume", "hit", "free_until", "touch_at", "x",
                                                   "y", "z", "triangle", "label"}));
-    EXPECT_EQ(found[1], (std::vector<std::string>{"0", "builtin:scalpel:300", "builtin:head:32", "0", "1", "", "", "",
-                                                  "", ""}));
+    EXPECT_EQ(found[1],
+              (std::vector<std::string>{"0", "builtin:scalpel:300", "builtin:head:32", "0", "1", "", "", "", "", ""}));
     EXPECT_EQ(found[2][3], "1");
     const double freeUntil = std::stod(found[2][4]);
     const double touchAt = std::stod(found[2][5]);
