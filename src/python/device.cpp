@@ -382,6 +382,8 @@ void Device::submit(const std::function<Result<void>(VkCommandBuffer)>& record) 
     VkCommandBufferBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    // What was begun and then refused is still being recorded.
+    expect(own.VOXTACT_LOAD(vkResetCommandBuffer)(own.commands, 0), "resetting a command buffer");
     expect(own.VOXTACT_LOAD(vkBeginCommandBuffer)(own.commands, &begin), "beginning a command buffer");
     take(record(own.commands));
     expect(own.VOXTACT_LOAD(vkEndCommandBuffer)(own.commands), "ending a command buffer");
@@ -394,7 +396,13 @@ void Device::submit(const std::function<Result<void>(VkCommandBuffer)>& record) 
         const std::lock_guard queueLock(own.queueMutex);
         expect(own.VOXTACT_LOAD(vkQueueSubmit)(own.queue, 1, &info, own.fence), "submitting to the device");
     }
-    expect(own.VOXTACT_LOAD(vkWaitForFences)(own.device, 1, &own.fence, VK_TRUE, UINT64_MAX), "waiting for the device");
+    const VkResult waited = own.VOXTACT_LOAD(vkWaitForFences)(own.device, 1, &own.fence, VK_TRUE, UINT64_MAX);
+    if (waited != VK_SUCCESS) {
+        // The commands and the fence are used again: not while the device still does.
+        const std::lock_guard queueLock(own.queueMutex);
+        own.VOXTACT_LOAD(vkDeviceWaitIdle)(own.device);
+    }
+    expect(waited, "waiting for the device");
 }
 
 void defineDevice(py::module_& module) {

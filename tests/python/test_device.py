@@ -163,3 +163,27 @@ def test_without_a_device():
     lines = done.stdout.splitlines()
     assert done.returncode == 0 and lines[0] == "1 None", done.stderr
     assert len(lines) == 5 and all("mesa-vulkan-drivers" in line for line in lines[1:]), lines
+
+
+VALIDATED = """
+import numpy as np
+import voxtact as vx
+from conftest import cube, placed
+volume = vx.read_volume(np.full((8, 8, 8), 200, dtype=np.uint8), affine=np.eye(4), space="lps")
+scene = vx.Scene(volume, opacity=[(99, 0), (101, 1)], device=True)
+try:
+    scene.edit(box=(0, 0, 0, 99, 1, 1), value=1)
+except vx.Error:
+    print("refused")
+scene.edit(box=(0, 0, 0, 8, 8, 8), value=0)
+print("hit", scene.detect(cube(), placed((4, 4, 4))).hit[0])
+"""
+
+
+def test_a_refused_edit_leaves_the_device_usable(device):
+    """Under validation: commands that were begun and then refused must not be begun again as they are."""
+    environment = dict(os.environ, VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
+                       PYTHONPATH=os.pathsep.join([os.path.dirname(__file__), *sys.path]))
+    ran = subprocess.run([sys.executable, "-c", VALIDATED], capture_output=True, text=True, env=environment)
+    assert ran.returncode == 0, ran.stderr
+    assert ran.stdout.split("\n")[:2] == ["refused", "hit False"] and "VUID" not in ran.stdout + ran.stderr
