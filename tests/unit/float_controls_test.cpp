@@ -2,7 +2,7 @@
 #include "gpu/float_controls.h"
 
 #include "voxtact_shaders/bricks_comp.h"
-#include "voxtact_shaders/certified_comp.h"
+#include "voxtact_shaders/certified_finish_comp.h"
 #include "voxtact_shaders/compute_comp.h"
 #include "voxtact_shaders/dominant_vert.h"
 #include "voxtact_shaders/view_frag.h"
@@ -25,7 +25,8 @@ using Words = std::vector<std::uint32_t>;
 constexpr FloatControls kAll{true, true, true};
 
 std::vector<std::span<const std::uint32_t>> modules() {
-    return {spirv::bricks_comp, spirv::certified_comp, spirv::compute_comp, spirv::dominant_vert, spirv::view_frag};
+    return {spirv::bricks_comp, spirv::certified_finish_comp, spirv::compute_comp, spirv::dominant_vert,
+            spirv::view_frag};
 }
 
 /// The operands of all instructions of a kind.
@@ -60,8 +61,8 @@ TEST(FloatControlsTest, EveryEntryPointAsksForWhatIs) {
         modes.erase(modes.begin(), modes.begin() + 3);
         EXPECT_EQ(modes, before);
     }
-    const Words one = withFloatControls(spirv::certified_comp, {.roundsToNearest = true});
-    EXPECT_EQ(one.size(), std::size(spirv::certified_comp) + 2 + 4);
+    const Words one = withFloatControls(spirv::certified_finish_comp, {.roundsToNearest = true});
+    EXPECT_EQ(one.size(), std::size(spirv::certified_finish_comp) + 2 + 4);
     EXPECT_THAT(operandsOf(one, 17).at(0), ElementsAre(4467));
 }
 
