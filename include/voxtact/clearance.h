@@ -80,4 +80,12 @@ struct ClearanceAnswer {
     double wallMilliseconds = 0;      ///< of the whole call
 };
 
+/// What is known of a mesh that moves, at one of its poses.
+struct TrackedClearance {
+    ClearanceBounds bounds; ///< of this pose, mm; wider apart than a ClearanceMeter's
+    bool hit = false;       ///< it certainly touches
+    bool possible = false;  ///< roundings decide whether it touches; with neither it certainly does not
+    bool searched = false;  ///< the volume was looked into; false: it follows from what was known before
+};
+
 } // namespace voxtact

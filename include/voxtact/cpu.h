@@ -24,6 +24,7 @@ struct TransferFunctionImpl;
 struct MeshImpl;
 struct DetectorImpl;
 struct ClearanceMeterImpl;
+struct ClearanceTrackerImpl;
 struct MotionCheckerImpl;
 
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
@@ -185,6 +186,41 @@ class ClearanceMeter {
   private:
     explicit ClearanceMeter(std::unique_ptr<ClearanceMeterImpl> impl) noexcept;
     std::unique_ptr<ClearanceMeterImpl> impl_;
+};
+
+/// What a ClearanceTracker is made for.
+struct TrackerDesc {
+    /// mm, above 0: farther than this is never looked.
+    double maximum = std::numeric_limits<double>::infinity();
+    double resolution = kDefaultResolution; ///< of the touch, as in DetectorDesc
+    std::uint64_t mostSteps = 512;          ///< of one search, at least 1: then the bounds are what they are
+};
+
+/// Follows a mesh that moves by little from call to call, as under a hand: says at every pose whether it touches, and
+/// mostly without a look. When the mesh has moved by no more than it was known to be clear, it is free, and the bounds
+/// follow from those before: the clearance changes by no more than the farthest that a point of the mesh has moved.
+/// When it is looked, then so far only as some more moves like the last one go: what an answer costs follows the
+/// speed. Whether it touches never depends on the calls before, the width of the bounds does.
+///
+/// Works on the calling thread. The first call with a volume, a transfer function or a threshold, and after an edit,
+/// prepares them and takes milliseconds. Thread-safety: one call at a time.
+class ClearanceTracker {
+  public:
+    /// Refuses numbers outside the ranges of TrackerDesc.
+    [[nodiscard]] VOXTACT_API static Result<ClearanceTracker> create(const TrackerDesc& desc = {});
+    VOXTACT_API ClearanceTracker(ClearanceTracker&&) noexcept;
+    VOXTACT_API ClearanceTracker& operator=(ClearanceTracker&&) noexcept;
+    VOXTACT_API ~ClearanceTracker();
+
+    /// Of one mesh at one pose; labels are not looked at. Another mesh, volume, transfer function or threshold than in
+    /// the call before, and an edit, are no error: it then looks. Refuses what Detector::detect() refuses, and any
+    /// number of poses but 1.
+    [[nodiscard]] VOXTACT_API Result<TrackedClearance> track(const BatchItem& item,
+                                                             double threshold = kDefaultThreshold);
+
+  private:
+    explicit ClearanceTracker(std::unique_ptr<ClearanceTrackerImpl> impl) noexcept;
+    std::unique_ptr<ClearanceTrackerImpl> impl_;
 };
 
 /// What a MotionChecker is made for.

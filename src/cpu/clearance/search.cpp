@@ -195,7 +195,11 @@ void ClosestSearch::push(const Pair& pair) {
 
 double ClosestSearch::cut() const noexcept {
     // Of a swept mesh a point says nothing but that it is not apart.
-    return mesh_->isSwept() ? goal_.maximum : std::min(found_.hi - goal_.tolerance, goal_.maximum);
+    if (mesh_->isSwept()) {
+        return goal_.maximum;
+    }
+    const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
+    return std::min(found_.hi - (found_.hi < kInfinity ? slack : 0), goal_.maximum);
 }
 
 /// What is left of it is not divided any more.

@@ -18,6 +18,7 @@ namespace voxtact::cpu {
 /// When a search ends.
 struct SearchGoal {
     double tolerance = 0;                                     ///< mm: the bounds are near enough
+    double relative = 0;                                      ///< of the upper bound: the same
     double maximum = std::numeric_limits<double>::infinity(); ///< mm: what is not nearer is not looked for
     double enough = -1;                                       ///< mm: an opaque point as near as this ends it
     double finest = 0;                                        ///< mm: what is known as well is not looked at again

@@ -51,6 +51,7 @@ struct ClusterPlace {
 struct MeshImpl {
     MeshImpl(const MeshView& data, const MeshFacts& checked);
 
+    std::uint64_t id = nextObjectId();
     MeshFacts facts;
     std::vector<ClusterPlace> clusters;
     std::vector<float> x, y, z;                          ///< vertices, cluster by cluster; the padding repeats the last

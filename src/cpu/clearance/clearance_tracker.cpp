@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/guard.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "core/method/certified_constants.h"
+#include "cpu/batch_check.h"
+#include "cpu/clearance/workers.h"
+
+#include <array>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What a clearance belongs to.
+struct TrackedScene {
+    std::uint64_t mesh = 0;
+    std::uint64_t volume = 0;
+    std::uint64_t function = 0;
+    double threshold = 0;
+
+    [[nodiscard]] bool operator==(const TrackedScene&) const = default;
+};
+
+/// mm: no point of a box of object space is farther from one pose's place for it to another's. The difference of two
+/// affine maps is one, and the length of what it gives is greatest at a corner.
+double movedBy(const Mat4& from, const Mat4& to, const Box& box) {
+    constexpr double kRounding = 1e-14;
+    double most = 0;
+    double terms = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        std::array<double, 3> moved{};
+        for (std::size_t row = 0; row < 3; ++row) {
+            moved[row] = to[12 + row] - from[12 + row];
+            terms = std::max(terms, std::abs(moved[row]));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double at = (corner >> axis & 1U) != 0 ? box.hi[axis] : box.lo[axis];
+                const double term = (to[4 * axis + row] - from[4 * axis + row]) * at;
+                moved[row] += term;
+                terms = std::max(terms, std::abs(term));
+            }
+        }
+        most = std::max(most, std::hypot(moved[0], moved[1], moved[2]));
+    }
+    return most + kRounding * (most + 16 * terms);
+}
+
+Error refuse(const std::string& text) {
+    return Error{ErrorCode::InvalidArgument, 0, text};
+}
+
+Result<void> checkDesc(const TrackerDesc& desc) {
+    if (!(desc.maximum > 0)) {
+        return refuse("the maximum clearance " + number(desc.maximum) + " mm is not above 0");
+    }
+    if (desc.mostSteps == 0) {
+        return refuse("mostSteps is 0, a search takes at least one step");
+    }
+    return checkResolution(desc.resolution);
+}
+
+} // namespace
+
+struct ClearanceTrackerImpl {
+    explicit ClearanceTrackerImpl(const TrackerDesc& chosen) : desc(chosen) {}
+
+    TrackedClearance track(const BatchItem& item, double threshold);
+
+  private:
+    [[nodiscard]] TrackedClearance look(const BatchItem& item, double threshold, double ahead);
+
+    TrackerDesc desc;
+    ThreadMemory memory;
+    OccupancyCache<OpaquePart, 2> parts;
+    TrackedScene scene; ///< of all that follows; no object has the id 0
+    Mat4 lastPose{};
+    Mat4 lookedAt{};       ///< the pose of the last search
+    ClearanceBounds known; ///< of that pose
+};
+
+TrackedClearance ClearanceTrackerImpl::track(const BatchItem& item, double threshold) {
+    /// Moves like the last one, mm, that a search looks ahead.
+    constexpr double kAhead = 32;
+    const Mat4& pose = item.world_from_object[0];
+    const Box& box = item.mesh->impl().facts.bounds;
+    const TrackedScene now{item.mesh->impl().id, item.volume->impl().id, item.transferFunction->impl().id, threshold};
+    const bool isSame = now == scene;
+    const double moved = isSame ? movedBy(lookedAt, pose, box) : kInfinity;
+    const double step = isSame ? movedBy(lastPose, pose, box) : kInfinity;
+    scene = now;
+    lastPose = pose;
+    if (isSame && known.lo > moved) {
+        TrackedClearance out;
+        out.bounds = {known.lo - moved, known.hi + moved};
+        return out;
+    }
+    const TrackedClearance out = look(item, threshold, kAhead * step);
+    lookedAt = pose;
+    known = out.bounds;
+    return out;
+}
+
+TrackedClearance ClearanceTrackerImpl::look(const BatchItem& item, double threshold, double ahead) {
+    constexpr double kLeastAhead = 0.25; // mm
+    constexpr double kRelative = 0.25;
+    TrackedClearance out;
+    out.searched = true;
+    const std::shared_ptr<const OpaquePart> part =
+        parts.get(item.volume->impl(), item.transferFunction->impl(), threshold, desc.resolution);
+    const PairAt at{item, *part, item.world_from_object[0]};
+    std::optional<TouchPoint> point;
+    const CertifiedTally touch = at.touch(point);
+    out.hit = touch.certain > 0;
+    out.possible = !out.hit && touch.undecided;
+    if (out.hit) {
+        return out;
+    }
+    const double maximum = std::min(desc.maximum, std::max(ahead, kLeastAhead));
+    const Found found = at.search(memory, {.tolerance = kDefaultTolerance,
+                                           .relative = kRelative,
+                                           .maximum = maximum,
+                                           .finest = kDefaultTolerance / 4,
+                                           .mostSteps = desc.mostSteps});
+    out.bounds = {out.possible ? 0 : found.lo, found.hi};
+    return out;
+}
+
+ClearanceTracker::ClearanceTracker(std::unique_ptr<ClearanceTrackerImpl> impl) noexcept : impl_(std::move(impl)) {}
+ClearanceTracker::ClearanceTracker(ClearanceTracker&&) noexcept = default;
+ClearanceTracker& ClearanceTracker::operator=(ClearanceTracker&&) noexcept = default;
+ClearanceTracker::~ClearanceTracker() = default;
+
+Result<ClearanceTracker> ClearanceTracker::create(const TrackerDesc& desc) {
+    return guard([&]() -> Result<ClearanceTracker> {
+        VOXTACT_TRY(checkDesc(desc));
+        return ClearanceTracker(std::make_unique<ClearanceTrackerImpl>(desc));
+    });
+}
+
+Result<TrackedClearance> ClearanceTracker::track(const BatchItem& item, double threshold) {
+    return guard([&]() -> Result<TrackedClearance> {
+        DetectorDesc desc;
+        desc.projection = Projection::Conservative;
+        VOXTACT_TRY(checkBatch(desc, {std::span(&item, 1), {}, threshold}));
+        if (item.world_from_object.size() != 1) {
+            return refuse("a tracker takes one pose at a time, not " + std::to_string(item.world_from_object.size()));
+        }
+        return impl_->track(item, threshold);
+    });
+}
+
+} // namespace voxtact::cpu
