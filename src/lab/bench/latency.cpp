@@ -81,10 +81,11 @@ Result<double> takeBlock(Motion& motion, Engine& engine, const Turn& turn, doubl
     const std::size_t end =
         std::min<std::size_t>(begin + kLeadIn + (turn.round == 0 ? kWarmUp : kBlock), motion.poses.size());
     VOXTACT_TRY(learn(motion, end));
+    const double most = turn.round == 0 ? limit / 4 : limit;
     double spent = 0;
     for (std::size_t tick = begin; tick < end && disagreement.empty(); ++tick) {
         const bool kept = turn.round > 0 && tick >= begin + kLeadIn;
-        if (spent > limit && tick >= begin + kLeadIn + kFewest) {
+        if (spent > most && tick >= begin + kLeadIn + kFewest) {
             break;
         }
         const Result<double> took = takeTick(motion, engine, tick, kept, row, disagreement);
@@ -110,10 +111,12 @@ Result<void> measureMesh(const LatencySettings& settings, const VolumePart& volu
                   .truths = {},
                   .certified = **certified,
                   .view = **view};
+    const MadeEngine yesNo = makeHostEngine({.stopAtFirst = true, .projection = Projection::Conservative});
+    VOXTACT_TRY(yesNo);
     Result<std::vector<Mat4>> poses =
         movingPoses(volume.data.grid, mesh.data.view(), settings.ticks + kLeadIn, settings.seed,
                     [&](const Mat4& pose) -> Result<bool> {
-                        const Result<Pass> pass = motion.certified.run(motion.work.at({&pose, 1}), {});
+                        const Result<Pass> pass = (*yesNo)->run(motion.work.at({&pose, 1}), {});
                         return pass.ok() ? Result<bool>(pass->pairs.front().hit) : Result<bool>(pass.error());
                     });
     VOXTACT_TRY(poses);
