@@ -45,6 +45,8 @@ struct TimedCommands::State {
     Result<void> make(const Session& session);
     /// Waits for everything on the device; false where even that fails.
     bool waitForAll() noexcept;
+    /// What a wait for the fence found.
+    Result<void> waited(VkResult result);
 
     const VulkanDevice& device;
     std::uint32_t stamps = 0;
@@ -95,7 +97,7 @@ Result<void> TimedCommands::State::make(const Session& session) {
         info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
         result = createdOrNull(vk.vkCreateFence(device.handle(), &info, nullptr, &fence), fence);
     }
-    if (result == VK_SUCCESS && device.hasTimestamps()) {
+    if (result == VK_SUCCESS && device.hasTimestamps() && stamps > 0) {
         VkQueryPoolCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
         info.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -121,7 +123,7 @@ VkQueryPool TimedCommands::timestamps() const noexcept {
     return state_->timestamps;
 }
 
-Result<VkCommandBuffer> TimedCommands::begin() {
+Result<VkCommandBuffer> TimedCommands::begin(Use use) {
     const VolkDeviceTable& vk = state_->device.table();
     if (state_->inFlight && !state_->waitForAll()) {
         return Error{ErrorCode::Vulkan, 0, "recording failed: an earlier submission cannot be waited for"};
@@ -130,7 +132,9 @@ Result<VkCommandBuffer> TimedCommands::begin() {
     if (result == VK_SUCCESS) {
         VkCommandBufferBeginInfo info{};
         info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        if (use == Use::Once) {
+            info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        }
         result = vk.vkBeginCommandBuffer(state_->commands, &info);
     }
     if (result != VK_SUCCESS) {
@@ -172,14 +176,25 @@ Result<void> TimedCommands::submit() {
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "submitting failed");
 }
 
-Result<void> TimedCommands::wait() {
-    const VolkDeviceTable& vk = state_->device.table();
-    const VkResult result = vk.vkWaitForFences(state_->device.handle(), 1, &state_->fence, VK_TRUE,
-                                               std::numeric_limits<std::uint64_t>::max());
+Result<void> TimedCommands::State::waited(VkResult result) {
     if (result == VK_SUCCESS) {
-        state_->inFlight = false;
+        inFlight = false;
     }
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "waiting for the device failed");
+}
+
+Result<void> TimedCommands::wait() {
+    return state_->waited(state_->device.table().vkWaitForFences(state_->device.handle(), 1, &state_->fence, VK_TRUE,
+                                                                 std::numeric_limits<std::uint64_t>::max()));
+}
+
+Result<void> TimedCommands::poll() {
+    const VolkDeviceTable& vk = state_->device.table();
+    VkResult result = VK_NOT_READY;
+    while (result == VK_NOT_READY) {
+        result = vk.vkGetFenceStatus(state_->device.handle(), state_->fence);
+    }
+    return state_->waited(result);
 }
 
 void TimedCommands::waitForAll() const {

@@ -13,11 +13,12 @@ template <class Function> Function instanceFunction(const Session& session, cons
     return reinterpret_cast<Function>(session.instance.getInstanceProcAddr()(session.instance.handle(), name));
 }
 
-/// A command buffer of the session's queue that is recorded anew each time, with a fence and timestamps.
+/// A command buffer of the session's queue, with a fence and timestamps: recorded anew each time, or once and submitted
+/// again.
 /// Thread-safety: none; one thread at a time.
 class TimedCommands {
   public:
-    /// With `stamps` timestamps, where the queue has any. The device must outlive it.
+    /// With `stamps` timestamps, where the queue has any; 0: none. The device must outlive it.
     [[nodiscard]] static Result<TimedCommands> create(const Session& session, std::uint32_t stamps);
     TimedCommands(TimedCommands&&) noexcept;
     TimedCommands& operator=(TimedCommands&&) noexcept;
@@ -27,13 +28,19 @@ class TimedCommands {
     /// Null where the queue has none.
     [[nodiscard]] VkQueryPool timestamps() const noexcept;
 
+    enum class Use {
+        Once,  ///< submitted once, and recorded anew
+        Again, ///< submitted again and again, when what was submitted before is done
+    };
     /// Begins the command buffer anew, with no timestamp written.
-    [[nodiscard]] Result<VkCommandBuffer> begin();
+    [[nodiscard]] Result<VkCommandBuffer> begin(Use use = Use::Once);
     /// Writes a timestamp when all that was recorded before is done.
     void cmdStamp(std::uint32_t number) const;
     [[nodiscard]] Result<void> end();
     [[nodiscard]] Result<void> submit();
     [[nodiscard]] Result<void> wait();
+    /// The same, asking again and again instead of sleeping: sooner back, and a core is busy until then.
+    [[nodiscard]] Result<void> poll();
     /// Waits for everything on the device, after an error.
     void waitForAll() const;
     /// Between two timestamps of what was waited for, ms. Nothing where the queue has none.

@@ -61,15 +61,20 @@ std::optional<VkQueueFamilyProperties> findGraphicsFamily(const InstanceFunction
     return std::nullopt;
 }
 
-/// Those of voxtact's optional extensions that the device has.
+/// Of a device that is not all of Vulkan; who makes it must enable it. Its name is in Vulkan's beta headers alone.
+constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+
+/// Those of voxtact's optional extensions that the device has, and the one that it demands.
 Result<std::vector<const char*>> findExtensions(const InstanceFunctions& functions, VkPhysicalDevice physical) {
     const auto there =
         enumerate<VkExtensionProperties>("listing the device's extensions failed", [&](auto... arguments) {
             return functions.enumerateDeviceExtensionProperties(physical, nullptr, arguments...);
         });
     VOXTACT_TRY(there);
+    std::vector<const char*> all(optionalDeviceExtensions().begin(), optionalDeviceExtensions().end());
+    all.push_back(kPortabilitySubset);
     std::vector<const char*> out;
-    for (const char* wanted : optionalDeviceExtensions()) {
+    for (const char* wanted : all) {
         if (std::ranges::any_of(*there, [wanted](const VkExtensionProperties& extension) {
                 return std::strcmp(extension.extensionName, wanted) == 0;
             })) {

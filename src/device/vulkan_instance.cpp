@@ -114,6 +114,13 @@ Result<void> createInstance(const InstanceOptions& options, VulkanInstance::Stat
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
+    // Without it the loader hides drivers that are not all of Vulkan, such as MoltenVK.
+    const Result<bool> portability = hasExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    VOXTACT_TRY(portability);
+    if (*portability) {
+        state.extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+        info.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+    }
     if (options.validate) {
         const Result<bool> layer = hasLayer(kValidationLayer);
         VOXTACT_TRY(layer);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace voxtact::test {
 namespace {
@@ -114,6 +115,72 @@ TEST_F(BenchTest, WithoutADeviceTheHostIsMeasured) {
     const std::string text = output(opaque(bench("8", "1")), none);
     EXPECT_THAT(text, AllOf(HasSubstr("# no device"), HasSubstr("conservative"), Not(HasSubstr("compute"))));
     EXPECT_THAT(refused(1, bench("8", "1", {"--device", "0"}), none), Not(testing::IsEmpty()));
+}
+
+/// Every question, by the host and by the device, and nothing of it otherwise than the host's.
+TEST_F(BenchTest, LatencyIsOfEveryEngineAndVerified) {
+    const Json result = json({"bench", "--latency", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
+                              "--opacity", "40:0,80:1", "--number", "300", "--time-limit", "3"});
+    EXPECT_EQ(result["scene"]["ticks"], 300);
+    std::map<std::string, int> rows;
+    for (const Json& row : result["rows"]) {
+        const std::string engine = row["engine"];
+        ++rows[engine];
+        EXPECT_GE(row["ticks"], 10) << row;
+        EXPECT_LE(row["ticks"], 300) << row;
+        EXPECT_GT(row["p50_us"], 0) << row;
+        EXPECT_LE(row["p50_us"], row["max_us"]) << row;
+        const bool empty = engine == "empty submit";
+        EXPECT_EQ(row["question"].is_null(), empty) << row;
+        EXPECT_EQ(row["awaited"].is_null(), engine == "cpu") << row;
+        EXPECT_EQ(row["record_p50_us"].is_null(), empty || engine == "cpu") << row;
+        EXPECT_TRUE(!row["record_p50_us"].is_number() || row["record_p50_us"] < row["p50_us"]) << row;
+        if (engine == "cpu" && row["ticks"] == 300) {
+            EXPECT_GT(row["touching"], 20) << row;
+            EXPECT_LT(row["touching"], 300) << row;
+        }
+        EXPECT_TRUE(engine != "compute" || row["rounding"] == 0) << row;
+    }
+    EXPECT_EQ(rows["empty submit"], 2) << "polled and waited for";
+    EXPECT_EQ(rows["cpu"] % 3, 0);
+    EXPECT_EQ(rows["compute"], 6) << "three questions, each polled and waited for";
+    EXPECT_EQ(rows["query"], 2);
+    EXPECT_EQ(result["summary"].size(), 3U);
+}
+
+TEST_F(BenchTest, LatencyRefusesWhatItHasNoUseFor) {
+    const Arguments latency{"bench",  "--latency",           "--volume", "builtin:head:16",
+                            "--mesh", "builtin:scalpel:100", "--number", "4"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = latency;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    EXPECT_THAT(refused(2, with({"--repetitions", "3"})), HasSubstr("--repetitions is not for --latency"));
+    EXPECT_THAT(refused(2, with({"--report", "x.html"})), HasSubstr("--report is for --paper"));
+    EXPECT_THAT(refused(2, with({"--certified"})), HasSubstr("--certified"));
+    EXPECT_THAT(refused(2, bench("8", "1", {"--time-limit", "3"})), HasSubstr("--time-limit is for"));
+    EXPECT_THAT(refused(2, with({"--opacity", "0:0,255:0"})), HasSubstr("no poses around the onset of contact"));
+}
+
+TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
+    const Json result = json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
+                              "--opacity", "40:0,80:1", "--number", "30", "--repetitions", "2"});
+    std::map<std::string, std::vector<int>> sizes;
+    for (const Json& row : result["rows"]) {
+        sizes[row["engine"].get<std::string>() + " " + row["projection"].get<std::string>()].push_back(row["batch"]);
+        EXPECT_EQ(row["samples"], 2) << row;
+        EXPECT_GT(row["wall_ms"]["median"], 0) << row;
+        EXPECT_GT(row["pairs_per_s"], 0) << row;
+    }
+    for (const char* engine :
+         {"cpu view", "cpu conservative", "compute view", "compute conservative", "query view", "atomic view"}) {
+        EXPECT_EQ(sizes[engine], (std::vector<int>{1, 10, 30})) << engine;
+    }
+    // No more than fit.
+    const Json cut = json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
+                           "--opacity", "40:0,80:1", "--number", "100000", "--time-limit", "0.01"});
+    EXPECT_LT(cut["rows"].size(), 3 * sizes.size());
 }
 
 TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {

@@ -11,7 +11,6 @@
 namespace voxtact::test {
 namespace {
 
-constexpr const char* kHead = "/usr/share/mricron/templates/ch2.nii.gz";
 constexpr std::size_t kPoses = 1000;
 
 class AgreementTest : public GpuTest {
@@ -56,7 +55,7 @@ class AgreementTest : public GpuTest {
 };
 
 TEST_F(AgreementTest, QueryIsAtomicOnTheRealHead) {
-    const Result<VolumeData> head = io::readVolume(kHead);
+    const Result<VolumeData> head = io::readVolume(headPath());
     ASSERT_TRUE(head.ok()) << head.error().text;
     constexpr ControlPoint kSkin[] = {{40, 0}, {80, 1}};
     expectAgreement(*head, kSkin, {0, 255});
@@ -64,7 +63,7 @@ TEST_F(AgreementTest, QueryIsAtomicOnTheRealHead) {
 
 TEST_F(AgreementTest, QueriesCountRightInLongSubmissions) {
     // llvmpipe counted one or two pairs of a long submission a hundred thousand too many.
-    const VolumeData head = take(io::readVolume(kHead));
+    const VolumeData head = take(io::readVolume(headPath()));
     std::mt19937_64 random(testSeed());
     constexpr ControlPoint kSkin[] = {{40, 0}, {80, 1}};
     const Volume volume = upload(head);

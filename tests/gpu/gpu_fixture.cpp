@@ -9,10 +9,12 @@ namespace voxtact::test {
 
 namespace {
 
-bool requireDevice = false; // set once by main()
+// Set once by main().
+bool requireDevice = false;
+bool validate = true;
 
 Result<TestDevice> makeDevice() {
-    Result<device::VulkanInstance> instance = device::VulkanInstance::create({.validate = true});
+    Result<device::VulkanInstance> instance = device::VulkanInstance::create({.validate = validate});
     if (!instance.ok()) {
         return instance.error();
     }
@@ -102,6 +104,8 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         if (std::strcmp(argv[i], "--require-device") == 0) {
             voxtact::test::requireDevice = true;
+        } else if (std::strcmp(argv[i], "--no-validation") == 0) {
+            voxtact::test::validate = false; // for drivers that the layer cannot be asked about
         }
     }
     return RUN_ALL_TESTS();

@@ -48,7 +48,7 @@ struct BothSides {
 /// A scalpel at random poses in the MR head of Debian's mricron-data.
 RandomScene realHead(std::size_t poses, double grow, std::mt19937_64& random) {
     RandomScene scene;
-    scene.volume = take(io::readVolume("/usr/share/mricron/templates/ch2.nii.gz"));
+    scene.volume = take(io::readVolume(headPath()));
     scene.points = {{40, 0}, {80, 1}};
     scene.domain = {0, 255};
     scene.mesh = take(makeScalpel());

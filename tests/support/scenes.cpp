@@ -24,6 +24,11 @@ VolumeData makeBytes(const Grid& grid,
     return makeVolume<std::uint8_t>(grid, ScalarType::UInt8, value);
 }
 
+const char* headPath() {
+    const char* const named = std::getenv("VOXTACT_TEST_HEAD");
+    return named != nullptr && *named != '\0' ? named : "/usr/share/mricron/templates/ch2.nii.gz";
+}
+
 namespace {
 
 void addRectangle(MeshData& mesh, const std::array<Vec3, 4>& corners) {

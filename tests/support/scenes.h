@@ -36,6 +36,9 @@ VolumeData makeVolume(const Grid& grid, ScalarType type,
 }
 VolumeData makeBytes(const Grid& grid, const std::function<double(std::uint32_t, std::uint32_t, std::uint32_t)>& value);
 
+/// The MR head of Debian's mricron-data, or what VOXTACT_TEST_HEAD names in its place.
+const char* headPath();
+
 /// Two triangles: the corners in order round the rectangle.
 MeshData makeRectangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// The rectangle [x0,x1] x [y0,y1] at z.

@@ -29,6 +29,20 @@ the outputs (touched triangles, bounds, labels, contacts) costs beside the bare 
 Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
 scene: builtin:scalpel:3068 against builtin:head:128.
 
+--latency: how long a loop that moves a mesh, such as one that drives a haptic device, waits for one answer: 10000 ticks
+(--number) of strokes from 10 voxels outside to 2 voxels inside and on to the next place, one pair a tick. The certified
+yes or no and count, and the count in the view, by the host on one thread and on all, and by every method of the device:
+its command buffer is recorded each tick, submitted alone, and polled for or waited for; nothing is allocated and no
+timestamp written. Beside it an empty submission on the same queue. The answer of every tick is held against the host's
+after its clock has stopped; a wrong one is exit status 3. Engines take turns of 250 ticks, after 10 that are not timed.
+An engine takes fewer ticks where its share of --time-limit (60 s, of all) is used up. Default scene: builtin:scalpel:3068
+against builtin:head:256 with --opacity "40:0,80:1".
+
+--batches: what a batch costs by its size: random poses, 1, 10, 100 and so on up to 100000 (--number) in a submission
+that is waited for, or in a call of the host; the certified yes or no, and the count in the view. The answers of every
+batch are held against the host's; a wrong one is exit status 3. It takes 3 samples of each (--repetitions), and leaves
+out batches that do not fit in --time-limit (60 s). The default scene is that of --latency.
+
 --paper, the default: the tables of the paper (Volume-Surface Collision Detection, Tables 1 and 2) measured again: what
 detection adds to a frame, in the scenes v1s1, v1s2, v2s1 and v2s2. v1 is a head of 256x256x256 voxels, v2 a sparse
 volume of 256x256x128, s1 an instrument of 3068 triangles, s2 a body of 49998; every pose touches. The frame is of
@@ -44,7 +58,11 @@ Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,co
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,
 wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max; medians, and of the ratios of pairs a second to
 the first engine of the same scene in the same round (--outputs: projections to the view by the same method, outputs to
-the bare count). With --paper: scene,method,clock (gpu or wall),width,height,triangles,poses,survivors (of a pair, on
+the bare count). With --latency: mesh,triangles,engine,projection,question,threads,recorded,awaited,ticks,touching
+(ticks that do),rounding (ticks that the device's rasteriser counts otherwise than cpu),p50_us,p99_us (from 100 ticks
+on),p99_9_us (from 1000 on),max_us,record_p50_us (of it, recording). With --batches:
+mesh,triangles,engine,projection,question,threads,batch,samples,wall_ms_median,wall_ms_min,wall_ms_max,gpu_ms_median,
+pairs_per_s. With --paper: scene,method,clock (gpu or wall),width,height,triangles,poses,survivors (of a pair, on
 average),hits (poses),samples,mesh_ms,volume_ms,collision_ms,collision_ms_p10,collision_ms_p90,rendering_ms,
 rendering_ms_p10,rendering_ms_p90,total_ms,total_ms_p10,total_ms_p90,collision_percent (collision/rendering),
 overhead_percent ((total-rendering)/rendering, round by round),overhead_low,overhead_high,confidence (of the interval
@@ -53,6 +71,8 @@ that has the median); the scenes and what else was measured are in comments.
 Examples:
   voxtact bench --certified
   voxtact bench --outputs --repetitions 3
+  voxtact bench --latency --format text
+  voxtact bench --batches --number 10000
   voxtact bench --paper --format text
   voxtact bench --certified --volume head.nii.gz --mesh tool.stl --format json --output bench.json)";
 
@@ -63,8 +83,10 @@ void addPaperOptions(CLI::App& parser, BenchOptions& options) {
         parser, "--scale", [&options](std::uint32_t scale) { options.paperSettings.scale = scale; },
         {.least = 1, .most = 16}, "with --paper: the sides of its builtin volumes are divided by so many, for trying",
         options.paperSettings.scale);
-    addTimeLimit(parser, options.paperSettings.timeLimit,
-                 "with --paper: seconds for all samples: fewer than --repetitions are taken where they do not fit");
+    addTimeLimit(
+        parser, options.paperSettings.timeLimit,
+        "with --paper: seconds for all samples: fewer than --repetitions are taken where they do not fit; with "
+        "--latency or --batches, 60 unless given: fewer ticks or batches");
     parser.add_flag("--no-sweeps", options.paperSettings.noSweeps, "with --paper: the tables alone");
     addSize(
         parser, [&options](const VkExtent2D& size) { options.paperSettings.size = size; },
@@ -80,20 +102,32 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
         parser
             .add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
             ->excludes(certified);
+    CLI::Option* latency =
+        parser.add_flag("--latency", options.latency, "one pair, now: how long a loop waits for each answer")
+            ->excludes(certified)
+            ->excludes(outputs);
+    CLI::Option* batches = parser.add_flag("--batches", options.batches, "what a batch costs by how many pairs it has")
+                               ->excludes(certified)
+                               ->excludes(outputs)
+                               ->excludes(latency);
     parser
         .add_flag("--paper", options.paper,
                   "the paper's tables and sweeps, measured again: what detection adds to a frame; the default")
         ->excludes(certified)
-        ->excludes(outputs);
+        ->excludes(outputs)
+        ->excludes(latency)
+        ->excludes(batches);
     addVolumeOption(parser, options.volumes);
     parser.get_option("--volume")->required(false);
     addMeshOptions(parser, options.meshes);
     parser.get_option("--mesh")->required(false);
     addTransferFunctionOptions(parser, options.transferFunction);
-    addWholeNumber(parser, "--number", options.settings.poses, 1, "how many poses of each kind; with --paper 7");
+    addWholeNumber(parser, "--number", options.settings.poses, 1,
+                   "how many poses of each kind; with --paper 7; with --latency ticks, 10000; with "
+                   "--batches of the largest, 100000");
     addSeed(parser, options.settings.seed);
     addWholeNumber(parser, "--repetitions", options.settings.repetitions, 1,
-                   "samples of each time, after a warm-up; with --paper 7");
+                   "samples of each time, after a warm-up; with --paper 7, with --batches 3");
     addPaperOptions(parser, options);
     addDeviceOptions(parser, options.device);
     addOutputOptions(parser, options.output);
@@ -105,13 +139,19 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     constexpr const char* kOfScenes[] = {
         "--volume",  "--mesh",      "--mesh-space", "--mesh-scale", "--transfer-function",
         "--opacity", "--tf-domain", "--tf-size",    "--threshold"};
-    constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--time-limit", "--size", "--report"};
+    constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--size", "--report"};
     for (const char* option : options.paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
         if (parser.count(option) > 0) {
             return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option +
-                                                   ", or ask for --certified or --outputs"
+                                                   ", or ask for --certified, --outputs, --latency or --batches"
                                              : std::string(option) + " is for --paper");
         }
+    }
+    if (parser.count("--time-limit") > 0 && !options.paper && !options.latency && !options.batches) {
+        return badArgument("--time-limit is for --paper, --latency and --batches");
+    }
+    if (parser.count("--repetitions") > 0 && options.latency) {
+        return badArgument("--repetitions is not for --latency; --number says how many ticks there are");
     }
     if (options.paperSettings.scale > 1 && !options.paperSettings.data.empty()) {
         return badArgument("--scale is for builtin volumes; leave out --data");
@@ -119,9 +159,28 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     return {};
 }
 
+BenchOptions latencyOf(BenchOptions options, const CLI::App& parser) {
+    LatencySettings& latency = options.latencySettings;
+    latency.ticks = parser.count("--number") > 0 ? options.settings.poses : latency.ticks;
+    latency.timeLimit = parser.count("--time-limit") > 0 ? options.paperSettings.timeLimit : latency.timeLimit;
+    latency.seed = options.settings.seed;
+    options.settings.mode = BenchMode::Latency;
+    return options;
+}
+
+BenchOptions batchesOf(BenchOptions options, const CLI::App& parser) {
+    BatchesSettings& batches = options.batchesSettings;
+    batches.most = parser.count("--number") > 0 ? options.settings.poses : batches.most;
+    batches.repetitions = parser.count("--repetitions") > 0 ? options.settings.repetitions : batches.repetitions;
+    batches.timeLimit = parser.count("--time-limit") > 0 ? options.paperSettings.timeLimit : batches.timeLimit;
+    batches.seed = options.settings.seed;
+    options.settings.mode = BenchMode::Batches;
+    return options;
+}
+
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
-    options.paper = !options.certified && !options.outputs;
+    options.paper = !options.certified && !options.outputs && !options.latency && !options.batches;
     VOXTACT_TRY(checkTogether(options, parser));
     if (options.paper) {
         PaperSettings& paper = options.paperSettings;
@@ -129,6 +188,12 @@ Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
         paper.repetitions = parser.count("--repetitions") > 0 ? options.settings.repetitions : paper.repetitions;
         paper.seed = options.settings.seed;
         return runPaper(options, parser);
+    }
+    if (options.latency) {
+        return runLatency(latencyOf(options, parser), parser);
+    }
+    if (options.batches) {
+        return runBatches(batchesOf(options, parser), parser);
     }
     options.settings.mode = options.outputs ? BenchMode::Outputs : BenchMode::Certified;
     return runBenchEngines(options, parser);

@@ -44,7 +44,7 @@ Result<std::vector<MeshPart>> loadBenchMeshes(const BenchOptions& options) {
 }
 
 /// The device's session; none, with a note, where there is no device and none was asked for.
-Result<std::optional<device::Session>> openBenchSession(const BenchOptions& options, BenchResult& result) {
+Result<std::optional<device::Session>> openBenchSession(const BenchOptions& options, BenchScene& scene) {
     Result<device::Session> session = openSession(options.device);
     if (session.ok()) {
         return std::optional(std::move(*session));
@@ -52,13 +52,17 @@ Result<std::optional<device::Session>> openBenchSession(const BenchOptions& opti
     if (!options.device.wanted.empty() || options.device.validate) {
         return session.error();
     }
-    result.notes.push_back("no device: " + session.error().text);
+    scene.notes.push_back("no device: " + session.error().text);
     return std::optional<device::Session>();
 }
 
-} // namespace
+/// Measures something of engines on the scene that the options name. `session` may be null.
+using Measure = std::function<Result<void>(const device::Session* session, VolumePart& volume,
+                                           std::vector<MeshPart> meshes, const Steps& steps)>;
+using Write = std::function<void(std::ostream& out)>;
 
-Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
+Outcome runOnScene(const BenchOptions& options, const CLI::App& parser, BenchScene& scene, const Measure& measure,
+                   const Write& write) {
     if (options.volumes.size() > 1) {
         return badArgument("one --volume is enough, not several");
     }
@@ -68,20 +72,19 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    BenchResult result;
-    result.volume = options.volumes.empty() ? defaultVolume(options.settings.mode) : options.volumes.front();
+    scene.volume = options.volumes.empty() ? defaultVolume(options.settings.mode) : options.volumes.front();
     std::shared_ptr<const device::ValidationMessages> messages;
     {
-        const Result<std::optional<device::Session>> opened = openBenchSession(options, result);
+        const Result<std::optional<device::Session>> opened = openBenchSession(options, scene);
         VOXTACT_TRY(opened);
         const device::Session* session = opened->has_value() ? &**opened : nullptr;
         // What is on the device must end before the session.
-        Result<VolumePart> volume = loadBenchVolume(options, result.volume);
+        Result<VolumePart> volume = loadBenchVolume(options, scene.volume);
         VOXTACT_TRY(volume);
-        result.voxels = volume->data.grid.size;
-        result.threshold = volume->threshold;
+        scene.voxels = volume->data.grid.size;
+        scene.threshold = volume->threshold;
         const Provenance provenance = provenanceOf(parser);
-        result.machine =
+        scene.machine =
             session == nullptr ? describeHost(provenance) : describeMachine(*session, volume->data.type, provenance);
         Result<std::vector<MeshPart>> meshes = loadBenchMeshes(options);
         VOXTACT_TRY(meshes);
@@ -89,22 +92,55 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
             messages = session->instance.messages();
         }
         ShownSteps shown(options.progress, "voxtact bench");
-        const Result<void> done = bench(options.settings, session, *volume, std::move(*meshes), shown.steps(), result);
-        VOXTACT_TRY(done);
+        VOXTACT_TRY(measure(session, *volume, std::move(*meshes), shown.steps()));
     }
     if (messages != nullptr) {
         if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
             return invalid;
         }
     }
-    if (!result.disagreement.empty()) {
-        return {kExitVerify, "engines that must agree do not: " + result.disagreement};
+    if (!scene.disagreement.empty()) {
+        return {kExitVerify, "engines that must agree do not: " + scene.disagreement};
     }
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
-        writeBench(out, options.output.format(), options.settings, result);
+        write(out);
         return {};
     });
     return written.ok() ? Outcome() : Outcome(written.error());
+}
+
+} // namespace
+
+Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
+    BenchResult result;
+    return runOnScene(
+        options, parser, result,
+        [&](const device::Session* session, VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps) {
+            return bench(options.settings, session, volume, std::move(meshes), steps, result);
+        },
+        [&](std::ostream& out) { writeBench(out, options.output.format(), options.settings, result); });
+}
+
+Outcome runLatency(const BenchOptions& options, const CLI::App& parser) {
+    LatencyResult result;
+    const LatencySettings& settings = options.latencySettings;
+    return runOnScene(
+        options, parser, result,
+        [&](const device::Session* session, VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps) {
+            return measureLatency(settings, session, volume, std::move(meshes), steps, result);
+        },
+        [&](std::ostream& out) { writeLatency(out, options.output.format(), settings, result); });
+}
+
+Outcome runBatches(const BenchOptions& options, const CLI::App& parser) {
+    BatchesResult result;
+    const BatchesSettings& settings = options.batchesSettings;
+    return runOnScene(
+        options, parser, result,
+        [&](const device::Session* session, VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps) {
+            return measureBatches(settings, session, volume, std::move(meshes), steps, result);
+        },
+        [&](std::ostream& out) { writeBatches(out, options.output.format(), settings, result); });
 }
 
 } // namespace voxtact::app

@@ -202,7 +202,7 @@ const char* defaultVolume(BenchMode mode) {
 }
 
 std::vector<std::string> defaultMeshes(BenchMode mode) {
-    return {kMeshes.begin(), kMeshes.begin() + (mode == BenchMode::Outputs ? 1 : kMeshes.size())};
+    return {kMeshes.begin(), kMeshes.begin() + (mode == BenchMode::Certified ? kMeshes.size() : 1)};
 }
 
 Result<void> bench(const BenchSettings& settings, const device::Session* session, VolumePart& volume,

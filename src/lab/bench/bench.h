@@ -12,6 +12,8 @@ namespace voxtact::lab {
 enum class BenchMode {
     Certified, ///< the certified answer beside the view and FCL
     Outputs,   ///< what each projection and each output costs beside the bare count
+    Latency,   ///< one pair, now: latency.h
+    Batches,   ///< what a batch costs by its size: batches.h
 };
 
 struct BenchSettings {
@@ -43,14 +45,18 @@ struct BenchRow {
     std::vector<double> cpuRatio{};
 };
 
-struct BenchResult {
+/// What was measured on which scene, whatever was measured.
+struct BenchScene {
     Machine machine;
     std::string volume;
     double threshold = 0;
     std::array<std::uint32_t, 3> voxels{};
-    std::vector<BenchRow> rows;
     std::vector<std::string> notes;
     std::string disagreement; ///< of engines that must agree; empty: there is none
+};
+
+struct BenchResult : BenchScene {
+    std::vector<BenchRow> rows;
 };
 
 /// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/try.h"
-#include "lab/bench/bench.h"
+#include "core/method/method_table.h"
+#include "lab/bench/latency.h"
 
 #include <array>
+#include <thread>
 
 namespace voxtact::lab {
 
@@ -99,7 +101,61 @@ Result<void> addOutputs(const device::Session* session, Engines& engines) {
     return {};
 }
 
+/// A method of the device, polled and waited for.
+Result<void> addTicks(const device::Session& session, const DetectorDesc& desc, Engines& engines) {
+    for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
+        VOXTACT_TRY(add(makeTickEngine(session, desc, awaiting), engines));
+    }
+    return {};
+}
+
+/// The certified questions that need no output, and the count in the view.
+template <class Desc> std::array<Desc, 3> askedOf(const Desc& desc) {
+    std::array<Desc, 3> asked{desc, desc, desc};
+    asked[0].projection = Projection::Conservative;
+    asked[0].stopAtFirst = true;
+    asked[1].projection = Projection::Conservative;
+    asked[2].projection = Projection::View;
+    return asked;
+}
+
+Result<void> addDeviceTicks(const device::Session& session, Engines& engines) {
+    for (const CountingMethod method : availableMethods(session, [](CountingMethod, const std::string&) {})) {
+        if (rowOf(method).host) {
+            continue;
+        }
+        for (const DetectorDesc& desc : askedOf(DetectorDesc{.method = method, .filter = defaultFilter(method)})) {
+            if (session.context.supports(method, desc.projection)) {
+                VOXTACT_TRY(addTicks(session, desc, engines));
+            }
+        }
+    }
+    return {};
+}
+
 } // namespace
+
+Result<Engines> makeLatencyEngines(const device::Session* session) {
+    Engines engines;
+    if (session != nullptr) {
+        for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
+            VOXTACT_TRY(add(makeEmptyEngine(*session, awaiting), engines));
+        }
+    }
+    const std::uint32_t threads = std::max(1U, std::thread::hardware_concurrency());
+    for (const cpu::DetectorDesc& desc : askedOf(cpu::DetectorDesc{.threads = 1})) {
+        VOXTACT_TRY(add(makeHostEngine(desc), engines));
+        if (threads > 1) {
+            cpu::DetectorDesc all = desc;
+            all.threads = threads;
+            VOXTACT_TRY(add(makeHostEngine(all), engines));
+        }
+    }
+    if (session != nullptr) {
+        VOXTACT_TRY(addDeviceTicks(*session, engines));
+    }
+    return engines;
+}
 
 Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
                                  const device::Session* session) {

@@ -15,6 +15,8 @@ struct EngineFacts {
     bool certified = false;    ///< must answer as every other certified engine does
     std::size_t ratioTo = 0;   ///< number of the engine that its times are held against; not after it
     bool sameCounts = false;   ///< must count as that one does
+    std::string recorded{};    ///< of a submission a pose: "each tick", "once"; empty: nothing is
+    std::string awaited{};     ///< of one: "polled", "waited"
 };
 
 /// Pairs to answer: a mesh at poses against a volume. The parts must be ready
@@ -46,11 +48,12 @@ struct Feeding {
 struct Pass {
     double wallMilliseconds = 0;
     std::optional<double> gpuMilliseconds{};
-    std::vector<PairAnswer> pairs{};          ///< in the order of the poses; none of an
-                                              ///< engine that finds triangles
-    std::vector<TouchedTriangle> triangles{}; ///< of an engine that finds them
-    std::optional<std::uint64_t> queries{};   ///< that it took
-    std::optional<std::uint64_t> boxes{};     ///< nodes of its tree that were tested
+    std::optional<double> recordMilliseconds{}; ///< of the wall's: recording, of an engine of ticks
+    std::vector<PairAnswer> pairs{};            ///< in the order of the poses; none of an
+                                                ///< engine that finds triangles
+    std::vector<TouchedTriangle> triangles{};   ///< of an engine that finds them
+    std::optional<std::uint64_t> queries{};     ///< that it took
+    std::optional<std::uint64_t> boxes{};       ///< nodes of its tree that were tested
 
     [[nodiscard]] std::vector<std::uint64_t> counts() const;
 };
@@ -78,6 +81,8 @@ using MadeEngine = Result<std::unique_ptr<Engine>>;
 
 /// What an engine answers: yes or no, or the count and the output beside it.
 [[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
+/// Of a method of the device.
+[[nodiscard]] EngineFacts factsOf(const DetectorDesc& desc);
 
 /// The host.
 [[nodiscard]] MadeEngine makeHostEngine(const cpu::DetectorDesc& desc = {});
@@ -86,6 +91,16 @@ using MadeEngine = Result<std::unique_ptr<Engine>>;
 /// The same by the blocking convenience, all pairs in one submission, whatever
 /// the feeding.
 [[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
+/// How the host learns that the device is done.
+enum class Awaiting {
+    Poll, ///< it asks again and again
+    Wait, ///< it sleeps until the driver wakes it
+};
+/// A method of the device as a loop that needs its answer now uses it: a submission a pose, of a command buffer that is
+/// recorded each time, with Results of its own and no timestamps. Whatever the feeding; nothing is made while it runs.
+[[nodiscard]] MadeEngine makeTickEngine(const device::Session& session, const DetectorDesc& desc, Awaiting awaiting);
+/// The same with nothing in the command buffer, which is recorded once: what a submission costs. It has no answers.
+[[nodiscard]] MadeEngine makeEmptyEngine(const device::Session& session, Awaiting awaiting);
 /// A counting method by its own filter, on the device or, for cpu, the host.
 [[nodiscard]] MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method);
 /// FCL, for this mesh against the octree of this volume, which must be there.

@@ -10,14 +10,6 @@ namespace voxtact::lab {
 
 namespace {
 
-EngineFacts factsOf(const DetectorDesc& desc) {
-    return {.name = toString(desc.method),
-            .projection = toString(desc.projection),
-            .question = questionOf(desc.stopAtFirst, desc.outputs),
-            .threads = 0,
-            .certified = desc.projection == Projection::Conservative};
-}
-
 class DeviceEngine final : public Engine {
   public:
     DeviceEngine(const device::Session& session, Detector detector)

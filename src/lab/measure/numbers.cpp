@@ -27,6 +27,11 @@ Spread spreadOf(std::vector<double> samples) {
             .p90 = quantile(samples, 0.9)};
 }
 
+double quantileOf(std::vector<double> samples, double part) {
+    std::sort(samples.begin(), samples.end());
+    return quantile(samples, part);
+}
+
 double medianOf(const std::vector<double>& samples) {
     return spreadOf(samples).median;
 }

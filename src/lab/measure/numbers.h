@@ -22,6 +22,8 @@ struct Spread {
 /// Linear between the two nearest ranks. `samples` must not be empty.
 [[nodiscard]] Spread spreadOf(std::vector<double> samples);
 [[nodiscard]] double medianOf(const std::vector<double>& samples);
+/// What `part` of the samples, 0..1, are below; linear too.
+[[nodiscard]] double quantileOf(std::vector<double> samples, double part);
 
 /// Where the median of the distribution that samples come from is, whatever that distribution is.
 struct MedianInterval {

@@ -1,0 +1,153 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Everything that a GPU should be asked, in eight minutes at most: what it is, whether its arithmetic and its answers are
+# the host's, and how fast it is. Each step has its own time limit; one that fails or hangs is reported, and the rest goes
+# on. Usage: gpu.sh OUT   (a folder for JSON files; VOXTACT and VOXTACT_GPU_TESTS name the programs, VOXTACT_GPU_LIMIT the
+# most seconds of a step)
+# Exit status: 0 all steps are done; 1 some are not; 2 unusable arguments.
+set -uo pipefail
+
+program=${VOXTACT:?VOXTACT names the program}
+tests=${VOXTACT_GPU_TESTS:?VOXTACT_GPU_TESTS names the tests of the device}
+if [ $# -ne 1 ] || [[ $1 == -* ]]; then
+    printf 'usage: gpu OUT   (a folder, which is made)\n' >&2
+    exit 2
+fi
+out=$1
+mkdir -p "$out" || exit 2
+if [ -n "$(ls -A "$out")" ]; then
+    printf 'gpu: %s is not empty; name a new folder\n' "$out" >&2
+    exit 2
+fi
+log=$out/log.txt
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+begun=$SECONDS
+started=$(date -u +%Y-%m-%dT%H:%M:%SZ)
+steps=() # JSON objects
+failed=0
+
+# quoted TEXT: as a JSON string.
+quoted() {
+    local text
+    text=$(printf '%s' "$1" | tr -d '\000-\010\013-\037' | tr '\t\n' '  ')
+    text=${text//\\/\\\\}
+    printf '"%s"' "${text//\"/\\\"}"
+}
+
+# What is known so far; written after every step, so that a machine that dies leaves it.
+write_summary() {
+    local list devices=null machine=""
+    list=$(printf ',\n  %s' "${steps[@]}")
+    [ -s "$out/devices.json" ] && devices=$(cat "$out/devices.json")
+    command -v nvidia-smi >/dev/null && machine=$(timeout 20 nvidia-smi \
+        --query-gpu=name,driver_version,vbios_version,clocks.max.sm,clocks.max.mem,power.limit --format=csv,noheader 2>&1)
+    {
+        printf '{\n "voxtact": %s,\n "started": %s,\n "seconds": %d,\n "kernel": %s,\n' \
+            "$(quoted "$("$program" --version)")" "$(quoted "$started")" "$((SECONDS - begun))" "$(quoted "$(uname -sr)")"
+        printf ' "nvidia_smi": %s,\n "all_done": %s,\n' "$(quoted "$machine")" "$([ $failed -eq 0 ] && echo true || echo false)"
+        printf ' "steps": [\n%s\n ],\n "devices": %s\n}\n' "${list:2}" "$devices"
+    } >"$work/gpu.json"
+    mv "$work/gpu.json" "$out/gpu.json"
+}
+
+# How a command ended that ran under timeout.
+status_text() {
+    case $1 in
+    0) echo "done" ;;
+    124 | 137) echo "timed out" ;;
+    *) if [ "$1" -gt 128 ]; then echo "died of signal $(($1 - 128))"; else echo "failed with exit status $1"; fi ;;
+    esac
+}
+
+# step NAME FILE LIMIT COMMAND...: a line of progress, its output in the log, its result in FILE.
+step() {
+    local name=$1 file=$2 limit=$3 from=$SECONDS code said
+    shift 3
+    [ "$limit" -le "${VOXTACT_GPU_LIMIT:-$limit}" ] || limit=$VOXTACT_GPU_LIMIT
+    printf -- '-- %s (at most %d s) ... ' "$name" "$limit"
+    printf '\n== %s\n' "$name" >>"$log"
+    timeout -k 5 "$limit" "$@" >"$work/said" 2>&1
+    code=$?
+    cat "$work/said" >>"$log"
+    said=$(grep -v '^[[:space:]]*$' "$work/said" | tail -n 1)
+    [ $code -eq 0 ] || failed=1
+    printf '%s, %d s\n' "$(status_text $code)" "$((SECONDS - from))"
+    [ $code -eq 0 ] || printf '   %s\n' "$said"
+    steps+=("{\"name\": $(quoted "$name"), \"status\": $(quoted "$(status_text $code)"), \"seconds\": $((SECONDS - from)), \
+\"file\": $([ -s "$out/$file" ] && quoted "$file" || echo null), \"last_line\": $(quoted "$said")}")
+    write_summary
+}
+
+# suites FILE LIMIT SUITE...: each in a process of its own with what is left of the time, so that one that hangs or dies
+# does not take the others along.
+suites() {
+    local file=$1 end=$((SECONDS + $2)) suite left code bad=0 first=1 arguments
+    shift 2
+    printf '{"suites": [' >"$work/suites.json"
+    for suite in "$@"; do
+        left=$((end - SECONDS))
+        arguments=(--require-device --gtest_brief=1 "--gtest_filter=$suite.*:*/$suite.*" "--gtest_output=json:$work/suite.json")
+        rm -f "$work/suite.json"
+        code=124
+        if [ $left -gt 0 ]; then
+            timeout -k 5 "$left" "$tests" "${arguments[@]}"
+            code=$?
+            if [ $code -gt 128 ] && [ $code -ne 137 ]; then
+                printf '%s: %s; once more without the validation layer\n' "$suite" "$(status_text $code)"
+                bad=1
+                left=$((end - SECONDS))
+                timeout -k 5 "$((left > 0 ? left : 1))" "$tests" --no-validation "${arguments[@]}"
+                code=$?
+            fi
+        fi
+        [ $code -eq 0 ] || bad=1
+        [ $code -eq 0 ] || printf '%s: %s\n' "$suite" "$(status_text $code)"
+        [ $first -eq 1 ] || printf ',' >>"$work/suites.json"
+        first=0
+        printf '\n{"suite": "%s", "status": "%s", "result": ' "$suite" "$(status_text $code)" >>"$work/suites.json"
+        if [ -s "$work/suite.json" ]; then cat "$work/suite.json"; else echo null; fi >>"$work/suites.json"
+        printf '}' >>"$work/suites.json"
+    done
+    printf ']}\n' >>"$work/suites.json"
+    mv "$work/suites.json" "$out/$file"
+    return $bad
+}
+# A step is a command of its own, which needs them.
+export -f suites status_text
+export work out tests
+
+# The device that the tests and measurements take is the program's default one: the first discrete GPU, a CPU last.
+step devices devices.json 45 "$program" devices --format json --output "$out/devices.json"
+on_cpu=0
+tr -d '\n' <"$out/devices.json" | grep -o '{[^{}]*}' | grep '"default": *1' | grep -q '"type": *"cpu"' && on_cpu=1
+
+agreement=(AgreementTest HostAgreementTest ConservativeTest AnalyticTest ProjectionsTest OutputsTest RandomPosesTest
+    EditTest ValueTest TableUpdateTest BricksTest DrillTest LocalizeTest QueuesTest)
+latency=(--time-limit 40)
+certified=(--number 256 --repetitions 5)
+paper=(--time-limit 60)
+batches=(--time-limit 40)
+if [ $on_cpu -eq 1 ]; then
+    printf '%s\n' "   no GPU: a driver on the processor is asked less"
+    agreement=(AnalyticTest ValueTest EditTest TableUpdateTest BricksTest DrillTest)
+    latency=(--number 1000 --time-limit 20)
+    certified=(--mesh builtin:scalpel:3068 --number 24 --repetitions 1)
+    paper=(--scale 4 --time-limit 20 --size 256x256)
+    batches=(--number 1000 --time-limit 20)
+fi
+
+step "gate: arithmetic and counting" gate.json 35 \
+    bash -c 'suites "$@"' suites gate.json 30 ArithmeticTest MethodsTest
+step "agreement with the host" agreement.json 125 bash -c 'suites "$@"' suites agreement.json 115 "${agreement[@]}"
+step "latency of one pair" latency.json 65 \
+    "$program" bench --latency "${latency[@]}" --format json --output "$out/latency.json"
+step "certified answers" certified.json 70 \
+    "$program" bench --certified "${certified[@]}" --format json --output "$out/certified.json"
+step "the paper's tables" paper.json 80 \
+    "$program" bench --paper --no-sweeps "${paper[@]}" --format json --output "$out/paper.json"
+step "batches" batches.json 60 \
+    "$program" bench --batches "${batches[@]}" --format json --output "$out/batches.json"
+
+printf '%s\n' "$out/gpu.json has what was done, in $((SECONDS - begun)) s"
+exit $failed

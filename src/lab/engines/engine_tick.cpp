@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/try.h"
+#include "device/timed_commands.h"
+#include "lab/engines/engine.h"
+#include "lab/measure/stopwatch.h"
+
+namespace voxtact::lab {
+
+namespace {
+
+using Use = device::TimedCommands::Use;
+
+EngineFacts tickFacts(EngineFacts facts, const char* recorded, Awaiting awaiting) {
+    facts.recorded = recorded;
+    facts.awaited = awaiting == Awaiting::Poll ? "polled" : "waited";
+    return facts;
+}
+
+/// Nothing is in flight afterwards, not after an error either.
+Result<void> submitAndAwait(device::TimedCommands& commands, Awaiting awaiting) {
+    Result<void> done = commands.submit();
+    if (done.ok()) {
+        done = awaiting == Awaiting::Poll ? commands.poll() : commands.wait();
+    }
+    if (!done.ok()) {
+        commands.waitForAll();
+    }
+    return done;
+}
+
+class TickEngine final : public Engine {
+  public:
+    TickEngine(Detector detector, Results results, device::TimedCommands commands, Awaiting awaiting)
+        : Engine(tickFacts(factsOf(detector.desc()), "each tick", awaiting)), detector_(std::move(detector)),
+          results_(std::move(results)), commands_(std::move(commands)), awaiting_(awaiting) {}
+
+    Result<Pass> run(const Work& work, const Feeding& feeding) override;
+
+  private:
+    Result<void> record(const Batch& batch);
+    /// From a pose to its answer.
+    Result<void> tick(const Work& work, const BatchItem& item, Pass& pass);
+
+    Detector detector_;
+    Results results_;
+    device::TimedCommands commands_; // last: it waits for what uses the others
+    Awaiting awaiting_;
+};
+
+Result<void> TickEngine::record(const Batch& batch) {
+    const Result<VkCommandBuffer> begun = commands_.begin();
+    VOXTACT_TRY(begun);
+    VOXTACT_TRY(detector_.cmdDetect(*begun, batch, results_));
+    VOXTACT_TRY(results_.cmdReadBack(*begun));
+    return commands_.end();
+}
+
+Result<void> TickEngine::tick(const Work& work, const BatchItem& item, Pass& pass) {
+    const Stopwatch watch;
+    VOXTACT_TRY(record({{&item, 1}, work.view, work.volume->threshold}));
+    const double recorded = watch.milliseconds();
+    VOXTACT_TRY(submitAndAwait(commands_, awaiting_));
+    const Result<std::span<const PairResult>> read = results_.read();
+    VOXTACT_TRY(read);
+    const PairAnswer answer = unpack(read->front());
+    pass.wallMilliseconds += watch.milliseconds();
+    *pass.recordMilliseconds += recorded;
+    pass.pairs.push_back(answer);
+    return {};
+}
+
+Result<Pass> TickEngine::run(const Work& work, const Feeding& /*feeding*/) {
+    Pass pass;
+    pass.recordMilliseconds = 0;
+    pass.pairs.reserve(work.poses.size());
+    BatchItem item = work.onDevice();
+    for (const Mat4& pose : work.poses) {
+        item.world_from_object = {&pose, 1};
+        VOXTACT_TRY(tick(work, item, pass));
+    }
+    return pass;
+}
+
+class EmptyEngine final : public Engine {
+  public:
+    EmptyEngine(device::TimedCommands commands, Awaiting awaiting)
+        : Engine(tickFacts({.name = "empty submit", .threads = 0}, "once", awaiting)), commands_(std::move(commands)),
+          awaiting_(awaiting) {}
+
+    Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
+        const Stopwatch watch;
+        for (std::size_t pose = 0; pose < work.poses.size(); ++pose) {
+            VOXTACT_TRY(submitAndAwait(commands_, awaiting_));
+        }
+        return Pass{.wallMilliseconds = watch.milliseconds()};
+    }
+
+  private:
+    device::TimedCommands commands_;
+    Awaiting awaiting_;
+};
+
+} // namespace
+
+MadeEngine makeTickEngine(const device::Session& session, const DetectorDesc& desc, Awaiting awaiting) {
+    Result<Detector> detector = Detector::create(session.context, desc);
+    VOXTACT_TRY(detector);
+    ResultsDesc room;
+    if (desc.projection != Projection::Conservative) {
+        room.clustersAtOnce = 0;
+    }
+    Result<Results> results = Results::create(session.context, room);
+    VOXTACT_TRY(results);
+    Result<device::TimedCommands> commands = device::TimedCommands::create(session, 0);
+    VOXTACT_TRY(commands);
+    return MadeEngine(
+        std::make_unique<TickEngine>(std::move(*detector), std::move(*results), std::move(*commands), awaiting));
+}
+
+MadeEngine makeEmptyEngine(const device::Session& session, Awaiting awaiting) {
+    Result<device::TimedCommands> commands = device::TimedCommands::create(session, 0);
+    VOXTACT_TRY(commands);
+    VOXTACT_TRY(commands->begin(Use::Again));
+    VOXTACT_TRY(commands->end());
+    return MadeEngine(std::make_unique<EmptyEngine>(std::move(*commands), awaiting));
+}
+
+} // namespace voxtact::lab
