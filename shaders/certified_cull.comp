@@ -105,6 +105,9 @@ void main() {
     barrier();
     const Node node = nodeOfLane();
     bool keep = node.some;
+#ifndef RUNS
+    countWork(VOXTACT_WORK_CLUSTERS, node.some ? 1 : 0);
+#endif
     if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
         const CertifiedPair transform = transforms[node.pair];
         const CertifiedBounds bounds = certifiedBoxBounds(constants.item, transform, boxOf(node.number));

@@ -51,6 +51,7 @@ void main() {
     }
     barrier();
     bool isOpen = false;
+    countWork(VOXTACT_WORK_DECIDED, some ? 1 : 0);
     if (some) {
         const int verdict = decide(entry);
         if (isCut()) {

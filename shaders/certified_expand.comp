@@ -56,6 +56,7 @@ void listCells(CertifiedTriangle triangle, CellBox cells) {
     const ivec3 boxSize = box.hi - box.lo + 1;
     const bool single = cells.lo == cells.hi;
     const int count = bricks == 0 ? 0 : volumeOf(cells);
+    countWork(VOXTACT_WORK_CELLS, uint(count));
     for (int i = 0; i < count; ++i) {
         const ivec3 cell = placeIn(cells, i);
         const ivec3 brick = (cell + 1) >> VOXTACT_BRICK_SHIFT;

@@ -106,15 +106,19 @@ void decideShare(Share share) {
     const CellBox box = bricksOf(cells);
     const bool single = cells.lo == cells.hi;
     const int count = volumeOf(box);
+    const bool byOthers = share.large && gl_LocalInvocationIndex > 0; // all lanes look at the same bricks
+    uint bricksSeen = 0;
+    uint cellsSeen = 0;
     for (int i = share.firstBrick; i < count; i += (i & 63) == 63 ? 1 + share.skip : 1) {
         const ivec3 brick = placeIn(box, i);
         const vec4 range = brickAt(brick);
+        ++bricksSeen;
         if (!brickMayBeOpaque(range)) {
             continue;
         }
         if (!isKnown) {
             undecided = true;
-            return;
+            break;
         }
         if (count > 1 && planeMisses(triangle, plane, brickCentre(brick), float(kBrickSide / 2))) {
             continue;
@@ -122,11 +126,16 @@ void decideShare(Share share) {
         const CellBox inside = within(cells, brick);
         const int most = volumeOf(inside);
         for (int place = share.first; place < most; place += share.step) {
+            ++cellsSeen;
             const ivec3 cell = placeIn(inside, place);
             if (single || !planeMisses(triangle, plane, vec3(cell) + 0.5, 0.5)) {
                 decideCell(triangle, cell, range);
             }
         }
+    }
+    if (!share.single) {
+        countWork(VOXTACT_WORK_BRICKS_LEFT, byOthers ? 0 : bricksSeen);
+        countWork(VOXTACT_WORK_CELLS_LEFT, cellsSeen);
     }
 }
 

@@ -24,6 +24,7 @@ bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 bric
     const int most = volumeOf(inside);
     if (lane == 0) {
         listed = 0;
+        countWork(VOXTACT_WORK_CELLS, uint(most));
     }
     barrier();
     for (int i = int(lane); i < most; i += VOXTACT_COMPUTE_GROUP) {
@@ -66,6 +67,7 @@ void main() {
         }
         barrier();
         const int own = block + int(lane);
+        countWork(VOXTACT_WORK_BRICKS, own < count ? 1 : 0);
         if (own < count) {
             const ivec3 brick = placeIn(box, own);
             const vec3 centre = brickCentre(brick);

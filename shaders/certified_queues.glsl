@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The queues between the passes of the projection `conservative`: shared.h says where they lie. A work group puts all
 // that it has into a queue at once, with one atomic for the place and one for the work groups of the pass that empties
-// it. Expects `constants`.
+// it. Expects `constants` and `kCounters`.
 #ifndef VOXTACT_CERTIFIED_QUEUES_GLSL
 #define VOXTACT_CERTIFIED_QUEUES_GLSL
 
@@ -11,6 +11,13 @@ layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) bu
 
 uint queueCount(uint queue) {
     return queues[constants.headerWord + 4 * queue + 3];
+}
+
+/// Adds to a VOXTACT_WORK_* of the round, where that is asked for.
+void countWork(uint word, uint work) {
+    if (kCounters && work > 0) {
+        atomicAdd(queues[constants.headerWord + word], work);
+    }
 }
 
 /// Room for `entries` of a queue, and work groups of `lanes` entries each for the pass that empties it, as far as the

@@ -5,6 +5,7 @@
 #define VOXTACT_CERTIFIED_SCENE_GLSL
 
 layout(constant_id = VOXTACT_CONSTANT_STOP_AT_FIRST) const bool kStopAtFirst = false;
+layout(constant_id = VOXTACT_CONSTANT_COUNTERS) const bool kCounters = false;
 
 layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
 layout(set = VOXTACT_SET_VOLUME, binding = VOXTACT_BINDING_BRICKS, std430) readonly buffer Bricks {

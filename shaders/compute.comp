@@ -148,7 +148,7 @@ void main() {
 #ifdef OUTPUTS
     pairAtWork = pair;
 #endif
-    const uint triangle = gl_GlobalInvocationID.x;
+    const uint triangle = constants.firstTriangle + gl_GlobalInvocationID.x;
     const PairTransform transform = transforms[view];
     uint survivors = triangle < constants.triangleCount ? countTriangle(transform, triangle) : 0;
     barrier();

@@ -19,12 +19,18 @@ struct PairTransform {
     vec4 texture_from_object[3]; // its first three rows: affine
 };
 
-/// What the fragment program needs of one batch item; the raster path's push constants.
+/// What the fragment program needs of one batch item.
 struct ItemConstants {
     float scalarScale; // normalised scalar = scalarScale * sample + scalarBias; a sample is a texel (hardware filter)
     float scalarBias;  // or the stored value behind it (exact filter)
     float threshold;
     float storedUnit; // the integer behind 1.0 of a normalised texel; 0 for float texels
+};
+
+/// The fragment program's push constants.
+struct RasterConstants {
+    ItemConstants item;
+    uint firstTriangle; // of the draw
 };
 
 /// How a mesh lies in its storage buffers.
@@ -57,10 +63,18 @@ struct ComputeConstants {
     int width; // of the viewport
     int height;
     uint firstTransform;
-    uint triangleCount;
+    uint firstTriangle; // of the dispatch
+    uint triangleCount; // of the mesh
     MeshConstants mesh;
     DominantGrid grid; // of the projection `dominant-axis`
     uint rangeTest;    // 0: clamp
+};
+
+/// Push constants of the pass that counts what the others did: shaders/certified_tally.comp.
+struct TallyConstants {
+    uint queueWord; // as in CertifiedConstants
+    uint queueRoom;
+    uint rounds; // whose headers it is to count
 };
 
 /// Push constants of the brick pass.
@@ -138,13 +152,23 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUES 6
 #define VOXTACT_HEADER_WORDS 32 // of a round
 #define VOXTACT_HEADERS 64
+// Behind the queues of a header, what is counted where counters are asked for (CertifiedCounters).
+#define VOXTACT_WORK_CLUSTERS 24    // looked at
+#define VOXTACT_WORK_BRICKS 25      // of large triangles, looked at
+#define VOXTACT_WORK_CELLS 26       // looked at
+#define VOXTACT_WORK_DECIDED 27     // lanes in use
+#define VOXTACT_WORK_BRICKS_LEFT 28 // looked at by certified_finish, where a queue had no room
+#define VOXTACT_WORK_CELLS_LEFT 29  // the same
+// The CertifiedCounters of a batch, behind the headers.
+#define VOXTACT_WORD_COUNTERS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
+#define VOXTACT_COUNTER_WORDS 36
 // Entries of each.
 #define VOXTACT_ROOM_RUNS(room) ((room)*VOXTACT_CLUSTER_RUNS)
 #define VOXTACT_ROOM_LARGE(room) ((room) / 4)
 #define VOXTACT_ROOM_CELLS(room) ((room)*32)
 #define VOXTACT_ROOM_LEFT(room) ((room)*2 + VOXTACT_ROOM_LARGE(room))
 // Where each begins, in words behind the first header. `room` is a multiple of 16.
-#define VOXTACT_WORD_CELLS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
+#define VOXTACT_WORD_CELLS (VOXTACT_WORD_COUNTERS + VOXTACT_COUNTER_WORDS)
 #define VOXTACT_WORD_LARGE(room) (VOXTACT_WORD_CELLS + 4 * VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_OPEN(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_ROOM_LARGE(room))
 #define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
@@ -184,6 +208,7 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_VIEWS 3
 #define VOXTACT_CONSTANT_DOMINANT_AXIS 4
 #define VOXTACT_CONSTANT_STOP_AT_FIRST 5
+#define VOXTACT_CONSTANT_COUNTERS 6
 #define VOXTACT_CONSTANT_OUTPUTS 16
 // Where the push constants of dominant.vert begin: room for those of the fragment program is before them.
 #define VOXTACT_OFFSET_DOMINANT 96
@@ -198,13 +223,14 @@ struct CertifiedConstants {
 static_assert(sizeof(PairTransform) == 112 && offsetof(PairTransform, texture_from_object) == 64);
 static_assert(sizeof(ItemConstants) == 16);
 static_assert(sizeof(MeshConstants) == 16 && sizeof(DominantGrid) == 16);
-static_assert(sizeof(ItemConstants) <= VOXTACT_OFFSET_DOMINANT);
+static_assert(sizeof(RasterConstants) == 20 && sizeof(RasterConstants) <= VOXTACT_OFFSET_DOMINANT);
 static_assert(VOXTACT_OFFSET_DOMINANT + sizeof(DominantConstants) <= 128, "Vulkan's least maxPushConstantsSize");
-static_assert(sizeof(ComputeConstants) == 76);
+static_assert(sizeof(ComputeConstants) == 80);
 static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
-static_assert(4 * VOXTACT_QUEUES <= VOXTACT_HEADER_WORDS);
+static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CELLS_LEFT < VOXTACT_HEADER_WORDS);
+static_assert(VOXTACT_WORD_CELLS % 4 == 0);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif

@@ -20,7 +20,7 @@ layout(constant_id = VOXTACT_CONSTANT_EXACT_FILTER) const bool kExactFilter = fa
 
 layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
 layout(set = VOXTACT_SET_TRANSFER_FUNCTION, binding = 0) uniform sampler1D transferFunction;
-layout(push_constant) uniform Item { ItemConstants item; };
+layout(push_constant) uniform Draw { RasterConstants constants; };
 
 layout(location = 0) in vec3 textureCoordinate;
 layout(location = 1) flat in uint pair;
@@ -28,6 +28,13 @@ layout(location = 1) flat in uint pair;
 #include "survives.glsl"
 #ifdef OUTPUTS
 #include "outputs.glsl"
+#endif
+
+#if defined(OUTPUTS) || defined(LIST_FRAGMENTS)
+/// The number in the mesh: a mesh may take several draws.
+uint triangle() {
+    return constants.firstTriangle + uint(gl_PrimitiveID);
+}
 #endif
 
 #if defined(COUNT_ATOMIC) || defined(COUNT_SUBGROUP)
@@ -44,7 +51,7 @@ layout(set = VOXTACT_SET_TRACE, binding = 0, std430) buffer Trace {
 void list() {
     const uint at = atomicAdd(traced, 1u);
     if (at < fragments.length()) {
-        fragments[at] = TracedFragment(gl_PrimitiveID, uint(gl_FragCoord.x), uint(gl_FragCoord.y));
+        fragments[at] = TracedFragment(triangle(), uint(gl_FragCoord.x), uint(gl_FragCoord.y));
     }
 }
 #endif
@@ -68,10 +75,10 @@ void countSubgroup(bool survivor) {
 #endif
 
 void main() {
-    const bool survivor = survives(textureCoordinate, item, kRangeTest, kExactFilter);
+    const bool survivor = survives(textureCoordinate, constants.item, kRangeTest, kExactFilter);
 #ifdef OUTPUTS
     if (survivor) {
-        emitSurvivor(pair, uint(gl_PrimitiveID), textureCoordinate);
+        emitSurvivor(pair, triangle(), textureCoordinate);
     }
 #endif
 #if defined(COUNT_SUBGROUP)

@@ -25,6 +25,9 @@ struct DetectorDesc {
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
     double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
     bool stopAtFirst = false; ///< conservative: the count is then 0 or 1, and its exactness LowerBound
+    /// conservative: what the passes do is counted, for Results::counters(). Costs some atomics a triangle; nothing
+    /// where it is not asked for.
+    bool counters = false;
     /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
     /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel beside the triangle.
     /// InvalidArgument for other projections and for the method compute.
@@ -65,10 +68,11 @@ struct ResultsDesc {
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
     /// Clusters of 64 triangles, once for each pair, that a dispatch of the projection conservative looks at, at most:
-    /// a batch of more is more dispatches. No answer depends on it. 16 to 16384, as many as a GPU can do before its
-    /// driver takes it for stuck; each takes 700 bytes of device memory. 0: none, for Results that are for other
-    /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
-    /// so many.
+    /// a batch of more is more dispatches. For each of them a dispatch looks at no more than 2^16 bricks and cells of
+    /// large triangles, unless a single cluster of one pair has more. No answer depends on it. 16 to 16384, as many as
+    /// a GPU can do before its driver takes it for stuck; each takes 700 bytes of device memory. 0: none, for Results
+    /// that are for other projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's
+    /// maxStorageBufferRange has no room for so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
 };
 
@@ -132,6 +136,11 @@ class Results {
     /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
     /// times. What its detector was not made for is left empty. The same is expected as by read().
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
+    /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
+    [[nodiscard]] VOXTACT_API bool counted() const noexcept;
+    /// What the passes did, of a detector with DetectorDesc::counters. The same is expected as by read(); NotReady
+    /// where they are not counted().
+    [[nodiscard]] VOXTACT_API Result<CertifiedCounters> counters();
     /// Device time between the start and the end of cmdDetect()'s commands, when `timestamps` was asked for and the
     /// submission is complete. NotReady otherwise.
     [[nodiscard]] VOXTACT_API Result<double> gpuMilliseconds();

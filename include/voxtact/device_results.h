@@ -8,8 +8,10 @@
 #include <cstdint>
 namespace voxtact {
 #define VOXTACT_UINT std::uint32_t
+#define VOXTACT_TOTAL std::uint64_t
 #else
 #define VOXTACT_UINT uint
+#define VOXTACT_TOTAL uvec2 // low word, high word
 #endif
 
 /// The answer for one pair, 24 bytes, the same layout for every counting method. In GLSL declare the buffer with
@@ -50,15 +52,45 @@ struct ContactResult {
     VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
 };
 
+/// What the passes of the projection `conservative` by `compute` did for a batch; 144 bytes, std430. They are described
+/// in the manual, "The certified engine on a device". Of each peak: in the round that had most.
+struct CertifiedCounters {
+    VOXTACT_TOTAL clusters;     ///< of 64 triangles, once for each pair, that were looked at
+    VOXTACT_TOTAL clustersKept; ///< of these, may touch
+    VOXTACT_TOTAL runsKept;     ///< of 16 triangles, may touch
+    VOXTACT_TOTAL largeParts;   ///< shares of triangles with more than 27 cells
+    VOXTACT_TOTAL bricksSeen;   ///< of these triangles, looked at
+    VOXTACT_TOTAL cellsSeen;    ///< of all triangles in bricks that may be opaque, looked at
+    VOXTACT_TOTAL cellsListed;  ///< of these, need a decision
+    VOXTACT_TOTAL cellsDecided; ///< by a lane each; the others are of pairs that touch anyway, or had no room
+    VOXTACT_TOTAL lanes;        ///< dispatched for them
+    VOXTACT_TOTAL cellsOpen;    ///< of these, left undecided by single precision
+    VOXTACT_TOTAL left;         ///< what a queue had no room for: shares of work groups
+    VOXTACT_TOTAL bricksLeft;   ///< looked at for these
+    VOXTACT_TOTAL cellsLeft;    ///< looked at for these, and decided where they need it
+    VOXTACT_UINT rounds;        ///< dispatches of each pass
+    VOXTACT_UINT room;          ///< clusters that a round can have: ResultsDesc::clustersAtOnce
+    VOXTACT_UINT mostClusters;  ///< peak of clustersKept
+    VOXTACT_UINT mostRuns;      ///< peak of runsKept
+    VOXTACT_UINT mostParts;     ///< peak of largeParts, those without room among them
+    VOXTACT_UINT mostCells;     ///< peak of cellsListed, those without room among them
+    VOXTACT_UINT mostOpen;      ///< peak of cellsOpen
+    VOXTACT_UINT mostLeft;      ///< peak of left
+    VOXTACT_UINT mostLooks;     ///< peak of bricksSeen and cellsSeen together
+    VOXTACT_UINT mostLooksLeft; ///< peak of bricksLeft and cellsLeft together
+};
+
 /// The bits of the float behind a word of Results::bounds().
 #define VOXTACT_BOUND_BITS(word) (((word)&0x80000000u) != 0u ? (word) ^ 0x80000000u : ~(word))
 
 #ifdef __cplusplus
 #undef VOXTACT_UINT
+#undef VOXTACT_TOTAL
 static_assert(sizeof(PairResult) == 24);
 static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countHigh) == 4,
               "a 64-bit query result is copied over countLow and countHigh");
 static_assert(sizeof(ContactResult) == 48);
+static_assert(sizeof(CertifiedCounters) == 144);
 } // namespace voxtact
 #endif
 

@@ -75,16 +75,20 @@ struct PairAnswer {
 /// Reads the packed words of a PairResult: its count, its numbers, and how it was counted.
 [[nodiscard]] VOXTACT_API PairAnswer unpack(const PairResult& result) noexcept;
 
+/// Of two batches together: the totals of both, and the larger of each two peaks.
+[[nodiscard]] VOXTACT_API CertifiedCounters together(const CertifiedCounters& a, const CertifiedCounters& b) noexcept;
+
 /// What a batch gave: the pairs, and what the detector's Outputs asked for. What was not asked for is empty.
 struct BatchAnswer {
-    std::vector<PairAnswer> pairs;          ///< in the order of the batch
-    std::vector<TouchedTriangle> triangles; ///< by pair, then by triangle
-    std::vector<Contact> contacts;          ///< by pair, then by triangle, then by position
-    std::uint64_t contactsFound = 0;        ///< more than contacts.size(): the list was cut, arbitrarily
-    std::vector<std::optional<Box>> bounds; ///< world, of each pair; nothing where it has no survivor
-    std::vector<LabelCount> labels;         ///< by pair, then by label
-    double gpuMilliseconds = 0;             ///< device time of the batch; 0 where the queue has no timestamps
-    double wallMilliseconds = 0;            ///< from the start of recording to the results in host memory
+    std::vector<PairAnswer> pairs;               ///< in the order of the batch
+    std::vector<TouchedTriangle> triangles;      ///< by pair, then by triangle
+    std::vector<Contact> contacts;               ///< by pair, then by triangle, then by position
+    std::uint64_t contactsFound = 0;             ///< more than contacts.size(): the list was cut, arbitrarily
+    std::vector<std::optional<Box>> bounds;      ///< world, of each pair; nothing where it has no survivor
+    std::vector<LabelCount> labels;              ///< by pair, then by label
+    std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
+    double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where the queue has no timestamps
+    double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory
 };
 
 } // namespace voxtact

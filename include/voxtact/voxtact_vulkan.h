@@ -40,6 +40,7 @@ typedef struct vxt_context_desc {
     uint32_t reserved;                                 ///< 0
     const uint32_t* queue_families;                    ///< of the queues that use what is made; two or more share it
     size_t queue_family_count;                         ///< of these: voxtact::ContextDesc::queueFamilies
+    uint64_t fragments_at_once;                        ///< that a draw tests: voxtact::ContextDesc::fragmentsAtOnce
 } vxt_context_desc;
 
 /// Nothing is given: vxt_check() then names everything that is missing.
@@ -388,6 +389,8 @@ typedef struct vxt_detector_desc {
     uint32_t samples_per_voxel; ///< DOMINANT_AXIS: along a voxel's side; 1 to 16; default 1
     uint32_t stop_at_first;     ///< CONSERVATIVE: the count is then 0 or 1, a lower bound; default 0
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
+    uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
+    uint32_t reserved;          ///< 0
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -449,7 +452,14 @@ typedef struct vxt_results_desc {
     uint32_t read_back;     ///< a host copy is kept, for vxt_results_read(); default 1
     uint32_t timestamps;    ///< the device time is measured; default 0
     uint32_t queue_family;  ///< with timestamps: of the queue that will execute; default 0
+    /// CONSERVATIVE: clusters that a dispatch looks at, at most, 16 to 16384: voxtact::ResultsDesc::clustersAtOnce.
+    /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
+    uint32_t clusters_at_once;
+    uint32_t reserved; ///< 0
 } vxt_results_desc;
+
+/// For vxt_results_desc::clusters_at_once.
+#define VXT_NO_CLUSTERS UINT32_C(0xffffffff)
 
 /// One pair, read back, no outputs.
 static inline vxt_results_desc vxt_results_desc_init(void) {
@@ -494,6 +504,46 @@ VXT_CHECKED vxt_result vxt_results_cmd_read_back(vxt_results* results, VkCommand
 VXT_CHECKED vxt_result vxt_results_read(vxt_results* results, vxt_answer* answer);
 /// Ends it. Those of a ring are the ring's, and refused by doing nothing.
 VXT_API void vxt_results_destroy(vxt_results* results);
+
+/// What the passes of the projection CONSERVATIVE did for a batch: voxtact::CertifiedCounters, whose comments say of
+/// what each is. Peaks are of the round that had most.
+typedef struct vxt_certified_counters {
+    size_t struct_size;       ///< sizeof
+    uint64_t clusters;        ///< looked at, once for each pair
+    uint64_t clusters_kept;   ///< of these, may touch
+    uint64_t runs_kept;       ///< of 16 triangles, may touch
+    uint64_t large_parts;     ///< shares of triangles with more than 27 cells
+    uint64_t bricks_seen;     ///< of these triangles, looked at
+    uint64_t cells_seen;      ///< looked at
+    uint64_t cells_listed;    ///< of these, need a decision
+    uint64_t cells_decided;   ///< by a lane each
+    uint64_t lanes;           ///< dispatched for them
+    uint64_t cells_open;      ///< left undecided by single precision
+    uint64_t left;            ///< shares of work groups that a queue had no room for
+    uint64_t bricks_left;     ///< looked at for these
+    uint64_t cells_left;      ///< looked at for these
+    uint32_t rounds;          ///< dispatches of each pass
+    uint32_t room;            ///< clusters that a round can have
+    uint32_t most_clusters;   ///< peak of clusters_kept
+    uint32_t most_runs;       ///< peak of runs_kept
+    uint32_t most_parts;      ///< peak of large_parts
+    uint32_t most_cells;      ///< peak of cells_listed
+    uint32_t most_open;       ///< peak of cells_open
+    uint32_t most_left;       ///< peak of left
+    uint32_t most_looks;      ///< peak of bricks_seen and cells_seen together
+    uint32_t most_looks_left; ///< peak of bricks_left and cells_left together
+} vxt_certified_counters;
+
+/// Nothing.
+static inline vxt_certified_counters vxt_certified_counters_init(void) {
+    vxt_certified_counters counters;
+    memset(&counters, 0, sizeof counters);
+    counters.struct_size = sizeof counters;
+    return counters;
+}
+
+/// Of an answer that a detector with vxt_detector_desc::counters gave; NOT_READY of any other.
+VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters);
 
 /// Results for frames in flight: voxtact::ResultRing.
 typedef struct vxt_result_ring vxt_result_ring;

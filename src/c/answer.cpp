@@ -67,6 +67,7 @@ vxt_answer toAnswer(const BatchAnswer& answer) {
     convert<std::optional<Box>, vxt_box>(answer.bounds, out.bounds, toBounds);
     convert<LabelCount, vxt_label_count>(answer.labels, out.labels, toLabelCount);
     out.contactsFound = answer.contactsFound;
+    out.counters = answer.counters;
     out.gpuMilliseconds = answer.gpuMilliseconds;
     out.wallMilliseconds = answer.wallMilliseconds;
     return out;

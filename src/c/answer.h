@@ -4,6 +4,7 @@
 #include "c/errors.h"
 #include "voxtact/results.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct vxt_answer {
     std::vector<vxt_box> bounds;
     std::vector<vxt_label_count> labels;
     std::uint64_t contactsFound = 0;
+    std::optional<voxtact::CertifiedCounters> counters;
     double gpuMilliseconds = 0;
     double wallMilliseconds = 0;
 };

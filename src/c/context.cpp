@@ -20,6 +20,7 @@ ContextDesc toContextDesc(const vxt_context_desc* given) {
             .enabledDeviceExtensions = toSpan(desc.enabled_device_extensions, desc.enabled_device_extension_count,
                                               "enabled_device_extensions"),
             .queueFamilies = toSpan(desc.queue_families, desc.queue_family_count, "queue_families"),
+            .fragmentsAtOnce = desc.fragments_at_once,
             .pipelineCache = desc.pipeline_cache,
             .allocator = desc.allocator,
             .log = desc.log,

@@ -21,6 +21,7 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .samplesPerVoxel = desc.samples_per_voxel,
             .resolution = desc.resolution,
             .stopAtFirst = desc.stop_at_first != 0,
+            .counters = desc.counters != 0,
             .overestimate = desc.overestimate != 0};
 }
 

@@ -14,6 +14,9 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
                     .readBack = desc.read_back != 0,
                     .timestamps = desc.timestamps != 0,
                     .queueFamily = desc.queue_family};
+    if (desc.clusters_at_once != 0) {
+        out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
+    }
     if (toOutputs(desc.outputs, kDefaultMaxDepth).any()) {
         out.room = OutputRoom{desc.triangle_room, desc.label_room, desc.contact_room};
     }
@@ -41,6 +44,34 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
            "part " + std::to_string(number<std::uint32_t>(part)) + " is none of vxt_device_part");
 }
 
+vxt_certified_counters fromCounters(const CertifiedCounters& from) noexcept {
+    vxt_certified_counters out = vxt_certified_counters_init();
+    out.clusters = from.clusters;
+    out.clusters_kept = from.clustersKept;
+    out.runs_kept = from.runsKept;
+    out.large_parts = from.largeParts;
+    out.bricks_seen = from.bricksSeen;
+    out.cells_seen = from.cellsSeen;
+    out.cells_listed = from.cellsListed;
+    out.cells_decided = from.cellsDecided;
+    out.lanes = from.lanes;
+    out.cells_open = from.cellsOpen;
+    out.left = from.left;
+    out.bricks_left = from.bricksLeft;
+    out.cells_left = from.cellsLeft;
+    out.rounds = from.rounds;
+    out.room = from.room;
+    out.most_clusters = from.mostClusters;
+    out.most_runs = from.mostRuns;
+    out.most_parts = from.mostParts;
+    out.most_cells = from.mostCells;
+    out.most_open = from.mostOpen;
+    out.most_left = from.mostLeft;
+    out.most_looks = from.mostLooks;
+    out.most_looks_left = from.mostLooksLeft;
+    return out;
+}
+
 /// The host copy of results, which `pairs` is a part of.
 vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool timestamps) {
     BatchAnswer answer;
@@ -49,6 +80,9 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
         answer.pairs.push_back(unpack(pair));
     }
     take(results.readOutputs(answer));
+    if (results.counted()) {
+        answer.counters = take(results.counters());
+    }
     if (timestamps) {
         answer.gpuMilliseconds = take(results.gpuMilliseconds());
     }
@@ -80,6 +114,16 @@ vxt_result vxt_results_read(vxt_results* results, vxt_answer* answer) {
         OwnOrSlot& from = need(results, "results").object;
         vxt_answer& to = need(answer, "answer");
         to = toAnswer(from.get(), take(from.get().read()), from.timestamps);
+    });
+}
+
+vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters) {
+    return call([&] {
+        const vxt_answer& from = need(answer, "answer");
+        if (!from.counters) {
+            refuse(ErrorCode::NotReady, "the answer has no counters: its detector was made without them");
+        }
+        writeStruct(counters, fromCounters(*from.counters), "counters");
     });
 }
 

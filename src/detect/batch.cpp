@@ -76,15 +76,12 @@ std::uint32_t groupsOf(const Mesh& mesh) noexcept {
     return (mesh.triangles() + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP;
 }
 
-Result<void> checkGroups(const ContextImpl& context, const Mesh& mesh) {
-    const std::uint64_t most = context.limits.maxComputeWorkGroupCount[0];
-    if (groupsOf(mesh) > most) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     "the mesh has " + std::to_string(mesh.triangles()) +
-                         " triangles, the device's maxComputeWorkGroupCount allows for " +
-                         std::to_string(most * VOXTACT_COMPUTE_GROUP)};
-    }
-    return {};
+DrawSize drawSize(const ContextImpl& context, VkExtent2D viewport, std::uint32_t triangles) noexcept {
+    constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 22U;
+    const std::uint64_t pixels = std::max<std::uint64_t>(std::uint64_t{viewport.width} * viewport.height, 1);
+    const auto most =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(context.fragmentsAtOnce / pixels, 1, kMostTriangles));
+    return {std::min(triangles, most), std::max(most / triangles, 1U)};
 }
 
 shader::ItemConstants itemConstants(const BatchItem& item, Filter filter, double threshold) noexcept {

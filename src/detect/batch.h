@@ -22,8 +22,14 @@ namespace voxtact {
 
 /// Work groups of VOXTACT_COMPUTE_GROUP triangles.
 [[nodiscard]] std::uint32_t groupsOf(const Mesh& mesh) noexcept;
-/// Refuses a mesh that needs more of them than the device has.
-[[nodiscard]] Result<void> checkGroups(const ContextImpl& context, const Mesh& mesh);
+
+/// What a draw or a dispatch of the projections with fragments has at most.
+struct DrawSize {
+    std::uint32_t triangles = 0; ///< as many as the mesh has, or fewer in one view
+    std::uint32_t views = 0;
+};
+/// By ContextDesc::fragmentsAtOnce.
+[[nodiscard]] DrawSize drawSize(const ContextImpl& context, VkExtent2D viewport, std::uint32_t triangles) noexcept;
 
 /// Sample -> normalised scalar of an item, and the threshold. The filter says what a sample is.
 [[nodiscard]] shader::ItemConstants itemConstants(const BatchItem& item, Filter filter, double threshold) noexcept;

@@ -115,6 +115,11 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         BatchAnswer answer;
         answer.pairs = unpackAll(*results);
         VOXTACT_TRY(s.results->readOutputs(answer));
+        if (s.results->counted()) {
+            const Result<CertifiedCounters> counters = s.results->counters();
+            VOXTACT_TRY(counters);
+            answer.counters = *counters;
+        }
         if (s.resultsDesc.timestamps) {
             const Result<double> milliseconds = s.results->gpuMilliseconds();
             VOXTACT_TRY(milliseconds);

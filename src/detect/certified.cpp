@@ -4,6 +4,7 @@
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
 #include "detect/certified_queues.h"
+#include "detect/certified_rounds.h"
 #include "detect/outputs.h"
 #include "detect/recording.h"
 #include "gpu/barriers.h"
@@ -17,8 +18,7 @@
 #include "voxtact_shaders/certified_finish_outputs_comp.h"
 #include "voxtact_shaders/certified_large_comp.h"
 #include "voxtact_shaders/certified_refine_comp.h"
-
-#include <algorithm>
+#include "voxtact_shaders/certified_tally_comp.h"
 
 namespace voxtact {
 
@@ -56,6 +56,7 @@ void queuesBarrier(const ContextImpl& context, VkCommandBuffer commandBuffer) {
 Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const DetectorDesc& desc) {
     CertifiedPass pass(context, desc);
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
                                         {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)}};
     static_assert(std::size(kPasses) == kCertifiedPasses);
     const bool outputs = desc.outputs.any();
@@ -66,6 +67,13 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
                                 outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
         VOXTACT_TRY(made);
         pass.pipelines_[i] = std::move(*made);
+    }
+    if (desc.counters) {
+        Result<Owned<VkPipeline>> made =
+            makeComputePipeline(context, spirv::certified_tally_comp, {},
+                                outputs ? context.computeOutputLayout : context.computeLayout, "conservative tally");
+        VOXTACT_TRY(made);
+        pass.tally_ = std::move(*made);
     }
     return pass;
 }
@@ -106,36 +114,32 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
     constants.mesh = meshConstants(mesh);
     constants.triangleCount = mesh.triangleCount;
     constants.clusterWord = mesh.clusterWord.value_or(VOXTACT_NO_CLUSTERS);
-    constants.queueWord = static_cast<std::uint32_t>(firstQueueByte(results) / sizeof(std::uint32_t));
+    constants.queueWord = firstQueueWord(results);
     constants.queueRoom = results.queueRoom;
     return constants;
-}
-
-std::uint32_t CertifiedPass::clustersOfRound(const ResultsImpl& results) const noexcept {
-    // A count has as many cells as the mesh has in opaque matter; a yes or no is found before most of them are.
-    return desc_.stopAtFirst ? results.queueRoom : results.queueRoom / 4;
 }
 
 void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
     std::uint32_t firstPair = 0;
     std::uint32_t rounds = 0;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    const RoundLimits limits{.clusters = clustersOfRound(results.queueRoom, desc_.stopAtFirst),
+                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
+                             .looks = looksOfRound(results.queueRoom)};
     for (const BatchItem& item : batch.items) {
-        const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
-        const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
+        layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
         shader::CertifiedConstants constants = constantsOf(batch, item, results);
-        const std::uint32_t clusters = groupsOf(*item.mesh);
-        const std::uint32_t most = clustersOfRound(results);
-        const std::uint32_t pairsAtOnce =
-            std::min(std::max(most / clusters, 1U), context_->limits.maxComputeWorkGroupCount[1]);
-        for (std::uint32_t pair = 0; pair < pairs; pair += std::min(pairsAtOnce, pairs - pair)) {
-            for (std::uint32_t cluster = 0; cluster < clusters; cluster += std::min(most, clusters - cluster)) {
-                constants.firstPair = firstPair + pair;
-                constants.firstCluster = cluster;
-                constants.endCluster = cluster + std::min(most, clusters - cluster);
-                recordRound(commandBuffer, results, layout, constants, std::min(pairsAtOnce, pairs - pair), rounds++);
-            }
-        }
-        firstPair += pairs;
+        eachRound(meshLooks(item), limits, [&](const Round& round) {
+            constants.firstPair = firstPair + round.firstPair;
+            constants.firstCluster = round.firstCluster;
+            constants.endCluster = round.endCluster;
+            recordRound(commandBuffer, results, layout, constants, round.pairs, rounds++);
+        });
+        firstPair += static_cast<std::uint32_t>(item.world_from_object.size());
+    }
+    if (desc_.counters && rounds > 0) {
+        queuesBarrier(*context_, commandBuffer);
+        recordTally(commandBuffer, results, layout, (rounds - 1) % VOXTACT_HEADERS + 1);
     }
 }
 
@@ -144,7 +148,7 @@ void CertifiedPass::recordRound(VkCommandBuffer commandBuffer, const ResultsImpl
                                 std::uint32_t round) const {
     const DeviceFunctions& vk = context_->vk;
     if (round > 0 && round % VOXTACT_HEADERS == 0) {
-        renewHeaders(commandBuffer, results);
+        renewHeaders(commandBuffer, results, layout);
     } else if (round > 0) {
         queuesBarrier(*context_, commandBuffer);
     }
@@ -164,7 +168,21 @@ void CertifiedPass::recordRound(VkCommandBuffer commandBuffer, const ResultsImpl
     }
 }
 
-void CertifiedPass::renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results) const {
+void CertifiedPass::recordTally(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
+                                std::uint32_t rounds) const {
+    const DeviceFunctions& vk = context_->vk;
+    const shader::TallyConstants constants{firstQueueWord(results), results.queueRoom, rounds};
+    vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, tally_.get());
+    vk.CmdDispatch(commandBuffer, 1, 1, 1);
+}
+
+void CertifiedPass::renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results,
+                                 VkPipelineLayout layout) const {
+    if (desc_.counters) {
+        queuesBarrier(*context_, commandBuffer);
+        recordTally(commandBuffer, results, layout, VOXTACT_HEADERS);
+    }
     barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     recordQueueHeaders(*context_, commandBuffer, results);

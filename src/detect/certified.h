@@ -35,14 +35,17 @@ class CertifiedPass {
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
     void recordRound(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
                      const shader::CertifiedConstants& given, std::uint32_t pairs, std::uint32_t round) const;
-    void renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results) const;
-    [[nodiscard]] std::uint32_t clustersOfRound(const ResultsImpl& results) const noexcept;
+    void renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout) const;
+    /// Counts what the last `rounds` rounds did; between barriers for compute shaders.
+    void recordTally(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
+                     std::uint32_t rounds) const;
     [[nodiscard]] shader::CertifiedConstants constantsOf(const Batch& batch, const BatchItem& item,
                                                          const ResultsImpl& results) const;
 
     ContextImpl* context_;
     DetectorDesc desc_;
     std::array<Owned<VkPipeline>, kCertifiedPasses> pipelines_;
+    Owned<VkPipeline> tally_; ///< with DetectorDesc::counters
 };
 
 } // namespace voxtact

@@ -15,6 +15,14 @@ VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept {
     return (transforms + kAlignment - 1) / kAlignment * kAlignment;
 }
 
+std::uint32_t firstQueueWord(const ResultsImpl& results) noexcept {
+    return static_cast<std::uint32_t>(firstQueueByte(results) / sizeof(std::uint32_t));
+}
+
+VkDeviceSize countersByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) + VOXTACT_WORD_COUNTERS * sizeof(std::uint32_t);
+}
+
 std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
     constexpr std::uint32_t kClustersOfPair = 64;
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
@@ -37,6 +45,11 @@ void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffe
     }
     cmdUpdateBuffer(context, commandBuffer, results.transforms.get(), firstQueueByte(results),
                     std::as_bytes(std::span(words)));
+}
+
+void recordNoCounters(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
+    context.vk.CmdFillBuffer(commandBuffer, results.transforms.get(), countersByte(results), sizeof(CertifiedCounters),
+                             0);
 }
 
 } // namespace voxtact

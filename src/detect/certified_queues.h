@@ -15,6 +15,8 @@ inline constexpr std::uint32_t kUsualQueueRoom = 2048;
 static_assert(VOXTACT_ROOM_CELLS(kMostQueueRoom) / VOXTACT_COMPUTE_GROUP + VOXTACT_ROOM_LEFT(kMostQueueRoom) <= 65535,
               "Vulkan's least maxComputeWorkGroupCount, for the last pass");
 
+static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::uint32_t));
+
 [[nodiscard]] constexpr VkDeviceSize queueBytes(std::uint32_t room) noexcept {
     return VkDeviceSize{VOXTACT_QUEUE_WORDS(room)} * sizeof(std::uint32_t);
 }
@@ -22,10 +24,16 @@ static_assert(VOXTACT_ROOM_CELLS(kMostQueueRoom) / VOXTACT_COMPUTE_GROUP + VOXTA
 /// Where the queues begin in the buffer of the transforms.
 [[nodiscard]] VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept;
 
+[[nodiscard]] std::uint32_t firstQueueWord(const ResultsImpl& results) noexcept;
+/// Where the CertifiedCounters of a batch are in that buffer.
+[[nodiscard]] VkDeviceSize countersByte(const ResultsImpl& results) noexcept;
+
 /// The room for Results, in a buffer of at most `bytes`, of which the queues begin at `first`; 0 where it has none.
 [[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept;
 
 /// Records the headers of VOXTACT_HEADERS rounds: commands of no work groups, empty queues.
 void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
+/// Records counters of zero.
+void recordNoCounters(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
 
 } // namespace voxtact

@@ -44,7 +44,6 @@ Result<void> ComputePass::check(const Batch& batch) const {
                              ", the counting method compute does at most " + std::to_string(kMost) + " pixels a side"};
         }
         VOXTACT_TRY(checkStorage(item, "the counting method compute"));
-        VOXTACT_TRY(checkGroups(*context_, *item.mesh));
     }
     return {};
 }
@@ -73,11 +72,21 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
     constants.rangeTest = boundary == Boundary::Range ? 1 : 0;
     const std::uint32_t viewsOfPair = viewsPerPair(desc_.projection);
     const std::uint32_t views = viewsOfPair * static_cast<std::uint32_t>(item.world_from_object.size());
-    const std::uint32_t atOnce = context_->limits.maxComputeWorkGroupCount[1];
-    for (std::uint32_t done = 0; done < views; done += std::min(atOnce, views - done)) {
-        constants.firstTransform = viewsOfPair * firstPair + done;
-        vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
-        vk.CmdDispatch(commandBuffer, groupsOf(*item.mesh), std::min(atOnce, views - done), 1);
+    const std::uint32_t groups = groupsOf(*item.mesh);
+    const DrawSize most = drawSize(*context_, viewportOf(desc_, batch, item), item.mesh->triangles());
+    const auto& limits = context_->limits.maxComputeWorkGroupCount;
+    const std::uint32_t viewsAtOnce = std::min(most.views, limits[1]);
+    const std::uint32_t groupsAtOnce = most.triangles == item.mesh->triangles()
+                                           ? std::min(groups, limits[0])
+                                           : std::clamp(most.triangles / VOXTACT_COMPUTE_GROUP, 1U, limits[0]);
+    for (std::uint32_t view = 0; view < views; view += std::min(viewsAtOnce, views - view)) {
+        for (std::uint32_t group = 0; group < groups; group += std::min(groupsAtOnce, groups - group)) {
+            constants.firstTransform = viewsOfPair * firstPair + view;
+            constants.firstTriangle = group * VOXTACT_COMPUTE_GROUP;
+            vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
+            vk.CmdDispatch(commandBuffer, std::min(groupsAtOnce, groups - group), std::min(viewsAtOnce, views - view),
+                           1);
+        }
     }
 }
 

@@ -108,6 +108,11 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
                                  "VkPhysicalDeviceFloatControlsProperties do not report ") +
                          control + "; the host engine (voxtact/cpu.h) has it"};
     }
+    if (desc.counters && !projection.certified) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string("DetectorDesc::counters are of the projection conservative, not of ") +
+                         projection.name};
+    }
     if (desc.stopAtFirst && !projection.certified) {
         return Error{ErrorCode::InvalidArgument, 0,
                      "DetectorDesc::stopAtFirst is for the projection conservative; a boolean query is query-any"};
@@ -193,6 +198,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         slot.pairs = *pairs;
         slot.detectRecorded = true;
         slot.readBackRecorded = false;
+        slot.counted = live(impl_).desc.counters;
         if (slot.outputs) {
             slot.outputs->recorded = live(impl_).desc.outputs;
         }

@@ -100,6 +100,9 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
     if (rowOf(desc.projection).certified) {
         recordCertifiedPairs(context, commandBuffer, batch, results);
+        if (desc.counters) {
+            recordNoCounters(context, commandBuffer, results);
+        }
     } else {
         recordTransforms(context, commandBuffer, batch, results, desc.projection);
     }

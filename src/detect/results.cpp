@@ -87,10 +87,11 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
         {out.transforms, out.queueRoom == 0 ? firstQueueByte(out) : firstQueueByte(out) + queueBytes(out.queueRoom),
-         kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, MemoryUse::Device, "pair transforms"},
+         kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device,
+         "pair transforms"},
         {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
-        {out.readBack, resultBytes + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
-         "pair results on the host"},
+        {out.readBack, out.copyNumberOnHost() + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+         MemoryUse::ReadBack, "pair results on the host"},
     };
     for (const Wanted& each : wanted) {
         if (each.use == MemoryUse::ReadBack && !readBack) {
@@ -103,13 +104,13 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     if (!readBack) {
         return {};
     }
-    std::memset(static_cast<std::byte*>(out.readBack.mapped) + resultBytes, 0, sizeof out.copies);
+    std::memset(static_cast<std::byte*>(out.readBack.mapped) + out.copyNumberOnHost(), 0, sizeof out.copies);
     return flush(out.context, out.readBack);
 }
 
 /// Number of the copy that the host has; 0: none.
 std::uint32_t copyOnHost(const ResultsImpl& results) {
-    auto* at = static_cast<std::byte*>(results.readBack.mapped) + VkDeviceSize{results.maxPairs} * sizeof(PairResult);
+    auto* at = static_cast<std::byte*>(results.readBack.mapped) + results.copyNumberOnHost();
     return std::atomic_ref(*reinterpret_cast<std::uint32_t*>(at)).load(std::memory_order_acquire);
 }
 
@@ -223,6 +224,10 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
                 VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
         const VkBufferCopy region{0, 0, VkDeviceSize{r.pairs} * sizeof(PairResult)};
         r.context.vk.CmdCopyBuffer(commandBuffer, r.results.get(), r.readBack.get(), 1, &region);
+        if (r.counted) {
+            const VkBufferCopy counters{countersByte(r), r.countersOnHost(), sizeof(CertifiedCounters)};
+            r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &counters);
+        }
         if (r.outputs) {
             copyOutputs(r.context, commandBuffer, *r.outputs);
         }
@@ -230,8 +235,7 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
         barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                 VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                 VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT);
-        r.context.vk.CmdFillBuffer(commandBuffer, r.readBack.get(), VkDeviceSize{r.maxPairs} * sizeof(PairResult),
-                                   sizeof r.copies, r.copies);
+        r.context.vk.CmdFillBuffer(commandBuffer, r.readBack.get(), r.copyNumberOnHost(), sizeof r.copies, r.copies);
         barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                 VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
         return {};
@@ -260,6 +264,26 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
         }
         VOXTACT_TRY(invalidate(r.context, r.outputs->readBack));
         return unpackOutputs(*r.outputs, answer);
+    });
+}
+
+bool Results::counted() const noexcept {
+    return live(impl_).counted;
+}
+
+Result<CertifiedCounters> Results::counters() {
+    return guard([&]() -> Result<CertifiedCounters> {
+        const ResultsImpl& r = live(impl_);
+        VOXTACT_TRY(checkReadable(r));
+        if (!r.counted) {
+            return notReady("the last cmdDetect() was of a detector without DetectorDesc::counters");
+        }
+        CertifiedCounters counters{};
+        if (r.pairs > 0) {
+            std::memcpy(&counters, static_cast<const std::byte*>(r.readBack.mapped) + r.countersOnHost(),
+                        sizeof counters);
+        }
+        return counters;
     });
 }
 

@@ -15,16 +15,23 @@ struct ResultsImpl {
     std::uint32_t timestampBits = 0; ///< valid bits; 0: no timestamps
     bool detectRecorded = false;     ///< cmdDetect() was recorded
     bool readBackRecorded = false;   ///< cmdReadBack() came after the last cmdDetect()
+    bool counted = false;            ///< the batch recorded last has CertifiedCounters
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
     std::uint32_t queueRoom = 0;     ///< of the projection conservative, in clusters: shaders/shared.h
     Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
     Buffer results{};                ///< maxPairs PairResults
-    Buffer readBack{};               ///< the host's copy, then the number of it; empty when not asked for
+    Buffer readBack{};               ///< the host's copy, CertifiedCounters, the number of it; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
     std::unique_ptr<OutputStore> outputs{}; ///< null without room for outputs
+
+    /// Where the parts of `readBack` begin that are behind the results.
+    [[nodiscard]] VkDeviceSize countersOnHost() const noexcept { return VkDeviceSize{maxPairs} * sizeof(PairResult); }
+    [[nodiscard]] VkDeviceSize copyNumberOnHost() const noexcept {
+        return countersOnHost() + sizeof(CertifiedCounters);
+    }
 };
 
 } // namespace voxtact

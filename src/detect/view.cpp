@@ -159,7 +159,7 @@ void ViewPass::bindItem(VkCommandBuffer commandBuffer, const Batch& batch, const
         vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, layout(), VOXTACT_SET_LABELS, 1,
                                  &labels, 0, nullptr);
     }
-    const shader::ItemConstants constants = itemConstants(item, desc_.filter, batch.threshold);
+    const shader::RasterConstants constants{itemConstants(item, desc_.filter, batch.threshold), 0};
     vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
     bindMesh(commandBuffer, item);
 }
@@ -170,7 +170,8 @@ void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, con
     if (rowOf(desc_.method).query) {
         recordQueries(commandBuffer, viewportOf(desc_, batch, item), item, firstPair, results);
     } else {
-        draw(commandBuffer, item, firstPair, static_cast<std::uint32_t>(item.world_from_object.size()));
+        draw(commandBuffer, viewportOf(desc_, batch, item), item, firstPair,
+             static_cast<std::uint32_t>(item.world_from_object.size()));
     }
 }
 
@@ -179,7 +180,7 @@ void ViewPass::recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport,
     const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
     for (std::uint32_t pair = firstPair; pair < firstPair + pairs; ++pair) {
         beginQuery(commandBuffer, viewport, results.occlusion.get(), pair);
-        draw(commandBuffer, item, pair, 1);
+        draw(commandBuffer, viewport, item, pair, 1);
         endQuery(commandBuffer, results.occlusion.get(), pair);
     }
 }
@@ -196,7 +197,7 @@ void ViewPass::recordTriangles(VkCommandBuffer commandBuffer, const Batch& batch
     }
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         beginQuery(commandBuffer, viewport, queries, i);
-        drawTriangle(commandBuffer, item, triangles[i]);
+        drawPart(commandBuffer, item, triangles[i], 1, 0, 1);
         endQuery(commandBuffer, queries, i);
     }
     if (!eachAlone()) {
@@ -222,22 +223,31 @@ void ViewPass::endQuery(VkCommandBuffer commandBuffer, VkQueryPool queries, std:
     }
 }
 
-void ViewPass::draw(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstPair,
+void ViewPass::draw(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item, std::uint32_t firstPair,
                     std::uint32_t pairs) const {
-    const MeshImpl& mesh = item.mesh->impl();
+    const std::uint32_t triangles = item.mesh->triangles();
     const std::uint32_t views = viewsPerPair(desc_.projection);
-    if (dominantAxis() || mesh.indices == VK_NULL_HANDLE) {
-        context_->vk.CmdDraw(commandBuffer, 3 * mesh.triangleCount, views * pairs, 0, views * firstPair);
-    } else {
-        context_->vk.CmdDrawIndexed(commandBuffer, 3 * mesh.triangleCount, views * pairs, 0, 0, views * firstPair);
+    const DrawSize most = drawSize(*context_, viewport, triangles);
+    for (std::uint32_t view = 0; view < views * pairs; view += std::min(most.views, views * pairs - view)) {
+        for (std::uint32_t triangle = 0; triangle < triangles;
+             triangle += std::min(most.triangles, triangles - triangle)) {
+            if (most.triangles < triangles) {
+                context_->vk.CmdPushConstants(commandBuffer, layout(), VK_SHADER_STAGE_FRAGMENT_BIT,
+                                              offsetof(shader::RasterConstants, firstTriangle), sizeof triangle,
+                                              &triangle);
+            }
+            drawPart(commandBuffer, item, triangle, std::min(most.triangles, triangles - triangle),
+                     views * firstPair + view, std::min(most.views, views * pairs - view));
+        }
     }
 }
 
-void ViewPass::drawTriangle(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t triangle) const {
-    if (item.mesh->impl().indices == VK_NULL_HANDLE) {
-        context_->vk.CmdDraw(commandBuffer, 3, 1, 3 * triangle, 0);
+void ViewPass::drawPart(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstTriangle,
+                        std::uint32_t triangles, std::uint32_t firstView, std::uint32_t views) const {
+    if (dominantAxis() || item.mesh->impl().indices == VK_NULL_HANDLE) {
+        context_->vk.CmdDraw(commandBuffer, 3 * triangles, views, 3 * firstTriangle, firstView);
     } else {
-        context_->vk.CmdDrawIndexed(commandBuffer, 3, 1, 3 * triangle, 0, 0);
+        context_->vk.CmdDrawIndexed(commandBuffer, 3 * triangles, views, 3 * firstTriangle, 0, firstView);
     }
 }
 

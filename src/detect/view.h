@@ -68,8 +68,11 @@ class ViewPass {
                        std::uint32_t firstPair, const ResultsImpl& results) const;
     void beginQuery(VkCommandBuffer commandBuffer, VkExtent2D viewport, VkQueryPool queries, std::uint32_t query) const;
     void endQuery(VkCommandBuffer commandBuffer, VkQueryPool queries, std::uint32_t query) const;
-    void drawTriangle(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t triangle) const;
-    void draw(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstPair, std::uint32_t pairs) const;
+    /// As many draws as ContextDesc::fragmentsAtOnce asks for.
+    void draw(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item, std::uint32_t firstPair,
+              std::uint32_t pairs) const;
+    void drawPart(VkCommandBuffer commandBuffer, const BatchItem& item, std::uint32_t firstTriangle,
+                  std::uint32_t triangles, std::uint32_t firstView, std::uint32_t views) const;
 
     ContextImpl* context_;
     DetectorDesc desc_;

@@ -156,6 +156,11 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
     }
     BatchAnswer answer;
     VOXTACT_TRY(desc.room ? results.readOutputs(flight.frame, answer) : Result<void>());
+    if (flight.results->counted()) {
+        const Result<CertifiedCounters> counters = flight.results->counters();
+        VOXTACT_TRY(counters);
+        answer.counters = *counters;
+    }
     if (events.submission) {
         events.submission(answer);
     }

@@ -22,6 +22,9 @@ Error refusal(const CheckReport& report) {
     return {ErrorCode::Unsupported, 0, std::move(text)};
 }
 
+/// What ContextDesc::fragmentsAtOnce says for 0.
+constexpr std::uint64_t kUsualFragments = std::uint64_t{1} << 34U;
+
 void readProperties(ContextImpl& context) {
     VkPhysicalDeviceMaintenance3Properties maintenance3{};
     maintenance3.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
@@ -123,7 +126,7 @@ Result<void> makeSetLayouts(ContextImpl& context) {
 
 /// The second is that of the projection dominant-axis alone.
 constexpr VkPushConstantRange kRasterConstants[] = {
-    {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)},
+    {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::RasterConstants)},
     {VK_SHADER_STAGE_VERTEX_BIT, VOXTACT_OFFSET_DOMINANT, sizeof(shader::DominantConstants)},
 };
 constexpr VkPushConstantRange kComputeConstants[] = {
@@ -271,6 +274,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
         readProperties(*impl);
         VOXTACT_TRY(checkFamilies(*impl, desc.queueFamilies));
+        impl->fragmentsAtOnce = desc.fragmentsAtOnce == 0 ? kUsualFragments : desc.fragmentsAtOnce;
         impl->queueFamilies.assign(desc.queueFamilies.begin(), desc.queueFamilies.end());
         for (const auto make : {makeSamplers, makeSetLayouts, makeLayouts, makeOutputLayouts}) {
             VOXTACT_TRY(make(*impl));

@@ -44,6 +44,7 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     std::vector<MethodSupport> methods;
 
     std::vector<std::uint32_t> queueFamilies{}; ///< ContextDesc::queueFamilies
+    std::uint64_t fragmentsAtOnce = 0;          ///< ContextDesc::fragmentsAtOnce, or what stands for 0
     VkSampler sampler = VK_NULL_HANDLE;        ///< linear, clamped to the edge; of volumes and transfer functions alike
     VkSampler nearestSampler = VK_NULL_HANDLE; ///< for formats that cannot be filtered: shaders fetch their texels
     std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex

@@ -45,11 +45,47 @@ std::vector<std::uint32_t> clusterWords(const MeshView& mesh, const MeshClusters
     return words;
 }
 
+double longestSquare(const MeshView& mesh, std::uint32_t triangle) {
+    const auto vertex = [&](std::size_t corner) {
+        return mesh.positions.subspan(std::size_t{3} * mesh.indices[std::size_t{3} * triangle + corner], 3);
+    };
+    double longest = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        double square = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double side = static_cast<double>(vertex(corner)[axis]) - vertex((corner + 1) % 3)[axis];
+            square += side * side;
+        }
+        longest = std::max(longest, square);
+    }
+    return longest;
+}
+
+/// MeshImpl::squaresBefore. `order` is that of the triangles in clusters; empty: that of the mesh.
+std::vector<double> squaresBefore(const MeshView& mesh, std::span<const std::uint32_t> order) {
+    const auto triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
+    std::vector<double> before;
+    before.reserve(triangles / VOXTACT_CLUSTER_TRIANGLES + 2);
+    double sum = 0;
+    for (std::uint32_t place = 0; place < triangles; ++place) {
+        if (place % VOXTACT_CLUSTER_TRIANGLES == 0) {
+            before.push_back(sum);
+        }
+        sum += longestSquare(mesh, order.empty() ? place : order[place]);
+    }
+    before.push_back(sum);
+    return before;
+}
+
 Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions& options, const char* name) {
     ContextImpl& context = mesh.context;
     std::vector<std::uint32_t> clusters;
     if (options.clusters) {
-        clusters = clusterWords(data, makeClusters(data));
+        const MeshClusters made = makeClusters(data);
+        clusters = clusterWords(data, made);
+        mesh.squaresBefore = squaresBefore(data, made.triangles);
+    } else {
+        mesh.squaresBefore = squaresBefore(data, {});
     }
     const VkDeviceSize positions = data.positions.size_bytes();
     const VkDeviceSize described = positions + data.indices.size_bytes();

@@ -62,6 +62,9 @@ struct MeshImpl {
     std::string noStorage{};
     Buffer buffer{}; ///< positions, indices, then clusters as CertifiedConstants says; empty when wrapped
     std::optional<std::uint32_t> clusterWord{}; ///< of the indices; nothing: no clusters on the device
+    /// Of the longest sides of triangles, squared, object units: sums over the clusters before each number, the last
+    /// over all. 64 triangles each, as the passes take them. Empty when wrapped.
+    std::vector<double> squaresBefore{};
     Buffer staging{};
     bool uploaded = false; ///< recorded, or the caller's own
 };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <sstream>
 
 namespace voxtact::test {
 namespace {
@@ -259,6 +261,49 @@ TEST_F(DetectTest, TimingAddsColumnsAndALastLine) {
     }
     const std::string& last = lines.back();
     EXPECT_GE(std::stod(last.substr(last.find("wall_ms=") + 8)), sum) << "one after the other";
+}
+
+/// name=value of a line "# name=value ...".
+std::map<std::string, std::uint64_t> numbersOf(const std::string& line) {
+    std::map<std::string, std::uint64_t> numbers;
+    std::istringstream in(line.substr(1));
+    for (std::string word; in >> word;) {
+        const std::size_t equals = word.find('=');
+        numbers[word.substr(0, equals)] = std::stoull(word.substr(equals + 1));
+    }
+    return numbers;
+}
+
+TEST_F(DetectTest, StatsAreALineBehindTheRows) {
+    const std::string file = poses(12);
+    const Arguments plain = detect({"--projection", "conservative", "--count", "compute", "--poses", file});
+    for (const char* batch : {"12", "5"}) { // counters of submissions are added
+        Arguments counted = plain;
+        counted.insert(counted.end(), {"--stats", "--batch", batch});
+        const auto lines = linesOf(output(counted));
+        ASSERT_EQ(lines.size(), 14U);
+        EXPECT_EQ(std::vector(lines.begin(), lines.end() - 1), linesOf(output(plain)));
+        ASSERT_THAT(lines.back(), MatchesRegex("# clusters=[0-9]+ clusters_kept=.*"));
+        auto numbers = numbersOf(lines.back());
+        EXPECT_EQ(numbers.size(), 23U);
+        EXPECT_GT(numbers.at("clusters"), numbers.at("clusters_kept"));
+        EXPECT_GT(numbers.at("cells_decided"), 0U);
+        EXPECT_GE(numbers.at("lanes"), numbers.at("cells_decided"));
+        EXPECT_GE(numbers.at("rounds"), std::string(batch) == "5" ? 2U : 1U);
+    }
+    // auto takes the device, where the work is that is counted; with times there are two lines.
+    const auto both = linesOf(output(detect({"--stats", "--timing", "--poses", file})));
+    EXPECT_EQ(fieldsOf(both.at(1)).at(6), "compute");
+    EXPECT_THAT(both.at(13), StartsWith("# clusters="));
+    EXPECT_THAT(both.at(14), StartsWith("# pairs=12 "));
+}
+
+TEST_F(DetectTest, StatsAreOfADevicesConservative) {
+    EXPECT_THAT(refused(2, detect({"--stats", "--count", "cpu"})), HasSubstr("--stats: the counting method cpu"));
+    EXPECT_THAT(refused(2, detect({"--stats", "--projection", "view"})),
+                HasSubstr("--stats is about the passes of the projection conservative, not of view"));
+    EXPECT_THAT(refused(2, detect({"--stats", "--count", "atomic"})), HasSubstr("not of view"));
+    EXPECT_THAT(refused(2, detect({"--stats", "--margin", "1"})), HasSubstr("distances are the host's"));
 }
 
 TEST_F(DetectTest, ValidationIsQuiet) {

@@ -63,6 +63,14 @@ TEST_F(OutputTest, JsonSaysWhatItCameFrom) {
     EXPECT_GT(json.at("rows").at(0).at("wall_ms").get<double>(), 0);
 }
 
+TEST_F(OutputTest, JsonHasStats) {
+    const Json json =
+        Json::parse(output(detect({"--format", "json", "--stats", "--timing", "--projection", "conservative"})));
+    EXPECT_GE(json.at("stats").at("clusters"), 1);
+    EXPECT_EQ(json.at("stats").size(), 23U);
+    EXPECT_EQ(json.at("timing").at("pairs"), 1);
+}
+
 TEST_F(OutputTest, TextIsAligned) {
     const auto lines = linesOf(output({"detect", "--volume", "builtin:head:32", "--volume", "builtin:sphere:32",
                                        "--mesh", "builtin:scalpel:500", "--poses", poses(12), "--format", "text"}));

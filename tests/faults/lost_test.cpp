@@ -137,6 +137,7 @@ std::vector<Call> detectCalls(Objects& o, const Own& own) {
         {"Results::create", codeOf(Results::create(context, {}))},
         {"Results::cmdReadBack", codeOf(o.results.cmdReadBack(own.commands))},
         {"Results::read", codeOf(o.results.read())},
+        {"Results::counters", codeOf(o.results.counters())},
         {"Results::readOutputs", codeOf(o.results.readOutputs(answer))},
         {"Results::gpuMilliseconds", codeOf(o.results.gpuMilliseconds())},
         {"ResultRing::create", codeOf(ResultRing::create(context, 2, {}))},

@@ -277,6 +277,66 @@ TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
     EXPECT_GT(contacts, 0U);
 }
 
+TEST_F(CGpuTest, CountsWhatThePassesOfConservativeDo) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    RandomScene scene = halfOpaque();
+    scene.poses.push_back(translation({0.3, 0.1, 0.2}));
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    const Owned<vxt_answer> answer = newAnswer();
+    vxt_certified_counters counters = vxt_certified_counters_init();
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    EXPECT_EQ(vxt_answer_counters(answer.get(), &counters), VXT_ERROR_NOT_READY);
+    desc.counters = 1;
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    need(vxt_answer_counters(answer.get(), &counters));
+    EXPECT_EQ(counters.struct_size, sizeof counters);
+    EXPECT_EQ(counters.clusters, scene.poses.size()); // a mesh of one
+    EXPECT_EQ(counters.rounds, 1U);
+    EXPECT_EQ(counters.room, 4096U); // of 64 pairs, the fewest that it makes results for
+    EXPECT_GT(counters.cells_decided, 0U);
+    EXPECT_EQ(counters.lanes % 64, 0U);
+    EXPECT_EQ(counters.most_looks, counters.bricks_seen + counters.cells_seen);
+}
+
+TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    RawVulkan raw(gpu().device);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.counters = 1;
+    const Owned<vxt_detector> detector = newDetector(desc);
+    vxt_results_desc resultsDesc = vxt_results_desc_init();
+    vxt_results* none = nullptr;
+    resultsDesc.clusters_at_once = 15;
+    EXPECT_EQ(vxt_results_create(context_.get(), &resultsDesc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    resultsDesc.clusters_at_once = VXT_NO_CLUSTERS;
+    const Owned<vxt_results> without = newResults(resultsDesc);
+    resultsDesc.clusters_at_once = 32;
+    const Owned<vxt_results> with = newResults(resultsDesc);
+    const VkCommandBuffer commands = raw.begin();
+    EXPECT_EQ(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, without.get()), VXT_ERROR_LIMIT_EXCEEDED);
+    need(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, with.get()));
+    need(vxt_results_cmd_read_back(with.get(), commands));
+    raw.submitAndWait(commands);
+    const Owned<vxt_answer> answer = newAnswer();
+    need(vxt_results_read(with.get(), answer.get()));
+    vxt_certified_counters counters = vxt_certified_counters_init();
+    need(vxt_answer_counters(answer.get(), &counters));
+    EXPECT_EQ(counters.room, 32U);
+}
+
 TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
     const RandomScene scene = halfOpaque();
     RawVulkan raw(gpu().device);

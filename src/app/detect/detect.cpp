@@ -34,6 +34,8 @@ constexpr const char* kFooter =
                                '# pairs= wall_ms= pairs_per_s=' has the time of all. Reading files, uploads and making
                                pipelines are not included; there is no warm-up. With --batch 1 each pair is submitted
                                and waited for alone. With --count cpu gpu_ms is 0.
+With --stats a line '# clusters= clusters_kept= ...' says what the passes of conservative did on the device; the manual's
+page "The certified engine on a device" has what each number is.
 Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY, in
 VTP (VTK, ParaView) and in .mrk.json (3D Slicer); the last two have the boxes of --bounds, too.
 
@@ -59,7 +61,8 @@ constexpr std::uint32_t kMostThreads = 1024;
 
 AutoLimits autoLimits(const DetectOptions& options) {
     // Who names a device, or wants Vulkan validated, wants it used.
-    const bool host = options.device.wanted.empty() && !options.device.validate;
+    // What is counted for --stats is a device's work.
+    const bool host = options.device.wanted.empty() && !options.device.validate && !options.stats;
     return {options.method.filter, options.view.size, host && options.method.filter != Filter::Hardware};
 }
 
@@ -262,6 +265,8 @@ Command addDetect(CLI::App& program) {
         *parser, "--threads", [options](std::uint32_t threads) { options->threads = threads; },
         {.least = 0, .most = kMostThreads}, "of the counting method cpu; 0: one for each processor", 0);
     parser->add_flag("--timing", options->timing, "adds gpu_ms and wall_ms to each row, and a last line; see below");
+    parser->add_flag("--stats", options->stats,
+                     "adds a line with what the device did for the projection conservative; see below");
     addDeviceOptions(*parser, options->device);
     addOutputOptions(*parser, options->output);
     addProgressOption(*parser, options->progress);

@@ -135,6 +135,7 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel);
     desc.resolution = options.method.resolution.value_or(kDefaultResolution);
     desc.stopAtFirst = options.yesNo() && rowOf(desc.projection).certified;
+    desc.counters = options.stats;
     return desc;
 }
 

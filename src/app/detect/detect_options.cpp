@@ -138,6 +138,25 @@ Result<void> checkProjection(const DetectOptions& options) {
     return {};
 }
 
+/// What is counted are the passes of one engine.
+Result<void> checkStats(const DetectOptions& options) {
+    if (!options.stats) {
+        return {};
+    }
+    if (options.distance.any()) {
+        return badArgument("--stats counts what a device does, and distances are the host's; leave it out");
+    }
+    if (options.method.count && rowOf(*options.method.count).host) {
+        return badArgument("--stats: the counting method cpu counts nothing of what it does; leave it out, or give "
+                           "--count compute");
+    }
+    if (!rowOf(*options.method.projection).certified) {
+        return badArgument(std::string("--stats is about the passes of the projection conservative, not of ") +
+                           toString(*options.method.projection) + "; leave it out");
+    }
+    return {};
+}
+
 Result<void> checkExtra(const DetectOptions& options) {
     const ExtraOptions& extra = options.extra;
     const std::string contacts = "it is about contacts, and --contacts is not given";
@@ -195,6 +214,7 @@ Result<void> resolveOptions(DetectOptions& options) {
     }
     VOXTACT_TRY(checkConservative(options.method));
     VOXTACT_TRY(checkProjection(options));
+    VOXTACT_TRY(checkStats(options));
     return checkExtra(options);
 }
 

@@ -66,6 +66,7 @@ struct DetectOutput::State {
     std::vector<KeptContact> contacts{};
     std::vector<KeptBounds> bounds{};
     std::uint64_t contactsFound = 0;
+    CertifiedCounters counters{}; ///< for --stats
     std::vector<KeptClosest> closest{};
     std::array<std::uint64_t, kClearanceEnds> ends{}; ///< rows by why their bounds are no nearer to each other
 };
@@ -189,6 +190,10 @@ void DetectOutput::countContacts(std::uint64_t found) noexcept {
     state_->contactsFound += found;
 }
 
+void DetectOutput::addCounters(const CertifiedCounters& counters) noexcept {
+    state_->counters = together(state_->counters, counters);
+}
+
 std::uint64_t DetectOutput::rows() const noexcept {
     return state_->rows;
 }
@@ -203,7 +208,9 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
         timing = {
             {"pairs", state.rows}, {"wall_ms", rounded(wallMilliseconds, 1e6)}, {"pairs_per_s", rounded(rate, 10)}};
     }
-    state.writer->end(timing);
+    const io::TableEnd ends[] = {{"stats", state.options.stats ? statsCells(state.counters) : io::NamedCells()},
+                                 {"timing", std::move(timing)}};
+    state.writer->end(ends);
     if (state.contactsFile) {
         writeContacts(state.contactsFile->stream(), state.options, state.inputs, {state.contacts, state.bounds});
     }

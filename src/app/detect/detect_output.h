@@ -26,6 +26,8 @@ class DetectOutput {
     /// False: as many are kept as there is room for.
     [[nodiscard]] bool keepContact(const Row& row, const Contact& contact);
     void countContacts(std::uint64_t found) noexcept;
+    /// For --stats.
+    void addCounters(const CertifiedCounters& counters) noexcept;
 
     [[nodiscard]] std::uint64_t rows() const noexcept;
 

@@ -67,6 +67,7 @@ struct DetectOptions {
     std::string answer = "count";
     bool progress = true;
     bool timing = false;
+    bool stats = false;
     std::optional<std::uint32_t> batch;
     std::uint32_t threads = 0; ///< 0: one for each processor
 

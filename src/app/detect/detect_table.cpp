@@ -120,6 +120,33 @@ io::Table DetectColumns::table(std::span<const Row> rows) const {
     return table;
 }
 
+io::NamedCells statsCells(const CertifiedCounters& counters) {
+    const auto number = [](std::uint64_t count) { return io::Cell(count); };
+    return {{"clusters", number(counters.clusters)},
+            {"clusters_kept", number(counters.clustersKept)},
+            {"runs_kept", number(counters.runsKept)},
+            {"large_parts", number(counters.largeParts)},
+            {"bricks_seen", number(counters.bricksSeen)},
+            {"cells_seen", number(counters.cellsSeen)},
+            {"cells_listed", number(counters.cellsListed)},
+            {"cells_decided", number(counters.cellsDecided)},
+            {"lanes", number(counters.lanes)},
+            {"cells_open", number(counters.cellsOpen)},
+            {"left", number(counters.left)},
+            {"bricks_left", number(counters.bricksLeft)},
+            {"cells_left", number(counters.cellsLeft)},
+            {"rounds", number(counters.rounds)},
+            {"room", number(counters.room)},
+            {"most_clusters", number(counters.mostClusters)},
+            {"most_runs", number(counters.mostRuns)},
+            {"most_parts", number(counters.mostParts)},
+            {"most_cells", number(counters.mostCells)},
+            {"most_open", number(counters.mostOpen)},
+            {"most_left", number(counters.mostLeft)},
+            {"most_looks", number(counters.mostLooks)},
+            {"most_looks_left", number(counters.mostLooksLeft)}};
+}
+
 io::NamedCells detectFacts(const std::string& device, const std::string& driver) {
     return {{"voxtact", programVersion()}, {"device", device}, {"driver", driver}};
 }

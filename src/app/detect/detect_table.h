@@ -29,6 +29,8 @@ class DetectColumns {
     std::vector<std::string> names_;
 };
 
+/// What --stats tells.
+[[nodiscard]] io::NamedCells statsCells(const CertifiedCounters& counters);
 /// What JSON says before the rows.
 [[nodiscard]] io::NamedCells detectFacts(const std::string& device, const std::string& driver);
 

@@ -54,6 +54,9 @@ void WindowRows::endBatch(const BatchAnswer& answer) {
         }
     }
     output_.countContacts(answer.contactsFound);
+    if (answer.counters) {
+        output_.addCounters(*answer.counters);
+    }
     // Each survivor is a contact: a list that was cut does not say how many a pair has, its count does.
     if (answer.contactsFound > answer.contacts.size()) {
         for (const std::uint32_t row : batch_) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "voxtact/results.h"
 
+#include <algorithm>
+
 namespace voxtact {
 
 PairAnswer unpack(const PairResult& result) noexcept {
@@ -19,6 +21,22 @@ PairAnswer unpack(const PairResult& result) noexcept {
     if (VOXTACT_HOW_UNDECIDED(result.how) != 0) {
         out.possible = !out.hit;
         out.exactness = Exactness::LowerBound;
+    }
+    return out;
+}
+
+CertifiedCounters together(const CertifiedCounters& a, const CertifiedCounters& b) noexcept {
+    using C = CertifiedCounters;
+    C out = a;
+    for (const auto total :
+         {&C::clusters, &C::clustersKept, &C::runsKept, &C::largeParts, &C::bricksSeen, &C::cellsSeen, &C::cellsListed,
+          &C::cellsDecided, &C::lanes, &C::cellsOpen, &C::left, &C::bricksLeft, &C::cellsLeft}) {
+        out.*total += b.*total;
+    }
+    out.rounds += b.rounds;
+    for (const auto peak : {&C::room, &C::mostClusters, &C::mostRuns, &C::mostParts, &C::mostCells, &C::mostOpen,
+                            &C::mostLeft, &C::mostLooks, &C::mostLooksLeft}) {
+        out.*peak = std::max(out.*peak, b.*peak);
     }
     return out;
 }

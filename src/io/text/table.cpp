@@ -188,26 +188,33 @@ void TableWriter::add(const Table& part) {
     rows_ += part.rows;
 }
 
-void TableWriter::end(const NamedCells& timing, bool whole) {
-    if (format_ == Format::Json) {
-        out_ << "\n]";
-        if (!timing.empty()) {
-            out_ << ",\n\"timing\": " << dump(cellsJson(timing));
+void TableWriter::end(std::span<const TableEnd> ends, bool whole) {
+    const bool json = format_ == Format::Json;
+    out_ << (json ? "\n]" : "");
+    for (const TableEnd& end : ends) {
+        if (end.cells.empty()) {
+            continue;
         }
-        out_ << (whole ? "\n}\n" : ",\n\"interrupted\": true\n}\n");
-    } else if (!timing.empty()) {
+        if (json) {
+            out_ << ",\n" << dump(end.name) << ": " << dump(cellsJson(end.cells));
+            continue;
+        }
         out_ << '#';
-        for (const auto& [name, cell] : timing) {
+        for (const auto& [name, cell] : end.cells) {
             out_ << ' ' << name << '=' << cellText(cell, "-");
         }
         out_ << '\n';
+    }
+    if (json) {
+        out_ << (whole ? "\n}\n" : ",\n\"interrupted\": true\n}\n");
     }
 }
 
 void writeTable(std::ostream& out, Format format, const Table& table) {
     TableWriter writer(out, format);
     writer.add(table);
-    writer.end(table.timing);
+    const TableEnd timing{"timing", table.timing};
+    writer.end({&timing, 1});
 }
 
 std::string csvField(const std::string& field) {

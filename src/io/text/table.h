@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -34,13 +35,19 @@ struct NamedCount {
 using Cell = std::variant<std::monostate, std::uint64_t, double, std::string, NumberWord, std::vector<NamedCount>>;
 using NamedCells = std::vector<std::pair<std::string, Cell>>;
 
+/// What comes behind the rows: a line of CSV and text, "# name=value ..."; a member of JSON. Left out when empty.
+struct TableEnd {
+    const char* name = ""; ///< of the member
+    NamedCells cells{};
+};
+
 /// The same rows for every format.
 struct Table {
     std::vector<std::string> columns;
     std::size_t rows = 0;
     std::function<Cell(std::size_t row, std::size_t column)> cell;
     NamedCells facts;  ///< JSON only: members before "rows"
-    NamedCells timing; ///< the last line of CSV and text, "# name=value ..."; a member of JSON. Left out when empty
+    NamedCells timing; ///< a TableEnd
 };
 
 /// JSON is one object: the facts, "rows" (an array of an object a row), "timing".
@@ -62,7 +69,7 @@ class TableWriter {
     /// as wide as the widest field so far.
     void add(const Table& part);
     /// After all parts, of which there must be one. `whole` false: JSON says "interrupted".
-    void end(const NamedCells& timing, bool whole = true);
+    void end(std::span<const TableEnd> ends = {}, bool whole = true);
 
   private:
     void addCsv(const Table& part);

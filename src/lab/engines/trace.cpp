@@ -45,7 +45,7 @@ Result<void> makeLayouts(FragmentTraceImpl& trace) {
     const VkDescriptorSetLayout sets[] = {context.setLayouts[0], context.setLayouts[1], context.setLayouts[2],
                                           trace.setLayout.get()};
     static_assert(std::size(sets) == VOXTACT_SET_TRACE + 1);
-    const VkPushConstantRange constants{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::ItemConstants)};
+    const VkPushConstantRange constants{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::RasterConstants)};
     return makePipelineLayout(context, trace.layout, sets, {&constants, 1}, "trace pipeline layout");
 }
 

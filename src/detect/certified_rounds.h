@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/detector.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// How a batch of the projection `conservative` is cut into rounds, so that no dispatch of one has too much to do.
+namespace voxtact {
+
+/// Most of a round.
+struct RoundLimits {
+    std::uint32_t clusters = 0; ///< of pairs
+    std::uint32_t pairs = 0;
+    double looks = 0; ///< at bricks and cells of large triangles, unless a cluster of a pair has more
+};
+
+[[nodiscard]] constexpr std::uint32_t clustersOfRound(std::uint32_t queueRoom, bool stopAtFirst) noexcept {
+    // A count has as many cells as the mesh has in opaque matter; a yes or no is found before most of them are.
+    return stopAtFirst ? queueRoom : queueRoom / 4;
+}
+[[nodiscard]] constexpr double looksOfRound(std::uint32_t queueRoom) noexcept {
+    constexpr double kLooksOfCluster = 65536;
+    return queueRoom * kLooksOfCluster;
+}
+
+/// What an item asks for at most.
+struct MeshLooks {
+    std::uint32_t pairs = 0;
+    std::uint32_t clusters = 0;
+    /// At its large triangles, by the clusters before each number; empty where that is not known.
+    std::span<const double> before{};
+    double scale = 1; ///< what these are to be multiplied by
+    double most = 0;  ///< of one cluster, whatever the others say
+
+    [[nodiscard]] double of(std::uint32_t first, std::uint32_t end) const noexcept {
+        return before.empty() ? 0 : std::min(scale * (before[end] - before[first]), most * (end - first));
+    }
+};
+
+/// Of an item whose mesh is on the device.
+[[nodiscard]] MeshLooks meshLooks(const BatchItem& item) noexcept;
+
+/// The pairs of an item, and the clusters of each, that one round has.
+struct Round {
+    std::uint32_t firstPair = 0;
+    std::uint32_t pairs = 0;
+    std::uint32_t firstCluster = 0;
+    std::uint32_t endCluster = 0;
+};
+
+/// The clusters from `first` on that one round can have, of one pair: at least one.
+[[nodiscard]] inline std::uint32_t endOfRound(const MeshLooks& mesh, const RoundLimits& limits,
+                                              std::uint32_t first) noexcept {
+    std::uint32_t most = first + std::min(limits.clusters, mesh.clusters - first);
+    std::uint32_t end = first + 1;
+    while (end < most) { // by halves: what is before a cluster only grows
+        const std::uint32_t middle = most - (most - end) / 2;
+        if (mesh.of(first, middle) <= limits.looks) {
+            end = middle;
+        } else {
+            most = middle - 1;
+        }
+    }
+    return end;
+}
+
+/// Calls `record` for each round of an item, in order: each pair and cluster is in one of them.
+template <class Record> void eachRound(const MeshLooks& mesh, const RoundLimits& limits, Record&& record) {
+    const double looks = mesh.of(0, mesh.clusters);
+    const bool wholeMesh = mesh.clusters <= limits.clusters && looks <= limits.looks;
+    std::uint32_t atOnce = 1;
+    if (wholeMesh) {
+        atOnce = std::min(limits.clusters / mesh.clusters, limits.pairs);
+        atOnce = looks * atOnce <= limits.looks ? atOnce : static_cast<std::uint32_t>(limits.looks / looks);
+    }
+    for (std::uint32_t pair = 0; pair < mesh.pairs; pair += std::min(atOnce, mesh.pairs - pair)) {
+        for (std::uint32_t cluster = 0, end = 0; cluster < mesh.clusters; cluster = end) {
+            end = wholeMesh ? mesh.clusters : endOfRound(mesh, limits, cluster);
+            record(Round{pair, std::min(atOnce, mesh.pairs - pair), cluster, end});
+        }
+    }
+}
+
+} // namespace voxtact
