@@ -6,6 +6,7 @@
 #include "voxtact/motion.h"
 #include "voxtact/results.h"
 
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <span>
@@ -104,6 +105,9 @@ struct Batch {
     std::span<const BatchItem> items;     ///< any number; answers are in their order
     View view;                            ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
+    /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
+    /// threads at rest. Its threads look at it between the cells of a triangle and the steps of a search. May be null.
+    const std::atomic<bool>* cancel = nullptr;
 };
 
 /// Pixels along a side of a View, at most.

@@ -6,6 +6,7 @@
 #include "core/method/certified_constants.h"
 #include "core/method/method_table.h"
 #include "cpu/batch_check.h"
+#include "cpu/cancel.h"
 #include "cpu/certified/certified_run.h"
 #include "cpu/outputs.h"
 #include "cpu/raster/count_run.h"
@@ -68,6 +69,7 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
         BatchAnswer answer = rowOf(impl.desc.projection).certified
                                  ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)
                                  : runCounts(batch, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

@@ -62,7 +62,8 @@ template <class Survivor> class Fragments {
         : job_(job), threshold_(threshold), survivor_(survivor) {}
 
     std::uint64_t visit() {
-        for (std::uint32_t cluster = job_.clusterBegin; cluster < job_.clusterEnd; ++cluster) {
+        for (std::uint32_t cluster = job_.clusterBegin; cluster < job_.clusterEnd && !isCancelled(job_.cancel);
+             ++cluster) {
             if (!isClear(job_, cluster)) {
                 visitCluster(cluster);
             }
@@ -87,7 +88,7 @@ template <class Survivor> class Fragments {
             return;
         }
         const RowSpans spans(piece);
-        for (std::int32_t row = 0; row < spans.rows(); ++row) {
+        for (std::int32_t row = 0; row < spans.rows() && !isCancelled(job_.cancel); ++row) {
             const RowSpan span = spans.span(row);
             for (std::int32_t column = span.first; column <= span.last; ++column) {
                 ContactVector at{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/cancel.h"
 #include "cpu/raster/occupancy.h"
 #include "cpu/scene/scene_impl.h"
 #include "shared.h"
@@ -55,6 +56,7 @@ struct PairJob {
     std::uint32_t clusterBegin;
     std::uint32_t clusterEnd;
     bool stopAtFirst;
+    CancelFlag cancel;
 };
 
 [[nodiscard]] bool isOrthographic(const shader::PairTransform& transform) noexcept;

@@ -16,7 +16,7 @@ constexpr std::uint32_t kPartsPerThread = 4;
 
 } // namespace
 
-Tasks::Tasks(const Batch& batch, std::uint32_t pairs, std::uint32_t threads) {
+Tasks::Tasks(const Batch& batch, std::uint32_t pairs, std::uint32_t threads) : cancel_(batch.cancel) {
     const std::uint32_t wanted = threads == 1 || pairs == 0 ? 1 : std::max(threads * kPartsPerThread / pairs, 1U);
     std::uint32_t pair = 0;
     for (const BatchItem& item : batch.items) {
@@ -48,7 +48,7 @@ void Tasks::run(ThreadPool& pool, const std::function<void(const Task&, std::uin
     }
     std::atomic<std::uint64_t> next{0};
     pool.run(threads, [&](std::uint32_t thread) {
-        for (std::uint64_t task = next++; task < count_; task = next++) {
+        for (std::uint64_t task = next++; task < count_ && !isCancelled(cancel_); task = next++) {
             body(at(task), thread);
         }
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/cancel.h"
 #include "cpu/thread_pool.h"
 #include "voxtact/cpu.h"
 
@@ -28,7 +29,7 @@ class Tasks {
 
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] Task at(std::uint64_t task) const noexcept;
-    /// Calls `body(task, thread)` for all, on the pool's threads. `body` must not throw.
+    /// Calls `body(task, thread)` for all, until the batch is cancelled, on the pool's threads. `body` must not throw.
     void run(ThreadPool& pool, const std::function<void(const Task&, std::uint32_t thread)>& body) const;
 
   private:
@@ -40,6 +41,7 @@ class Tasks {
     };
     std::vector<Item> items_;
     std::uint64_t count_ = 0;
+    CancelFlag cancel_;
 };
 
 } // namespace voxtact::cpu

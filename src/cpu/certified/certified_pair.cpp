@@ -46,7 +46,7 @@ template <class Kept> class Decider {
         } else {
             descend([this](std::uint32_t run) {
                 decideRun(run);
-                return true;
+                return !done();
             });
         }
         return tally_;
@@ -62,7 +62,7 @@ template <class Kept> class Decider {
         CellBox cells;
     };
 
-    [[nodiscard]] bool done() const { return job_.stopAtFirst && tally_.certain > 0; }
+    [[nodiscard]] bool done() const { return (job_.stopAtFirst && tally_.certain > 0) || isCancelled(job_.cancel); }
 
     template <class Visit> void descend(const Visit& visit) {
         job_.mesh.tree.descend(

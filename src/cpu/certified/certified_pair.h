@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/cancel.h"
 #include "cpu/certified/certified_occupancy.h"
 #include "voxtact/data.h"
 
@@ -18,6 +19,7 @@ struct CertifiedJob {
     std::uint32_t clusterBegin;
     std::uint32_t clusterEnd;
     bool stopAtFirst; ///< the count is then 0 or 1
+    CancelFlag cancel = nullptr;
 };
 
 struct CertifiedTally {

@@ -63,7 +63,8 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
                                certifiedPair(volume.grid, volume.texture_from_world, item.world_from_object[task.pose]),
                                task.clusterBegin,
                                task.clusterEnd,
-                               desc.stopAtFirst};
+                               desc.stopAtFirst,
+                               batch.cancel};
         CertifiedTally found;
         if (outputs) {
             outputs->collect(task.item, task.pair, thread, [&](OutputRun::Sink& sink) {

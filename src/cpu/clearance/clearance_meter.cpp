@@ -241,10 +241,10 @@ Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
         ClearanceAnswer answer;
         answer.pairs = numberedPairs<PairClearance>(batch);
         Workers& workers = impl_->workers;
-        workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
-                            [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
-                                measurePair(at, impl_->desc, memory, pair);
-                            });
+        VOXTACT_TRY(workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
+                                        [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
+                                            measurePair(at, impl_->desc, memory, pair);
+                                        }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
@@ -260,10 +260,10 @@ Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;
-        workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
-                            [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
-                                decideMargin(at, margin, impl_->desc, memory, pair);
-                            });
+        VOXTACT_TRY(workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
+                                        [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+                                            decideMargin(at, margin, impl_->desc, memory, pair);
+                                        }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
@@ -291,18 +291,18 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
             answer.labels[i].label = labels[i % labels.size()];
             answer.labels[i].bounds = {kInfinity, kInfinity};
         }
-        impl_->workers.forEachPair(batch, parts, answer.labels,
-                                   [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
-                                       const LabelData& map = *at.item.labels;
-                                       const std::vector<std::uint32_t>& known = indices[label.item];
-                                       for (std::size_t i = 0; i < known.size(); ++i) {
-                                           if (map.values[known[i]] == label.label) {
-                                               const SearchedPart searched(pyramids[label.item]->at(i), map, known[i]);
-                                               measureLabel(at, searched, impl_->desc, memory, label);
-                                               return;
-                                           }
-                                       }
-                                   });
+        VOXTACT_TRY(impl_->workers.forEachPair(
+            batch, parts, answer.labels, [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
+                const LabelData& map = *at.item.labels;
+                const std::vector<std::uint32_t>& known = indices[label.item];
+                for (std::size_t i = 0; i < known.size(); ++i) {
+                    if (map.values[known[i]] == label.label) {
+                        const SearchedPart searched(pyramids[label.item]->at(i), map, known[i]);
+                        measureLabel(at, searched, impl_->desc, memory, label);
+                        return;
+                    }
+                }
+            }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });

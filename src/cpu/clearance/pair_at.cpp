@@ -12,7 +12,8 @@ CertifiedTally PairAt::touch(std::optional<TouchPoint>& point) const {
                            certifiedPair(in.grid, in.texture_from_world, world_from_object),
                            0,
                            static_cast<std::uint32_t>(mesh().clusters.size()),
-                           true};
+                           true,
+                           cancel};
     return decide(job, [&](std::uint32_t triangle, const shader::CertifiedProof& proof) {
         const Vec3 texture{static_cast<double>(proof.texture.x), static_cast<double>(proof.texture.y),
                            static_cast<double>(proof.texture.z)};
@@ -28,7 +29,7 @@ Found PairAt::search(ThreadMemory& memory, const SearchGoal& goal, const std::op
 Found PairAt::search(ThreadMemory& memory, const SearchedPart& searched, const SearchGoal& goal,
                      const std::optional<Sweep>& sweep, const OpenPairs* from) const {
     memory.mesh.begin(mesh(), part.space, world_from_object, sweep);
-    return memory.search.run(memory.mesh, volume(), part, searched, goal, from);
+    return memory.search.run(memory.mesh, volume(), part, searched, goal, from, cancel);
 }
 
 } // namespace voxtact::cpu

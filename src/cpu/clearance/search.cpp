@@ -36,12 +36,14 @@ bool ClosestSearch::After::operator()(const Pair& a, const Pair& b) const noexce
 }
 
 Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
-                         const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from) {
+                         const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from,
+                         CancelFlag cancel) {
     mesh_ = &mesh;
     volume_ = &volume;
     part_ = &part;
     searched_ = &searched;
     goal_ = goal;
+    cancel_ = cancel;
     found_ = {};
     error_ = {mesh.error()};
     boxes_.begin(volume, part, searched, error_);
@@ -80,6 +82,9 @@ OpenPairs ClosestSearch::left() const {
 
 bool ClosestSearch::goesOn() {
     constexpr std::uint64_t kMostInDoubt = 1000;
+    if (isCancelled(cancel_)) {
+        return false;
+    }
     if (mesh_->isSwept() && found_.lo <= 0 && (!goal_.untilMet || ++stepsInDoubt_ > kMostInDoubt)) {
         return false; // it is not apart, and that is all that is asked
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/cancel.h"
 #include "cpu/clearance/cell_piece.h"
 #include "cpu/clearance/found.h"
 #include "cpu/clearance/label_part.h"
@@ -56,7 +57,8 @@ class ClosestSearch {
   public:
     /// `searched`: of that part. `from`: where to begin, or null: with all of both.
     [[nodiscard]] Found run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
-                            const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from = nullptr);
+                            const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from = nullptr,
+                            CancelFlag cancel = nullptr);
     /// Of the last run, whose mesh was swept: without these it is apart from all that is opaque.
     [[nodiscard]] OpenPairs left() const;
 
@@ -109,6 +111,7 @@ class ClosestSearch {
     const OpaquePart* part_ = nullptr;
     const SearchedPart* searched_ = nullptr;
     SearchGoal goal_;
+    CancelFlag cancel_ = nullptr;
     Found found_;
     DistanceError error_;
     VolumeBoxes boxes_;

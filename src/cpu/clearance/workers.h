@@ -36,25 +36,29 @@ class Workers {
         return parts;
     }
 
-    /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. It must not throw.
-    template <class Answer, class Fill> void forEach(std::vector<Answer>& answers, const Fill& fill) {
+    /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. It must not throw. Refuses
+    /// what is cancelled meanwhile.
+    template <class Answer, class Fill>
+    [[nodiscard]] Result<void> forEach(std::vector<Answer>& answers, CancelFlag cancel, const Fill& fill) {
         if (answers.empty()) {
-            return;
+            return {};
         }
         std::atomic<std::size_t> next{0};
         const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(pool_.threads(), answers.size()));
         pool_.run(threads, [&](std::uint32_t thread) {
-            for (std::size_t i = next++; i < answers.size(); i = next++) {
+            for (std::size_t i = next++; i < answers.size() && !isCancelled(cancel); i = next++) {
                 fill(answers[i], memories_[thread]);
             }
         });
+        return checkNotCancelled(cancel);
     }
     /// Calls `fill(at, answer, memory)` for answers that have an item and a pose.
     template <class Answer, class Fill>
-    void forEachPair(const Batch& batch, const Parts& parts, std::vector<Answer>& answers, const Fill& fill) {
-        forEach(answers, [&](Answer& answer, ThreadMemory& memory) {
+    [[nodiscard]] Result<void> forEachPair(const Batch& batch, const Parts& parts, std::vector<Answer>& answers,
+                                           const Fill& fill) {
+        return forEach(answers, batch.cancel, [&](Answer& answer, ThreadMemory& memory) {
             const BatchItem& item = batch.items[answer.item];
-            fill(PairAt{item, *parts[answer.item], item.world_from_object[answer.pose]}, answer, memory);
+            fill(PairAt{item, *parts[answer.item], item.world_from_object[answer.pose], batch.cancel}, answer, memory);
         });
     }
 

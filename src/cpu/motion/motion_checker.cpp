@@ -117,11 +117,12 @@ Result<MotionAnswer> MotionChecker::check(const Batch& batch) {
         const Parts parts = impl_->workers.partsOf(batch, impl_->desc.touchResolution);
         MotionAnswer answer;
         answer.segments = numberedSegments(batch);
-        impl_->workers.forEach(answer.segments, [&](SegmentMotion& segment, ThreadMemory& memory) {
-            SegmentSearch(batch.items[segment.item], *parts[segment.item], (*motions)[segment.segment], impl_->desc,
-                          memory, segment.pose)
-                .run(segment);
-        });
+        VOXTACT_TRY(
+            impl_->workers.forEach(answer.segments, batch.cancel, [&](SegmentMotion& segment, ThreadMemory& memory) {
+                SegmentSearch(batch.items[segment.item], *parts[segment.item], (*motions)[segment.segment], impl_->desc,
+                              memory, segment.pose, batch.cancel)
+                    .run(segment);
+            }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
@@ -135,10 +136,10 @@ Result<BatchAnswer> MotionChecker::around(const Batch& batch, const PoseToleranc
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;
-        workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.touchResolution), answer.pairs,
-                            [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
-                                PoseToleranceSearch(at, tolerance, impl_->desc.mostSteps, memory).run(pair);
-                            });
+        VOXTACT_TRY(workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.touchResolution), answer.pairs,
+                                        [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+                                            PoseToleranceSearch(at, tolerance, impl_->desc.mostSteps, memory).run(pair);
+                                        }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });

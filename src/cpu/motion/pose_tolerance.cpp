@@ -126,7 +126,7 @@ bool PoseToleranceSearch::touchesAt(const glm::dmat3& turn, const dvec3& offset)
     }
     pose[3] += glm::dvec4(offset, 0);
     std::optional<TouchPoint> point;
-    return PairAt{at_.item, at_.part, fromGlm(pose)}.touch(point).certain > 0;
+    return PairAt{at_.item, at_.part, fromGlm(pose), at_.cancel}.touch(point).certain > 0;
 }
 
 /// Turns the point towards the other and moves it there, as far as it may; then on into what is opaque.

@@ -18,8 +18,8 @@ constexpr double kCoarser = 0.5;
 } // namespace
 
 SegmentSearch::SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion,
-                             const MotionDesc& desc, ThreadMemory& memory, std::uint32_t firstPose)
-    : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), firstPose_(firstPose),
+                             const MotionDesc& desc, ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel)
+    : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), firstPose_(firstPose), cancel_(cancel),
       speed_(motion.speed(item.mesh->facts().bounds)), deformation_(motion.deformation(item.mesh->facts().bounds)),
       rounding_(kPoseError * motion.magnitude(item.mesh->facts().bounds)) {}
 
@@ -51,14 +51,14 @@ SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
                           .mostSteps =
                               std::min(desc_.mostSteps - std::min(steps_, desc_.mostSteps - 1), last ? kMost : kSoon)};
     const Found found =
-        PairAt{item_, part_, poseAt(interval.middle())}.search(memory_, goal, sweep, interval.open.get());
+        PairAt{item_, part_, poseAt(interval.middle()), cancel_}.search(memory_, goal, sweep, interval.open.get());
     steps_ += found.steps + 1;
     return {found.lo > 0, found.hi <= goal.enough};
 }
 
 bool SegmentSearch::touches(double parameter, SegmentMotion& out) {
     constexpr std::uint64_t kTouchSteps = 256; // where it is hard to say, it takes as long as many of a search
-    const PairAt at{item_, part_, poseAt(parameter)};
+    const PairAt at{item_, part_, poseAt(parameter), cancel_};
     std::optional<TouchPoint> point;
     steps_ += kTouchSteps;
     if (at.touch(point).certain == 0) {
@@ -105,7 +105,7 @@ void SegmentSearch::run(SegmentMotion& out) {
         return;
     }
     left_.emplace_back();
-    while (!left_.empty() && steps_ < desc_.mostSteps) {
+    while (!left_.empty() && steps_ < desc_.mostSteps && !isCancelled(cancel_)) {
         const Interval next = left_.back();
         left_.pop_back();
         look(next, out);

@@ -17,7 +17,7 @@ class SegmentSearch {
   public:
     /// All must live as long as it.
     SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion, const MotionDesc& desc,
-                  ThreadMemory& memory, std::uint32_t firstPose);
+                  ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel);
 
     void run(SegmentMotion& out);
 
@@ -51,6 +51,7 @@ class SegmentSearch {
     const MotionDesc& desc_;
     ThreadMemory& memory_;
     std::uint32_t firstPose_;
+    CancelFlag cancel_;
     double speed_;               ///< mm for the whole segment: of the fastest point
     double deformation_;         ///< mm: RigidMotion::deformation()
     double rounding_;            ///< mm, of a pose

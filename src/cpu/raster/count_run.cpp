@@ -94,7 +94,8 @@ class CountRun {
                           .cull = CullForms(mesh, transform),
                           .clusterBegin = task.clusterBegin,
                           .clusterEnd = task.clusterEnd,
-                          .stopAtFirst = desc_.stopAtFirst};
+                          .stopAtFirst = desc_.stopAtFirst,
+                          .cancel = batch_.cancel};
         return outputs_ ? outputs_->collect(job, task.item, task.pair, thread)
                         : countSurvivors(job, *workshop_.scratches[thread]);
     }

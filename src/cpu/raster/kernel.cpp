@@ -74,7 +74,7 @@ template <class Kept> class Pass {
     }
 
   private:
-    [[nodiscard]] bool done() const { return job_.stopAtFirst && survivors_ > 0; }
+    [[nodiscard]] bool done() const { return (job_.stopAtFirst && survivors_ > 0) || isCancelled(job_.cancel); }
 
     void flush() {
         while (scratch_.pending.count > 0) {

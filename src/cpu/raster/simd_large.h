@@ -86,7 +86,7 @@ HWY_INLINE std::size_t rasteriseLarge(const PairJob& job, const Sampler<Kept>& s
         }
         survivors += found == kOpaqueBrick ? static_cast<std::size_t>(span.last - span.first + 1)
                                            : shadeSpan(sampler, triangle, spans, row, span);
-        if (job.stopAtFirst && survivors > 0) {
+        if ((job.stopAtFirst && survivors > 0) || isCancelled(job.cancel)) {
             break;
         }
     }
