@@ -15,7 +15,7 @@ set(voxtact_io_headers "${PROJECT_SOURCE_DIR}/include/voxtact/io.h")
 set(voxtact_cpu_headers "${PROJECT_SOURCE_DIR}/include/voxtact/cpu.h")
 set(voxtact_render_headers "${PROJECT_SOURCE_DIR}/include/voxtact/looks.h" "${PROJECT_SOURCE_DIR}/include/voxtact/render.h")
 set(voxtact_samples_headers "${PROJECT_SOURCE_DIR}/include/voxtact/samples.h")
-set(voxtact_c_headers "${PROJECT_SOURCE_DIR}/include/voxtact/voxtact.h" "${PROJECT_SOURCE_DIR}/include/voxtact/voxtact_vulkan.h")
+file(GLOB voxtact_c_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/voxtact/voxtact*.h")
 list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers} ${voxtact_render_headers}
      ${voxtact_samples_headers} ${voxtact_c_headers})
 

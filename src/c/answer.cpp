@@ -75,7 +75,18 @@ vxt_answer toAnswer(const BatchAnswer& answer) {
 
 } // namespace voxtact::c
 
+using namespace voxtact;
 using namespace voxtact::c;
+
+static_assert(sizeof(vxt_device_pair) == sizeof(PairResult) && sizeof(vxt_device_contact) == sizeof(ContactResult));
+
+vxt_result vxt_unpack(const vxt_device_pair* packed, vxt_pair* pair) {
+    return call([&] {
+        const vxt_device_pair& from = need(packed, "packed");
+        need(pair, "pair") =
+            toPair(unpack({from.count_low, from.count_high, from.pair, from.item, from.pose, from.how}));
+    });
+}
 
 vxt_result vxt_answer_create(vxt_answer** answer) {
     return create(answer, [] { return vxt_answer(); });

@@ -6,7 +6,7 @@
 
 namespace voxtact::c {
 
-/// A batch of the caller's as the host engine or the device takes it, which have structs of the same shape.
+/// A batch of the caller's as the host engine or the device takes it, whose structs begin alike.
 template <class Batch, class Item> class BatchOf {
   public:
     template <class CBatch, class CItem> BatchOf(const CBatch* given, const CBatch& noBatch, const CItem& noItem) {
@@ -16,10 +16,22 @@ template <class Batch, class Item> class BatchOf {
         }
         view_ = toView(batch.view);
         threshold_ = batch.threshold;
+        if constexpr (kCanBeCancelled) {
+            cancel_ = objectOf(batch.cancel);
+        }
     }
 
     /// Valid as long as this is.
-    [[nodiscard]] Batch batch() const noexcept { return {items_, view_, threshold_}; }
+    [[nodiscard]] Batch batch() const noexcept {
+        Batch batch;
+        batch.items = items_;
+        batch.view = view_;
+        batch.threshold = threshold_;
+        if constexpr (kCanBeCancelled) {
+            batch.cancel = cancel_;
+        }
+        return batch;
+    }
 
     template <class CItem> [[nodiscard]] static Item toItem(const CItem& item) {
         return {objectOf(item.mesh), objectOf(item.volume), objectOf(item.transfer_function),
@@ -27,9 +39,12 @@ template <class Batch, class Item> class BatchOf {
     }
 
   private:
+    static constexpr bool kCanBeCancelled = requires(Batch batch) { batch.cancel; };
+
     std::vector<Item> items_;
     View view_;
     double threshold_ = 0;
+    const std::atomic<bool>* cancel_ = nullptr;
 };
 
 using HostBatchOf = BatchOf<cpu::Batch, cpu::BatchItem>;

@@ -120,6 +120,10 @@ void writeMat4(double* out, const Mat4& matrix, const char* what) {
     std::ranges::copy(matrix, &need(out, what));
 }
 
+void writeVec3(double* out, const Vec3& vector, const char* what) {
+    std::copy(vector.begin(), vector.end(), &need(out, what));
+}
+
 View toView(const vxt_view* view) noexcept {
     if (view == nullptr) {
         return {Mat4{}, 0, 0};

@@ -29,6 +29,7 @@ template <class To, class From> To number(From from) noexcept {
 [[nodiscard]] Vec3 toVec3(const double* vector, const char* what);
 [[nodiscard]] Mat4 toMat4(const double* matrix, const char* what);
 void writeMat4(double* out, const Mat4& matrix, const char* what);
+void writeVec3(double* out, const Vec3& vector, const char* what);
 /// A view that no projection with a camera accepts where there is none.
 [[nodiscard]] View toView(const vxt_view* view) noexcept;
 [[nodiscard]] Outputs toOutputs(std::uint32_t outputs, double maxDepth);

@@ -37,12 +37,50 @@ vxt_result vxt_check_mesh(const vxt_mesh_view* mesh, vxt_mesh_facts* facts) {
     return call([&] { need(facts, "facts") = fromFacts(take(checkMesh(toMeshView(mesh)))); });
 }
 
+const char* vxt_scalar_type_name(vxt_scalar_type type) {
+    return toString(number<ScalarType>(type));
+}
+
+vxt_result vxt_check_grid(const vxt_grid* grid) {
+    return call([&] { checkedGrid(grid); });
+}
+
+vxt_result vxt_check_affine(const double b_from_a[16]) {
+    return call([&] { take(checkAffine(toMat4(b_from_a, "b_from_a"), "b_from_a")); });
+}
+
+vxt_result vxt_sample_table(const vxt_transfer_function_desc* desc, float* table, size_t room) {
+    return call([&] {
+        const std::vector<float> sampled = take(sampleTable(TransferFunctionOf(desc).desc()));
+        if (room < sampled.size()) {
+            refuse(ErrorCode::InvalidArgument, "table has room for " + std::to_string(room) + " entries, there are " +
+                                                   std::to_string(sampled.size()));
+        }
+        std::copy(sampled.begin(), sampled.end(), &need(table, "table"));
+    });
+}
+
 vxt_result vxt_world_from_index(const vxt_grid* grid, double world_from_index[16]) {
     return call([&] { writeMat4(world_from_index, worldFromIndex(checkedGrid(grid)), "world_from_index"); });
 }
 
 vxt_result vxt_world_from_texture(const vxt_grid* grid, double world_from_texture[16]) {
     return call([&] { writeMat4(world_from_texture, worldFromTexture(checkedGrid(grid)), "world_from_texture"); });
+}
+
+vxt_result vxt_texture_from_world(const vxt_grid* grid, double texture_from_world[16]) {
+    return call([&] {
+        writeMat4(texture_from_world, take(textureFromWorld(toGrid(need(grid, "grid")))), "texture_from_world");
+    });
+}
+
+vxt_result vxt_ball_voxels(const vxt_grid* grid, const double centre[3], double radius, vxt_voxel_box* box) {
+    return call([&] {
+        const VoxelBox found = take(voxelBounds(toBall(centre, radius), checkedGrid(grid)));
+        vxt_voxel_box& out = need(box, "box");
+        std::copy(found.first.begin(), found.first.end(), out.first);
+        std::copy(found.size.begin(), found.size.end(), out.size);
+    });
 }
 
 vxt_result vxt_framing_view(const vxt_grid* grid, uint32_t width, uint32_t height, vxt_view* view) {
@@ -60,6 +98,22 @@ vxt_result vxt_framing_view(const vxt_grid* grid, uint32_t width, uint32_t heigh
 
 vxt_result vxt_inverse(const double b_from_a[16], double a_from_b[16]) {
     return call([&] { writeMat4(a_from_b, take(inverse(toMat4(b_from_a, "b_from_a"))), "a_from_b"); });
+}
+
+vxt_result vxt_side_view(const double clip_from_world[16], double side_from_world[16]) {
+    return call(
+        [&] { writeMat4(side_from_world, sideView(toMat4(clip_from_world, "clip_from_world")), "side_from_world"); });
+}
+
+vxt_result vxt_multiply(const double c_from_b[16], const double b_from_a[16], double c_from_a[16]) {
+    return call(
+        [&] { writeMat4(c_from_a, multiply(toMat4(c_from_b, "c_from_b"), toMat4(b_from_a, "b_from_a")), "c_from_a"); });
+}
+
+vxt_result vxt_transform_point(const double b_from_a[16], const double point[3], double transformed[3]) {
+    return call([&] {
+        writeVec3(transformed, transformPoint(toMat4(b_from_a, "b_from_a"), toVec3(point, "point")), "transformed");
+    });
 }
 
 vxt_result vxt_transform_box(const double b_from_a[16], const vxt_box* box, vxt_box* transformed) {
@@ -99,6 +153,13 @@ vxt_result vxt_labels_create(const vxt_volume_view* volume, vxt_labels** labels)
 
 const int32_t* vxt_labels_values(const vxt_labels* labels, size_t* count) {
     return handOut(labels == nullptr ? std::span<const std::int32_t>() : labels->object.values, count);
+}
+
+vxt_result vxt_labels_grid(const vxt_labels* labels, vxt_grid* grid) {
+    return call([&] {
+        const LabelData& data = need(labels, "labels").object;
+        need(grid, "grid") = fromGrid(data.grid);
+    });
 }
 
 vxt_result vxt_labels_at(const vxt_labels* labels, const double world[3], int32_t* label) {

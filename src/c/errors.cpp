@@ -16,6 +16,7 @@ static_assert(VXT_ERROR_FILE == static_cast<int>(ErrorCode::File));
 static_assert(VXT_ERROR_FORMAT == static_cast<int>(ErrorCode::Format));
 static_assert(VXT_ERROR_NOT_READY == static_cast<int>(ErrorCode::NotReady));
 static_assert(VXT_ERROR_INTERNAL == static_cast<int>(ErrorCode::Internal));
+static_assert(VXT_ERROR_CANCELLED == static_cast<int>(ErrorCode::Cancelled));
 
 /// Short enough for a std::string without memory of its own.
 constexpr const char* kNoMemory = "no host memory";

@@ -7,6 +7,12 @@
 using namespace voxtact;
 using namespace voxtact::c;
 
+struct vxt_pose_reader {
+    io::PoseReader object;
+};
+struct vxt_colour_points {
+    std::vector<vxt_colour_point> object;
+};
 struct vxt_label_names {
     std::vector<io::LabelName> object;
 };
@@ -52,12 +58,26 @@ vxt_result vxt_read_volume(const char* path, const vxt_volume_read_options* opti
     return create(data, [&] { return take(io::readVolume(toPath(path), toOptions(options))); });
 }
 
+vxt_result vxt_read_volume_bytes(const char* name, const void* content, size_t bytes,
+                                 const vxt_volume_read_options* options, vxt_volume_data** data) {
+    return create(data, [&] {
+        return take(io::readVolume(&need(name, "name"), toBytes(content, bytes, "content"), toOptions(options)));
+    });
+}
+
 vxt_result vxt_write_volume(const char* path, const vxt_volume_view* volume) {
     return call([&] { take(io::writeVolume(toPath(path), toVolumeView(volume))); });
 }
 
 vxt_result vxt_read_mesh(const char* path, const vxt_mesh_read_options* options, vxt_mesh_data** data) {
     return create(data, [&] { return take(io::readMesh(toPath(path), toOptions(options))); });
+}
+
+vxt_result vxt_read_mesh_bytes(const char* name, const void* content, size_t bytes,
+                               const vxt_mesh_read_options* options, vxt_mesh_data** data) {
+    return create(data, [&] {
+        return take(io::readMesh(toBytes(content, bytes, "content"), &need(name, "name"), toOptions(options)));
+    });
 }
 
 vxt_result vxt_write_mesh(const char* path, const vxt_mesh_view* mesh) {
@@ -70,6 +90,52 @@ vxt_result vxt_read_camera(const char* path, double clip_from_world[16]) {
 
 vxt_result vxt_read_poses(const char* path, vxt_poses** poses) {
     return create(poses, [&] { return take(io::readPoses(toPath(path))); });
+}
+
+vxt_result vxt_pose_reader_open(const char* path, vxt_pose_reader** reader) {
+    return create(reader, [&] { return take(io::PoseReader::open(toPath(path))); });
+}
+
+vxt_result vxt_pose_reader_read(vxt_pose_reader* reader, double* poses, size_t most, size_t* count) {
+    return call([&] {
+        std::size_t& found = need(count, "count");
+        found = 0;
+        double& to = need(poses, "poses");
+        std::vector<Mat4> matrices;
+        static_cast<void>(take(need(reader, "reader").object.read(most, matrices)));
+        found = matrices.size();
+        std::memcpy(&to, matrices.data(), matrices.size() * sizeof(Mat4));
+    });
+}
+
+void vxt_pose_reader_destroy(vxt_pose_reader* reader) {
+    delete reader;
+}
+
+vxt_result vxt_read_colours(const char* path, vxt_colour_points** points) {
+    return create(points, [&] {
+        std::vector<vxt_colour_point> out;
+        for (const ColourPoint& point : take(io::readColours(toPath(path)))) {
+            out.push_back({point.value, {point.colour[0], point.colour[1], point.colour[2]}});
+        }
+        return out;
+    });
+}
+
+const vxt_colour_point* vxt_colour_points_get(const vxt_colour_points* points, size_t* count) {
+    return handOut(points == nullptr ? std::span<const vxt_colour_point>() : points->object, count);
+}
+
+void vxt_colour_points_destroy(vxt_colour_points* points) {
+    delete points;
+}
+
+vxt_result vxt_write_png(const char* path, uint32_t width, uint32_t height, const void* rgba, size_t bytes) {
+    return call([&] {
+        const std::span<const std::byte> pixels = toBytes(rgba, bytes, "rgba");
+        take(io::writePng(toPath(path), width, height,
+                          {reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size()}));
+    });
 }
 
 vxt_result vxt_read_transfer_function(const char* path, vxt_control_points** points) {

@@ -4,6 +4,7 @@
 #include "c/errors.h"
 #include "voxtact/cpu.h"
 
+#include <atomic>
 #include <vector>
 
 // What stands behind the opaque types of voxtact.h. Every handle has its object as `object`; those that belong to a
@@ -26,6 +27,9 @@ struct vxt_control_points {
 };
 struct vxt_box_pairs {
     std::vector<vxt_box_pair> object;
+};
+struct vxt_cancel {
+    std::atomic<bool> object{false};
 };
 struct vxt_host_volume {
     voxtact::cpu::Volume object;

@@ -28,6 +28,13 @@ vxt_result vxt_host_volume_create(const vxt_volume_view* view, vxt_host_volume**
     return create(volume, [&] { return take(cpu::Volume::create(toVolumeView(view))); });
 }
 
+vxt_result vxt_host_volume_grid(const vxt_host_volume* volume, vxt_grid* grid) {
+    return call([&] {
+        const Grid& of = need(volume, "volume").object.grid();
+        need(grid, "grid") = fromGrid(of);
+    });
+}
+
 vxt_result vxt_host_volume_set_box(vxt_host_volume* volume, const vxt_voxel_box* box, double value) {
     return call([&] { take(need(volume, "volume").object.set(toVoxelBox(box), value)); });
 }
@@ -63,6 +70,24 @@ vxt_result vxt_host_mesh_facts(const vxt_host_mesh* mesh, vxt_mesh_facts* facts)
 
 void vxt_host_mesh_destroy(vxt_host_mesh* mesh) {
     delete mesh;
+}
+
+vxt_result vxt_cancel_create(vxt_cancel** cancel) {
+    return call([&] {
+        vxt_cancel*& place = need(cancel, "the place for the new object");
+        place = nullptr;
+        place = std::make_unique<vxt_cancel>().release();
+    });
+}
+
+void vxt_cancel_set(vxt_cancel* cancel, uint32_t set) {
+    if (cancel != nullptr) {
+        cancel->object = set != 0;
+    }
+}
+
+void vxt_cancel_destroy(vxt_cancel* cancel) {
+    delete cancel;
 }
 
 vxt_result vxt_host_detector_create(const vxt_host_detector_desc* desc, vxt_host_detector** detector) {

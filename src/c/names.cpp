@@ -71,6 +71,14 @@ vxt_result vxt_projection_from_name(const char* name, vxt_projection* projection
     });
 }
 
+uint32_t vxt_projection_uses_view(vxt_projection projection) {
+    return usesView(number<Projection>(projection)) ? 1 : 0;
+}
+
+vxt_exactness vxt_method_exactness(vxt_method method) {
+    return number<vxt_exactness>(exactness(number<CountingMethod>(method)));
+}
+
 vxt_filter vxt_default_filter(vxt_method method) {
     return number<vxt_filter>(defaultFilter(number<CountingMethod>(method)));
 }

@@ -27,11 +27,20 @@ vxt_result vxt_read_volume(const char*, const vxt_volume_read_options*, vxt_volu
     return refused(data);
 }
 
+vxt_result vxt_read_volume_bytes(const char*, const void*, size_t, const vxt_volume_read_options*,
+                                 vxt_volume_data** data) {
+    return refused(data);
+}
+
 vxt_result vxt_write_volume(const char*, const vxt_volume_view*) {
     return refused();
 }
 
 vxt_result vxt_read_mesh(const char*, const vxt_mesh_read_options*, vxt_mesh_data** data) {
+    return refused(data);
+}
+
+vxt_result vxt_read_mesh_bytes(const char*, const void*, size_t, const vxt_mesh_read_options*, vxt_mesh_data** data) {
     return refused(data);
 }
 
@@ -45,6 +54,30 @@ vxt_result vxt_read_camera(const char*, double[16]) {
 
 vxt_result vxt_read_poses(const char*, vxt_poses** poses) {
     return refused(poses);
+}
+
+vxt_result vxt_pose_reader_open(const char*, vxt_pose_reader** reader) {
+    return refused(reader);
+}
+
+vxt_result vxt_pose_reader_read(vxt_pose_reader*, double*, size_t, size_t*) {
+    return refused();
+}
+
+void vxt_pose_reader_destroy(vxt_pose_reader*) {}
+
+vxt_result vxt_read_colours(const char*, vxt_colour_points** points) {
+    return refused(points);
+}
+
+const vxt_colour_point* vxt_colour_points_get(const vxt_colour_points*, size_t*) {
+    return nullptr;
+}
+
+void vxt_colour_points_destroy(vxt_colour_points*) {}
+
+vxt_result vxt_write_png(const char*, uint32_t, uint32_t, const void*, size_t) {
+    return refused();
 }
 
 vxt_result vxt_read_transfer_function(const char*, vxt_control_points** points) {

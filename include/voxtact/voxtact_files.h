@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef VOXTACT_VOXTACT_FILES_H
+#define VOXTACT_VOXTACT_FILES_H
+
+#include "voxtact/voxtact_data.h"
+
+/// @file
+/// Files, in C: voxtact::io. A library that was built without it refuses them all, UNSUPPORTED. What holds for
+/// voxtact.h, which includes this, holds here.
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Which image of a file or folder that holds several is read.
+typedef struct vxt_volume_read_options {
+    size_t struct_size; ///< sizeof
+    const char* series; ///< SeriesInstanceUID of a DICOM folder; null: the only one
+    int64_t frame;      ///< of a 4D NIfTI file, counted from 0; -1, the default: the only one
+} vxt_volume_read_options;
+
+/// The only one.
+static inline vxt_volume_read_options vxt_volume_read_options_init(void) {
+    vxt_volume_read_options options;
+    memset(&options, 0, sizeof options);
+    options.struct_size = sizeof options;
+    options.frame = -1;
+    return options;
+}
+
+/// What the numbers of a mesh file mean.
+typedef struct vxt_mesh_read_options {
+    size_t struct_size; ///< sizeof
+    double scale;       ///< millimetres in a unit of the file; default 1
+    uint32_t ras;       ///< RAS coordinates: x and y are negated; default 0, LPS
+    uint32_t reserved;  ///< 0
+} vxt_mesh_read_options;
+
+/// LPS in millimetres.
+static inline vxt_mesh_read_options vxt_mesh_read_options_init(void) {
+    vxt_mesh_read_options options;
+    memset(&options, 0, sizeof options);
+    options.struct_size = sizeof options;
+    options.scale = 1;
+    return options;
+}
+
+/// A volume from a file or a DICOM folder: voxtact::io::readVolume(). Null options are the defaults.
+VXT_CHECKED vxt_result vxt_read_volume(const char* path, const vxt_volume_read_options* options,
+                                       vxt_volume_data** data);
+/// The same from one file's bytes in memory; the ending of `name` says the format.
+VXT_CHECKED vxt_result vxt_read_volume_bytes(const char* name, const void* content, size_t bytes,
+                                             const vxt_volume_read_options* options, vxt_volume_data** data);
+/// voxtact::io::writeVolume().
+VXT_CHECKED vxt_result vxt_write_volume(const char* path, const vxt_volume_view* volume);
+/// A mesh from a file: voxtact::io::readMesh(). Null options are the defaults.
+VXT_CHECKED vxt_result vxt_read_mesh(const char* path, const vxt_mesh_read_options* options, vxt_mesh_data** data);
+/// The same from one file's bytes in memory; the ending of `name` says the format.
+VXT_CHECKED vxt_result vxt_read_mesh_bytes(const char* name, const void* content, size_t bytes,
+                                           const vxt_mesh_read_options* options, vxt_mesh_data** data);
+/// voxtact::io::writeMesh().
+VXT_CHECKED vxt_result vxt_write_mesh(const char* path, const vxt_mesh_view* mesh);
+/// One `clip_from_world` matrix: voxtact::io::readCamera().
+VXT_CHECKED vxt_result vxt_read_camera(const char* path, double clip_from_world[16]);
+
+/// Poses that were read.
+typedef struct vxt_poses vxt_poses;
+/// One matrix a line, row by row: voxtact::io::readPoses().
+VXT_CHECKED vxt_result vxt_read_poses(const char* path, vxt_poses** poses);
+/// 16 doubles a pose, column by column, as items take them; valid as long as the object. `count` is of poses.
+VXT_API const double* vxt_poses_get(const vxt_poses* poses, size_t* count);
+/// Ends it.
+VXT_API void vxt_poses_destroy(vxt_poses* poses);
+
+/// Poses as vxt_read_poses() reads them, some at a time, in constant memory: voxtact::io::PoseReader.
+typedef struct vxt_pose_reader vxt_pose_reader;
+/// Refuses a file that cannot be opened.
+VXT_CHECKED vxt_result vxt_pose_reader_open(const char* path, vxt_pose_reader** reader);
+/// The next poses, at most `most`, into `poses`, 16 doubles each, column by column. `count` is how many there were: 0
+/// after the last one.
+VXT_CHECKED vxt_result vxt_pose_reader_read(vxt_pose_reader* reader, double* poses, size_t most, size_t* count);
+/// Ends it.
+VXT_API void vxt_pose_reader_destroy(vxt_pose_reader* reader);
+
+/// Control points that were read.
+typedef struct vxt_control_points vxt_control_points;
+/// A transfer function's file: voxtact::io::readTransferFunction().
+VXT_CHECKED vxt_result vxt_read_transfer_function(const char* path, vxt_control_points** points);
+/// The same as "v:a,v:a,...".
+VXT_CHECKED vxt_result vxt_parse_opacity(const char* text, vxt_control_points** points);
+/// The points; valid as long as the object.
+VXT_API const vxt_control_point* vxt_control_points_get(const vxt_control_points* points, size_t* count);
+/// Ends it.
+VXT_API void vxt_control_points_destroy(vxt_control_points* points);
+
+/// A corner of the piecewise linear colours that pictures have.
+typedef struct vxt_colour_point {
+    double value;     ///< in the image's own units
+    double colour[3]; ///< red, green, blue; 0..1
+} vxt_colour_point;
+/// Colours that were read.
+typedef struct vxt_colour_points vxt_colour_points;
+/// Those of a transfer function's JSON file; none where it has none: voxtact::io::readColours().
+VXT_CHECKED vxt_result vxt_read_colours(const char* path, vxt_colour_points** points);
+/// The points; valid as long as the object.
+VXT_API const vxt_colour_point* vxt_colour_points_get(const vxt_colour_points* points, size_t* count);
+/// Ends it.
+VXT_API void vxt_colour_points_destroy(vxt_colour_points* points);
+
+/// A PNG file of 8 bits a channel, red, green, blue and alpha of each pixel, the uppermost row first:
+/// voxtact::io::writePng().
+VXT_CHECKED vxt_result vxt_write_png(const char* path, uint32_t width, uint32_t height, const void* rgba, size_t bytes);
+
+/// Names of labels that were read.
+typedef struct vxt_label_names vxt_label_names;
+/// `number name`, one a line: voxtact::io::readLabelNames().
+VXT_CHECKED vxt_result vxt_read_label_names(const char* path, vxt_label_names** names);
+/// The name at a place of the file's order, and its label; null beyond the last one. `label` may be null.
+VXT_API const char* vxt_label_names_get(const vxt_label_names* names, size_t index, int32_t* label);
+/// Ends it.
+VXT_API void vxt_label_names_destroy(vxt_label_names* names);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
