@@ -25,10 +25,6 @@ template <class Row> void append(std::vector<Row>& all, std::vector<Row> piece, 
     }
 }
 
-py::array truths(const std::vector<std::uint8_t>& values, const py::object& owner) {
-    return py::array(py::dtype::of<bool>(), {static_cast<py::ssize_t>(values.size())}, values.data(), owner);
-}
-
 py::array_t<std::uint32_t> itemsOf(const Request& request) {
     py::array_t<std::uint32_t> numbers(static_cast<py::ssize_t>(request.pairs));
     std::uint32_t* to = numbers.mutable_data();

@@ -33,6 +33,10 @@ bool isSquare(const py::array& array, py::ssize_t first) {
 
 } // namespace
 
+py::array truths(const std::vector<std::uint8_t>& values, const py::object& owner) {
+    return py::array(py::dtype::of<bool>(), {static_cast<py::ssize_t>(values.size())}, values.data(), owner);
+}
+
 py::array readOnly(py::array array) {
     array.attr("setflags")(py::arg("write") = false);
     return array;
@@ -65,6 +69,16 @@ std::vector<Mat4> matricesOf(const Doubles& rows, const char* what) {
         from += matrix.size();
     }
     return matrices;
+}
+
+py::array_t<double> matricesInPython(const std::vector<Mat4>& matrices) {
+    py::array_t<double> rows({static_cast<py::ssize_t>(matrices.size()), py::ssize_t{4}, py::ssize_t{4}});
+    double* to = rows.mutable_data();
+    for (const Mat4& matrix : matrices) {
+        const Mat4 transposed = fromRows(matrix.data());
+        to = std::copy(transposed.begin(), transposed.end(), to);
+    }
+    return rows;
 }
 
 Vec3 vectorOf(const Doubles& numbers, const char* what) {

@@ -25,6 +25,8 @@ template <class T> py::array shown(const std::vector<T>& values, std::size_t col
                      {static_cast<py::ssize_t>(values.size() / columns), static_cast<py::ssize_t>(columns)},
                      values.data(), owner);
 }
+/// The same of ones and zeros, as truth values.
+[[nodiscard]] py::array truths(const std::vector<std::uint8_t>& values, const py::object& owner);
 /// The same array, not to be written to.
 [[nodiscard]] py::array readOnly(py::array array);
 
@@ -32,8 +34,9 @@ template <class T> py::array shown(const std::vector<T>& values, std::size_t col
 [[nodiscard]] Mat4 matrixOf(const Doubles& rows, const char* what);
 [[nodiscard]] py::array_t<double> matrixInPython(const Mat4& matrix);
 
-/// Matrices of shape (4,4) or (N,4,4).
+/// Matrices of shape (4,4) or (N,4,4), and back to the latter.
 [[nodiscard]] std::vector<Mat4> matricesOf(const Doubles& rows, const char* what);
+[[nodiscard]] py::array_t<double> matricesInPython(const std::vector<Mat4>& matrices);
 
 [[nodiscard]] Vec3 vectorOf(const Doubles& numbers, const char* what);
 [[nodiscard]] py::array_t<double> vectorInPython(const Vec3& vector);

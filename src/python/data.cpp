@@ -156,15 +156,7 @@ void defineShape(py::module_& module) {
 }
 
 py::array_t<double> readPoses(const std::string& path) {
-    const std::vector<Mat4> poses = unlocked([&] { return take(io::readPoses(path)); });
-    py::array_t<double> rows({static_cast<py::ssize_t>(poses.size()), py::ssize_t{4}, py::ssize_t{4}});
-    double* to = rows.mutable_data();
-    for (const Mat4& pose : poses) {
-        for (std::size_t element = 0; element < pose.size(); ++element) {
-            *to++ = pose[4 * (element % 4) + element / 4];
-        }
-    }
-    return rows;
+    return matricesInPython(unlocked([&] { return take(io::readPoses(path)); }));
 }
 
 py::dict readLabelNames(const std::string& path) {

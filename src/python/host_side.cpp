@@ -2,7 +2,11 @@
 #include "host_side.h"
 
 #include "failure.h"
+#include "turn.h"
 
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <thread>
 
 namespace voxtact::python {
@@ -13,6 +17,25 @@ namespace {
 constexpr std::size_t kMostKept = 8;
 /// Where a yes or no is asked about so few, waking threads takes longer than the answer.
 constexpr std::size_t kFewTriangles = std::size_t{1} << 14U;
+
+/// Calls `ask` with the batch, on a thread of its own, and lets Python handle signals meanwhile. What a handler raises
+/// ends the call.
+template <class Ask> auto interruptibly(cpu::Batch batch, const Ask& ask) {
+    constexpr std::chrono::milliseconds kPatience{50};
+    std::atomic<bool> cancel{false};
+    batch.cancel = &cancel;
+    auto answer = std::async(std::launch::async, [&] { return ask(batch); });
+    try {
+        while (answer.wait_for(kPatience) != std::future_status::ready) {
+            handleSignals();
+        }
+    } catch (...) {
+        cancel = true;
+        answer.wait();
+        throw;
+    }
+    return answer.get();
+}
 
 /// The one of this process that is kept for a key, or a new one.
 template <class T, class Key, class Make>
@@ -77,39 +100,72 @@ cpu::ClearanceMeter& HostSide::meterFor(const Distance& distance) {
     });
 }
 
-template <class Ask>
-auto HostSide::asked(const Part& part, double threshold, const LabelData* labels, const View& view,
-                     const Ask& ask) const {
+cpu::MotionChecker& HostSide::checkerFor(const Way& way) {
+    return keptOrMade(checkers_, Way::Key(way.key()), [&] {
+        return cpu::MotionChecker::create({.threads = threads_,
+                                           .interpolation = way.interpolation,
+                                           .resolution = way.resolution,
+                                           .mostSteps = way.mostSteps});
+    });
+}
+
+std::vector<cpu::BatchItem> HostSide::itemsOf(const Part& part, const LabelData* labels) const {
     std::vector<cpu::BatchItem> items;
     part.request.forPart(part.first, part.count, [&](const Request::Item& item, std::span<const Mat4> poses) {
         items.push_back({&item.mesh->onHost(), &volume_, &function_, poses, labels});
     });
-    return take(ask(cpu::Batch{items, view, threshold}));
+    return items;
+}
+
+bool HostSide::isLittle(const Part& part) noexcept {
+    return part.count * part.request.mostTriangles() <= kFewTriangles;
 }
 
 BatchAnswer HostSide::detect(const Part& part, const Question& question, double threshold, const LabelData* labels) {
-    const bool few = question.yesNo && part.count * part.request.mostTriangles() <= kFewTriangles;
-    cpu::Detector& detector = detectorFor(question, few ? 1 : threads_);
-    return asked(part, threshold, labels, viewOf(question, volume_.grid()),
-                 [&](const cpu::Batch& batch) { return detector.detect(batch); });
+    cpu::Detector& detector = detectorFor(question, question.yesNo && isLittle(part) ? 1 : threads_);
+    const std::vector<cpu::BatchItem> items = itemsOf(part, labels);
+    const cpu::Batch batch{items, viewOf(question, volume_.grid()), threshold};
+    const auto ask = [&](const cpu::Batch& asked) { return take(detector.detect(asked)); };
+    return isLittle(part) ? ask(batch) : interruptibly(batch, ask);
 }
 
 ClearanceAnswer HostSide::measure(const Part& part, const Distance& distance, double threshold) {
     cpu::ClearanceMeter& meter = meterFor(distance);
-    return asked(part, threshold, nullptr, {}, [&](const cpu::Batch& batch) { return meter.measure(batch); });
+    const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
+    return interruptibly({items, {}, threshold}, [&](const cpu::Batch& batch) { return take(meter.measure(batch)); });
 }
 
 LabelClearanceAnswer HostSide::measureLabels(const Part& part, const Distance& distance, double threshold,
                                              const LabelData* labels, const std::vector<std::int32_t>& wanted) {
     cpu::ClearanceMeter& meter = meterFor(distance);
-    return asked(part, threshold, labels, {},
-                 [&](const cpu::Batch& batch) { return meter.measureLabels(batch, wanted); });
+    const std::vector<cpu::BatchItem> items = itemsOf(part, labels);
+    return interruptibly({items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(meter.measureLabels(batch, wanted)); });
 }
 
 BatchAnswer HostSide::within(const Part& part, double margin, double threshold) {
     const cpu::ClearanceDesc usual;
     cpu::ClearanceMeter& meter = meterFor({usual.tolerance, usual.maximum, usual.mostSteps});
-    return asked(part, threshold, nullptr, {}, [&](const cpu::Batch& batch) { return meter.within(batch, margin); });
+    const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
+    return interruptibly({items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(meter.within(batch, margin)); });
+}
+
+MotionAnswer HostSide::move(const Part& part, const Way& way, double threshold) {
+    cpu::MotionChecker& checker = checkerFor(way);
+    std::vector<cpu::BatchItem> items;
+    part.request.forSegments(part.first, part.count, [&](const Request::Item& item, std::span<const Mat4> poses) {
+        items.push_back({&item.mesh->onHost(), &volume_, &function_, poses});
+    });
+    return interruptibly({items, {}, threshold}, [&](const cpu::Batch& batch) { return take(checker.check(batch)); });
+}
+
+BatchAnswer HostSide::around(const Part& part, const PoseTolerance& tolerance, double threshold) {
+    const cpu::MotionDesc usual;
+    cpu::MotionChecker& checker = checkerFor({usual.interpolation, usual.resolution, usual.mostSteps});
+    const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
+    return interruptibly({items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(checker.around(batch, tolerance)); });
 }
 
 } // namespace voxtact::python

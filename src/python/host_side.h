@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edits.h"
+#include "motions.h"
 #include "process.h"
 #include "request.h"
 #include "voxtact/cpu.h"
@@ -31,16 +32,19 @@ class HostSide {
     [[nodiscard]] LabelClearanceAnswer measureLabels(const Part& part, const Distance& distance, double threshold,
                                                      const LabelData* labels, const std::vector<std::int32_t>& asked);
     [[nodiscard]] BatchAnswer within(const Part& part, double margin, double threshold);
+    /// `part` counts segments.
+    [[nodiscard]] MotionAnswer move(const Part& part, const Way& way, double threshold);
+    [[nodiscard]] BatchAnswer around(const Part& part, const PoseTolerance& tolerance, double threshold);
     /// That a call runs on.
     [[nodiscard]] std::uint32_t threads() const noexcept { return threads_; }
 
   private:
     [[nodiscard]] cpu::Detector& detectorFor(const Question& question, std::uint32_t threads);
     [[nodiscard]] cpu::ClearanceMeter& meterFor(const Distance& distance);
-    /// Calls `ask` with the part as a batch.
-    template <class Ask>
-    [[nodiscard]] auto asked(const Part& part, double threshold, const LabelData* labels, const View& view,
-                             const Ask& ask) const;
+    [[nodiscard]] cpu::MotionChecker& checkerFor(const Way& way);
+    [[nodiscard]] std::vector<cpu::BatchItem> itemsOf(const Part& part, const LabelData* labels) const;
+    /// Whether it takes no longer than waking others does.
+    [[nodiscard]] static bool isLittle(const Part& part) noexcept;
 
     cpu::Volume volume_;
     cpu::TransferFunction function_;
@@ -48,6 +52,7 @@ class HostSide {
     // They have threads.
     std::map<std::pair<Question::Key, std::uint32_t>, OfThisProcess<cpu::Detector>> detectors_;
     std::map<Distance::Key, OfThisProcess<cpu::ClearanceMeter>> meters_;
+    std::map<Way::Key, OfThisProcess<cpu::MotionChecker>> checkers_;
 };
 
 } // namespace voxtact::python

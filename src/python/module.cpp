@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // voxtact._core: what the package voxtact, in voxtact/, is thin on.
 #include "failure.h"
+#include "motions.h"
 #include "process.h"
 #include "scene.h"
 
@@ -14,10 +15,13 @@ PYBIND11_MODULE(_core, module) {
     module.attr("DEFAULT_TOLERANCE") = kDefaultTolerance;
     module.attr("DEFAULT_TABLE_SIZE") = kDefaultTableSize;
     module.attr("DEFAULT_MOST_STEPS") = cpu::ClearanceDesc().mostSteps;
+    module.attr("DEFAULT_MOTION_RESOLUTION") = kDefaultMotionResolution;
+    module.attr("DEFAULT_MOTION_STEPS") = cpu::MotionDesc().mostSteps;
     python::watchForks();
     python::registerFailures();
     python::defineData(module);
     python::defineDevice(module);
     python::defineAnswers(module);
+    python::defineMotions(module);
     python::defineScene(module);
 }

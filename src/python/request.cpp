@@ -103,9 +103,14 @@ std::vector<Mat4> posesOf(const Doubles& rows, std::size_t item) {
 } // namespace
 
 void Request::add(std::shared_ptr<const Shape> mesh, std::vector<Mat4> world_from_object) {
+    const std::size_t segmentsBefore = segments();
     const std::size_t poses = world_from_object.size();
-    items.push_back({std::move(mesh), std::move(world_from_object), pairs});
+    items.push_back({std::move(mesh), std::move(world_from_object), pairs, segmentsBefore});
     pairs += poses;
+}
+
+std::size_t Request::segments() const noexcept {
+    return items.empty() ? 0 : items.back().firstSegment + items.back().segments();
 }
 
 std::size_t Request::mostTriangles() const noexcept {

@@ -20,11 +20,18 @@ struct Request {
         std::shared_ptr<const Shape> mesh;
         std::vector<Mat4> world_from_object;
         std::size_t firstPair = 0;
+        std::size_t firstSegment = 0;
+
+        /// Ways from one pose to the next.
+        [[nodiscard]] std::size_t segments() const noexcept {
+            return world_from_object.size() - (world_from_object.empty() ? 0 : 1);
+        }
     };
     std::vector<Item> items;
     std::size_t pairs = 0;
 
     void add(std::shared_ptr<const Shape> mesh, std::vector<Mat4> world_from_object);
+    [[nodiscard]] std::size_t segments() const noexcept;
     /// The triangles of the largest mesh; at least 1.
     [[nodiscard]] std::size_t mostTriangles() const noexcept;
     /// Calls `each(item, poses)` for the part of each item that lies in `count` pairs from `first` on.
@@ -34,6 +41,16 @@ struct Request {
             const std::size_t end = std::min(first + count, item.firstPair + item.world_from_object.size());
             if (begin < end) {
                 each(item, std::span(item.world_from_object).subspan(begin - item.firstPair, end - begin));
+            }
+        }
+    }
+    /// The same for segments, each with both of its poses.
+    template <class Each> void forSegments(std::size_t first, std::size_t count, const Each& each) const {
+        for (const Item& item : items) {
+            const std::size_t begin = std::max(first, item.firstSegment);
+            const std::size_t end = std::min(first + count, item.firstSegment + item.segments());
+            if (begin < end) {
+                each(item, std::span(item.world_from_object).subspan(begin - item.firstSegment, end - begin + 1));
             }
         }
     }

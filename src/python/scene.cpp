@@ -194,7 +194,9 @@ std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request>
     return found;
 }
 
-std::shared_ptr<Answer> Scene::within(std::shared_ptr<const Request> request, double margin, const Progress& progress) {
+template <class Ask>
+std::shared_ptr<Answer> Scene::yesOrNo(std::shared_ptr<const Request> request, std::size_t cost,
+                                       const Progress& progress, const Ask& ask) {
     const Turns::Turn turn(turns_);
     checkOpen();
     HostSide& side = host();
@@ -202,11 +204,36 @@ std::shared_ptr<Answer> Scene::within(std::shared_ptr<const Request> request, do
     question.yesNo = true;
     auto answer = std::make_shared<Answer>(request, question);
     answer->revision = revision_;
-    inPieces(request->pairs, firstPiece(*request, 1, side.threads()), kMostHostPairs, progress,
+    inPieces(request->pairs, firstPiece(*request, cost, side.threads()), kMostHostPairs, progress,
              [&](std::size_t first, std::size_t count) {
-                 answer->add(first, side.within({*request, first, count}, margin, desc_.threshold));
+                 answer->add(first, ask(side, Part{*request, first, count}));
              });
     return answer;
+}
+
+std::shared_ptr<Answer> Scene::within(std::shared_ptr<const Request> request, double margin, const Progress& progress) {
+    return yesOrNo(std::move(request), 1, progress,
+                   [&](HostSide& side, const Part& part) { return side.within(part, margin, desc_.threshold); });
+}
+
+std::shared_ptr<Answer> Scene::around(std::shared_ptr<const Request> request, const PoseTolerance& tolerance,
+                                      const Progress& progress) {
+    return yesOrNo(std::move(request), kClearanceCost, progress,
+                   [&](HostSide& side, const Part& part) { return side.around(part, tolerance, desc_.threshold); });
+}
+
+std::shared_ptr<Motions> Scene::motion(std::shared_ptr<const Request> request, const Way& way,
+                                       const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    HostSide& side = host();
+    auto found = std::make_shared<Motions>();
+    found->request = request;
+    inPieces(request->segments(), firstPiece(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
+             [&](std::size_t first, std::size_t count) {
+                 found->add(side.move({*request, first, count}, way, desc_.threshold), desc_.labels.get());
+             });
+    return found;
 }
 
 Picture Scene::picture(const PictureWish& wish, const std::shared_ptr<Device>& device) {

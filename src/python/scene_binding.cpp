@@ -134,6 +134,25 @@ std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py:
     return scene.within(request, margin, progress);
 }
 
+std::shared_ptr<Motions> motion(Scene& scene, const py::object& meshes, const py::object& poses,
+                                const std::string& interpolation, double resolution, std::uint64_t mostSteps,
+                                const py::object& callback) {
+    const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
+    const Way way{interpolationOf(interpolation), resolution, mostSteps};
+    checkWays(*request, way.interpolation);
+    const Progress progress = progressOf(callback, request->segments());
+    const py::gil_scoped_release release;
+    return scene.motion(request, way, progress);
+}
+
+std::shared_ptr<Answer> around(Scene& scene, const py::object& meshes, const py::object& poses, double distance,
+                               double angle, const py::object& callback) {
+    const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
+    const Progress progress = progressOf(callback, request->pairs);
+    const py::gil_scoped_release release;
+    return scene.around(request, {distance, angle}, progress);
+}
+
 Paint paintOf(const std::string& name) {
     constexpr std::array<std::pair<const char*, Paint>, 3> kPaints{
         {{"contacts", Paint::Contacts}, {"discarded", Paint::Discarded}, {"plain", Paint::Plain}}};
@@ -234,6 +253,10 @@ void defineScene(py::module_& module) {
         .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
              py::arg("most_steps"), py::arg("labels"), py::arg("progress"))
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("progress"))
+        .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),
+             py::arg("most_steps"), py::arg("progress"))
+        .def("around", &around, py::arg("meshes"), py::arg("poses"), py::arg("distance"), py::arg("angle"),
+             py::arg("progress"))
         .def("picture", &picture, py::arg("mesh"), py::arg("poses"), py::arg("width"), py::arg("height"),
              py::arg("view"), py::arg("preset"), py::arg("background"), py::arg("show"), py::arg("through"),
              py::arg("device"))

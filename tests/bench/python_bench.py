@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT
 """What `scene.detect` costs beside the C++ call that it makes, in one run: one pose, and 100,000 poses.
 
-usage: python_bench.py [POSES]
+usage: python_bench.py [POSES] [--json]
 
 The C++ call is cpu::Detector::detect(); its time is its own (BatchAnswer::wallMilliseconds). For one pose it is the
 call that Python makes: what is around it is what Python adds. For many, Python calls in pieces; so the engine is also
 asked for all of them in one call, in turn with Python. A line says how much more Python takes: the median, and the
 smallest and the largest.
 """
+import json
 import statistics
 import sys
 import time
@@ -52,20 +53,40 @@ def many_poses(scene, mesh, poses, rounds):
     return engine, python
 
 
-def main():
-    number = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+def measure(number):
+    """A dict for each number of threads and of poses, with the numbers of a line."""
     mesh = vx.read_mesh("builtin:scalpel")
     for threads in (1, 0):
         scene = vx.Scene("builtin:head:128", opacity=[(40, 0), (80, 1)], threads=threads)
         name = "one thread" if threads == 1 else "all threads"
         engine, more = one_pose(scene, mesh, poses_around(1, 0)[0], 5000)
-        more = np.percentile(np.array(more) * 1e6, [5, 50, 95])
-        print(f"{name}, one pose: the engine {1e6 * statistics.median(engine):.1f} us, Python {more[1]:.1f} us more (90 % "
-              f"are {more[0]:.1f} to {more[2]:.1f})")
+        low, middle, high = np.percentile(np.array(more) * 1e6, [5, 50, 95])
+        yield {"threads": name, "poses": 1, "engine_us": 1e6 * statistics.median(engine), "more_us": middle,
+               "low_us": low, "high_us": high}
         engine, python = many_poses(scene, mesh, poses_around(number, 120), 15)
         more = [100 * (p / e - 1) for e, p in zip(engine, python)]
-        print(f"{name}, {number} poses: the engine {statistics.median(engine):.3f} s, Python {statistics.median(more):.1f} % "
-              f"more ({min(more):.1f} to {max(more):.1f}; of the fastest of each {100 * (min(python) / min(engine) - 1):.1f})")
+        yield {"threads": name, "poses": number, "engine_s": statistics.median(engine),
+               "more_percent": statistics.median(more), "low_percent": min(more), "high_percent": max(more),
+               "of_fastest_percent": 100 * (min(python) / min(engine) - 1)}
+
+
+def line(row):
+    if row["poses"] == 1:
+        return (f"{row['threads']}, one pose: the engine {row['engine_us']:.1f} us, Python {row['more_us']:.1f} us more (90 % "
+                f"are {row['low_us']:.1f} to {row['high_us']:.1f})")
+    return (f"{row['threads']}, {row['poses']} poses: the engine {row['engine_s']:.3f} s, Python {row['more_percent']:.1f} % "
+            f"more ({row['low_percent']:.1f} to {row['high_percent']:.1f}; of the fastest of each "
+            f"{row['of_fastest_percent']:.1f})")
+
+
+def main():
+    arguments = [argument for argument in sys.argv[1:] if argument != "--json"]
+    rows = measure(int(arguments[0]) if arguments else 100_000)
+    if "--json" in sys.argv:
+        json.dump(list(rows), sys.stdout, indent=1)
+        return
+    for row in rows:
+        print(line(row), flush=True)
 
 
 if __name__ == "__main__":

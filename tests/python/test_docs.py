@@ -30,8 +30,8 @@ def test_example(script, tmp_path):
     assert text.splitlines()[1:3] == ["# %% [markdown]", text.splitlines()[2]] and "\n# %%\n" in text, "not in cells"
     printed = run(script, tmp_path, *(["2000"] if script.stem == "regions" else []))
     assert printed
-    if script.stem == "insertion":
-        assert (tmp_path / "insertion.png").stat().st_size > 10_000
+    if script.stem in ("insertion", "motion"):
+        assert (tmp_path / f"{script.stem}.png").stat().st_size > 10_000
     if script.stem == "slicer":
         check_slicer(tmp_path, printed)
 

@@ -10,6 +10,7 @@
     answer = scene.detect(knife, poses)            # (N,4,4), world_from_object
     answer.hit, answer.count, answer.triangles, answer.contacts
     scene.clearance(knife, poses).lo               # mm
+    scene.motion(knife, poses).free_until          # on the way from pose to pose
     scene.opacity = [(100, 0), (200, 1)]           # the next answer has seen it
     scene.edit(ball=(x, y, z, r), value=-1000)     # so it has this
 
@@ -24,20 +25,8 @@ Everything that is refused raises a `voxtact.Error`, which says what, why and wh
 """
 from ._answer import Answer, Clearance
 from ._core import __version__
-from ._data import (
-    LPS_FROM_RAS,
-    Labels,
-    Mesh,
-    Volume,
-    read_camera,
-    read_label_names,
-    read_labels,
-    read_mesh,
-    read_opacity,
-    read_poses,
-    read_volume,
-    write_png,
-)
+from ._common import LPS_FROM_RAS
+from ._device import Device, DeviceInfo, devices
 from ._errors import (
     DeviceLostError,
     Error,
@@ -51,7 +40,12 @@ from ._errors import (
     UnsupportedError,
     VulkanError,
 )
-from ._scene import Device, DeviceInfo, Scene, View, devices
+from ._files import read_camera, read_opacity, read_poses, write_png
+from ._labels import Labels, read_label_names, read_labels
+from ._mesh import Mesh, read_mesh
+from ._motion import Motion, pose_between
+from ._scene import Scene, View
+from ._volume import Volume, read_volume
 
 __all__ = [
     "LPS_FROM_RAS",
@@ -68,6 +62,7 @@ __all__ = [
     "Labels",
     "LimitExceededError",
     "Mesh",
+    "Motion",
     "NotReadyError",
     "OutOfMemoryError",
     "Scene",
@@ -77,6 +72,7 @@ __all__ = [
     "VulkanError",
     "__version__",
     "devices",
+    "pose_between",
     "read_camera",
     "read_label_names",
     "read_labels",

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._data import not_pickled
+from ._common import not_pickled
 from ._errors import NotReadyError
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class Answer:
             self._later = {}
         if name not in self._later:
             if self._scene is None:
-                raise NotReadyError(f"within() has no {name}: ask detect(), which is about touching")
+                raise NotReadyError(f"answers of within() and around() have no {name}: ask detect(), which is about touching")
             again = self._scene._core.again(self._core, name)
             if again is None:
                 raise NotReadyError(f"the scene has changed since this answer: detect({name}=True) asks for its {name} "

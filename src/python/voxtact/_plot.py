@@ -8,6 +8,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from ._answer import Answer, Clearance
+    from ._motion import Motion
 
 
 def _axes(ax: Any) -> Any:
@@ -44,5 +45,19 @@ def plot_clearance(clearance: Clearance, ax: Any) -> Any:
         axes.fill_between(rows, lo, np.where(np.isfinite(hi), hi, lo), color=line.get_color(), alpha=0.3)
     axes.set_xlabel("pose")
     axes.set_ylabel("mm")
+    axes.legend()
+    return axes
+
+
+def plot_motion(motion: Motion, ax: Any) -> Any:
+    axes = _axes(ax)
+    rows = np.arange(len(motion))
+    axes.vlines(rows, 0, motion.free_until, color="tab:green", label="free until")
+    axes.plot(rows[motion.hit], motion.touch_at[motion.hit], ".", color="tab:red", label="touches at")
+    axes.plot(rows[motion.possible], motion.free_until[motion.possible], "o", color="tab:red", fillstyle="none",
+              label="possible from")
+    axes.set_xlabel("segment")
+    axes.set_ylabel("parameter")
+    axes.set_ylim(0, 1.02)
     axes.legend()
     return axes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes, which are asked, and the devices that they may be on."""
+"""Scenes, which are asked."""
 from __future__ import annotations
 
 import os
@@ -14,8 +14,14 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._answer import Answer, Clearance
-from ._data import Labels, Mesh, Volume, not_pickled, read_labels, read_opacity, read_volume
+from ._common import not_pickled
+from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
+from ._files import read_opacity
+from ._labels import Labels, read_labels
+from ._mesh import Mesh
+from ._motion import Interpolation, Motion
+from ._volume import Volume, read_volume
 
 Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
 Method = Literal["query", "query-any", "atomic", "subgroup", "compute", "cpu"]
@@ -29,74 +35,6 @@ Progress = Union[None, Callable[[int, int], object], Any]
 _RESOLUTION = 1 / 64
 _MOST_CONTACTS = 2**20
 _INFINITE = float("inf")
-
-
-class DeviceInfo(NamedTuple):
-    """A Vulkan device of this machine."""
-
-    #: What `Device` takes.
-    number: int
-    name: str
-    #: "discrete", "integrated", "virtual", "cpu" or "other"
-    kind: str
-    driver: str
-    #: of Vulkan, as "1.3.230"
-    api: str
-
-
-def devices() -> list[DeviceInfo]:
-    """The Vulkan devices of this machine. UnsupportedError where there is none, with what to install."""
-    return [DeviceInfo(*facts) for facts in core.Device.list()]
-
-
-class Device:
-    """A Vulkan device, opened: for the `device` of scenes and pictures, which may share it.
-
-    which: its number in `devices()`, a part of its name, or nothing for the best one.
-    """
-
-    __slots__ = ("_core",)
-    _core: core.Device
-
-    def __init__(self, which: Union[None, int, str] = None) -> None:
-        self._core = core.Device.open("" if which is None else str(which))
-
-    @property
-    def info(self) -> DeviceInfo:
-        """Which one it is."""
-        return DeviceInfo(*self._core.facts)
-
-    @property
-    def methods(self) -> dict[str, Optional[str]]:
-        """Every counting method: None where the device has it, else why not."""
-        return self._core.methods
-
-    def __repr__(self) -> str:
-        info = self.info
-        return f"<voxtact.Device {info.number} {info.name!r}, {info.kind}, {info.driver}, Vulkan {info.api}>"
-
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
-
-
-# By process: a device does not live on in the child of a fork.
-_best_devices: dict[int, Device] = {}
-
-
-def _best_device() -> Device:
-    """Opened once."""
-    process = os.getpid()
-    if process not in _best_devices:
-        _best_devices[process] = Device()
-    return _best_devices[process]
-
-
-def _opened(device: Union[None, bool, int, str, Device]) -> Optional[Device]:
-    if device is None or device is False:
-        return None
-    if isinstance(device, Device):
-        return device
-    return _best_device() if device is True else Device(device)
 
 
 class View(NamedTuple):
@@ -162,6 +100,11 @@ def _pairs_in(mesh: Any, poses: Any) -> int:
     return _count_of(poses) if poses is not None else sum(_count_of(one[1]) for one in mesh)
 
 
+def _segments_in(mesh: Any, poses: Any) -> int:
+    counts = [_count_of(poses)] if poses is not None else [_count_of(one[1]) for one in mesh]
+    return sum(max(count - 1, 0) for count in counts)
+
+
 def _points(opacity: Opacity) -> Optional[npt.NDArray[np.float64]]:
     if opacity is None:
         return None
@@ -173,7 +116,7 @@ def _points(opacity: Opacity) -> Optional[npt.NDArray[np.float64]]:
 def _whole(numbers: Any, count: int, what: str) -> list[int]:
     array = np.asarray(numbers)
     if array.shape != (count,) or array.dtype.kind not in "iu" or (array < 0).any() or (array >= 2**32).any():
-        raise InvalidArgumentError(f"{what} is {numbers!r}; {count} whole numbers from 0 on are needed")
+        raise InvalidArgumentError(f"{what} is {numbers!r}; {count} whole numbers from 0 to {2**32 - 1} are needed")
     return [int(number) for number in array]
 
 
@@ -215,7 +158,8 @@ class Scene:
     LPS, millimetres (`LPS_FROM_RAS` is the way there from RAS). What is asked sees all changes that were made before.
 
     Scenes can be used by threads, one call at a time: the others wait. Work does not hold the interpreter's lock. A
-    KeyboardInterrupt ends it between two pieces of about a tenth of a second.
+    KeyboardInterrupt ends it within a second: on the host also in the middle of a pose, on a device between two pieces
+    of about a tenth of a second.
     """
 
     __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "__weakref__")
@@ -225,7 +169,7 @@ class Scene:
                  labels: Any = None, device: Union[None, bool, int, str, Device] = None, threads: int = 0) -> None:
         self._volume = read_volume(volume)
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
-        self._device = _opened(device)
+        self._device = opened(device)
         self._domain = None if domain is None else (float(domain[0]), float(domain[1]))
         self._table_size = _whole([table_size], 1, "table_size")[0]
         self._closed = False
@@ -421,6 +365,44 @@ class Scene:
         with _told(progress, _pairs_in(meshes, matrices)) as tell:
             return Answer(self._core.within(meshes, matrices, float(margin), tell), None)
 
+    def around(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, distance: float,
+               angle: float, progress: Progress = None) -> Answer:
+        """Whether poses are safe that may be off: an `Answer` with `hit` and `possible`.
+
+        Of each pose: whether anything touches at *some* pose that is turned by no more than `angle` degrees (0 to 180)
+        about any axis through the object's origin, and then moved by no more than `distance` mm in any direction. Where
+        neither `hit` nor `possible`, nothing does at any of them. The host engine decides, also for scenes on a device.
+        """
+        meshes, matrices = _asked(mesh, poses)
+        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+            return Answer(self._core.around(meshes, matrices, float(distance), float(angle), tell), None)
+
+    def motion(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
+               interpolation: Interpolation = "screw", resolution: float = core.DEFAULT_MOTION_RESOLUTION,
+               most_steps: int = core.DEFAULT_MOTION_STEPS, progress: Progress = None) -> Motion:
+        """Whether anything touches on the way from each pose to the next, and where first: a `Motion`.
+
+        Nothing is sampled: what is called free is free at all poses of the way.
+
+        mesh, poses
+            a mesh at poses, (N,4,4), N at least 2; or a list of (mesh, poses) alone
+        interpolation
+            "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns
+            about it. Both by no more than half a turn, at constant speed
+        resolution
+            mm, from 1e-6 on: how far the mesh moves at most from the end of what is free to a touch
+        most_steps
+            a segment that takes more is left with what is known
+        progress
+            is told of segments
+
+        The host engine checks, also for scenes on a device.
+        """
+        (steps,) = _whole([most_steps], 1, "most_steps")
+        meshes, matrices = _asked(mesh, poses)
+        with _told(progress, _segments_in(meshes, matrices)) as tell:
+            return Motion(self._core.motion(meshes, matrices, interpolation, float(resolution), steps, tell))
+
     # Pictures
 
     def picture(self, mesh: Optional[Mesh] = None, pose: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512),
@@ -447,7 +429,7 @@ class Scene:
         if mesh is not None and not isinstance(mesh, Mesh):
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
         width, height = _whole(size, 2, "size")
-        device = self._device if self._device is not None or self._closed else _best_device()
+        device = self._device if self._device is not None or self._closed else best_device()
         camera = view if isinstance(view, (str, tuple)) else np.asarray(view, dtype=np.float64)
         matrices = np.asarray(np.eye(4) if pose is None else pose, dtype=np.float64)
         return self._core.picture(None if mesh is None else mesh._core, matrices, width, height, camera, preset,

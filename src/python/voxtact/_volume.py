@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Volumes, label maps and meshes: from files, from arrays, and from the objects of other libraries."""
+"""Volumes: from files, from arrays, and from the images of other libraries."""
 from __future__ import annotations
 
 import os
@@ -10,30 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
+from ._common import BUILTIN, LPS_FROM_RAS, Space, check_space, not_pickled
 from ._errors import InvalidArgumentError
 
-#: "ras": +x right, +y anterior, +z superior, as NIfTI and nibabel have it; "lps": +x left, +y posterior, +z superior,
-#: as DICOM, ITK and voxtact have it. Both in millimetres.
-Space = Literal["ras", "lps"]
-
-#: Takes points of RAS to LPS, and back: ``poses = LPS_FROM_RAS @ poses``.
-LPS_FROM_RAS: npt.NDArray[np.float64] = np.diag([-1.0, -1.0, 1.0, 1.0])
-LPS_FROM_RAS.setflags(write=False)
-
-_BUILTIN = "builtin:"
 _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
-
-
-def not_pickled(of: object) -> NoReturn:
-    """What `__reduce__` of each class does."""
-    name = type(of).__name__
-    raise TypeError(f"a voxtact.{name} cannot be pickled or copied: it is made of memory of this process; "
-                    "make another one from the same file or arrays")
-
-
-def check_space(space: str, argument: str) -> None:
-    if space not in ("ras", "lps"):
-        raise InvalidArgumentError(f"{argument}={space!r} is neither 'ras' nor 'lps'")
 
 
 class Volume:
@@ -120,95 +100,6 @@ class Volume:
         spacing = " x ".join(f"{step:.4g}" for step in self.spacing)
         lo, hi = self.range
         return f"<voxtact.Volume {self.name!r}: {x} x {y} x {z} {self._core.type}, {spacing} mm, values {lo:g} to {hi:g}>"
-
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
-
-
-class Labels:
-    """A label map: which structure each voxel belongs to. `read_labels` makes one."""
-
-    __slots__ = ("_core", "volume", "names")
-    _core: core.Labels
-    #: What it was made of.
-    volume: Volume
-    #: What the labels are called, where that is known.
-    names: dict[int, str]
-
-    def __init__(self, volume: Volume, names: Optional[dict[int, str]] = None) -> None:
-        self._core = core.Labels(volume._core)
-        self.volume = volume
-        self.names = dict(names or {})
-
-    @property
-    def values(self) -> npt.NDArray[np.int32]:
-        """The labels that there are, ascending; 0 is always among them."""
-        return self._core.values
-
-    def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
-        """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
-        return self._core.at(points)
-
-    def __repr__(self) -> str:
-        return f"<voxtact.Labels {self.volume.name!r}: {len(self.values)} labels, {len(self.names)} names>"
-
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
-
-
-class Mesh:
-    """A triangle mesh in its own coordinates, mm. `read_mesh` makes one. It does not change."""
-
-    __slots__ = ("_core",)
-    _core: core.Mesh
-
-    def __init__(self) -> None:
-        raise TypeError("voxtact.read_mesh() makes meshes: from a file, (vertices, faces), or a mesh object")
-
-    @classmethod
-    def _of(cls, made_of: core.Mesh) -> Mesh:
-        made = cls.__new__(cls)
-        made._core = made_of
-        return made
-
-    @property
-    def vertices(self) -> npt.NDArray[np.float32]:
-        """(V,3): mm, read-only."""
-        return self._core.vertices
-
-    @property
-    def faces(self) -> npt.NDArray[np.uint32]:
-        """(T,3): numbers of vertices, read-only. Answers number the triangles by their rows here."""
-        return self._core.faces
-
-    @property
-    def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """The least and the greatest corner, mm."""
-        return self._core.bounds
-
-    @property
-    def degenerate(self) -> int:
-        """Triangles without an area: allowed, they never touch."""
-        return self._core.degenerate
-
-    @property
-    def name(self) -> str:
-        """The file's name, or what the arrays came from."""
-        return self._core.name
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What was done on the way that you may want to know."""
-        return tuple(self._core.notes)
-
-    def write(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes STL, OBJ or PLY, by the ending."""
-        self._core.write(os.fsencode(path))
-
-    def __repr__(self) -> str:
-        lo, hi = self.bounds
-        size = " x ".join(f"{length:.4g}" for length in hi - lo)
-        return f"<voxtact.Mesh {self.name!r}: {len(self.faces)} triangles, {len(self.vertices)} vertices, {size} mm>"
 
     def __reduce__(self) -> NoReturn:
         not_pickled(self)
@@ -394,8 +285,8 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     if isinstance(source, (str, bytes, os.PathLike)):
         if affine is not None or space is not None or axes is not None:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
-        if isinstance(source, str) and source.startswith(_BUILTIN):
-            return Volume._of(core.Volume.builtin(source[len(_BUILTIN):]))
+        if isinstance(source, str) and source.startswith(BUILTIN):
+            return Volume._of(core.Volume.builtin(source[len(BUILTIN):]))
         return Volume._of(core.Volume.read(os.fsencode(source), frame, series))
     if hasattr(source, "affine") and hasattr(source, "dataobj"):
         return _of_nibabel(source, frame)
@@ -413,158 +304,3 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
         raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "
                                    "voxels of 1 mm with the first one at the origin")
     return _volume_of_array(source, affine, space or "ras", axes, "array")
-
-
-def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathLike[str]] = None,
-                **options: Any) -> Labels:
-    """A label map: whatever `read_volume` reads, with whole numbers, on a grid of its own.
-
-    names: what the labels are called, as a dict or a file (see `read_label_names`).
-    """
-    known = names if names is None or isinstance(names, dict) else read_label_names(names)
-    if isinstance(source, Labels):
-        return source if known is None else Labels(source.volume, known)
-    return Labels(read_volume(source, **options), known)
-
-
-# Meshes
-
-
-def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name: str,
-                    notes: Optional[list[str]] = None) -> Mesh:
-    said = [] if notes is None else notes
-    places = np.asarray(vertices)
-    corners = np.asarray(faces)
-    if places.ndim != 2 or places.shape[1] != 3 or places.dtype.kind not in "fiu":
-        raise InvalidArgumentError(f"vertices are {places.dtype} of shape {places.shape}; numbers of shape (V, 3) are "
-                                   "needed")
-    if corners.ndim != 2 or corners.shape[1] != 3:
-        raise InvalidArgumentError(f"faces have the shape {corners.shape}; triangles are needed: (T, 3)")
-    if corners.dtype.kind not in "iu":
-        raise InvalidArgumentError(f"faces are {corners.dtype}; whole numbers of vertices are needed")
-    if corners.size and (corners.min() < 0 or corners.max() >= len(places)):
-        bad = int(np.argmax(((corners < 0) | (corners >= len(places))).any(axis=1)))
-        raise InvalidArgumentError(f"face {bad} is {corners[bad].tolist()}; there are {len(places)} vertices, from 0 on")
-    if not (np.isfinite(scale) and scale > 0):
-        raise InvalidArgumentError(f"scale={scale} must be positive and finite: mm in a unit of the vertices")
-    check_space(space, "space")
-    exact = places.astype(np.float64) * scale
-    if space == "ras":
-        exact[:, :2] *= -1
-    with np.errstate(over="ignore"):
-        floats = np.ascontiguousarray(exact, dtype=np.float32)
-    if not np.isfinite(floats).all():
-        bad = int(np.argmin(np.isfinite(floats).all(axis=1)))
-        raise InvalidArgumentError(f"vertex {bad} is {places[bad].tolist()}, which no float32 holds")
-    if places.dtype != np.float32 and (floats != exact).any():
-        said.append(f"vertices rounded from {places.dtype} to float32")
-    return Mesh._of(core.Mesh.make(floats, np.ascontiguousarray(corners, dtype=np.uint32), name, said))
-
-
-def _of_meshio(mesh: Any, space: Space, scale: float) -> Mesh:
-    parts: list[npt.NDArray[Any]] = []
-    notes: list[str] = []
-    for block in mesh.cells:
-        cells = np.asarray(block.data)
-        if block.type == "triangle":
-            parts.append(cells)
-        elif block.type == "quad":
-            parts.append(cells[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
-            notes.append(f"{len(cells)} quads cut into triangles")
-        else:
-            notes.append(f"{len(cells)} cells of type {block.type} left out")
-    if not parts:
-        raise InvalidArgumentError("the mesh has no triangles; " + "; ".join(notes))
-    return _mesh_of_arrays(mesh.points, np.concatenate(parts), space, scale, "meshio mesh", notes)
-
-
-def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    notes: list[str] = []
-    if mesh.GetNumberOfStrips() or (np.diff(vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())) != 3).any():
-        from vtkmodules.vtkFiltersCore import vtkTriangleFilter
-
-        cut = vtkTriangleFilter()
-        cut.SetInputData(mesh)
-        cut.PassVertsOff()
-        cut.PassLinesOff()
-        cut.Update()
-        mesh = cut.GetOutput()
-        notes.append("polygons and strips cut into triangles by VTK")
-    if not mesh.GetNumberOfPolys():
-        raise InvalidArgumentError("the vtkPolyData has no polygons")
-    if mesh.GetNumberOfVerts() or mesh.GetNumberOfLines():
-        notes.append("points and lines left out")
-    faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    return _mesh_of_arrays(vtk_to_numpy(mesh.GetPoints().GetData()), faces, space, scale, "vtkPolyData", notes)
-
-
-def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
-    """A mesh from a file, from arrays, or from a mesh of another library.
-
-    source
-        - a path: STL, OBJ, PLY, OFF, glTF or GLB; ``"builtin:scalpel"`` and the other names of the program's builtins
-        - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
-        - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
-
-    space: of the vertices. "ras" negates x and y; what comes out is always LPS.
-    scale: millimetres in a unit of the vertices; 1000 for metres.
-
-    Vertices become float32; where that rounds, `Mesh.notes` says so. Raises FileError, FormatError, and
-    InvalidArgumentError, which names the vertex or face.
-    """
-    if isinstance(source, Mesh):
-        if space != "lps" or scale != 1.0:
-            return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name)
-        return source
-    check_space(space, "space")
-    if isinstance(source, (str, bytes, os.PathLike)):
-        if isinstance(source, str) and source.startswith(_BUILTIN):
-            mesh = Mesh._of(core.Mesh.builtin(source[len(_BUILTIN):]))
-            return read_mesh(mesh, space=space, scale=scale)
-        return Mesh._of(core.Mesh.read(os.fsencode(source), space == "ras", scale))
-    if isinstance(source, (tuple, list)) and len(source) == 2:
-        return _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
-    if hasattr(source, "vertices") and hasattr(source, "faces"):
-        return _mesh_of_arrays(source.vertices, source.faces, space, scale, "trimesh")
-    if hasattr(source, "points") and hasattr(source, "cells"):
-        return _of_meshio(source, space, scale)
-    if hasattr(source, "GetPolys") and hasattr(source, "GetPoints"):
-        return _of_vtk_mesh(source, space, scale)
-    raise TypeError(f"no mesh can be made of a {type(source).__module__}.{type(source).__qualname__}: give a path, "
-                    "(vertices, faces), or a mesh of trimesh, meshio or VTK")
-
-
-# Text files
-
-
-def read_poses(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """(N,4,4) from the program's files: one matrix a line, 16 numbers row by row; `#` comments."""
-    return core.read_poses(os.fsencode(path))
-
-
-def read_camera(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """(4,4), clip_from_world, from one of the program's files."""
-    return core.read_camera(os.fsencode(path))
-
-
-def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """(N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like "40:0,80:1"."""
-    if isinstance(source, str) and ":" in source and not os.path.exists(source):
-        return core.parse_opacity(source)
-    return core.read_opacity(os.fsencode(source))
-
-
-def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
-    """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables."""
-    return core.read_label_names(os.fsencode(path))
-
-
-def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]) -> None:
-    """Writes a picture (H,W,4) of uint8 as PNG."""
-    pixels = np.ascontiguousarray(picture)
-    if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
-        raise InvalidArgumentError(f"the picture is {pixels.dtype} of shape {pixels.shape}; uint8 of (H, W, 4) is needed")
-    core.write_png(os.fsencode(path), pixels)
-

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""Label maps, and what labels are called."""
+from __future__ import annotations
+
+import os
+from typing import Any, NoReturn, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core as core
+from ._common import not_pickled
+from ._volume import Volume, read_volume
+
+
+class Labels:
+    """A label map: which structure each voxel belongs to. `read_labels` makes one."""
+
+    __slots__ = ("_core", "volume", "names")
+    _core: core.Labels
+    #: What it was made of.
+    volume: Volume
+    #: What the labels are called, where that is known.
+    names: dict[int, str]
+
+    def __init__(self, volume: Volume, names: Optional[dict[int, str]] = None) -> None:
+        self._core = core.Labels(volume._core)
+        self.volume = volume
+        self.names = dict(names or {})
+
+    @property
+    def values(self) -> npt.NDArray[np.int32]:
+        """The labels that there are, ascending; 0 is always among them."""
+        return self._core.values
+
+    def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
+        """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
+        return self._core.at(points)
+
+    def __repr__(self) -> str:
+        return f"<voxtact.Labels {self.volume.name!r}: {len(self.values)} labels, {len(self.names)} names>"
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)
+
+
+def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
+    """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables."""
+    return core.read_label_names(os.fsencode(path))
+
+
+def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathLike[str]] = None,
+                **options: Any) -> Labels:
+    """A label map: whatever `read_volume` reads, with whole numbers, on a grid of its own.
+
+    names: what the labels are called, as a dict or a file (see `read_label_names`).
+    """
+    known = names if names is None or isinstance(names, dict) else read_label_names(names)
+    if isinstance(source, Labels):
+        return source if known is None else Labels(source.volume, known)
+    return Labels(read_volume(source, **options), known)

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""Meshes: from files, from arrays, and from those of other libraries."""
+from __future__ import annotations
+
+import os
+from typing import Any, NoReturn, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core as core
+from ._common import BUILTIN, Space, check_space, not_pickled
+from ._errors import InvalidArgumentError
+
+
+class Mesh:
+    """A triangle mesh in its own coordinates, mm. `read_mesh` makes one. It does not change."""
+
+    __slots__ = ("_core",)
+    _core: core.Mesh
+
+    def __init__(self) -> None:
+        raise TypeError("voxtact.read_mesh() makes meshes: from a file, (vertices, faces), or a mesh object")
+
+    @classmethod
+    def _of(cls, made_of: core.Mesh) -> Mesh:
+        made = cls.__new__(cls)
+        made._core = made_of
+        return made
+
+    @property
+    def vertices(self) -> npt.NDArray[np.float32]:
+        """(V,3): mm, read-only."""
+        return self._core.vertices
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """(T,3): numbers of vertices, read-only. Answers number the triangles by their rows here."""
+        return self._core.faces
+
+    @property
+    def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The least and the greatest corner, mm."""
+        return self._core.bounds
+
+    @property
+    def degenerate(self) -> int:
+        """Triangles without an area: allowed, they never touch."""
+        return self._core.degenerate
+
+    @property
+    def name(self) -> str:
+        """The file's name, or what the arrays came from."""
+        return self._core.name
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was done on the way that you may want to know."""
+        return tuple(self._core.notes)
+
+    def write(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes STL, OBJ or PLY, by the ending."""
+        self._core.write(os.fsencode(path))
+
+    def __repr__(self) -> str:
+        lo, hi = self.bounds
+        size = " x ".join(f"{length:.4g}" for length in hi - lo)
+        return f"<voxtact.Mesh {self.name!r}: {len(self.faces)} triangles, {len(self.vertices)} vertices, {size} mm>"
+
+    def __reduce__(self) -> NoReturn:
+        not_pickled(self)
+
+
+def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name: str,
+                    notes: Optional[list[str]] = None) -> Mesh:
+    said = [] if notes is None else notes
+    places = np.asarray(vertices)
+    corners = np.asarray(faces)
+    if places.ndim != 2 or places.shape[1] != 3 or places.dtype.kind not in "fiu":
+        raise InvalidArgumentError(f"vertices are {places.dtype} of shape {places.shape}; numbers of shape (V, 3) are "
+                                   "needed")
+    if corners.ndim != 2 or corners.shape[1] != 3:
+        raise InvalidArgumentError(f"faces have the shape {corners.shape}; triangles are needed: (T, 3)")
+    if corners.dtype.kind not in "iu":
+        raise InvalidArgumentError(f"faces are {corners.dtype}; whole numbers of vertices are needed")
+    if corners.size and (corners.min() < 0 or corners.max() >= len(places)):
+        bad = int(np.argmax(((corners < 0) | (corners >= len(places))).any(axis=1)))
+        raise InvalidArgumentError(f"face {bad} is {corners[bad].tolist()}; there are {len(places)} vertices, from 0 on")
+    if not (np.isfinite(scale) and scale > 0):
+        raise InvalidArgumentError(f"scale={scale} must be positive and finite: mm in a unit of the vertices")
+    check_space(space, "space")
+    exact = places.astype(np.float64) * scale
+    if space == "ras":
+        exact[:, :2] *= -1
+    with np.errstate(over="ignore"):
+        floats = np.ascontiguousarray(exact, dtype=np.float32)
+    if not np.isfinite(floats).all():
+        bad = int(np.argmin(np.isfinite(floats).all(axis=1)))
+        raise InvalidArgumentError(f"vertex {bad} is {places[bad].tolist()}, which no float32 holds")
+    if places.dtype != np.float32 and (floats != exact).any():
+        said.append(f"vertices rounded from {places.dtype} to float32")
+    return Mesh._of(core.Mesh.make(floats, np.ascontiguousarray(corners, dtype=np.uint32), name, said))
+
+
+def _of_meshio(mesh: Any, space: Space, scale: float) -> Mesh:
+    parts: list[npt.NDArray[Any]] = []
+    notes: list[str] = []
+    for block in mesh.cells:
+        cells = np.asarray(block.data)
+        if block.type == "triangle":
+            parts.append(cells)
+        elif block.type == "quad":
+            parts.append(cells[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+            notes.append(f"{len(cells)} quads cut into triangles")
+        else:
+            notes.append(f"{len(cells)} cells of type {block.type} left out")
+    if not parts:
+        raise InvalidArgumentError("the mesh has no triangles; " + "; ".join(notes))
+    return _mesh_of_arrays(mesh.points, np.concatenate(parts), space, scale, "meshio mesh", notes)
+
+
+def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    notes: list[str] = []
+    if mesh.GetNumberOfStrips() or (np.diff(vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())) != 3).any():
+        from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+        cut = vtkTriangleFilter()
+        cut.SetInputData(mesh)
+        cut.PassVertsOff()
+        cut.PassLinesOff()
+        cut.Update()
+        mesh = cut.GetOutput()
+        notes.append("polygons and strips cut into triangles by VTK")
+    if not mesh.GetNumberOfPolys():
+        raise InvalidArgumentError("the vtkPolyData has no polygons")
+    if mesh.GetNumberOfVerts() or mesh.GetNumberOfLines():
+        notes.append("points and lines left out")
+    faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return _mesh_of_arrays(vtk_to_numpy(mesh.GetPoints().GetData()), faces, space, scale, "vtkPolyData", notes)
+
+
+def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
+    """A mesh from a file, from arrays, or from a mesh of another library.
+
+    source
+        - a path: STL, OBJ, PLY, OFF, glTF or GLB; ``"builtin:scalpel"`` and the other names of the program's builtins
+        - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
+        - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
+
+    space: of the vertices. "ras" negates x and y; what comes out is always LPS.
+    scale: millimetres in a unit of the vertices; 1000 for metres.
+
+    Vertices become float32; where that rounds, `Mesh.notes` says so. Raises FileError, FormatError, and
+    InvalidArgumentError, which names the vertex or face.
+    """
+    if isinstance(source, Mesh):
+        if space != "lps" or scale != 1.0:
+            return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name)
+        return source
+    check_space(space, "space")
+    if isinstance(source, (str, bytes, os.PathLike)):
+        if isinstance(source, str) and source.startswith(BUILTIN):
+            mesh = Mesh._of(core.Mesh.builtin(source[len(BUILTIN):]))
+            return read_mesh(mesh, space=space, scale=scale)
+        return Mesh._of(core.Mesh.read(os.fsencode(source), space == "ras", scale))
+    if isinstance(source, (tuple, list)) and len(source) == 2:
+        return _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
+    if hasattr(source, "vertices") and hasattr(source, "faces"):
+        return _mesh_of_arrays(source.vertices, source.faces, space, scale, "trimesh")
+    if hasattr(source, "points") and hasattr(source, "cells"):
+        return _of_meshio(source, space, scale)
+    if hasattr(source, "GetPolys") and hasattr(source, "GetPoints"):
+        return _of_vtk_mesh(source, space, scale)
+    raise TypeError(f"no mesh can be made of a {type(source).__module__}.{type(source).__qualname__}: give a path, "
+                    "(vertices, faces), or a mesh of trimesh, meshio or VTK")

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Ctrl-C ends work within a second, between two poses and in the middle of one, and the scene is there afterwards."""
+import subprocess
+import sys
+
+import pytest
+
+BEGIN = """
+import os, signal, sys, threading, time
+import numpy as np
+import voxtact as vx
+def press(after):
+    def wait():
+        time.sleep(after)
+        global pressed
+        pressed = time.perf_counter()
+        os.kill(os.getpid(), signal.SIGINT)
+    threading.Thread(target=wait, daemon=True).start()
+"""
+
+BATCH = BEGIN + """
+scene = vx.Scene("builtin:head:64", opacity=[(40, 0), (80, 1)])
+mesh = vx.read_mesh("builtin:scalpel")
+poses = np.tile(np.eye(4), (500_000, 1, 1))
+poses[:, 2, 3] = np.linspace(-90, 90, len(poses))
+begun = threading.Event()
+def progress(done, of):
+    if not begun.is_set():
+        begun.set()
+        press(0.05)
+more = {"around": {"distance": 1, "angle": 1}, "within": {"margin": 1}}.get(sys.argv[1], {})
+try:
+    getattr(scene, sys.argv[1])(mesh, poses, progress=progress, **more)
+except KeyboardInterrupt:
+    print("interrupted after", time.perf_counter() - pressed)
+    print("still there:", len(scene.detect(mesh, np.eye(4))))
+"""
+
+# One pose that takes minutes: thousands of triangles right across voxels of which every other one is opaque, or, for
+# distances, a plate in the middle of a gap, all of it about as near.
+ALONE = BEGIN + """
+side = 96
+if sys.argv[1] == "detect":
+    x, y, z = np.meshgrid(*[np.arange(side)] * 3, indexing="ij")
+    voxels = np.where((7 * x + 5 * y + 3 * z) % 4 < 2, 255, 0).astype(np.uint8)
+    angle = np.linspace(0, 3, 20_000)
+    middle = np.full_like(angle, side / 2)
+    c, s = side / 2 * np.cos(angle), side / 2 * np.sin(angle)
+    corners = np.stack([np.stack([middle - c, middle - s, 0 * c], 1), np.stack([middle + c, middle + s, 0 * c], 1),
+                        np.stack([middle, middle, 0 * c + side - 1], 1)], 1)
+    mesh = (corners.reshape(-1, 3), np.arange(3 * len(angle)).reshape(-1, 3))
+else:
+    voxels = np.full((side, side, side), 255, np.uint8)
+    voxels[40:57] = 0
+    n = 200
+    u, v = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
+    plate = np.stack([u * 95 / n, v * 95 / n, 48 + 1e-4 * np.sin(0.7 * u) * np.sin(0.9 * v)], -1).reshape(-1, 3)
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    mesh = (plate, np.concatenate([np.stack([first, first + 1, first + n + 2], 1),
+                                   np.stack([first, first + n + 2, first + n + 1], 1)]))
+mesh = vx.read_mesh(mesh)
+scene = vx.Scene(vx.read_volume(voxels, affine=np.eye(4), space="lps"), opacity=[(120, 0), (135, 1)])
+# A quarter of a turn in the plane of the plate, less than a hundredth of a mm beside one side of the gap.
+middle = np.eye(4)
+middle[:3, 3] = 48, 48, 8.47
+turn = np.array([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+back = np.eye(4)
+back[:2, 3] = -48
+poses = np.stack([middle @ back, middle @ turn @ back])
+ask = {"detect": lambda: scene.detect(mesh, np.eye(4)),
+       "clearance": lambda: scene.clearance(mesh, np.eye(4), tolerance=1e-6, most_steps=2**32 - 1),
+       "motion": lambda: scene.motion(mesh, poses, resolution=1e-6, most_steps=2**32 - 1)}[sys.argv[1]]
+scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))  # what is made once
+press(0.5)
+try:
+    ask()
+    print("done before it was interrupted")
+except KeyboardInterrupt:
+    print("interrupted after", time.perf_counter() - pressed)
+    print("still there:", len(scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))))
+"""
+
+
+def check(script, question):
+    done = subprocess.run([sys.executable, "-c", script, question], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert "still there: 1" in done.stdout, done.stdout
+    assert float(done.stdout.split()[2]) < 1, done.stdout
+
+
+@pytest.mark.parametrize("question", ["detect", "clearance", "within", "motion", "around"])
+def test_ctrl_c_stops_a_long_batch_within_a_second(question):
+    check(BATCH, question)
+
+
+@pytest.mark.parametrize("question", ["detect", "clearance", "motion"])
+def test_ctrl_c_stops_a_long_pose_within_a_second(question):
+    check(ALONE, question)
