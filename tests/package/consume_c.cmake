@@ -8,3 +8,5 @@ step("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${BUILD}" -G "${GENERATOR}" "-DCMAK
      "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_PREFIX_PATH=${PREFIX}" "-DEMBED_SOURCE=${EMBED_SOURCE}")
 step("${CMAKE_COMMAND}" --build "${BUILD}")
 run_program("${BUILD}/embed" "${embed_c_prints}")
+run_program("${BUILD}/beside_volk" "^default method query-any\n$")
+run_program("${BUILD}/beside_loader" "^default method query-any\n$")
