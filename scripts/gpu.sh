@@ -132,11 +132,11 @@ limits=(60 125 60 60 75 55) # with that of the devices eight minutes
 if [ $on_cpu -eq 1 ]; then
     printf '%s\n' "   no GPU: a driver on the processor is asked less"
     agreement=(AnalyticTest ValueTest EditTest TableUpdateTest BricksTest)
-    latency=(--number 1000 --time-limit 20)
-    certified=(--mesh builtin:scalpel:3068 --number 24 --repetitions 1)
-    paper=(--scale 4 --time-limit 20 --size 256x256)
-    batches=(--number 1000 --time-limit 15)
-    limits=(100 110 65 55 60 45)
+    latency=(--mesh builtin:scalpel:1000 --number 500 --time-limit 6)
+    certified=(--mesh builtin:scalpel:1000 --number 16 --repetitions 1)
+    paper=(--scale 8 --time-limit 8 --size 128x128 --number 2)
+    batches=(--mesh builtin:scalpel:1000 --number 1000 --time-limit 10)
+    limits=(90 100 75 65 65 40)
 fi
 
 step "gate: arithmetic and counting" gate.json "${limits[0]}" \
