@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What takes too long for every change: the tests under the address and undefined-behaviour sanitizers and under the
-# thread sanitizer, every fuzz target for a minute, every mutant, all random cases of the tests, and a copy of the sources
-# with one more counting method. All of it runs, and the status is 1 if any part failed.
+# thread sanitizer, every fuzz target for a minute, every mutant, all random cases of the tests, the tests of agreement on
+# other software drivers, and a copy of the sources with one more counting method. All of it runs, and the status is 1 if any part failed.
 # Under the thread sanitizer the tiers of the host alone: lavapipe's own threads are not built with it.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
@@ -21,6 +21,7 @@ sanitized tsan '^(unit|cpu|io|fuzz)$' || failed+=(tsan)
 scripts/fuzz.sh 60 || failed+=(fuzz)
 scripts/mutate.py || failed+=(mutate)
 { VOXTACT_TEST_LONG=1 ctest --preset release -j "$(nproc)" -L '^(cpu|gpu)$'; } || failed+=(long)
+scripts/second_drivers.sh build/release/tests/gpu/voxtact_gpu_tests || [ $? -eq 77 ] || failed+=(drivers)
 scripts/change.py --build || failed+=(change)
 
 if [ ${#failed[@]} -gt 0 ]; then
