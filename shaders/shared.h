@@ -84,6 +84,14 @@ struct BrickConstants {
     float storedUnit;           // as in ItemConstants
 };
 
+/// Push constants of the pass that edits voxels.
+struct EditConstants {
+    uint rowTexels; // of each row
+    uint rows;
+    uint texelBytes; // 1, 2 or 4
+    uint value;      // the texel, as often as it fits
+};
+
 /// One surviving fragment of a pair.
 struct TracedFragment {
     uint triangle;
@@ -199,6 +207,9 @@ struct CertifiedConstants {
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
+// Bindings of the pass that edits voxels.
+#define VOXTACT_BINDING_EDIT_ROWS 0
+#define VOXTACT_BINDING_EDIT_TEXELS 1
 // The list of surviving fragments, behind VOXTACT_SET_PAIRS.
 #define VOXTACT_SET_TRACE 3
 // Specialization constants.

@@ -50,7 +50,8 @@ struct VolumeOptions {
     /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent
     /// need. 16 bytes a brick; refused where they are more than the device's maxStorageBufferRange.
     bool bricks = false;
-    /// Allows cmdSet(), cmdWrite() and cmdCopy(); keeps room for the texels of one slice on the device.
+    /// Allows cmdSet(), cmdWrite() and cmdCopy(); keeps room on the device for the texels of one slice or of a MiB,
+    /// what is more, and 64 KiB for rows. Refused where a slice has more than the device's maxStorageBufferRange.
     bool editable = false;
 };
 
@@ -93,14 +94,17 @@ class Volume {
     /// is nothing after cmdCopy(); and after an edit that reaches the image's faces Boundary::Auto takes the range test
     /// from then on. Record in the order in which the commands will be executed, and record anew whatever was recorded
     /// before such an edit and is to be submitted after it.
-    ///   call it             outside a render pass, on a queue with graphics or compute; with bricks: with compute
+    ///   call it             outside a render pass, on a queue with graphics or compute; a Ball, or with bricks: with
+    ///                       compute
     ///   expects             a volume that was uploaded; earlier commands that use it are waited for
     ///   leaves              the volume readable by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
-    ///   bound state         with bricks lost as by cmdUpdateBricks(), otherwise none
+    ///   bound state         a Ball, or with bricks: lost as by cmdUpdateBricks(); otherwise none
     ///
     /// Gives all voxels of a region one value, in the image's units; floats the nearest one. The faces cut a Ball off.
-    /// Refuses what cpu::Volume::set() does: NaN, infinite, out of the type's range or, for integers, not whole.
+    /// Of a Ball the host decides which voxels it has, as cpu::Volume::set(); one dispatch changes them, or one for
+    /// each MiB of the box around it. A box is filled and copied. Refuses what cpu::Volume::set() does: NaN, infinite,
+    /// out of the type's range or, for integers, not whole.
     VOXTACT_API Result<void> cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value);
     /// Writes the voxels of a box: scalars of the volume's type, as in VolumeView. They are kept in the command buffer
     /// itself, which is for small edits; a large one is a cmdCopy(). Refuses what checkVolume() refuses.

@@ -52,8 +52,10 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     VkPipelineLayout dominantLayout = VK_NULL_HANDLE;  ///< all sets, ItemConstants, and DominantConstants for vertices
     VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets; null where the device's limits do not allow for it
 
-    std::mutex onDemandMutex; ///< of the two below, which are made for the first object that needs them
+    std::mutex onDemandMutex; ///< of those below, which are made for the first object that needs them
     Owned<VkPipeline> brickPipeline;
+    Owned<VkPipelineLayout> editLayout;
+    Owned<VkPipeline> editPipeline;
     Buffer nothing; ///< emptyBuffer()
     /// The same with outputs beside the counts: VOXTACT_SET_PAIRS has two more bindings, and there is a set more.
     VkDescriptorSetLayout outputSetLayout = VK_NULL_HANDLE;

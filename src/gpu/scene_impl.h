@@ -23,7 +23,9 @@ struct VolumeImpl {
     std::optional<std::vector<ValueRange>> boundary{}; ///< boundaryRanges(); nothing when not known
     Image image{};                                     ///< empty when wrapped
     Buffer staging{};
-    Buffer editScratch{}; ///< the texels of one slice; empty when not editable
+    Buffer editScratch{};    ///< the texels of a slice or more; empty when not editable
+    Buffer editRows{};       ///< which of these an edit changes
+    DescriptorSet editSet{}; ///< of the two
     VkImageView view = VK_NULL_HANDLE;
     Buffer bricks{}; ///< vec4(lo, hi, wideLo, wideHi) of stored values for each brick, x fastest; empty without
     std::array<std::int32_t, 3> brickCount{}; ///< zero without bricks

@@ -7,6 +7,7 @@
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"
+#include "gpu/edit_pass.h"
 #include "gpu/image_limits.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
@@ -71,18 +72,6 @@ VkImageUsageFlags usageOf(const VolumeOptions& options) {
     return options.editable ? usage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT : usage;
 }
 
-/// Room for the texels of one slice, of which edits are made.
-Result<void> makeEditScratch(VolumeImpl& volume) {
-    constexpr VkDeviceSize kWord = 4;
-    const VkDeviceSize slice = VkDeviceSize{volume.grid.size[0]} * volume.grid.size[1] * bytesPerVoxel(volume.type);
-    Result<Buffer> scratch = makeBuffer(volume.context, (slice + kWord - 1) / kWord * kWord,
-                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                        MemoryUse::Device, "volume edits");
-    VOXTACT_TRY(scratch);
-    volume.editScratch = std::move(*scratch);
-    return {};
-}
-
 Result<void> describe(VolumeImpl& volume, VkImageLayout layout, const char* name) {
     ContextImpl& context = volume.context;
     const Result<VkBuffer> bricks = volume.bricks.buffer ? Result<VkBuffer>(volume.bricks.get()) : emptyBuffer(context);
@@ -120,7 +109,7 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const Volume
     fillTexels(data.type, data.voxels, static_cast<std::byte*>(volume.staging.mapped));
     VOXTACT_TRY(flush(context, volume.staging));
     if (options.editable) {
-        VOXTACT_TRY(makeEditScratch(volume));
+        VOXTACT_TRY(makeEditPass(volume));
     }
     if (options.bricks) {
         VOXTACT_TRY(makeBricks(volume, name));

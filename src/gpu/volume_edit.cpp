@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Edits of a volume in place: through a scratch buffer of one slice, or from a buffer of the caller's.
+// Edits of a volume in place: through a scratch buffer of some slices, or from a buffer of the caller's.
 #include "core/base/guard.h"
 #include "core/base/live.h"
 #include "core/base/try.h"
@@ -8,6 +8,7 @@
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
 #include "gpu/debug.h"
+#include "gpu/edit_pass.h"
 #include "gpu/submit.h"
 #include "gpu/texels.h"
 
@@ -103,6 +104,30 @@ class Edit {
         endScratch();
     }
 
+    /// Gives those voxels of a box that are in rows a value. The scratch buffer has room for the box.
+    void change(const VoxelBox& box, std::span<const VoxelRow> rows, std::uint32_t word) {
+        constexpr VkAccessFlags2 kShader = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+        const VkImage image = volume_.image.image.get();
+        const std::vector<std::uint32_t> table = rowTable(rows, box);
+        const VkBufferImageCopy region = copyOf(box, 0);
+        // What was changed before has been copied back, and its rows have been read.
+        barrier(volume_.context, commandBuffer_, image, kCopied, kCopiedFrom);
+        barrier(volume_.context, commandBuffer_,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        vk_.CmdCopyImageToBuffer(commandBuffer_, image, kCopiedFrom.layout, volume_.editScratch.get(), 1, &region);
+        cmdUpdateBuffer(volume_.context, commandBuffer_, volume_.editRows.get(), 0, std::as_bytes(std::span(table)));
+        barrier(volume_.context, commandBuffer_, image, kCopiedFrom, kCopied);
+        barrier(volume_.context, commandBuffer_, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kShader);
+        cmdChangeRows(volume_, commandBuffer_, box, word);
+        barrier(volume_.context, commandBuffer_, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                VK_ACCESS_2_TRANSFER_READ_BIT);
+        copyFromScratch(box);
+        flushCopiesFromScratch();
+    }
+
     /// Copies into a box of voxels, sooner or later.
     void copy(const VoxelBox& box, VkBuffer from, VkDeviceSize offset = 0) {
         copies_[pending_++] = copyOf(box, offset);
@@ -140,6 +165,8 @@ class Edit {
   private:
     static constexpr ImageUse kCopied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+    static constexpr ImageUse kCopiedFrom{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                                          VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
 
     void beginScratch() {
         barrier(volume_.context, commandBuffer_, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -163,27 +190,38 @@ VkDeviceSize bytesOf(const VolumeImpl& volume, VkDeviceSize voxels) {
     return voxels * bytesPerVoxel(volume.type);
 }
 
-void set(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::uint32_t word) {
-    edit.fillScratch(bytesOf(volume, VkDeviceSize{box.size[0]} * box.size[1]), word);
-    for (std::uint32_t z = 0; z < box.size[2]; ++z) {
-        edit.copyFromScratch({{box.first[0], box.first[1], box.first[2] + z}, {box.size[0], box.size[1], 1}});
+/// The part of a box that an edit takes at once, from slice `done` of it on.
+VoxelBox slab(const VolumeImpl& volume, const VoxelBox& box, std::uint32_t done) {
+    return {{box.first[0], box.first[1], box.first[2] + done},
+            {box.size[0], box.size[1], std::min(slicesAtOnce(volume, box), box.size[2] - done)}};
+}
+
+void set(const VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::uint32_t word) {
+    const std::uint32_t most = slicesAtOnce(volume, box);
+    edit.fillScratch(bytesOf(volume, VkDeviceSize{box.size[0]} * box.size[1] * most), word);
+    for (std::uint32_t done = 0; done < box.size[2]; done += most) {
+        edit.copyFromScratch(slab(volume, box, done));
     }
     edit.flushCopiesFromScratch();
 }
 
-void set(VolumeImpl& volume, Edit& edit, const std::vector<VoxelRow>& rows, std::uint32_t word) {
-    edit.fillScratch(bytesOf(volume, boundsOf(rows).size[0]), word);
-    for (const VoxelRow& row : rows) {
-        edit.copyFromScratch({{row.firstX, row.y, row.z}, {row.endX - row.firstX, 1, 1}});
+void set(const VolumeImpl& volume, Edit& edit, const std::vector<VoxelRow>& rows, std::uint32_t word) {
+    const VoxelBox box = boundsOf(rows);
+    const auto most = slicesAtOnce(volume, box);
+    auto next = rows.begin();
+    for (std::uint32_t done = 0; done < box.size[2]; done += most) {
+        const VoxelBox part = slab(volume, box, done);
+        const auto end = std::ranges::find_if(
+            next, rows.end(), [&](const VoxelRow& row) { return row.z >= part.first[2] + part.size[2]; });
+        edit.change(part, {next, end}, word);
+        next = end;
     }
-    edit.flushCopiesFromScratch();
 }
 
 /// Writes as many slices at once as the scratch buffer holds.
 void write(VolumeImpl& volume, Edit& edit, const VoxelBox& box, std::span<const std::byte> voxels) {
     const auto slice = static_cast<std::size_t>(bytesOf(volume, VkDeviceSize{box.size[0]} * box.size[1]));
-    const auto atOnce = static_cast<std::uint32_t>(
-        std::min<std::size_t>(static_cast<std::size_t>(volume.editScratch.size) / slice, box.size[2]));
+    const std::uint32_t atOnce = slicesAtOnce(volume, box);
     for (std::uint32_t done = 0; done < box.size[2]; done += atOnce) {
         const std::uint32_t slices = std::min(atOnce, box.size[2] - done);
         edit.writeScratch(voxels.subspan(done * slice, slices * slice));

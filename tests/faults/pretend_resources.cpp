@@ -5,6 +5,8 @@
 #include "shared.h"
 
 #include "voxtact_shaders/bricks_comp.h"
+#include "voxtact_shaders/certified_tally_comp.h"
+#include "voxtact_shaders/edit_comp.h"
 #include "voxtact_shaders/operations_comp.h"
 
 #include <algorithm>
@@ -44,6 +46,14 @@ std::uint64_t bricksHash() {
     static const std::uint64_t hash = moduleHash(spirv::bricks_comp);
     return hash;
 }
+std::uint64_t editHash() {
+    static const std::uint64_t hash = moduleHash(spirv::edit_comp);
+    return hash;
+}
+std::uint64_t tallyHash() {
+    static const std::uint64_t hash = moduleHash(spirv::certified_tally_comp);
+    return hash;
+}
 std::uint64_t operationsHash() {
     static const std::uint64_t hash = moduleHash(spirv::operations_comp);
     return hash;
@@ -78,6 +88,8 @@ VkPipeline makePipeline(std::span<const VkPipelineShaderStageCreateInfo> stages,
             hash.number(module->hash);
             pipeline.bricks = pipeline.bricks || module->bricks;
             pipeline.operations = pipeline.operations || module->operations;
+            pipeline.edits = pipeline.edits || module->edits;
+            pipeline.tally = pipeline.tally || module->tally;
         }
         specialize(pipeline, hash, stage.pSpecializationInfo);
     }
@@ -216,7 +228,8 @@ VkResult VKAPI_CALL CreateShaderModule(VkDevice, const VkShaderModuleCreateInfo*
                                        VkShaderModule* out) {
     PretendState& s = pretend();
     const std::uint64_t hash = hashOf({info->pCode, info->codeSize / sizeof(std::uint32_t)});
-    *out = s.modules.add(s.next++, {hash, hash == bricksHash(), hash == operationsHash()});
+    *out = s.modules.add(
+        s.next++, {hash, hash == bricksHash(), hash == operationsHash(), hash == editHash(), hash == tallyHash()});
     return VK_SUCCESS;
 }
 void VKAPI_CALL DestroyShaderModule(VkDevice, VkShaderModule module, const VkAllocationCallbacks*) {

@@ -52,6 +52,13 @@ class Execution {
             runOperations();
             return;
         }
+        if (pipeline_.edits) {
+            runEdit();
+            return;
+        }
+        if (pipeline_.tally) {
+            return; // nothing here counts what it does
+        }
         range_ = rangeOf(numbers, firstInstance, instances);
         hash_.number(pipeline_.hash);
         hash_.add(std::as_bytes(numbers));
@@ -192,6 +199,25 @@ class Execution {
         }
         if (const PretendDescriptor* buffer = storageBuffer(VOXTACT_SET_PAIRS, VOXTACT_BINDING_RESULTS)) {
             std::memcpy(contents(*buffer).data(), outputs.data(), outputs.size() * sizeof(std::uint32_t));
+        }
+    }
+    /// Does what the shader would.
+    void runEdit() const {
+        shader::EditConstants constants{};
+        std::memcpy(&constants, bound_.constants.data(), sizeof constants);
+        const PretendDescriptor* rowsBuffer = storageBuffer(0, VOXTACT_BINDING_EDIT_ROWS);
+        const PretendDescriptor* texelsBuffer = storageBuffer(0, VOXTACT_BINDING_EDIT_TEXELS);
+        if (rowsBuffer == nullptr || texelsBuffer == nullptr) {
+            return;
+        }
+        const Elements<std::array<std::uint32_t, 2>> rows(contents(*rowsBuffer));
+        const std::span<std::byte> texels = contents(*texelsBuffer);
+        for (std::uint32_t row = 0; row < constants.rows; ++row) {
+            const auto [first, end] = rows.get(row);
+            for (std::uint32_t x = first; x < end; ++x) {
+                const std::size_t at = (std::size_t{row} * constants.rowTexels + x) * constants.texelBytes;
+                std::memcpy(texels.data() + at, &constants.value, constants.texelBytes);
+            }
         }
     }
     /// The words of a buffer of the pairs' set.

@@ -55,6 +55,8 @@ struct PretendShaderModule {
     std::uint64_t hash = 0;
     bool bricks = false;     ///< the pass that fills the bricks of a volume
     bool operations = false; ///< the arithmetic self-test
+    bool edits = false;      ///< the pass that edits voxels
+    bool tally = false;      ///< the pass that counts what others of the projection conservative did
 };
 
 struct PretendPipeline {
@@ -63,6 +65,8 @@ struct PretendPipeline {
     std::uint32_t vertexBuffers = 0;
     bool bricks = false;       ///< as in its module
     bool operations = false;   ///< the same
+    bool edits = false;        ///< the same
+    bool tally = false;        ///< the same
     bool certified = false;    ///< the projection conservative
     bool lists = false;        ///< a list of survivors
     std::uint32_t outputs = 0; ///< OUTPUT_*

@@ -153,10 +153,11 @@ std::vector<Scenario> detectScenarios() {
     for (const DetectorDesc& desc : allWays()) {
         out.push_back({nameOf(desc), [desc](Play& play) { return askThrice(play, desc); }});
     }
-    out.push_back({"compute conservative stop-at-first", [](Play& play) {
+    out.push_back({"compute conservative stop-at-first counters", [](Play& play) {
                        return askThrice(play, {.method = CountingMethod::Compute,
                                                .projection = Projection::Conservative,
-                                               .stopAtFirst = true});
+                                               .stopAtFirst = true,
+                                               .counters = true});
                    }});
     for (DetectorDesc desc : allWays()) {
         // All at once where a method or projection is first seen, one at a time by the rasteriser and certified.

@@ -2,6 +2,7 @@
 // Volumes that are edited in place, against uploads of the edited host data.
 #include "gpu/scene_impl.h"
 #include "gpu/texels.h"
+#include "interception.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
@@ -217,6 +218,78 @@ TEST_F(EditTest, MoreThanOneCommandTakes) {
     take(volume.cmdSet(commands, ball, 77));
     raw().submitAndWait(commands);
     ASSERT_NO_FATAL_FAILURE(expectSame(volume, data));
+}
+
+TEST_F(EditTest, ABallOfSeveralMiB) {
+    // The box around it has more texels than are changed at once, and more rows.
+    std::mt19937_64 random(testSeed());
+    for (const auto& [size, type] : {std::pair(std::array<std::uint32_t, 3>{90, 91, 95}, ScalarType::Float32),
+                                     std::pair(std::array<std::uint32_t, 3>{9, 150, 140}, ScalarType::UInt8)}) {
+        VolumeData data = randomVolume(size, type, random);
+        Volume volume = editable(data);
+        const double reach = 0.49 * std::min(data.grid.spacing[1] * size[1], data.grid.spacing[2] * size[2]);
+        const Ball ball{transformPoint(worldFromTexture(data.grid), {0.51, 0.48, 0.5}), reach};
+        setOnHost(data, ball, 7);
+        const VkCommandBuffer commands = raw().begin();
+        take(volume.cmdSet(commands, ball, 7));
+        raw().submitAndWait(commands);
+        ASSERT_NO_FATAL_FAILURE(expectSame(volume, data));
+    }
+}
+
+/// What an edit records.
+struct Recorded {
+    int dispatches = 0;
+    int copies = 0; ///< regions
+    int updates = 0;
+
+    PFN_vkCmdDispatch realDispatch = nullptr;
+    PFN_vkCmdCopyBufferToImage realCopy = nullptr;
+    PFN_vkCmdUpdateBuffer realUpdate = nullptr;
+    bool operator==(const Recorded&) const = default;
+};
+Recorded recorded;
+
+void VKAPI_PTR countDispatch(VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    ++recorded.dispatches;
+    recorded.realDispatch(commands, x, y, z);
+}
+void VKAPI_PTR countCopy(VkCommandBuffer commands, VkBuffer from, VkImage to, VkImageLayout layout, std::uint32_t count,
+                         const VkBufferImageCopy* regions) {
+    recorded.copies += static_cast<int>(count);
+    recorded.realCopy(commands, from, to, layout, count, regions);
+}
+void VKAPI_PTR countUpdate(VkCommandBuffer commands, VkBuffer to, VkDeviceSize offset, VkDeviceSize size,
+                           const void* data) {
+    ++recorded.updates;
+    recorded.realUpdate(commands, to, offset, size, data);
+}
+
+TEST_F(EditTest, ABallIsOneDispatchHoweverManyRowsItHas) {
+    Interception loader(gpu().instance.getInstanceProcAddr());
+    ContextDesc desc = gpu().device.contextDesc();
+    desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
+    recorded = {};
+    recorded.realDispatch = raw().vk().vkCmdDispatch;
+    recorded.realCopy = raw().vk().vkCmdCopyBufferToImage;
+    recorded.realUpdate = raw().vk().vkCmdUpdateBuffer;
+    loader.replace("vkCmdDispatch", &countDispatch);
+    loader.replace("vkCmdCopyBufferToImage", &countCopy);
+    loader.replace("vkCmdUpdateBuffer", &countUpdate);
+    const Context counting = take(Context::create(desc));
+    const VolumeData data = makeBytes(unitGrid(64), [](auto...) { return 0.0; });
+    Volume volume = take(Volume::upload(counting, queue(), data.view(), {.editable = true}));
+    for (const double radius : {0.02, 0.1, 0.45}) { // of 4, 130 and 2,600 rows
+        recorded.dispatches = recorded.copies = recorded.updates = 0;
+        const VkCommandBuffer commands = raw().begin();
+        take(volume.cmdSet(commands, Ball{{0.5, 0.5, 0.5}, radius}, 9));
+        EXPECT_EQ(recorded.dispatches, 1) << radius;
+        EXPECT_EQ(recorded.copies, 1) << radius;
+        EXPECT_EQ(recorded.updates, 1) << radius;
+        take(volume.cmdSet(commands, VoxelBox{{1, 2, 3}, {60, 59, 58}}, 4));
+        EXPECT_EQ(recorded.copies, 2) << radius;
+        raw().submitAndWait(commands);
+    }
 }
 
 TEST_F(EditTest, CountsFollow) {
