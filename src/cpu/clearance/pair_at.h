@@ -27,7 +27,7 @@ struct PairAt {
     const BatchItem& item;
     const OpaquePart& part;
     Mat4 world_from_object;
-    CancelFlag cancel; ///< what a cancelled search or touch says means nothing
+    CancelFlag cancel = nullptr; ///< what a cancelled search or touch says means nothing
 
     [[nodiscard]] const VolumeImpl& volume() const { return item.volume->impl(); }
     [[nodiscard]] const MeshImpl& mesh() const { return item.mesh->impl(); }
