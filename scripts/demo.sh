@@ -144,5 +144,23 @@ Where a part of the blade inside the head is not red, the image is dark (bone, f
 
   ${render[*]}
 TEXT
+
+# Which way in.
+plan=("$program" plan --volume "$volume" --transfer-function docs/demo/head.tf --labels "$labels" --target Thalamus_L
+    --avoid Insula_L,Hippocampus_L,Caudate_L,Putamen_L --margin 2 --mesh builtin:needle:2:200 --summary
+    --surface build/demo/entries.ply --report build/demo/paths.html --output build/demo/paths.csv --format csv)
+"${plan[@]}" 2>"$out/summary" || {
+    cat "$out/summary" >&2
+    exit 1
+}
+printf '\n%s\n\n' "Which straight paths of a needle to the left thalamus keep 2 mm from insula, hippocampus, caudate and putamen?"
+sed 's/^voxtact: note: /  /' "$out/summary"
+cat <<TEXT
+
+A page with maps and the safest paths: build/demo/paths.html; all paths: build/demo/paths.csv; the entries in colours:
+build/demo/entries.ply. The command:
+
+  ${plan[*]}
+TEXT
 [ "$status" -eq 0 ] || printf '\n%s\n' "query and atomic disagree" >&2
 exit "$status"

@@ -58,13 +58,13 @@ struct PairClearance {
     std::optional<ClosestPoints> closest; ///< where `hi` is finite
 };
 
-/// The clearance of one pair to what is opaque and has a label.
+/// The clearance of one pair to what is opaque and has a label, or to what has it.
 struct LabelClearance {
     std::uint32_t pair = 0; ///< number of the pair in its batch
     std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
     std::uint32_t pose = 0; ///< number of the pose within that item
     std::int32_t label = 0; ///< as in LabelData::values
-    ClearanceBounds bounds; ///< mm; infinite where nothing opaque has the label
+    ClearanceBounds bounds; ///< mm; infinite where nothing of it is looked for
     ClearanceEnd end{};     ///< why they are no nearer to each other
 };
 

@@ -4,12 +4,15 @@
 #include "voxtact/clearance.h"
 #include "voxtact/data.h"
 #include "voxtact/motion.h"
+#include "voxtact/plan.h"
 #include "voxtact/results.h"
 
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 /// The host engine (target voxtact::cpu): the same questions answered without a device, by the same pixels and the
 /// same arithmetic as the counting method `compute` with `exact` filtering (shaders/exact.h). Nothing here needs
@@ -27,6 +30,7 @@ struct DetectorImpl;
 struct ClearanceMeterImpl;
 struct ClearanceTrackerImpl;
 struct MotionCheckerImpl;
+struct PlannerImpl;
 
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
@@ -154,6 +158,7 @@ struct ClearanceDesc {
     double maximum = std::numeric_limits<double>::infinity(); ///< mm, above 0: what is farther is not measured
     double resolution = kDefaultResolution;                   ///< of the touch, as in DetectorDesc
     std::uint64_t mostSteps = 1U << 18U; ///< a pair that takes more is left with the bounds it has; at least 1
+    bool labelsAtAnyOpacity = false;     ///< measureLabels(): to all of a label, be it opaque or not
 };
 
 /// Labels that one call measures, at most.
@@ -172,8 +177,9 @@ class ClearanceMeter {
 
     /// The clearance of every pair. Labels and view are not looked at. Refuses what Detector::detect() refuses.
     [[nodiscard]] VOXTACT_API Result<ClearanceAnswer> measure(const Batch& batch);
-    /// The clearance of every pair to each label's part of what is opaque: a label fills the closed boxes of its
-    /// voxels, so that a face between two labels belongs to both. Where it touches, the bounds are 0 and some
+    /// The clearance of every pair to each label's part of what is opaque, or to all of the label
+    /// (ClearanceDesc::labelsAtAnyOpacity): a label fills the closed boxes of its voxels, so that a face between two
+    /// labels belongs to both. Where it touches, the bounds are 0 and some
     /// millionths. Every item needs labels, on the grid of its volume; labels that a map does not have are infinitely
     /// far. Refuses what measure() refuses, other grids (Unsupported), and more than kMostMeasuredLabels labels
     /// (LimitExceeded).
@@ -261,6 +267,77 @@ class MotionChecker {
   private:
     explicit MotionChecker(std::unique_ptr<MotionCheckerImpl> impl) noexcept;
     std::unique_ptr<MotionCheckerImpl> impl_;
+};
+
+/// What must not be touched: what is opaque, what is opaque and has some labels, or all that has them.
+struct PlanObstacle {
+    const Volume* volume = nullptr;                     ///< must be given
+    const TransferFunction* transferFunction = nullptr; ///< what of it is opaque; null: labels at any opacity
+    double threshold = kDefaultThreshold;               ///< 0..1
+    const LabelData* labels = nullptr;                  ///< on the volume's grid; null: all that is opaque
+    std::vector<std::int32_t> avoid;                    ///< these labels
+};
+
+/// Where paths may begin: along each direction from the target, the outermost point of something.
+struct EntrySurface {
+    std::uint32_t entries = 1002;                       ///< directions: the least 10 n^2 + 2 that is no fewer
+    const Volume* volume = nullptr;                     ///< with a transfer function: of what is opaque in it
+    const TransferFunction* transferFunction = nullptr; ///< see volume
+    double threshold = kDefaultThreshold;               ///< 0..1
+    const LabelData* labels = nullptr;                  ///< instead of a volume: of a label
+    std::int32_t label = 0;                             ///< that one
+    double radius = 0;                                  ///< mm, instead of both: of a ball around the target
+};
+
+/// An instrument that is a mesh. Its surface alone counts, as everywhere.
+struct PlanMesh {
+    const Mesh* mesh = nullptr;
+    Vec3 tip{};         ///< object space: comes to the target
+    Vec3 axis{0, 0, 1}; ///< object space: from the tip to where the instrument is held; turned to the path by the
+                        ///< smallest turn
+};
+
+/// What is to be planned.
+struct PlanTask {
+    Vec3 target{};                             ///< world mm
+    EntrySurface surface;                      ///< where paths begin
+    std::span<const PlanObstacle> obstacles;   ///< at least one
+    Needle needle;                             ///< the instrument
+    std::optional<PlanMesh> mesh;              ///< instead of the needle. Triangles are then not certified
+    double margin = 0;                         ///< mm, that is to be kept
+    std::optional<double> longest;             ///< mm, of paths
+    std::optional<double> steepest;            ///< degrees between a path and the normal of the surface, to 90
+    const std::atomic<bool>* cancel = nullptr; ///< as Batch::cancel
+};
+
+/// What a Planner is made for.
+struct PlannerDesc {
+    std::uint32_t threads = 0;                ///< 0: one for each processor
+    double tolerance = kDefaultPlanTolerance; ///< mm, from 1e-6 on: how near to each other the bounds are brought
+    double maximum = kDefaultPlanMaximum;     ///< mm, above 0: what is farther from a path is not measured
+    std::uint64_t mostSteps = 1U << 18U;      ///< a path that takes more is left with the bounds it has; at least 1
+};
+
+/// Looks for straight paths to a target that keep clear of obstacles. What it answers depends on nothing but the task
+/// and its desc. Thread-safety: one call at a time.
+class Planner {
+  public:
+    /// Starts its threads. Refuses numbers outside the ranges of PlannerDesc.
+    [[nodiscard]] VOXTACT_API static Result<Planner> create(const PlannerDesc& desc = {});
+    VOXTACT_API Planner(Planner&&) noexcept;
+    VOXTACT_API Planner& operator=(Planner&&) noexcept;
+    VOXTACT_API ~Planner();
+
+    /// Of all directions of the task. Refuses a target that is not finite, null objects, label maps on other grids
+    /// (Unsupported), numbers outside of their ranges, an axis of no length, and a task all of whose directions see no
+    /// surface.
+    [[nodiscard]] VOXTACT_API Result<PlanAnswer> plan(const PlanTask& task);
+    /// How many threads it runs on.
+    [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
+
+  private:
+    explicit Planner(std::unique_ptr<PlannerImpl> impl) noexcept;
+    std::unique_ptr<PlannerImpl> impl_;
 };
 
 } // namespace voxtact::cpu

@@ -12,6 +12,7 @@ namespace voxtact::app {
 [[nodiscard]] Command addDevices(CLI::App& program);
 [[nodiscard]] Command addInfo(CLI::App& program);
 [[nodiscard]] Command addMotion(CLI::App& program);
+[[nodiscard]] Command addPlan(CLI::App& program);
 [[nodiscard]] Command addRender(CLI::App& program);
 /// `make` has commands of its own: mesh, volume, poses.
 [[nodiscard]] std::vector<Command> addMake(CLI::App& program);

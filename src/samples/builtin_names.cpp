@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -32,8 +33,41 @@ Result<BuiltinName> parseBuiltinName(std::string_view kind, std::string_view nam
     return parsed;
 }
 
+namespace {
+
+constexpr std::string_view kNeedle = "needle";
+
+/// All of a text.
+std::optional<double> numberIn(std::string_view text) {
+    double out = 0;
+    const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), out);
+    return !text.empty() && read.ptr == text.data() + text.size() && read.ec == std::errc{} ? std::optional(out)
+                                                                                            : std::nullopt;
+}
+
+/// `sizes`: what comes after the first colon.
+Result<MeshData> needleOf(std::string_view name, std::string_view sizes) {
+    const std::size_t colon = sizes.find(':');
+    const std::optional<double> diameter = numberIn(sizes.substr(0, colon));
+    const std::optional<double> length =
+        colon == std::string_view::npos ? std::nullopt : numberIn(sizes.substr(colon + 1));
+    if (!diameter || !length) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "builtin mesh '" + std::string(name) + "': it is not needle:DIAMETER:LENGTH with two numbers, mm"};
+    }
+    return makeNeedle(*diameter, *length);
+}
+
+} // namespace
+
 Result<MeshData> makeBuiltinMesh(std::string_view name) {
     return guard([&]() -> Result<MeshData> {
+        if (name == kNeedle) {
+            return makeNeedle(kNeedleDiameter, kNeedleLength);
+        }
+        if (name.starts_with(kNeedle) && name[kNeedle.size()] == ':') {
+            return needleOf(name, name.substr(kNeedle.size() + 1));
+        }
         Result<BuiltinName> parsed = parseBuiltinName("mesh", name, "triangles");
         VOXTACT_TRY(parsed);
         if (parsed->stem == "scalpel") {
@@ -42,7 +76,8 @@ Result<MeshData> makeBuiltinMesh(std::string_view name) {
         if (parsed->stem == "ellipsoid") {
             return makeEllipsoid(parsed->number.value_or(kEllipsoidTriangles));
         }
-        return Error{ErrorCode::InvalidArgument, 0, "unknown builtin mesh '" + parsed->stem + "': scalpel, ellipsoid"};
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "unknown builtin mesh '" + parsed->stem + "': scalpel, ellipsoid, needle"};
     });
 }
 

@@ -150,6 +150,11 @@ TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
     EXPECT_EQ(two[3].at("clearance_lo"), "inf");
     EXPECT_EQ(two[3].at("clearance_hi"), "inf");
 
+    // The air around the head is opaque only where it becomes skin, and goes out to the faces at 100 mm.
+    EXPECT_GT(std::stod(labelled({"--to", "0"})[1].at("clearance_lo")), 30);
+    EXPECT_NEAR(std::stod(labelled({"--to", "0", "--to-any-opacity"})[1].at("clearance_lo")), 20, 1e-3);
+    EXPECT_EQ(labelled({"--to", "70", "--to-any-opacity"})[1], two[2]);
+
     output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
     EXPECT_THAT(
         refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance", path("other.csv")})),
@@ -164,6 +169,7 @@ TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(line({"--closest", "c.csv"}), HasSubstr("--closest: it is about clearances"));
     EXPECT_THAT(line({"--clearance", "--label-clearance", "c.csv"}), HasSubstr("--labels is not given"));
     EXPECT_THAT(line({"--clearance", "--to", "1"}), HasSubstr("--to: it says which labels"));
+    EXPECT_THAT(line({"--clearance", "--to-any-opacity"}), HasSubstr("--to-any-opacity: it says what"));
     EXPECT_THAT(line({"--clearance", "--closest", "c.vtk"}), HasSubstr(".csv or .ply"));
     EXPECT_THAT(line({"--clearance", "--tolerance", "0"}), HasSubstr("--tolerance"));
     EXPECT_THAT(line({"--clearance", "--max-clearance", "0"}), HasSubstr("--max-clearance"));

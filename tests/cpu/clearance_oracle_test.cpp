@@ -199,6 +199,39 @@ TEST(ClearanceOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
     EXPECT_GT(closed, cases * 9 / 2);
 }
 
+/// All of a label is what is opaque of it where everything is.
+TEST(ClearanceOracle, TheTruthOfWholeLabelsIsBetweenTheirBounds) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1, .labelsAtAnyOpacity = true}));
+    const std::vector<std::int32_t> asked{2, 0, 77};
+    std::size_t closed = 0;
+    const std::size_t cases = randomCases(20000, 150);
+    for (std::uint64_t number = 0; number < cases; ++number) {
+        CertifiedCase c = makeClearanceCase(seed, number);
+        const LabelData labels = randomLabels(random, c.scene.volume.grid);
+        Held held(c.scene);
+        held.item.labels = &labels;
+        const std::vector<LabelClearance> says = take(meter.measureLabels(held.batch, asked)).labels;
+        for (ControlPoint& point : c.scene.points) {
+            point.opacity = 1;
+        }
+        const double slack = 1e-12 * largestCoordinate(c.scene);
+        ASSERT_EQ(says.size(), asked.size());
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            SCOPED_TRACE("case " + std::to_string(number) + ", label " + std::to_string(asked[i]));
+            const auto [lo, hi] = says[i].bounds;
+            const OracleClearance truth = take(
+                oracle::labelClearanceOracle(c.scene.pair(), labels, asked[i], number % 8 == 0 ? 1.0 / 256 : 1.0 / 32));
+            EXPECT_LE(lo, truth.hi + slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
+            EXPECT_GE(hi, truth.lo - slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
+            closed += says[i].end == ClearanceEnd::Closed ? 1 : 0;
+        }
+        ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GT(closed, cases * 3 * 9 / 10);
+}
+
 /// A margin is what the bounds say, and where these leave it open, it is itself.
 TEST(ClearanceOracle, AMarginIsWhatTheClearanceSays) {
     const std::uint64_t seed = testSeed();

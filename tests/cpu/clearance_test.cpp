@@ -426,6 +426,45 @@ TEST(Clearance, SeesLabelMapsThatAreEditedInPlace) {
     EXPECT_NEAR(clearanceToOne(meter, held, labels), 20.5, 1e-4);
 }
 
+/// A label's own faces are exact, be what is in it opaque or not: a needle that points along -x from x = 30, and one
+/// beside a corner of a box of a skewed grid.
+TEST(Clearance, MeasuresToLabelsAtAnyOpacity) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const VolumeData empty = makeBytes(grid, [](auto x, auto, auto) { return x == 15 ? 255 : 0; });
+    const LabelData labels = take(makeLabels(makeBytes(grid, [](auto x, auto, auto) { return x < 4 ? 1 : 2; }).view()));
+    const Held held(needle(), empty, byteRamp(), {0, 255});
+    cpu::ClearanceMeter all = take(cpu::ClearanceMeter::create({.threads = 1, .labelsAtAnyOpacity = true}));
+    EXPECT_NEAR(clearanceToOne(all, held, labels), 30 - 3.5, 1e-4);
+    cpu::ClearanceMeter opaque = take(cpu::ClearanceMeter::create({.threads = 1}));
+    EXPECT_EQ(clearanceToOne(opaque, held, labels), kInfinity);
+    // Nothing at all is opaque.
+    const Held none(needle(), makeBytes(grid, [](auto...) { return 0; }), byteRamp(), {0, 255});
+    EXPECT_NEAR(clearanceToOne(all, none, labels), 30 - 3.5, 1e-4);
+
+    Grid skewed;
+    skewed.size = {12, 10, 8};
+    skewed.spacing = {0.7, 1.3, 2.5};
+    const double c = std::cos(0.4);
+    const double s = std::sin(0.4);
+    skewed.direction = {c, s, 0, -s, c, 0, 0, 0, 1};
+    skewed.origin = {-4, 7, 100};
+    const LabelData box = take(
+        makeLabels(makeBytes(skewed, [](auto x, auto y, auto z) { return x < 5 && y < 4 && z < 3 ? 1 : 0; }).view()));
+    // The corner of the voxels 4, 3, 2 that is farthest from the origin, and 3, 2 and 6 mm beyond it.
+    const Vec3 corner = transformPoint(worldFromIndex(skewed), {4.5, 3.5, 2.5});
+    const Vec3 tip{corner[0] + c * 3 - s * 2, corner[1] + s * 3 + c * 2, corner[2] + 6};
+    const MeshData point{{0, 0, 0, 0, 0, 1, 0, 0, 0.5}, {0, 1, 2}, "", {}};
+    const Held apart(point, makeBytes(skewed, [](auto...) { return 0; }), byteRamp(), {0, 255});
+    const Mat4 pose = translation(tip);
+    const cpu::BatchItem item{&apart.mesh, &apart.volume, &apart.function, std::span(&pose, 1), &box};
+    const std::vector<std::int32_t> one{1};
+    const LabelClearance says = take(all.measureLabels({std::span(&item, 1), {}, 0.5}, one)).labels.at(0);
+    EXPECT_LE(says.bounds.lo, 7 + 1e-9);
+    EXPECT_GE(says.bounds.hi, 7 - 1e-9);
+    EXPECT_EQ(says.end, ClearanceEnd::Closed);
+}
+
 TEST(Clearance, RefusesWhatItCannotUse) {
     const auto refused = [](const cpu::ClearanceDesc& desc) {
         const Result<cpu::ClearanceMeter> meter = cpu::ClearanceMeter::create(desc);

@@ -16,6 +16,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -235,8 +236,43 @@ TEST(BuiltinScalpel, HasNoInvertedTriangle) {
     }
 }
 
+/// All of its points are as far from the axis' inner piece as half the diameter.
+TEST(BuiltinMesh, ANeedleIsRoundStraightAndClosed) {
+    for (const auto& [name, radius, length] :
+         {std::tuple{"needle", 1.0, 200.0}, {"needle:1.5:80.25", 0.75, 80.25}, {"needle:3:3", 1.5, 3.0}}) {
+        SCOPED_TRACE(name);
+        const Result<MeshData> made = makeBuiltinMesh(name);
+        ASSERT_TRUE(made.ok());
+        const Result<MeshFacts> facts = checkMesh(made->view());
+        ASSERT_TRUE(facts.ok());
+        EXPECT_EQ(facts->degenerate, 0U);
+        EXPECT_EQ(facts->bounds.lo[2], 0);
+        EXPECT_EQ(facts->bounds.hi[2], length);
+        for (std::size_t i = 0; i < made->positions.size(); i += 3) {
+            const double x = static_cast<double>(made->positions[i]);
+            const double y = static_cast<double>(made->positions[i + 1]);
+            const double z = static_cast<double>(made->positions[i + 2]);
+            EXPECT_NEAR(std::hypot(x, y, z - std::clamp(z, radius, length - radius)), radius, 1e-5);
+        }
+        // Outward: the volume is that of a cylinder and a ball, less what 32 corners leave out.
+        double volume = 0;
+        for (std::size_t i = 0; i < made->indices.size(); i += 3) {
+            const auto at = [&](std::size_t corner, std::size_t axis) {
+                return static_cast<double>(made->positions[3 * made->indices[i + corner] + axis]);
+            };
+            volume += (at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) +
+                       at(0, 1) * (at(1, 2) * at(2, 0) - at(1, 0) * at(2, 2)) +
+                       at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0))) /
+                      6;
+        }
+        const double whole = 3.14159265 * radius * radius * (length - 2 * radius + 4.0 / 3 * radius);
+        EXPECT_LT(volume, whole);
+        EXPECT_GT(volume, 0.97 * whole);
+    }
+}
+
 TEST(BuiltinMesh, IsTheSameEachTime) {
-    for (const char* name : {"scalpel", "scalpel:4000", "ellipsoid:5000"}) {
+    for (const char* name : {"scalpel", "scalpel:4000", "ellipsoid:5000", "needle:1:50"}) {
         const Result<MeshData> first = makeBuiltinMesh(name);
         const Result<MeshData> second = makeBuiltinMesh(name);
         ASSERT_TRUE(first.ok() && second.ok());
@@ -261,6 +297,11 @@ TEST(BuiltinMesh, RefusesImpossibleNumbersOfTriangles) {
         {"ellipsoid:0", {"at least 8"}},
         {"scalpel:84", {"at least " + std::to_string(kSmallestScalpel)}},
         {"ellipsoid:4294967295", {"16777216"}},
+        {"needle:2", {"needle:DIAMETER:LENGTH"}},
+        {"needle:2:x", {"needle:DIAMETER:LENGTH"}},
+        {"needle:0:10", {"diameter 0 mm", "above 0"}},
+        {"needle:3:2", {"length 2 mm", "no smaller"}},
+        {"needle:nan:2", {"diameter nan mm"}},
     };
     for (const auto& [name, words] : refused) {
         SCOPED_TRACE(name);

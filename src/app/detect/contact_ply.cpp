@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
+#include "app/draw/viridis.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <ostream>
 
@@ -15,32 +13,6 @@ namespace voxtact::app {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PLY is written as the bytes lie in memory");
-
-using Colour = std::array<std::uint8_t, 3>;
-
-/// viridis (van der Walt, Smith, Firing, matplotlib 1.5, CC0) at every eighth: lightness rises evenly.
-constexpr std::array<Colour, 9> kViridis{{{68, 1, 84},
-                                          {71, 44, 122},
-                                          {59, 81, 139},
-                                          {44, 113, 142},
-                                          {33, 144, 141},
-                                          {39, 173, 129},
-                                          {92, 200, 99},
-                                          {170, 220, 50},
-                                          {253, 231, 37}}};
-
-/// `share`: 0 to 1 along the map.
-Colour colourAt(double share) {
-    const double place = std::clamp(share, 0.0, 1.0) * (kViridis.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(place), kViridis.size() - 2);
-    const double part = place - static_cast<double>(below);
-    Colour colour{};
-    for (std::size_t i = 0; i < colour.size(); ++i) {
-        colour[i] =
-            static_cast<std::uint8_t>(std::lround(kViridis[below][i] * (1 - part) + kViridis[below + 1][i] * part));
-    }
-    return colour;
-}
 
 template <class Number> void append(std::string& bytes, Number number) {
     char raw[sizeof number];
@@ -94,7 +66,7 @@ void writeContactsPly(std::ostream& out, const DetectOptions& options, const Det
         bytes.clear();
         append(bytes, contact.position);
         append(bytes, contact.normal);
-        for (const std::uint8_t component : colourAt(contact.depth / options.extra.outputs().maxDepth)) {
+        for (const std::uint8_t component : viridis(contact.depth / options.extra.outputs().maxDepth)) {
             append(bytes, component);
         }
         append(bytes, static_cast<float>(contact.depth));

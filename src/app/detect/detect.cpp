@@ -217,6 +217,8 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
     parser.add_option("--to", options.to, "the labels that --label-clearance is about: 1,2,5; default: all but 0")
         ->delimiter(',')
         ->type_name("LABEL,...");
+    parser.add_flag("--to-any-opacity", options.toAnyOpacity,
+                    "--label-clearance is to all of a label, not to what is opaque of it");
     addNumber(
         parser, "--margin", [&options](double mm) { options.margin = mm; },
         "mm: hit says whether anything opaque is so near, as certified as a touch; 0 is the touch itself",

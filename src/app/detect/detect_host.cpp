@@ -194,7 +194,8 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
             cpu::ClearanceMeter::create({.threads = options.threads,
                                          .tolerance = distance.tolerance.value_or(kDefaultTolerance),
                                          .maximum = distance.maximum.value_or(std::numeric_limits<double>::infinity()),
-                                         .resolution = method.resolution.value_or(kDefaultResolution)});
+                                         .resolution = method.resolution.value_or(kDefaultResolution),
+                                         .labelsAtAnyOpacity = distance.toAnyOpacity});
         VOXTACT_TRY(made);
         meter = std::move(*made);
     }

@@ -69,7 +69,9 @@ Result<void> checkDistance(DetectOptions& options) {
           checkUsed(!distance.labels.empty(), "--label-clearance", !options.extra.labels.empty(),
                     "it is about labels, and --labels is not given"),
           checkUsed(!distance.to.empty(), "--to", !distance.labels.empty(),
-                    "it says which labels --label-clearance is about, and that is not given")}) {
+                    "it says which labels --label-clearance is about, and that is not given"),
+          checkUsed(distance.toAnyOpacity, "--to-any-opacity", !distance.labels.empty(),
+                    "it says what --label-clearance is about, and that is not given")}) {
         if (!used.ok()) {
             return used;
         }

@@ -46,6 +46,7 @@ struct DistanceOptions {
     std::filesystem::path closest;   ///< a file to write; empty: not asked for
     std::filesystem::path labels;    ///< another
     std::vector<std::int32_t> to;    ///< labels; empty: all but 0
+    bool toAnyOpacity = false;       ///< all of a label, not what is opaque of it
 
     [[nodiscard]] bool any() const { return clearance || isMargin(); }
     /// Whether what is asked is not if a pose touches, but if it or something near does.

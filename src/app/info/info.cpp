@@ -37,7 +37,7 @@ bool isMesh(const std::string& source) {
     std::string lowered = source;
     std::transform(lowered.begin(), lowered.end(), lowered.begin(),
                    [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    for (const char* builtin : {"builtin:scalpel", "builtin:ellipsoid"}) {
+    for (const char* builtin : {"builtin:scalpel", "builtin:ellipsoid", "builtin:needle"}) {
         if (lowered == builtin || lowered.starts_with(builtin + std::string(":"))) {
             return true;
         }

@@ -141,7 +141,8 @@ std::vector<Command> addMake(CLI::App& program) {
     make->footer("Example:\n  voxtact make mesh builtin:scalpel:3068 scalpel.stl");
     return {
         addMakeFile(*make, "mesh", "writes a builtin mesh",
-                    "builtin:scalpel[:TRIANGLES] or builtin:ellipsoid[:TRIANGLES]", kMeshFooter, makeMesh),
+                    "builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES] or builtin:needle[:DIAMETER:LENGTH]",
+                    kMeshFooter, makeMesh),
         addMakeFile(*make, "volume", "writes a builtin volume",
                     "builtin:NAME[:SIZE] with head, sphere, noise, ct, shells or vessels, SIZE voxels a side",
                     kVolumeFooter, makeVolume),

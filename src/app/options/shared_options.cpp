@@ -155,7 +155,8 @@ void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
 void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
     parser
         .add_option("--mesh", options.sources,
-                    "STL, OBJ, PLY, OFF, glTF/GLB, or builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES]")
+                    "STL, OBJ, PLY, OFF, glTF/GLB, or builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES], "
+                    "builtin:needle[:DIAMETER:LENGTH]")
         ->type_name("PATH")
         ->check(refuseEmpty)
         ->allow_extra_args(false)

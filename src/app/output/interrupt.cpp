@@ -17,15 +17,19 @@ constexpr std::array<Signal, 3> kSignals{{{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM
 constexpr int kSignalStatus = 128;
 
 volatile std::sig_atomic_t caught = 0;
+std::atomic<bool> flag{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a handler of signals may set it");
 
 extern "C" void noteSignal(int number) {
     caught = number;
+    flag = true;
 }
 
 } // namespace
 
 InterruptGuard::InterruptGuard() noexcept {
     caught = 0;
+    flag = false;
     for (const Signal& signal : kSignals) {
         struct sigaction old {};
         // What the caller had ignored (nohup, a job in the background) stays ignored.
@@ -50,6 +54,10 @@ InterruptGuard::~InterruptGuard() {
 
 bool interrupted() noexcept {
     return caught != 0;
+}
+
+const std::atomic<bool>& interruptFlag() noexcept {
+    return flag;
 }
 
 Outcome interruptOutcome(const std::string& what) {

@@ -23,12 +23,14 @@ using glm::dvec3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastTolerance = 1e-6;
 
-/// The pyramids of labels that were asked for last.
+using LabelSets = std::shared_ptr<const std::vector<LabelSet>>;
+
+/// The labels that were asked for last.
 struct KeptLabels {
     std::shared_ptr<const OpaquePart> part; ///< keeps its address from being another's
     std::uint64_t labels = 0;               ///< fingerprint of the map
     std::vector<std::uint32_t> indices;
-    std::shared_ptr<const LabelPyramids> pyramids;
+    LabelSets sets;
 };
 
 } // namespace
@@ -173,16 +175,16 @@ std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const st
     return indices;
 }
 
-std::shared_ptr<const LabelPyramids> pyramidsOf(ClearanceMeterImpl& impl, const BatchItem& item,
-                                                const std::shared_ptr<const OpaquePart>& part, std::uint64_t labels,
-                                                const std::vector<std::uint32_t>& indices) {
+LabelSets setsOf(ClearanceMeterImpl& impl, const BatchItem& item, const std::shared_ptr<const OpaquePart>& part,
+                 std::uint64_t labels, const std::vector<std::uint32_t>& indices) {
     constexpr std::size_t kMostKept = 4;
     for (const KeptLabels& kept : impl.labels) {
         if (kept.part == part && kept.labels == labels && kept.indices == indices) {
-            return kept.pyramids;
+            return kept.sets;
         }
     }
-    auto made = std::make_shared<const LabelPyramids>(*part, item.volume->impl(), *item.labels, indices);
+    auto made =
+        std::make_shared<const std::vector<LabelSet>>(singleLabels(*part, item.volume->impl(), *item.labels, indices));
     if (impl.labels.size() == kMostKept) {
         impl.labels.erase(impl.labels.begin());
     }
@@ -274,16 +276,17 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
         const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
         VOXTACT_TRY(checkMeasuredLabels(batch, labels));
-        const Parts parts = impl_->workers.partsOf(batch, impl_->desc.resolution);
+        const Parts parts = impl_->desc.labelsAtAnyOpacity ? impl_->workers.wholesOf(batch)
+                                                           : impl_->workers.partsOf(batch, impl_->desc.resolution);
         std::vector<std::vector<std::uint32_t>> indices;
-        std::vector<std::shared_ptr<const LabelPyramids>> pyramids;
+        std::vector<LabelSets> sets;
         std::map<const LabelData*, std::uint64_t> fingerprints; // each of the call's maps is read once
         for (std::size_t i = 0; i < batch.items.size(); ++i) {
             const BatchItem& item = batch.items[i];
             const auto [print, isNew] = fingerprints.try_emplace(item.labels);
             print->second = isNew ? labelFingerprint(*item.labels) : print->second;
             indices.push_back(indicesOf(*item.labels, labels));
-            pyramids.push_back(pyramidsOf(*impl_, item, parts[i], print->second, indices[i]));
+            sets.push_back(setsOf(*impl_, item, parts[i], print->second, indices[i]));
         }
         LabelClearanceAnswer answer;
         answer.labels = numberedPairs<LabelClearance>(batch, labels.size());
@@ -291,18 +294,18 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
             answer.labels[i].label = labels[i % labels.size()];
             answer.labels[i].bounds = {kInfinity, kInfinity};
         }
-        VOXTACT_TRY(impl_->workers.forEachPair(
-            batch, parts, answer.labels, [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
-                const LabelData& map = *at.item.labels;
-                const std::vector<std::uint32_t>& known = indices[label.item];
-                for (std::size_t i = 0; i < known.size(); ++i) {
-                    if (map.values[known[i]] == label.label) {
-                        const SearchedPart searched(pyramids[label.item]->at(i), map, known[i]);
-                        measureLabel(at, searched, impl_->desc, memory, label);
-                        return;
-                    }
-                }
-            }));
+        VOXTACT_TRY(impl_->workers.forEachPair(batch, parts, answer.labels,
+                                               [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
+                                                   const LabelData& map = *at.item.labels;
+                                                   const std::vector<std::uint32_t>& known = indices[label.item];
+                                                   for (std::size_t i = 0; i < known.size(); ++i) {
+                                                       if (map.values[known[i]] == label.label) {
+                                                           const SearchedPart searched((*sets[label.item])[i], map);
+                                                           measureLabel(at, searched, impl_->desc, memory, label);
+                                                           return;
+                                                       }
+                                                   }
+                                               }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });

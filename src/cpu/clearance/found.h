@@ -32,12 +32,16 @@ struct Found {
     std::uint32_t triangle = kNoTriangle; ///< the closest one, by its place in the mesh's arrays; with hi finite
     glm::dvec3 onMesh{};                  ///< local
     glm::dvec3 inVolume{};
+    bool isOpaque = false; ///< inVolume is: not only some point about there
     std::uint64_t steps = 0;
 
-    /// Some opaque point is no farther from a triangle than that: about `volume`, and about there on it.
-    void offer(double distance, std::uint32_t number, const glm::dvec3& mesh, const glm::dvec3& volume) noexcept {
+    /// Some opaque point is no farther from a triangle than that: about `volume`, or just there where that is `opaque`,
+    /// and about there on it.
+    void offer(double distance, std::uint32_t number, const glm::dvec3& mesh, const glm::dvec3& volume,
+               bool opaque) noexcept {
         if (distance < hi) {
             hi = distance;
+            isOpaque = opaque;
             triangle = number;
             onMesh = mesh;
             inVolume = volume;

@@ -30,7 +30,7 @@ bool SearchedPart::has(const NodePlace& padded, const std::array<std::uint32_t, 
         voxel[axis] = static_cast<std::size_t>(padded[axis] - 1) + octant[axis];
     }
     const auto& size = labels_->grid.size;
-    return labels_->indices[(voxel[2] * size[1] + voxel[1]) * size[0] + voxel[0]] == index_;
+    return with_[labels_->indices[(voxel[2] * size[1] + voxel[1]) * size[0] + voxel[0]]] != 0;
 }
 
 std::array<unsigned, 2> SearchedPart::count(const NodePlace& padded, const Octants& octants) const noexcept {
@@ -74,15 +74,15 @@ std::optional<CellRegion> SearchedPart::region(const PartCell& cell, const Piece
     return out;
 }
 
-LabelPyramids::LabelPyramids(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
-                             std::span<const std::uint32_t> indices) {
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> placeOf(labels.values.size(), kNone);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        placeOf[indices[i]] = static_cast<std::uint32_t>(i);
-    }
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// `placeOf`: by LabelData::values, the set that the label is in, or kNone.
+std::vector<LabelSet> setsOf(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
+                             const std::vector<std::uint32_t>& placeOf, std::size_t sets) {
     const std::size_t bricks = volume.bricks.lo.size();
-    std::vector<std::vector<std::uint8_t>> wanted(indices.size(), std::vector<std::uint8_t>(bricks));
+    std::vector<std::vector<std::uint8_t>> wanted(sets, std::vector<std::uint8_t>(bricks));
     const auto& size = labels.grid.size;
     std::size_t voxel = 0;
     for (std::uint32_t z = 0; z < size[2]; ++z) {
@@ -105,9 +105,37 @@ LabelPyramids::LabelPyramids(const OpaquePart& part, const VolumeImpl& volume, c
             }
         }
     }
-    for (std::vector<std::uint8_t>& of : wanted) {
-        pyramids_.emplace_back(volume.bricks.count, std::move(of));
+    std::vector<LabelSet> out(sets);
+    for (std::size_t i = 0; i < sets; ++i) {
+        out[i].pyramid = BrickPyramid(volume.bricks.count, std::move(wanted[i]));
+        out[i].with.resize(placeOf.size());
     }
+    for (std::size_t i = 0; i < placeOf.size(); ++i) {
+        if (placeOf[i] != kNone) {
+            out[placeOf[i]].with[i] = 1;
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+std::vector<LabelSet> singleLabels(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
+                                   std::span<const std::uint32_t> indices) {
+    std::vector<std::uint32_t> placeOf(labels.values.size(), kNone);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        placeOf[indices[i]] = static_cast<std::uint32_t>(i);
+    }
+    return setsOf(part, volume, labels, placeOf, indices.size());
+}
+
+LabelSet allLabels(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
+                   std::span<const std::uint32_t> indices) {
+    std::vector<std::uint32_t> placeOf(labels.values.size(), kNone);
+    for (const std::uint32_t index : indices) {
+        placeOf[index] = 0;
+    }
+    return std::move(setsOf(part, volume, labels, placeOf, 1).front());
 }
 
 } // namespace voxtact::cpu

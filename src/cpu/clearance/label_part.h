@@ -26,15 +26,20 @@ struct PiecePlace {
     std::array<std::uint16_t, 3> piece{}; ///< times 2^-depth
 };
 
-/// What is opaque, all of it or what has one label. Labels are constant in the boxes around voxel centres, which are
-/// closed: a cell has eight of them, and a face between two labels belongs to both.
-/// Thread-safe.
+/// Some labels of a map.
+struct LabelSet {
+    BrickPyramid pyramid;           ///< the bricks that may be opaque and have one of them
+    std::vector<std::uint8_t> with; ///< by LabelData::values: not zero for those of the set
+};
+
+/// What is opaque, all of it or what has one of some labels. Labels are constant in the boxes around voxel centres,
+/// which are closed: a cell has eight of them, and a face between two labels belongs to both. Thread-safe.
 class SearchedPart {
   public:
     explicit SearchedPart(const OpaquePart& part) : pyramid_(&part.pyramid) {}
-    /// `labels` on the volume's grid; all must outlive it. `pyramid`: of the bricks with the label.
-    SearchedPart(const BrickPyramid& pyramid, const LabelData& labels, std::uint32_t index)
-        : pyramid_(&pyramid), labels_(&labels), index_(index) {}
+    /// `labels` on the volume's grid; all must outlive it.
+    SearchedPart(const LabelSet& set, const LabelData& labels)
+        : pyramid_(&set.pyramid), labels_(&labels), with_(set.with.data()) {}
 
     [[nodiscard]] const BrickPyramid& pyramid() const noexcept { return *pyramid_; }
     /// Whether some of a piece belongs to it.
@@ -72,21 +77,14 @@ class SearchedPart {
 
     const BrickPyramid* pyramid_;
     const LabelData* labels_ = nullptr; ///< null: all that is opaque
-    std::uint32_t index_ = 0;           ///< of the label
+    const std::uint8_t* with_ = nullptr;
 };
 
-/// For each of some labels the bricks that may be opaque and have it.
-class LabelPyramids {
-  public:
-    /// `indices`: numbers of labels in LabelData::values. The map is on the volume's grid.
-    LabelPyramids(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
-                  std::span<const std::uint32_t> indices);
-
-    /// Of the label at this place among `indices`.
-    [[nodiscard]] const BrickPyramid& at(std::size_t place) const noexcept { return pyramids_[place]; }
-
-  private:
-    std::vector<BrickPyramid> pyramids_;
-};
+/// Sets of a single label each. `indices`: numbers of labels in LabelData::values. The map is on the volume's grid.
+[[nodiscard]] std::vector<LabelSet> singleLabels(const OpaquePart& part, const VolumeImpl& volume,
+                                                 const LabelData& labels, std::span<const std::uint32_t> indices);
+/// The set of all of them.
+[[nodiscard]] LabelSet allLabels(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
+                                 std::span<const std::uint32_t> indices);
 
 } // namespace voxtact::cpu

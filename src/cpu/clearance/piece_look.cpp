@@ -73,7 +73,7 @@ dvec3 PieceLook::run(const PiecePlace& place, const DistanceError& error, std::u
         const double distance = glm::distance(point, onMesh);
         if (opaque) {
             certain = true;
-            found.offer(error.above(distance), number, onMesh, point);
+            found.offer(error.above(distance), number, onMesh, point, true);
         }
         if (!(distance < nearest - worthwhile_)) {
             break;
@@ -118,7 +118,7 @@ void PieceLook::between(const DistanceError& error, std::uint32_t number, Found&
         farthest = std::max(farthest, glm::distance(point, mesh_.near(triangle_, point)));
     }
     const dvec3 point = space.toWorld(cell_.middle + 0.25 * (ends[0].at + ends[1].at));
-    found.offer(error.above(farthest), number, mesh_.near(triangle_, point), point);
+    found.offer(error.above(farthest), number, mesh_.near(triangle_, point), point, false);
 }
 
 } // namespace voxtact::cpu

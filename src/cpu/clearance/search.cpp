@@ -51,6 +51,10 @@ Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const Opaque
     heap_.clear();
     dropped_.clear();
     dive_.reset();
+    if (goal.known) {
+        const MeshPoint onMesh = nearestOnMesh(mesh, *goal.known, kInfinity);
+        found_.offer(error_.above(onMesh.distance), onMesh.triangle, onMesh.point, *goal.known, true);
+    }
     if (from == nullptr && !mayBeWithin(goal.maximum)) {
         found_.lo = goal.maximum;
         return found_;
@@ -85,7 +89,7 @@ bool ClosestSearch::goesOn() {
     if (isCancelled(cancel_)) {
         return false;
     }
-    if (mesh_->isSwept() && found_.lo <= 0 && (!goal_.untilMet || ++stepsInDoubt_ > kMostInDoubt)) {
+    if (decides() && found_.lo <= 0 && (!goal_.untilMet || ++stepsInDoubt_ > kMostInDoubt)) {
         return false; // it is not apart, and that is all that is asked
     }
     if (found_.hi <= goal_.enough || (!dive_ && (heap_.empty() || heap_.front().lo >= cut()))) {
@@ -200,7 +204,7 @@ void ClosestSearch::push(const Pair& pair) {
 
 double ClosestSearch::cut() const noexcept {
     // Of a swept mesh a point says nothing but that it is not apart.
-    if (mesh_->isSwept()) {
+    if (decides()) {
         return goal_.maximum;
     }
     const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
@@ -317,12 +321,12 @@ void ClosestSearch::improve() {
     for (int turn = 0; turn < kMostTurns && found_.hi > goal_.enough; ++turn) {
         const double before = found_.hi;
         const MeshPoint onMesh = nearestOnMesh(*mesh_, found_.inVolume, before);
-        if (onMesh.distance < before) {
-            found_.offer(error_.above(onMesh.distance), onMesh.triangle, onMesh.point, found_.inVolume);
+        if (found_.isOpaque && onMesh.distance < before) {
+            found_.offer(error_.above(onMesh.distance), onMesh.triangle, onMesh.point, found_.inVolume, true);
         }
         const OpaquePoint opaque = nearestOpaque(*part_, *searched_, *volume_, found_.onMesh, found_.hi);
         if (opaque.distance < found_.hi) {
-            found_.offer(error_.above(opaque.distance), found_.triangle, found_.onMesh, opaque.point);
+            found_.offer(error_.above(opaque.distance), found_.triangle, found_.onMesh, opaque.point, true);
         }
         if (!(found_.hi < before - kWorthwhile * goal_.tolerance)) {
             return;
@@ -485,7 +489,8 @@ void ClosestSearch::openLeaf(const Pair& pair) {
     }
     const bool inDoubt = !piece.someOpaque(part_->intervals);
     const double diameter = 2 * length(part_->space.spacing * piece.half());
-    if (pair.depth == kMostDepth || (inDoubt && (piece.isFlat() || diameter < goal_.finest))) {
+    const bool small = diameter < goal_.finest;
+    if (pair.depth == kMostDepth || (inDoubt && (piece.isFlat() || small)) || (goal_.coarsely && small)) {
         drop(child);
         return;
     }

@@ -24,6 +24,9 @@ struct SearchGoal {
     double enough = -1;                                       ///< mm: an opaque point as near as this ends it
     double finest = 0;                                        ///< mm: what is known as well is not looked at again
     std::uint64_t mostSteps = 0;
+    std::optional<glm::dvec3> known{}; ///< local: a point that certainly is searched for. Not with a sweep
+    bool measures = false; ///< a sweep that only shifts: how near it comes is asked, not only whether it is apart
+    bool coarsely = false; ///< what is smaller than the finest is not divided, be it certain or not
     bool untilMet = false; ///< a point as near as enough is looked for, though it is known that lo will be 0
 };
 
@@ -99,6 +102,8 @@ class ClosestSearch {
     /// Sets what `corners_` is about.
     void gather(const Pair& pair);
     [[nodiscard]] double cut() const noexcept;
+    /// Whether all that is asked is if a sweep is apart.
+    [[nodiscard]] bool decides() const noexcept { return mesh_->isSwept() && !goal_.measures; }
     [[nodiscard]] bool closes(double lo);
 
     /// Calls `visit(number, triangle)` for those of a pair.

@@ -2,6 +2,7 @@
 #include "cpu/clearance/sweep.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -138,9 +139,90 @@ dvec3 Sweep::near(const PlacedBox& box, const dvec3& from) const noexcept {
     return withSlack(onTheWay(from, [&](double part) { return box.near(from - part * way) + part * way; }), from);
 }
 
+/// Turned to where a point of it gets the closest, another point of it may be closer: it is turned by that, and so on.
+dvec3 Sweep::nearTurned(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
+    constexpr int kTurns = 2;
+    dvec3 point = nearest(triangle, from);
+    for (int i = 0; i < kTurns; ++i) {
+        const dvec3 arm = point - centre;
+        const dvec3 wanted = from - centre;
+        const dvec3 axis = cross(arm, wanted);
+        const double size = glm::length(axis);
+        if (!(size > 0)) {
+            break;
+        }
+        const double angle = std::min(std::atan2(size, dot(arm, wanted)), turn);
+        const glm::dmat3 back = glm::mat3_cast(glm::angleAxis(-angle, axis / size));
+        point = closestPoint(triangle.corners, centre + back * wanted);
+    }
+    return near(point, from);
+}
+
+/// Where the line that a point is shifted along meets a triangle, as a part of the way; nothing where it does not.
+std::optional<double> Sweep::shiftTo(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
+    const dvec3 ab = triangle.corners[1] - triangle.corners[0];
+    const dvec3 ac = triangle.corners[2] - triangle.corners[0];
+    const dvec3 normal = cross(ab, ac);
+    const double slope = dot(normal, offset);
+    const double part = dot(normal, from - triangle.corners[0]) / slope;
+    if (!(std::abs(part) <= 1)) {
+        return {};
+    }
+    const dvec3 at = from - part * offset - triangle.corners[0];
+    const double area = dot(normal, normal);
+    const double b = dot(normal, cross(at, ac)) / area;
+    const double c = dot(normal, cross(ab, at)) / area;
+    return b >= 0 && c >= 0 && b + c <= 1 ? std::optional(part) : std::nullopt;
+}
+
+/// The distance is a convex function of the part of the way (golden section: Kiefer, 1953).
+dvec3 Sweep::nearShifted(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
+    constexpr int kSteps = 44; // to 10^-9 of the way
+    constexpr double kGolden = 0.6180339887498949;
+    const auto at = [&](double part) { return closestPoint(triangle.corners, from - part * offset) + part * offset; };
+    if (const std::optional<double> part = shiftTo(triangle, from)) {
+        return at(*part);
+    }
+    const auto far = [&](double part) {
+        const dvec3 off = at(part) - from;
+        return dot(off, off);
+    };
+    double begin = -1;
+    double end = 1;
+    double first = end - kGolden * (end - begin);
+    double second = begin + kGolden * (end - begin);
+    double atFirst = far(first);
+    double atSecond = far(second);
+    for (int i = 0; i < kSteps; ++i) {
+        if (atFirst < atSecond) {
+            end = second;
+            second = first;
+            atSecond = atFirst;
+            first = end - kGolden * (end - begin);
+            atFirst = far(first);
+        } else {
+            begin = first;
+            first = second;
+            atFirst = atSecond;
+            second = begin + kGolden * (end - begin);
+            atSecond = far(second);
+        }
+    }
+    // The ends themselves are never tried in between.
+    dvec3 best = at(0.5 * (begin + end));
+    for (const double part : {-1.0, 1.0}) {
+        const dvec3 other = at(part);
+        best = glm::distance(other, from) < glm::distance(best, from) ? other : best;
+    }
+    return best;
+}
+
 dvec3 Sweep::near(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
     if (turn > 0) {
-        return near(nearest(triangle, from), from);
+        return nearTurned(triangle, from);
+    }
+    if (slack == 0 && linear == glm::dmat3(0)) {
+        return nearShifted(triangle, from);
     }
     const auto closest = [&](double part) {
         WorldTriangle there = triangle.corners;

@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <optional>
+
 namespace voxtact::cpu {
 
 /// Where a mesh may be besides at its pose. A point that is at x may be
@@ -40,6 +42,9 @@ struct Sweep {
 
   private:
     [[nodiscard]] double turnedReach(const glm::dvec3& normal, const glm::dvec3& x) const noexcept;
+    [[nodiscard]] glm::dvec3 nearTurned(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
+    [[nodiscard]] glm::dvec3 nearShifted(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
+    [[nodiscard]] std::optional<double> shiftTo(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
     [[nodiscard]] glm::dvec3 withSlack(const glm::dvec3& at, const glm::dvec3& from) const noexcept;
     /// How far on its way something gets the closest to `from`, from -1 to 1: `closest(part)` is its closest point
     /// there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/clearance/all_opaque.h"
 #include "cpu/clearance/pair_at.h"
 #include "cpu/raster/occupancy_cache.h"
 #include "cpu/thread_pool.h"
@@ -27,11 +28,27 @@ class Workers {
 
     [[nodiscard]] std::uint32_t threads() const noexcept { return pool_.threads(); }
 
+    [[nodiscard]] std::shared_ptr<const OpaquePart> part(const VolumeImpl& volume, const TransferFunctionImpl& function,
+                                                         double threshold, double resolution = kDefaultResolution) {
+        return parts_.get(volume, function, threshold, resolution);
+    }
+    /// All of a volume. `domain`: of about its values.
+    [[nodiscard]] std::shared_ptr<const OpaquePart> whole(const VolumeImpl& volume, const ValueRange& domain) {
+        return parts_.get(volume, allOpaque_.over(domain), kDefaultThreshold, kDefaultResolution);
+    }
     [[nodiscard]] Parts partsOf(const Batch& batch, double resolution) {
         Parts parts;
         for (const BatchItem& item : batch.items) {
-            parts.push_back(
-                parts_.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold, resolution));
+            parts.push_back(part(item.volume->impl(), item.transferFunction->impl(), batch.threshold, resolution));
+        }
+        return parts;
+    }
+
+    /// The same under transfer functions that make all of each volume opaque.
+    [[nodiscard]] Parts wholesOf(const Batch& batch) {
+        Parts parts;
+        for (const BatchItem& item : batch.items) {
+            parts.push_back(whole(item.volume->impl(), item.transferFunction->impl().domain));
         }
         return parts;
     }
@@ -66,6 +83,7 @@ class Workers {
     ThreadPool pool_;
     std::vector<ThreadMemory> memories_;
     OccupancyCache<OpaquePart, 2> parts_;
+    AllOpaque allOpaque_;
 };
 
 /// `copies` entries for each pair, with the numbers of pair, item and pose.

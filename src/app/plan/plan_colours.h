@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/draw/viridis.h"
+#include "voxtact/plan.h"
+
+namespace voxtact::app {
+
+/// Unsafe red, possible grey, safe by its clearance.
+[[nodiscard]] inline Rgb planColour(const PlannedPath& path, double maximum) {
+    constexpr Rgb kUnsafe{178, 34, 34};
+    constexpr Rgb kPossible{128, 128, 128};
+    return path.safety == Safety::Unsafe     ? kUnsafe
+           : path.safety == Safety::Possible ? kPossible
+                                             : viridis(path.clearance.lo / maximum);
+}
+
+/// Of two that are safe: the larger clearance, else the shorter one.
+[[nodiscard]] inline bool isBetter(const PlannedPath& a, const PlannedPath& b) {
+    return a.clearance.lo != b.clearance.lo ? a.clearance.lo > b.clearance.lo : a.length < b.length;
+}
+
+} // namespace voxtact::app

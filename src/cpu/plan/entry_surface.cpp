@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/plan/entry_surface.h"
+#include "core/base/try.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr double kStep = 0.25;    // voxels: what is thinner along the ray may be passed over
+constexpr double kNearest = 1e-3; // mm: no entry is nearer to the target
+
+/// A ray from a target, in the voxels of a grid.
+struct VoxelRay {
+    dvec3 from{}; ///< centred voxel coordinates
+    dvec3 way{};  ///< for each mm
+    double begin = 0;
+    double end = 0; ///< mm: where it is in the grid's box; before begin where it misses it
+
+    VoxelRay(const VolumeSpace& space, const dvec3& local, const dvec3& direction)
+        : from(space.toVoxel(local)), way(space.toVoxel(direction)), end(std::numeric_limits<double>::infinity()) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (way[axis] == 0) {
+                end = std::abs(from[axis]) <= space.reach[axis] ? end : -1;
+                continue;
+            }
+            const double one = (-space.reach[axis] - from[axis]) / way[axis];
+            const double other = (space.reach[axis] - from[axis]) / way[axis];
+            begin = std::max(begin, std::min(one, other));
+            end = std::min(end, std::max(one, other));
+        }
+    }
+};
+
+/// The largest distance, mm, at which `inside(centred voxel)`, looked at in steps from outside; 0 where it nowhere is.
+template <class Inside> double outermost(const VoxelRay& ray, const Inside& inside) {
+    constexpr int kHalvings = 12;
+    const double step = kStep / std::max({std::abs(ray.way.x), std::abs(ray.way.y), std::abs(ray.way.z)});
+    double outside = ray.end;
+    for (double at = ray.end; at > std::max(ray.begin, kNearest); at -= step) {
+        if (!inside(ray.from + at * ray.way)) {
+            outside = at;
+            continue;
+        }
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (at + outside);
+            (inside(ray.from + middle * ray.way) ? at : outside) = middle;
+        }
+        return at;
+    }
+    return 0;
+}
+
+/// Whether a point is opaque, up to rounding.
+bool isOpaque(const OpaquePart& part, const VolumeImpl& volume, const dvec3& voxel) {
+    NodePlace padded{};
+    NodePlace brick{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double number = std::floor(voxel[static_cast<int>(axis)] + part.space.centre[static_cast<int>(axis)]) + 1;
+        padded[axis] = std::clamp(static_cast<std::int32_t>(number), 0, volume.image.size[axis]);
+        brick[axis] = padded[axis] >> kBrickShift;
+    }
+    if (!part.pyramid.has(0, brick)) {
+        return false;
+    }
+    const PartCell cell = part.cell(volume, padded);
+    const double value = valueAt(cell.terms, 2.0 * (voxel - cell.middle));
+    return part.intervals.contain(value - cell.error, value + cell.error);
+}
+
+class EntrySearch {
+  public:
+    EntrySearch(const PlanScene& scene, Workers& workers)
+        : surface_(scene.task.surface), target_(scene.task.target[0], scene.task.target[1], scene.task.target[2]) {
+        if (surface_.volume != nullptr) {
+            part_ = workers.part(surface_.volume->impl(), surface_.transferFunction->impl(), surface_.threshold);
+        } else if (surface_.labels != nullptr) {
+            space_.emplace(surface_.labels->grid);
+            const auto& values = surface_.labels->values;
+            index_ = static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), surface_.label) -
+                                              values.begin());
+        }
+    }
+
+    /// mm from the target; 0 where there is no surface.
+    [[nodiscard]] double along(const dvec3& direction) const {
+        if (part_) {
+            const VoxelRay ray(part_->space, target_ - part_->space.middle, direction);
+            return outermost(ray, [&](const dvec3& voxel) { return isOpaque(*part_, surface_.volume->impl(), voxel); });
+        }
+        if (space_) {
+            const VoxelRay ray(*space_, target_ - space_->middle, direction);
+            return outermost(ray, [&](const dvec3& voxel) { return hasLabel(voxel); });
+        }
+        return surface_.radius;
+    }
+
+  private:
+    [[nodiscard]] bool hasLabel(const dvec3& voxel) const {
+        const auto& size = surface_.labels->grid.size;
+        std::array<std::size_t, 3> at{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<int>(axis);
+            at[axis] = static_cast<std::size_t>(
+                std::clamp(std::floor(voxel[i] + space_->reach[i]), 0.0, static_cast<double>(size[axis]) - 1));
+        }
+        return surface_.labels->indices[(at[2] * size[1] + at[1]) * size[0] + at[0]] == index_;
+    }
+
+    const EntrySurface& surface_;
+    dvec3 target_;
+    std::shared_ptr<const OpaquePart> part_;
+    std::optional<VolumeSpace> space_; ///< of the labels
+    std::size_t index_ = 0;
+};
+
+/// Of the surface that the triangles between the entries make: the mean of those around an entry, by their areas.
+std::vector<dvec3> normalsOf(const PlanScene& scene) {
+    std::vector<dvec3> normals(scene.entries.size());
+    forEntryTriangles(scene, [&](auto, auto, auto, auto, const std::array<std::uint32_t, 3>& triangle) {
+        const dvec3 a = scene.entries[triangle[0]].position;
+        const dvec3 normal =
+            glm::cross(scene.entries[triangle[1]].position - a, scene.entries[triangle[2]].position - a);
+        for (const std::uint32_t corner : triangle) {
+            normals[corner] += normal;
+        }
+    });
+    return normals;
+}
+
+} // namespace
+
+Result<void> findEntries(PlanScene& scene, Workers& workers, PlanAnswer& answer) {
+    const EntrySearch search(scene, workers);
+    const dvec3 target(scene.task.target[0], scene.task.target[1], scene.task.target[2]);
+    scene.entries.resize(scene.grid.count());
+    for (std::uint32_t number = 0; number < scene.grid.count(); ++number) {
+        scene.entries[number].number = number;
+    }
+    VOXTACT_TRY(workers.forEach(scene.entries, scene.task.cancel, [&](EntryPoint& entry, ThreadMemory& /*memory*/) {
+        const dvec3 direction = scene.grid.direction(entry.number);
+        entry.length = search.along(direction);
+        entry.isThere = entry.length > kNearest;
+        entry.position = target + entry.length * direction;
+    }));
+    const std::vector<dvec3> normals = normalsOf(scene);
+    answer.directions = scene.grid.count();
+    for (EntryPoint& entry : scene.entries) {
+        const dvec3& normal = normals[entry.number];
+        if (const double size = glm::length(normal); entry.isThere && size > 0) {
+            const double cosine = glm::dot(normal, scene.grid.direction(entry.number)) / size;
+            entry.angle = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+        }
+        const bool tooLong = scene.task.longest && entry.length > *scene.task.longest;
+        const bool tooOblique = scene.task.steepest && !(entry.angle && *entry.angle <= *scene.task.steepest);
+        (!entry.isThere ? answer.noSurface
+         : tooLong      ? answer.tooLong
+                        : answer.tooOblique) += !entry.isThere || tooLong || tooOblique ? 1 : 0;
+        entry.isThere = entry.isThere && !tooLong && !tooOblique;
+    }
+    return {};
+}
+
+} // namespace voxtact::cpu

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/plan/path_measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vec3 toVec3(const dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+} // namespace
+
+PathMeasure::Way PathMeasure::wayOf(const EntryPoint& entry) const {
+    const dvec3 direction = scene_.grid.direction(entry.number);
+    Way way;
+    if (scene_.task.mesh) {
+        way.sweep.emplace();
+        way.world_from_object = scene_.meshPose(direction, entry.length, *way.sweep);
+    } else {
+        way.world_from_object = scene_.axisPose(direction, entry.length);
+    }
+    return way;
+}
+
+/// Distances are those of the axis, or of the mesh.
+Found PathMeasure::search(const Way& way, std::size_t obstacle, SearchGoal goal) {
+    const Obstacle& of = scene_.obstacles[obstacle];
+    const Mesh& mesh = scene_.task.mesh ? *scene_.task.mesh->mesh : scene_.axis;
+    goal.measures = way.sweep.has_value();
+    goal.known = way.sweep ? std::nullopt : known_[obstacle];
+    const BatchItem item{&mesh, of.given->volume, nullptr, {}};
+    Found found = PairAt{item, *of.part, way.world_from_object, scene_.task.cancel}.search(memory_, of.searched(), goal,
+                                                                                           way.sweep);
+    if (found.isOpaque && found.hi < kInfinity) {
+        known_[obstacle] = found.inVolume;
+    }
+    return found;
+}
+
+/// What is nearer than all that was found before.
+void PathMeasure::take(const Found& found, std::size_t obstacle, PlannedPath& out) const {
+    const double hi = found.hi - scene_.radius + scene_.slack;
+    if (!(hi < out.clearance.hi)) {
+        return;
+    }
+    const Obstacle& of = scene_.obstacles[obstacle];
+    out.clearance.hi = std::max(hi, 0.0);
+    NearestObstacle nearest;
+    nearest.obstacle = static_cast<std::uint32_t>(obstacle);
+    nearest.label = of.labelAt(found.inVolume);
+    nearest.position = toVec3(found.inVolume + of.part->space.middle);
+    nearest.onPath = toVec3(found.onMesh + of.part->space.middle);
+    out.nearest = nearest;
+}
+
+void PathMeasure::measure(const Way& way, PlannedPath& out) {
+    const PlannerDesc& desc = scene_.desc;
+    out.clearance = {kInfinity, kInfinity};
+    bool exhausted = false;
+    for (std::size_t i = 0; i < scene_.obstacles.size() && out.clearance.hi > 0; ++i) {
+        const double maximum = std::min(desc.maximum, out.clearance.hi) + scene_.radius + scene_.slack;
+        const Found found = search(way, i,
+                                   {.tolerance = desc.tolerance,
+                                    .maximum = maximum,
+                                    .enough = std::max(scene_.radius - scene_.slack, 0.0),
+                                    .finest = desc.tolerance / 4,
+                                    .mostSteps = desc.mostSteps});
+        take(found, i, out);
+        exhausted = exhausted || found.exhausted;
+        const double lo = std::min(found.lo, maximum) - scene_.radius - scene_.slack;
+        out.clearance.lo = std::min(out.clearance.lo, std::max(lo, 0.0));
+    }
+    out.clearance.lo = std::min(out.clearance.lo, out.clearance.hi);
+    // Beyond the maximum nothing is said, found or not.
+    if (out.clearance.lo >= desc.maximum - 2 * scene_.slack) {
+        out.clearance = {std::min(out.clearance.lo, desc.maximum), kInfinity};
+        out.nearest.reset();
+        out.end = ClearanceEnd::Beyond;
+    } else if (out.clearance.hi - out.clearance.lo <= desc.tolerance + 4 * scene_.slack) {
+        out.end = ClearanceEnd::Closed;
+    } else {
+        out.end = exhausted ? ClearanceEnd::Budget : ClearanceEnd::Rounding;
+    }
+}
+
+/// The margin is between the bounds: it is asked for alone.
+void PathMeasure::decide(const Way& way, PlannedPath& out) {
+    const double wanted = scene_.margin + scene_.radius;
+    double lo = kInfinity;
+    for (std::size_t i = 0; i < scene_.obstacles.size() && out.clearance.hi > scene_.margin; ++i) {
+        const Found found = search(way, i,
+                                   {.tolerance = 0,
+                                    .maximum = wanted + 4 * scene_.slack,
+                                    .enough = wanted - scene_.slack,
+                                    .finest = std::min(scene_.desc.tolerance, kDefaultTolerance) / 4,
+                                    .mostSteps = scene_.desc.mostSteps});
+        take(found, i, out);
+        lo = std::min(lo, found.lo - scene_.radius - scene_.slack);
+    }
+    out.clearance.lo = std::min(std::max(out.clearance.lo, lo), out.clearance.hi);
+}
+
+void PathMeasure::run(const EntryPoint& entry, PlannedPath& out) {
+    out.entry = entry.number;
+    out.position = toVec3(entry.position);
+    out.length = entry.length;
+    out.angle = entry.angle;
+    const Way way = wayOf(entry);
+    measure(way, out);
+    if (out.clearance.lo <= scene_.margin && out.clearance.hi > scene_.margin) {
+        decide(way, out);
+    }
+    out.safety = out.clearance.lo > scene_.margin    ? Safety::Safe
+                 : out.clearance.hi <= scene_.margin ? Safety::Unsafe
+                                                     : Safety::Possible;
+}
+
+} // namespace voxtact::cpu

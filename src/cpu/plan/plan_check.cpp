@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/plan/plan_check.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::cpu {
+
+namespace {
+
+constexpr double kLeastTolerance = 1e-6;
+constexpr double kRightAngle = 90;
+
+Error refuse(const std::string& text) {
+    return {ErrorCode::InvalidArgument, 0, text};
+}
+
+bool isFinite(const Vec3& v) {
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+Result<void> checkThreshold(double threshold, const std::string& which) {
+    return threshold >= 0 && threshold <= 1
+               ? Result<void>()
+               : refuse(which + ": the threshold " + number(threshold) + " is outside of 0 to 1");
+}
+
+Result<void> checkObstacle(const PlanObstacle& obstacle, const std::string& which) {
+    if (obstacle.volume == nullptr) {
+        return refuse(which + ": volume is null");
+    }
+    if (obstacle.labels == nullptr) {
+        return obstacle.transferFunction == nullptr
+                   ? refuse(which + ": transferFunction and labels are both null; one says what is avoided")
+                   : checkThreshold(obstacle.threshold, which);
+    }
+    const Grid& grid = obstacle.volume->grid();
+    const Grid& own = obstacle.labels->grid;
+    if (grid.size != own.size || grid.spacing != own.spacing || grid.origin != own.origin ||
+        grid.direction != own.direction || obstacle.labels->indices.size() != voxelCount(own)) {
+        return Error{ErrorCode::Unsupported, 0,
+                     which + ": the label map is not on the grid of the volume; resample it to that"};
+    }
+    return checkThreshold(obstacle.threshold, which);
+}
+
+Result<void> checkSurface(const EntrySurface& surface) {
+    if (surface.entries == 0 || surface.entries > kMostEntries) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     std::to_string(surface.entries) + " entries are asked for, there can be 1 to " +
+                         std::to_string(kMostEntries) + " (kMostEntries)"};
+    }
+    if (surface.volume != nullptr) {
+        return surface.transferFunction == nullptr
+                   ? refuse("the entries' surface: transferFunction is null, and a volume is given")
+                   : checkThreshold(surface.threshold, "the entries' surface");
+    }
+    if (surface.labels != nullptr) {
+        return checkGrid(surface.labels->grid);
+    }
+    return surface.radius > 0 && std::isfinite(surface.radius)
+               ? Result<void>()
+               : refuse("the entries' surface: neither volume nor labels are given, and the radius " +
+                        number(surface.radius) + " mm is not above 0");
+}
+
+Result<void> checkInstrument(const PlanTask& task) {
+    if (!task.mesh) {
+        const Needle& needle = task.needle;
+        return needle.diameter > 0 && needle.length >= needle.diameter && std::isfinite(needle.length)
+                   ? Result<void>()
+                   : refuse("the needle: a diameter of " + number(needle.diameter) + " mm and a length of " +
+                            number(needle.length) +
+                            " mm: the first must be above 0, and the second no smaller than that");
+    }
+    if (task.mesh->mesh == nullptr) {
+        return refuse("the instrument: mesh is null");
+    }
+    if (!isFinite(task.mesh->tip) || !isFinite(task.mesh->axis)) {
+        return refuse("the instrument: tip or axis is not finite");
+    }
+    const Vec3& axis = task.mesh->axis;
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    return length > 0 && std::isfinite(length) ? Result<void>()
+                                               : refuse("the instrument: its axis has no length; say where it points");
+}
+
+} // namespace
+
+Result<void> checkPlanner(const PlannerDesc& desc) {
+    if (!(desc.tolerance >= kLeastTolerance && std::isfinite(desc.tolerance))) {
+        return refuse("the tolerance " + number(desc.tolerance) + " mm is not a number from " +
+                      number(kLeastTolerance) + " mm on");
+    }
+    if (!(desc.maximum > 0 && std::isfinite(desc.maximum))) {
+        return refuse("the maximum clearance " + number(desc.maximum) + " mm is not a number above 0");
+    }
+    return desc.mostSteps > 0 ? Result<void>() : refuse("mostSteps is 0, a path takes at least one step");
+}
+
+Result<void> checkTask(const PlanTask& task) {
+    if (!isFinite(task.target)) {
+        return refuse("the target is not finite");
+    }
+    if (task.obstacles.empty()) {
+        return refuse("there are no obstacles: nothing is to be avoided");
+    }
+    for (std::size_t i = 0; i < task.obstacles.size(); ++i) {
+        VOXTACT_TRY(checkObstacle(task.obstacles[i], "obstacle " + std::to_string(i)));
+    }
+    VOXTACT_TRY(checkSurface(task.surface));
+    VOXTACT_TRY(checkInstrument(task));
+    if (!(task.margin >= 0 && std::isfinite(task.margin))) {
+        return refuse("the margin " + number(task.margin) + " mm is not a number from 0 on");
+    }
+    if (task.longest && !(*task.longest > 0)) {
+        return refuse("the largest length " + number(*task.longest) + " mm is not above 0");
+    }
+    if (task.steepest && !(*task.steepest >= 0 && *task.steepest <= kRightAngle)) {
+        return refuse("the largest angle " + number(*task.steepest) + " degrees is outside of 0 to 90");
+    }
+    return {};
+}
+
+} // namespace voxtact::cpu

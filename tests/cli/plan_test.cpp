@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// voxtact plan.
+#include "cli_fixture.h"
+
+#include <cmath>
+#include <map>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// To a place beside the middle of the head; its voxels are its labels.
+class PlanTest : public CliTest {
+  protected:
+    [[nodiscard]] static Arguments plan(const Arguments& more) {
+        Arguments all{"plan", "--volume", "builtin:head:32", "--entries", "100", "--format", "csv"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    [[nodiscard]] std::vector<std::map<std::string, std::string>> rows(const Arguments& more) const {
+        const std::vector<std::string> lines = linesOf(output(plan(more)));
+        const std::vector<std::string> names = fieldsOf(lines.at(0));
+        std::vector<std::map<std::string, std::string>> found;
+        for (std::size_t i = 1; i < lines.size(); ++i) {
+            const std::vector<std::string> fields = fieldsOf(lines[i]);
+            std::map<std::string, std::string> row;
+            for (std::size_t k = 0; k < fields.size(); ++k) {
+                row[names.at(k)] = fields[k];
+            }
+            found.push_back(std::move(row));
+        }
+        return found;
+    }
+    [[nodiscard]] Arguments labelled(const Arguments& more) const {
+        Arguments all{"--labels", path("labels.nii.gz"), "--target", "20,0,30"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    void SetUp() override {
+        output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+        writeText(path("labels.nii.txt"), "70 Cortex\n90 Skin\n120 Skull\n");
+    }
+};
+
+TEST_F(PlanTest, HasARowForEachPath) {
+    const std::string text = output(plan({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1"}));
+    EXPECT_EQ(linesOf(text).at(0), "entry,x,y,z,safe,clearance_lo,clearance_hi,nearest,nearest_x,nearest_y,nearest_z,"
+                                   "length,angle,crosses");
+    const auto found = rows({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1", "--max-clearance", "15"});
+    ASSERT_EQ(found.size(), 162U);
+    std::map<std::string, int> verdicts;
+    for (auto row : found) {
+        const double lo = std::stod(row["clearance_lo"]);
+        const double hi = std::stod(row["clearance_hi"]);
+        EXPECT_LE(lo, hi);
+        ++verdicts[row["safe"]];
+        EXPECT_EQ(row["safe"] == "1", lo > 0);
+        EXPECT_EQ(row["nearest"], hi < 1000 ? "opaque" : "");
+        const double length = std::hypot(std::stod(row["x"]) - 20, std::stod(row["y"]), std::stod(row["z"]) - 30);
+        EXPECT_NEAR(length, std::stod(row["length"]), 1e-4);
+        EXPECT_GT(length, 30);
+        EXPECT_LT(std::stod(row["angle"]), 90);
+    }
+    // The limits.
+    for (auto row : rows({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1", "--max-length", "70"})) {
+        EXPECT_LE(std::stod(row["length"]), 70);
+    }
+    EXPECT_LT(rows({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1", "--max-angle", "20"}).size(), 162U);
+    EXPECT_EQ(rows({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1", "--entry-radius", "50"}).size(), 162U);
+}
+
+TEST_F(PlanTest, NamesLabels) {
+    const auto found = rows(labelled({"--avoid", "Skull,70", "--margin", "1", "--max-clearance", "40"}));
+    const auto same = rows(labelled({"--avoid", "120,Cortex", "--margin", "1", "--max-clearance", "40"}));
+    EXPECT_EQ(found, same);
+    bool named = false;
+    for (auto row : found) {
+        EXPECT_TRUE(row["nearest"].empty() || row["nearest"] == "Skull" || row["nearest"] == "Cortex");
+        named = named || !row["nearest"].empty();
+        EXPECT_FALSE(row["crosses"].empty());
+    }
+    EXPECT_TRUE(named);
+    // A label as a target, and as the surface of entries.
+    EXPECT_FALSE(
+        rows({"--labels", path("labels.nii.gz"), "--target", "Cortex", "--avoid", "Skin", "--entry-label", "Cortex"})
+            .empty());
+}
+
+TEST_F(PlanTest, WritesASurfaceAndFacts) {
+    output(plan(labelled({"--avoid", "Skull", "--surface", path("entries.ply")})));
+    const std::string ply = readText(path("entries.ply"));
+    EXPECT_THAT(ply, HasSubstr("element vertex 162\n"));
+    EXPECT_THAT(ply, HasSubstr("element face 320\n"));
+    const std::size_t header = ply.find("end_header\n") + 11;
+    EXPECT_EQ(ply.size() - header, 162 * (12 + 3 + 4 + 4 + 1) + 320 * (1 + 12 + 1));
+    const Ran ran = run(plan(labelled({"--avoid", "Skull", "--summary", "--output", path("rows.csv")})));
+    EXPECT_THAT(ran.err, HasSubstr("note: paths: 162; safe: "));
+    EXPECT_THAT(ran.err, HasSubstr("note: every path is safe from "));
+    output(plan(labelled({"--avoid", "Skull", "--report", path("report.html")})));
+    const std::string html = readText(path("report.html"));
+    EXPECT_THAT(html, HasSubstr("<h1>Paths to (20.00, 0.00, 30.00)</h1>"));
+    EXPECT_THAT(html, testing::EndsWith("</body></html>\n"));
+    EXPECT_THAT(html, testing::Not(HasSubstr("http")));
+    const std::string json = output({"plan", "--volume", "builtin:head:32", "--target", "20,0,30", "--avoid-opacity",
+                                     "200:0,201:1", "--entries", "12", "--format", "json", "--timing"});
+    for (const char* name : {"\"safe_area_mm2\"", "\"area_mm2\"", "\"directions\": 12", "\"entries_per_s\""}) {
+        EXPECT_THAT(json, HasSubstr(name));
+    }
+}
+
+TEST_F(PlanTest, TakesAMeshWithTipAndAxis) {
+    const Arguments same{"--target", "20,0,30", "--avoid-opacity", "200:0,201:1"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = same;
+        all.insert(all.end(), more.begin(), more.end());
+        return rows(all);
+    };
+    output({"make", "mesh", "builtin:needle:3:90", path("needle.stl")});
+    const auto exact = with({"--mesh", "builtin:needle:3:90"});
+    const auto mesh = with({"--mesh", path("needle.stl"), "--tip", "0,0,0", "--axis", "0,0,2"});
+    ASSERT_EQ(exact.size(), mesh.size());
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        const double lo = std::stod(mesh[i].at("clearance_lo"));
+        EXPECT_LE(std::stod(exact[i].at("clearance_lo")), std::stod(mesh[i].at("clearance_hi")) + 1e-5);
+        EXPECT_LE(lo, std::stod(exact[i].at("clearance_hi")) + 0.01);
+    }
+}
+
+TEST_F(PlanTest, RefusesWhatItCannotUse) {
+    const auto line = [&](const Arguments& more) { return refused(2, plan(more)); };
+    const Arguments avoid{"--avoid-opacity", "200:0,201:1"};
+    const auto avoiding = [&](const Arguments& more) {
+        Arguments all = avoid;
+        all.insert(all.end(), more.begin(), more.end());
+        return line(all);
+    };
+    EXPECT_THAT(avoiding({"--target", "500,0,0"}), HasSubstr("--target: (500, 0, 0) is outside of the volume"));
+    EXPECT_THAT(avoiding({"--target", "1,2"}), HasSubstr("is not a point x,y,z"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,0,0"}), HasSubstr("--axis: 0,0,0 points nowhere"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,1"}), HasSubstr("is not three numbers"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,0,1"}), HasSubstr("has its own tip and axis"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--mesh", "builtin:scalpel:300", "--tip", "0,0,0"}),
+                HasSubstr("--axis: it is needed"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--mesh", "builtin:needle:3:1"}), HasSubstr("no smaller than that"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--entries", "0"}), HasSubstr("--entries"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--margin", "-1"}), HasSubstr("--margin"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--surface", "a.stl"}), HasSubstr("must be .ply"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--report", "a.pdf"}), HasSubstr("must be .html"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--threshold", "1", "--opacity", "0:0,1:0"}),
+                HasSubstr("meets the surface of entries"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--max-length", "1"}), HasSubstr("too long"));
+    EXPECT_THAT(line({"--target", "0,0,0"}), HasSubstr("one of them must say what is not to be touched"));
+    EXPECT_THAT(line({"--target", "0,0,0", "--avoid", "1"}), HasSubstr("--labels is not given"));
+    EXPECT_THAT(line(labelled({"--avoid", "Skul"})), HasSubstr("did you mean Skull?"));
+    EXPECT_THAT(line(labelled({"--avoid", "999"})), HasSubstr("no voxel of the label map has the label '999'"));
+    EXPECT_THAT(refused(2, plan({"--labels", path("labels.nii.gz"), "--avoid", "Skin", "--target", "Cortx"})),
+                HasSubstr("did you mean Cortex?"));
+    output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
+    EXPECT_THAT(refused(1, plan({"--labels", path("coarse.nii.gz"), "--target", "0,0,0", "--avoid", "70"})),
+                HasSubstr("not on the grid of the volume"));
+    EXPECT_EQ(filesInFolder(), 3U);
+}
+
+} // namespace
+} // namespace voxtact::test
