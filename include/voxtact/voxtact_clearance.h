@@ -121,6 +121,55 @@ VXT_API uint32_t vxt_host_clearance_meter_threads(const vxt_host_clearance_meter
 /// Ends it and its threads.
 VXT_API void vxt_host_clearance_meter_destroy(vxt_host_clearance_meter* meter);
 
+/// What is known of a mesh that moves, at one of its poses: voxtact::TrackedClearance.
+typedef struct vxt_tracked_clearance {
+    size_t struct_size; ///< sizeof
+    double lo;          ///< mm: no point of the surface is nearer to an opaque one
+    double hi;          ///< mm: some point is as near; infinite where that is not known
+    uint32_t hit;       ///< it certainly touches
+    uint32_t possible;  ///< roundings decide whether it touches; with neither it certainly does not
+    uint32_t searched;  ///< the volume was looked into; 0: it follows from what was known before
+    uint32_t reserved;  ///< 0
+} vxt_tracked_clearance;
+
+/// What a clearance tracker is made for.
+typedef struct vxt_host_tracker_desc {
+    size_t struct_size;  ///< sizeof
+    double maximum;      ///< mm: farther than this is never looked; 0, the default: as far as it takes
+    double resolution;   ///< of the touch, as for a detector; default 1/64
+    uint64_t most_steps; ///< of one search, at least 1; default 512
+} vxt_host_tracker_desc;
+
+/// Nothing.
+static inline vxt_tracked_clearance vxt_tracked_clearance_init(void) {
+    vxt_tracked_clearance clearance;
+    memset(&clearance, 0, sizeof clearance);
+    clearance.struct_size = sizeof clearance;
+    return clearance;
+}
+
+/// 512 steps, at any distance.
+static inline vxt_host_tracker_desc vxt_host_tracker_desc_init(void) {
+    vxt_host_tracker_desc desc;
+    memset(&desc, 0, sizeof desc);
+    desc.struct_size = sizeof desc;
+    desc.resolution = 1.0 / 64;
+    desc.most_steps = 512;
+    return desc;
+}
+
+/// Follows a mesh that moves by little from call to call: voxtact::cpu::ClearanceTracker. One call at a time, on the
+/// calling thread.
+typedef struct vxt_host_clearance_tracker vxt_host_clearance_tracker;
+/// A null `desc` is all defaults.
+VXT_CHECKED vxt_result vxt_host_clearance_tracker_create(const vxt_host_tracker_desc* desc,
+                                                         vxt_host_clearance_tracker** tracker);
+/// Of a mesh at the one pose of the item.
+VXT_CHECKED vxt_result vxt_host_clearance_tracker_track(vxt_host_clearance_tracker* tracker, const vxt_host_item* item,
+                                                        double threshold, vxt_tracked_clearance* clearance);
+/// Ends it.
+VXT_API void vxt_host_clearance_tracker_destroy(vxt_host_clearance_tracker* tracker);
+
 #ifdef __cplusplus
 }
 #endif

@@ -138,3 +138,34 @@ uint32_t vxt_host_clearance_meter_threads(const vxt_host_clearance_meter* meter)
 void vxt_host_clearance_meter_destroy(vxt_host_clearance_meter* meter) {
     delete meter;
 }
+
+vxt_result vxt_host_clearance_tracker_create(const vxt_host_tracker_desc* desc, vxt_host_clearance_tracker** tracker) {
+    return create(tracker, [&] {
+        const vxt_host_tracker_desc given = readOptions(desc, vxt_host_tracker_desc_init(), "tracker");
+        cpu::TrackerDesc made{.resolution = given.resolution, .mostSteps = given.most_steps};
+        if (given.maximum != 0) {
+            made.maximum = given.maximum;
+        }
+        return take(cpu::ClearanceTracker::create(made));
+    });
+}
+
+vxt_result vxt_host_clearance_tracker_track(vxt_host_clearance_tracker* tracker, const vxt_host_item* item,
+                                            double threshold, vxt_tracked_clearance* clearance) {
+    return call([&] {
+        cpu::ClearanceTracker& by = need(tracker, "tracker").object;
+        const cpu::BatchItem of = HostBatchOf::toItem(readStruct(item, vxt_host_item_init(), "item"));
+        const TrackedClearance found = take(by.track(of, threshold));
+        vxt_tracked_clearance out = vxt_tracked_clearance_init();
+        out.lo = found.bounds.lo;
+        out.hi = found.bounds.hi;
+        out.hit = found.hit ? 1 : 0;
+        out.possible = found.possible ? 1 : 0;
+        out.searched = found.searched ? 1 : 0;
+        writeStruct(clearance, out, "clearance");
+    });
+}
+
+void vxt_host_clearance_tracker_destroy(vxt_host_clearance_tracker* tracker) {
+    delete tracker;
+}

@@ -46,6 +46,9 @@ struct vxt_host_detector {
 struct vxt_host_clearance_meter {
     voxtact::cpu::ClearanceMeter object;
 };
+struct vxt_host_clearance_tracker {
+    voxtact::cpu::ClearanceTracker object;
+};
 struct vxt_host_motion_checker {
     voxtact::cpu::MotionChecker object;
 };

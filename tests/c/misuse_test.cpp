@@ -39,6 +39,7 @@ TEST(CMisuse, EndingNothingIsNothing) {
     vxt_detector_destroy(nullptr);
     vxt_features_destroy(nullptr);
     vxt_host_clearance_meter_destroy(nullptr);
+    vxt_host_clearance_tracker_destroy(nullptr);
     vxt_host_detector_destroy(nullptr);
     vxt_host_mesh_destroy(nullptr);
     vxt_host_motion_checker_destroy(nullptr);

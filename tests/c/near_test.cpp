@@ -198,6 +198,48 @@ TEST(CNear, AnswersAsTheCppInterfaceDoes) {
     EXPECT_GT(tally.touching, 0U);
 }
 
+TEST(CNear, ATrackerFollowsAsTheCppInterfacesDoes) {
+    // Down a random way through random voxels, in steps so small that most answers need no look.
+    std::mt19937_64 random(testSeed());
+    RandomScene scene = makeRandomScene(random, 2);
+    makeRigid(scene, random);
+    const VolumeData labels = makeBytes(scene.volume.grid, [](auto...) { return 1.0; });
+    const BothInterfaces both(scene, labels);
+    vxt_host_tracker_desc desc = vxt_host_tracker_desc_init();
+    desc.maximum = 50;
+    desc.resolution = 1.0 / 8;
+    const auto tracker = made<vxt_host_clearance_tracker>(
+        vxt_host_clearance_tracker_destroy, [&](auto out) { return vxt_host_clearance_tracker_create(&desc, out); });
+    cpu::ClearanceTracker cpp = take(cpu::ClearanceTracker::create({.maximum = 50, .resolution = 1.0 / 8}));
+    BothInterfaces::CBatch c;
+    both.fill(c, scene);
+    std::size_t looks = 0;
+    constexpr int kSteps = 2000;
+    for (int step = 0; step <= kSteps; ++step) {
+        const Mat4 pose = take(poseBetween(scene.poses[0], scene.poses[1], static_cast<double>(step) / kSteps));
+        c.item.world_from_object = pose.data();
+        c.item.pose_count = 1;
+        vxt_tracked_clearance found = vxt_tracked_clearance_init();
+        need(vxt_host_clearance_tracker_track(tracker.get(), &c.item, scene.threshold, &found));
+        const TrackedClearance expected =
+            take(cpp.track({&both.mesh, &both.volume, &both.function, std::span(&pose, 1)}, scene.threshold));
+        ASSERT_EQ(found.lo, expected.bounds.lo);
+        ASSERT_EQ(found.hi, expected.bounds.hi);
+        ASSERT_EQ(found.hit != 0, expected.hit);
+        ASSERT_EQ(found.possible != 0, expected.possible);
+        ASSERT_EQ(found.searched != 0, expected.searched);
+        looks += found.searched;
+    }
+    EXPECT_GT(looks, 0U);
+    vxt_tracked_clearance found = vxt_tracked_clearance_init();
+    c.item.pose_count = 2;
+    c.item.world_from_object = scene.poses.data()->data();
+    EXPECT_EQ(vxt_host_clearance_tracker_track(tracker.get(), &c.item, 0.1, &found), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("one pose"));
+    EXPECT_EQ(vxt_host_clearance_tracker_track(nullptr, &c.item, 0.1, &found), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_host_clearance_tracker_track(tracker.get(), nullptr, 0.1, &found), VXT_ERROR_INVALID_ARGUMENT);
+}
+
 TEST(CNear, APoseOnTheWayIsTheCppInterfaces) {
     std::mt19937_64 random(testSeed());
     const Mat4 from = randomMotion(random);
