@@ -195,7 +195,7 @@ std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request>
 }
 
 template <class Ask>
-std::shared_ptr<Answer> Scene::yesOrNo(std::shared_ptr<const Request> request, std::size_t cost,
+std::shared_ptr<Answer> Scene::yesOrNo(const std::shared_ptr<const Request>& request, std::size_t cost,
                                        const Progress& progress, const Ask& ask) {
     const Turns::Turn turn(turns_);
     checkOpen();
@@ -211,14 +211,15 @@ std::shared_ptr<Answer> Scene::yesOrNo(std::shared_ptr<const Request> request, s
     return answer;
 }
 
-std::shared_ptr<Answer> Scene::within(std::shared_ptr<const Request> request, double margin, const Progress& progress) {
-    return yesOrNo(std::move(request), 1, progress,
+std::shared_ptr<Answer> Scene::within(const std::shared_ptr<const Request>& request, double margin,
+                                      const Progress& progress) {
+    return yesOrNo(request, 1, progress,
                    [&](HostSide& side, const Part& part) { return side.within(part, margin, desc_.threshold); });
 }
 
-std::shared_ptr<Answer> Scene::around(std::shared_ptr<const Request> request, const PoseTolerance& tolerance,
+std::shared_ptr<Answer> Scene::around(const std::shared_ptr<const Request>& request, const PoseTolerance& tolerance,
                                       const Progress& progress) {
-    return yesOrNo(std::move(request), kClearanceCost, progress,
+    return yesOrNo(request, kClearanceCost, progress,
                    [&](HostSide& side, const Part& part) { return side.around(part, tolerance, desc_.threshold); });
 }
 

@@ -49,13 +49,13 @@ class Scene {
     [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,
                                                              const Distance& distance, std::vector<std::int32_t> labels,
                                                              const Progress& progress);
-    [[nodiscard]] std::shared_ptr<Answer> within(std::shared_ptr<const Request> request, double margin,
+    [[nodiscard]] std::shared_ptr<Answer> within(const std::shared_ptr<const Request>& request, double margin,
                                                  const Progress& progress);
     /// Of a request that checkWays() accepts; `progress` counts segments.
     [[nodiscard]] std::shared_ptr<Motions> motion(std::shared_ptr<const Request> request, const Way& way,
                                                   const Progress& progress);
-    [[nodiscard]] std::shared_ptr<Answer> around(std::shared_ptr<const Request> request, const PoseTolerance& tolerance,
-                                                 const Progress& progress);
+    [[nodiscard]] std::shared_ptr<Answer> around(const std::shared_ptr<const Request>& request,
+                                                 const PoseTolerance& tolerance, const Progress& progress);
     /// `device` is for a scene that has none.
     [[nodiscard]] Picture picture(const PictureWish& wish, const std::shared_ptr<Device>& device);
     void close();
@@ -67,7 +67,7 @@ class Scene {
     [[nodiscard]] DeviceSide& onDevice(const std::shared_ptr<Device>& device);
     /// A yes or no of each pair, of the host's `ask(side, part)`.
     template <class Ask>
-    [[nodiscard]] std::shared_ptr<Answer> yesOrNo(std::shared_ptr<const Request> request, std::size_t cost,
+    [[nodiscard]] std::shared_ptr<Answer> yesOrNo(const std::shared_ptr<const Request>& request, std::size_t cost,
                                                   const Progress& progress, const Ask& ask);
     [[nodiscard]] std::shared_ptr<Answer> answered(std::shared_ptr<const Request> request, const Question& question,
                                                    const Progress& progress);
