@@ -291,8 +291,8 @@ struct EntrySurface {
 
 /// An instrument that is a mesh. Its surface alone counts, as everywhere.
 struct PlanMesh {
-    const Mesh* mesh = nullptr;
-    Vec3 tip{};         ///< object space: comes to the target
+    const Mesh* mesh = nullptr; ///< must be given
+    Vec3 tip{};                 ///< object space: comes to the target
     Vec3 axis{0, 0, 1}; ///< object space: from the tip to where the instrument is held; turned to the path by the
                         ///< smallest turn
 };
