@@ -292,7 +292,7 @@ TEST_F(DetectTest, StatsAreALineBehindTheRows) {
         EXPECT_GE(numbers.at("rounds"), std::string(batch) == "5" ? 2U : 1U);
     }
     // auto takes the device, where the work is that is counted; with times there are two lines.
-    const auto both = linesOf(output(detect({"--stats", "--timing", "--poses", file})));
+    const auto both = linesOf(output(detect({"--stats", "--count", "auto", "--timing", "--poses", file})));
     EXPECT_EQ(fieldsOf(both.at(1)).at(6), "compute");
     EXPECT_THAT(both.at(13), StartsWith("# clusters="));
     EXPECT_THAT(both.at(14), StartsWith("# pairs=12 "));
@@ -303,7 +303,8 @@ TEST_F(DetectTest, StatsAreOfADevicesConservative) {
     EXPECT_THAT(refused(2, detect({"--stats", "--projection", "view"})),
                 HasSubstr("--stats is about the passes of the projection conservative, not of view"));
     EXPECT_THAT(refused(2, detect({"--stats", "--count", "atomic"})), HasSubstr("not of view"));
-    EXPECT_THAT(refused(2, detect({"--stats", "--margin", "1"})), HasSubstr("distances are the host's"));
+    EXPECT_THAT(refused(2, detect({"--stats", "--count", "auto", "--margin", "1"})),
+                HasSubstr("distances are the host's"));
 }
 
 TEST_F(DetectTest, ValidationIsQuiet) {
