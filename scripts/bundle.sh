@@ -50,7 +50,8 @@ done
 
 # -- libraries: all that the programs load, but the C library's own. Those in lib/base are taken only where the system
 # has none or older ones: drivers are loaded into the same process and may need newer ones.
-of_the_system='^(ld-linux.*|linux-vdso|libc|libm|libdl|librt|libpthread|libmvec|libresolv|libutil)\.so'
+# shellcheck source=scripts/bundle/libraries.sh
+. "$root/scripts/bundle/libraries.sh"
 of_the_base='^(libstdc\+\+|libgcc_s|libz)\.so'
 declare -A packages=()
 
@@ -63,7 +64,7 @@ owner() {
     printf '%s\n' "${found%%,*}"
 }
 
-# takeLibrary FILE NAME
+# take_library FILE NAME
 take_library() {
     local place=lib
     [[ $2 =~ $of_the_base ]] && place=lib/base

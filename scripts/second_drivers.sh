@@ -64,7 +64,7 @@ opinion() {
             failed+=("$name/${filter%%.*}")
         fi
     done
-    ran=1
+    ran=$((ran + 1))
 }
 
 if fetch mesa-vulkan-drivers bookworm-backports mesa && manifest mesa 'libvulkan_lvp.so'; then
@@ -77,7 +77,8 @@ if fetch chromium-common installed swiftshader && manifest swiftshader 'libvk_sw
 else
     printf '%s\n' "second_drivers: SwiftShader could not be fetched" >&2
 fi
-[ $ran -eq 1 ] || exit 77
+[ $ran -gt 0 ] || exit 77
+printf 'second_drivers: %d of 2 drivers were asked\n' "$ran"
 if [ ${#failed[@]} -gt 0 ]; then
     printf 'second_drivers: failed: %s\n' "${failed[*]}" >&2
     exit 1

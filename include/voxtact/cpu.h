@@ -110,7 +110,7 @@ struct Batch {
     View view;                            ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
     /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
-    /// threads at rest. Its threads look at it between the cells of a triangle and the steps of a search. May be null.
+    /// threads at rest; until then it must stay true. They look at it between cells and steps of a search. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -22,8 +22,8 @@ struct Needle {
     double length = 200; ///< mm, from the tip to the other end; at least the diameter
 };
 
-/// Directions from a target, and entries, at most.
-inline constexpr std::uint32_t kMostEntries = 4000002;
+/// Directions from a target, and entries, at most: 10 n^2 + 2 for n = 632.
+inline constexpr std::uint32_t kMostEntries = 3994242;
 /// mm: what is farther from a path is not measured, where nothing else is asked for.
 inline constexpr double kDefaultPlanMaximum = 10;
 /// mm: how near to each other the bounds of a path are brought, where nothing else is asked for.

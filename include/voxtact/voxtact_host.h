@@ -50,7 +50,7 @@ VXT_API void vxt_host_mesh_destroy(vxt_host_mesh* mesh);
 typedef struct vxt_cancel vxt_cancel;
 /// One that is not set.
 VXT_CHECKED vxt_result vxt_cancel_create(vxt_cancel** cancel);
-/// Sets it, or with 0 makes it ready for the next call. Null is allowed.
+/// Sets it, or with 0 makes it ready for the next call, once those that look at it have returned. Null is allowed.
 VXT_API void vxt_cancel_set(vxt_cancel* cancel, uint32_t set);
 /// Ends it. No call may look at it.
 VXT_API void vxt_cancel_destroy(vxt_cancel* cancel);

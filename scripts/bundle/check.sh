@@ -10,8 +10,8 @@ complain() {
     wrong=1
 }
 
-# The C library's, which the system has.
-of_the_system='^(ld-linux.*|libc|libm|libdl|librt|libpthread|libmvec|libresolv|libutil)\.so'
+# shellcheck source=scripts/bundle/libraries.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/libraries.sh"
 
 files=0
 while IFS= read -r file; do

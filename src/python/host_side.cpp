@@ -18,13 +18,13 @@ constexpr std::size_t kMostKept = 8;
 /// Where a yes or no is asked about so few, waking threads takes longer than the answer.
 constexpr std::size_t kFewTriangles = std::size_t{1} << 14U;
 
-/// Calls `ask` with the batch, on a thread of its own, and lets Python handle signals meanwhile. What a handler raises
-/// ends the call.
-template <class Ask> auto interruptibly(cpu::Batch batch, const Ask& ask) {
+/// Calls `ask` with a task whose `cancel` is ours, on a thread of its own, and lets Python handle signals meanwhile.
+/// What a handler raises ends the call.
+template <class Task, class Ask> auto interruptibly(Task task, const Ask& ask) {
     constexpr std::chrono::milliseconds kPatience{50};
     std::atomic<bool> cancel{false};
-    batch.cancel = &cancel;
-    auto answer = std::async(std::launch::async, [&] { return ask(batch); });
+    task.cancel = &cancel;
+    auto answer = std::async(std::launch::async, [&] { return ask(task); });
     try {
         while (answer.wait_for(kPatience) != std::future_status::ready) {
             handleSignals();
@@ -132,14 +132,15 @@ BatchAnswer HostSide::detect(const Part& part, const Question& question, double 
 ClearanceAnswer HostSide::measure(const Part& part, const Distance& distance, double threshold) {
     cpu::ClearanceMeter& meter = meterFor(distance);
     const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
-    return interruptibly({items, {}, threshold}, [&](const cpu::Batch& batch) { return take(meter.measure(batch)); });
+    return interruptibly(cpu::Batch{items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(meter.measure(batch)); });
 }
 
 LabelClearanceAnswer HostSide::measureLabels(const Part& part, const Distance& distance, double threshold,
                                              const LabelData* labels, const std::vector<std::int32_t>& wanted) {
     cpu::ClearanceMeter& meter = meterFor(distance);
     const std::vector<cpu::BatchItem> items = itemsOf(part, labels);
-    return interruptibly({items, {}, threshold},
+    return interruptibly(cpu::Batch{items, {}, threshold},
                          [&](const cpu::Batch& batch) { return take(meter.measureLabels(batch, wanted)); });
 }
 
@@ -147,7 +148,7 @@ BatchAnswer HostSide::within(const Part& part, double margin, double threshold) 
     const cpu::ClearanceDesc usual;
     cpu::ClearanceMeter& meter = meterFor({usual.tolerance, usual.maximum, usual.mostSteps});
     const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
-    return interruptibly({items, {}, threshold},
+    return interruptibly(cpu::Batch{items, {}, threshold},
                          [&](const cpu::Batch& batch) { return take(meter.within(batch, margin)); });
 }
 
@@ -157,15 +158,56 @@ MotionAnswer HostSide::move(const Part& part, const Way& way, double threshold) 
     part.request.forSegments(part.first, part.count, [&](const Request::Item& item, std::span<const Mat4> poses) {
         items.push_back({&item.mesh->onHost(), &volume_, &function_, poses});
     });
-    return interruptibly({items, {}, threshold}, [&](const cpu::Batch& batch) { return take(checker.check(batch)); });
+    return interruptibly(cpu::Batch{items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(checker.check(batch)); });
 }
 
 BatchAnswer HostSide::around(const Part& part, const PoseTolerance& tolerance, double threshold) {
     const cpu::MotionDesc usual;
     cpu::MotionChecker& checker = checkerFor({usual.interpolation, usual.resolution, usual.mostSteps});
     const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
-    return interruptibly({items, {}, threshold},
+    return interruptibly(cpu::Batch{items, {}, threshold},
                          [&](const cpu::Batch& batch) { return take(checker.around(batch, tolerance)); });
+}
+
+PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelData* labels) {
+    cpu::Planner planner = take(cpu::Planner::create(
+        {.threads = threads_, .tolerance = wish.tolerance, .maximum = wish.maximum, .mostSteps = wish.mostSteps}));
+    std::vector<cpu::PlanObstacle> obstacles;
+    if (!wish.avoid.empty()) {
+        obstacles.push_back({&volume_, nullptr, threshold, labels, wish.avoid});
+    }
+    std::optional<cpu::Volume> other;
+    std::optional<cpu::TransferFunction> opaque;
+    if (wish.avoided) {
+        if (wish.avoided->volume != nullptr) {
+            other = take(cpu::Volume::create(wish.avoided->volume->view()));
+        }
+        opaque = take(cpu::TransferFunction::create(wish.avoided->opacity.desc()));
+        obstacles.push_back({other ? &*other : &volume_, &*opaque, threshold, nullptr, {}});
+    }
+    cpu::PlanTask task;
+    task.target = wish.target;
+    task.surface.entries = wish.entries;
+    if (wish.entryRadius) {
+        task.surface.radius = *wish.entryRadius;
+    } else if (wish.entryLabel) {
+        task.surface.labels = labels;
+        task.surface.label = *wish.entryLabel;
+    } else {
+        task.surface.volume = &volume_;
+        task.surface.transferFunction = &function_;
+        task.surface.threshold = threshold;
+    }
+    task.obstacles = obstacles;
+    task.needle = wish.needle;
+    if (wish.mesh != nullptr) {
+        task.mesh = cpu::PlanMesh{&wish.mesh->onHost(), wish.tip, wish.axis};
+    }
+    task.margin = wish.margin;
+    task.longest = wish.longest;
+    task.steepest = wish.steepest;
+    return interruptibly(task, [&](const cpu::PlanTask& asked) { return take(planner.plan(asked)); });
 }
 
 } // namespace voxtact::python

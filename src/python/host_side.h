@@ -3,6 +3,7 @@
 
 #include "edits.h"
 #include "motions.h"
+#include "plans.h"
 #include "process.h"
 #include "request.h"
 #include "voxtact/cpu.h"
@@ -35,6 +36,8 @@ class HostSide {
     /// `part` counts segments.
     [[nodiscard]] MotionAnswer move(const Part& part, const Way& way, double threshold);
     [[nodiscard]] BatchAnswer around(const Part& part, const PoseTolerance& tolerance, double threshold);
+    /// `labels` may be null where the wish is not about labels.
+    [[nodiscard]] PlanAnswer plan(const PlanWish& wish, double threshold, const LabelData* labels);
     /// That a call runs on.
     [[nodiscard]] std::uint32_t threads() const noexcept { return threads_; }
 

@@ -2,6 +2,7 @@
 // voxtact._core: what the package voxtact, in voxtact/, is thin on.
 #include "failure.h"
 #include "motions.h"
+#include "plans.h"
 #include "process.h"
 #include "scene.h"
 
@@ -17,11 +18,16 @@ PYBIND11_MODULE(_core, module) {
     module.attr("DEFAULT_MOST_STEPS") = cpu::ClearanceDesc().mostSteps;
     module.attr("DEFAULT_MOTION_RESOLUTION") = kDefaultMotionResolution;
     module.attr("DEFAULT_MOTION_STEPS") = cpu::MotionDesc().mostSteps;
+    module.attr("DEFAULT_PLAN_ENTRIES") = cpu::EntrySurface().entries;
+    module.attr("DEFAULT_PLAN_TOLERANCE") = kDefaultPlanTolerance;
+    module.attr("DEFAULT_PLAN_MAXIMUM") = kDefaultPlanMaximum;
+    module.attr("DEFAULT_PLAN_STEPS") = cpu::PlannerDesc().mostSteps;
     python::watchForks();
     python::registerFailures();
     python::defineData(module);
     python::defineDevice(module);
     python::defineAnswers(module);
     python::defineMotions(module);
+    python::definePlans(module);
     python::defineScene(module);
 }

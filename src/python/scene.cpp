@@ -237,6 +237,12 @@ std::shared_ptr<Motions> Scene::motion(std::shared_ptr<const Request> request, c
     return found;
 }
 
+std::shared_ptr<Plan> Scene::plan(const PlanWish& wish) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    return std::make_shared<Plan>(host().plan(wish, desc_.threshold, desc_.labels.get()), !wish.avoid.empty());
+}
+
 Picture Scene::picture(const PictureWish& wish, const std::shared_ptr<Device>& device) {
     const Turns::Turn turn(turns_);
     checkOpen();

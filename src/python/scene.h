@@ -56,6 +56,8 @@ class Scene {
                                                   const Progress& progress);
     [[nodiscard]] std::shared_ptr<Answer> around(const std::shared_ptr<const Request>& request,
                                                  const PoseTolerance& tolerance, const Progress& progress);
+    /// One that is about labels needs a label map.
+    [[nodiscard]] std::shared_ptr<Plan> plan(const PlanWish& wish);
     /// `device` is for a scene that has none.
     [[nodiscard]] Picture picture(const PictureWish& wish, const std::shared_ptr<Device>& device);
     void close();

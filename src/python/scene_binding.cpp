@@ -153,6 +153,18 @@ std::shared_ptr<Answer> around(Scene& scene, const py::object& meshes, const py:
     return scene.around(request, {distance, angle}, progress);
 }
 
+std::shared_ptr<Plan> plan(Scene& scene, const Doubles& target, const py::dict& options, std::shared_ptr<Image> avoided,
+                           const py::object& points, const py::object& domain) {
+    PlanWish wish = planWishOf(target, options);
+    if (!points.is_none()) {
+        const Image& volume = avoided != nullptr ? *avoided : *scene.desc().volume;
+        OpacityDesc opacity = opacityOf(volume, points, domain, scene.desc().opacity.tableSize);
+        wish.avoided = PlanAvoided{std::move(avoided), std::move(opacity)};
+    }
+    const py::gil_scoped_release release;
+    return scene.plan(wish);
+}
+
 Paint paintOf(const std::string& name) {
     constexpr std::array<std::pair<const char*, Paint>, 3> kPaints{
         {{"contacts", Paint::Contacts}, {"discarded", Paint::Discarded}, {"plain", Paint::Plain}}};
@@ -257,6 +269,8 @@ void defineScene(py::module_& module) {
              py::arg("most_steps"), py::arg("progress"))
         .def("around", &around, py::arg("meshes"), py::arg("poses"), py::arg("distance"), py::arg("angle"),
              py::arg("progress"))
+        .def("plan", &plan, py::arg("target"), py::arg("options"), py::arg("avoided"), py::arg("points"),
+             py::arg("domain"))
         .def("picture", &picture, py::arg("mesh"), py::arg("poses"), py::arg("width"), py::arg("height"),
              py::arg("view"), py::arg("preset"), py::arg("background"), py::arg("show"), py::arg("through"),
              py::arg("device"))

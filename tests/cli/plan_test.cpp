@@ -127,6 +127,64 @@ TEST_F(PlanTest, TakesAMeshWithTipAndAxis) {
     }
 }
 
+TEST_F(PlanTest, ANameOfSeveralLabelsIsAllOfThem) {
+    writeText(path("twins.txt"), "70 Cortex\n90 Shell\n120 Shell\n");
+    const auto named = [&](const std::string& avoid) {
+        return output(plan(labelled({"--avoid", avoid, "--label-names", path("twins.txt")})));
+    };
+    EXPECT_EQ(named("Shell"), named("90,120"));
+    EXPECT_NE(named("Shell"), named("90"));
+    EXPECT_NE(named("Shell"), named("120"));
+    EXPECT_THAT(refused(2, plan({"--labels", path("labels.nii.gz"), "--label-names", path("twins.txt"), "--avoid", "70",
+                                 "--target", "Shell"})),
+                HasSubstr("2 labels are called 'Shell', 90 and 120 among them"));
+    EXPECT_THAT(
+        refused(2, plan(labelled({"--avoid", "70", "--label-names", path("twins.txt"), "--entry-label", "Shell"}))),
+        HasSubstr("2 labels are called 'Shell'"));
+}
+
+TEST_F(PlanTest, ALabelThatNoVoxelHasIsRefused) {
+    const std::string file = path("full.mha");
+    writeText(file,
+              "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = 4 4 4\n"
+              "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
+                  std::string(64, '\5'));
+    const auto line = [&](const std::string& target, const std::string& avoid) {
+        return refused(2, {"plan", "--volume", file, "--labels", file, "--target", target, "--avoid", avoid,
+                           "--entry-radius", "2", "--entries", "12"});
+    };
+    EXPECT_THAT(line("0", "5"), HasSubstr("--target: no voxel of the label map has the label '0'"));
+    EXPECT_THAT(line("5", "0"), HasSubstr("--avoid: no voxel of the label map has the label '0'"));
+}
+
+TEST_F(PlanTest, ASavedVolumeIsOnItsGrid) {
+    output({"make", "volume", "builtin:head:48", path("saved.nii.gz")});
+    output({"plan", "--volume", "builtin:head:48", "--labels", path("saved.nii.gz"), "--target", "20,0,30", "--avoid",
+            "70", "--entries", "12"});
+}
+
+TEST_F(PlanTest, ReportsSayNoMoreThanIsCertain) {
+    const std::string page = path("report.html");
+    const Arguments asked{"--target", "0,-0.001,30", "--avoid-opacity", "200:0,201:1", "--max-clearance", "15"};
+    Arguments all = asked;
+    all.insert(all.end(), {"--report", page});
+    output(plan(all));
+    const std::string text = readText(page);
+    EXPECT_EQ(text.find("-0.00"), std::string::npos);
+    EXPECT_EQ(text.find("mm2"), std::string::npos);
+    std::size_t found = 0;
+    for (auto row : rows(asked)) {
+        const double lo = std::stod(row["clearance_lo"]);
+        const std::string title = "<title>" + row["entry"] + ": ";
+        const std::size_t at = text.find(title);
+        if (row["safe"] == "1" && at != std::string::npos) {
+            EXPECT_LE(std::stod(text.substr(at + title.size())), lo);
+            ++found;
+        }
+    }
+    EXPECT_GT(found, 10U);
+}
+
 TEST_F(PlanTest, RefusesWhatItCannotUse) {
     const auto line = [&](const Arguments& more) { return refused(2, plan(more)); };
     const Arguments avoid{"--avoid-opacity", "200:0,201:1"};

@@ -328,6 +328,40 @@ class RecordedOutputsTest : public OutputsTest {
     }
 };
 
+/// Bits go on in the next word.
+TEST_F(RecordedOutputsTest, AMeshOfMoreTrianglesThanAWordHasBits) {
+    constexpr std::uint32_t kTriangles = 40;
+    Simple scene = simple();
+    MeshData strips;
+    for (std::uint32_t strip = 0; strip < kTriangles / 2; ++strip) {
+        const MeshData one = makeFlat(strip / 20.0, (strip + 1) / 20.0, 0, 1, 0.5);
+        const auto first = static_cast<std::uint32_t>(strips.positions.size() / 3);
+        strips.positions.insert(strips.positions.end(), one.positions.begin(), one.positions.end());
+        std::ranges::transform(one.indices, std::back_inserter(strips.indices),
+                               [first](std::uint32_t index) { return first + index; });
+    }
+    scene.mesh = upload(strips);
+    const BatchItem item = scene.item();
+    const View view = flatView(0, 1, 80, 80);
+    const Detector detector =
+        take(Detector::create(context(), {.method = CountingMethod::Atomic, .outputs = {.triangles = true}}));
+    Results results = take(Results::create(context(), {.maxPairs = 1, .room = OutputRoom{.triangles = kTriangles}}));
+    ContextImpl& impl = context().impl();
+    Buffer host = take(makeBuffer(impl, results.impl().outputs->words.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                  MemoryUse::ReadBack, "the test's copy"));
+    Submitter submitter = take(Submitter::create(impl, queue()));
+    const VkCommandBuffer commandBuffer = take(submitter.begin());
+    take(detector.cmdDetect(commandBuffer, {std::span(&item, 1), view, 0.5}, results));
+    const VkBufferCopy region{0, 0, host.size};
+    impl.vk.CmdCopyBuffer(commandBuffer, results.triangleMask().buffer, host.get(), 1, &region);
+    take(submitter.submitAndWait());
+    take(invalidate(impl, host));
+    const auto* mapped = static_cast<const std::uint32_t*>(host.mapped);
+    const std::vector<std::uint32_t> mask = wordsOf(results.triangleMask(), {mapped, mapped + host.size / 4});
+    EXPECT_EQ(mask[0], 0xffffffffU);
+    EXPECT_EQ(mask[1], 0xffU);
+}
+
 TEST_F(RecordedOutputsTest, TheDevicesLayoutIsAsDocumented) {
     const Simple scene = simple();
     const Mesh cube = upload(makeCube(0.25, 0.75));

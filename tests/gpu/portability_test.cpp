@@ -119,6 +119,9 @@ class PortabilityTest : public GpuTest {
   protected:
     void SetUp() override {
         GpuTest::SetUp();
+        if (IsSkipped() || HasFatalFailure()) {
+            return; // there may be no loader, whose functions the stand-in calls
+        }
         standIn = {};
         volkInitialize();
         standIn.real = vkGetInstanceProcAddr;

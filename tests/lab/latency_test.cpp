@@ -68,10 +68,31 @@ TEST(TickJudgeTest, TheRasteriserAgreesWithItselfAndComputeWithTheHost) {
               "atomic view count says 100, it must be 101");
     EXPECT_EQ(judgeTick(facts("query-any", "count", false), answer(1, CountingMethod::QueryAny), must), "");
     EXPECT_EQ(judgeTick(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
-              "query-any view count says no hit, it must be a hit");
+              "query-any view count says no hit where cpu counts 100: more than what roundings of a rasteriser explain");
     EXPECT_EQ(judgeTick(facts("compute", "count", false), answer(100, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgeTick(facts("compute", "count", false), answer(101, CountingMethod::Compute), must),
               "compute view count says 101, it must be 100");
+}
+
+TEST(TickJudgeTest, ARasteriserThatIsWrongAltogetherIsNoRounding) {
+    const EngineFacts query = facts("query", "count", false);
+    const auto says = [&](std::uint64_t count, std::uint64_t host) {
+        TickTruth must = truth(9, host);
+        return judgeTick(query, answer(count, CountingMethod::Query), must);
+    };
+    EXPECT_EQ(says(0, 1000), "query view count says 0 where cpu counts 1000: more than what roundings of a rasteriser "
+                             "explain");
+    EXPECT_EQ(says(0, lab::kRoundedFragments), "") << "a sliver";
+    EXPECT_EQ(says(lab::kRoundedFragments, 0), "") << "a sliver";
+    EXPECT_NE(says(lab::kRoundedFragments + 1, 0), "");
+    EXPECT_EQ(says(1564, 1000), "");
+    EXPECT_NE(says(1565, 1000), "");
+    EXPECT_EQ(says(436, 1000), "");
+    EXPECT_NE(says(435, 1000), "");
+    TickTruth must = truth(9, 1000);
+    PairAnswer empty = answer(1000, CountingMethod::Query);
+    empty.hit = false;
+    EXPECT_NE(judgeTick(query, empty, must), "") << "survivors and no hit";
 }
 
 TEST(MovingPosesTest, StrokesGoInAndOutWithoutAJump) {

@@ -61,8 +61,9 @@ using Measure = std::function<Result<void>(const device::Session* session, Volum
                                            std::vector<MeshPart> meshes, const Steps& steps)>;
 using Write = std::function<void(std::ostream& out)>;
 
-Outcome runOnScene(const BenchOptions& options, const CLI::App& parser, BenchScene& scene, const Measure& measure,
-                   const Write& write) {
+/// `keepsRest`: what was measured before a disagreement is written, with a note that says so.
+Outcome runOnScene(const BenchOptions& options, const CLI::App& parser, BenchScene& scene, bool keepsRest,
+                   const Measure& measure, const Write& write) {
     if (options.volumes.size() > 1) {
         return badArgument("one --volume is enough, not several");
     }
@@ -99,14 +100,20 @@ Outcome runOnScene(const BenchOptions& options, const CLI::App& parser, BenchSce
             return invalid;
         }
     }
-    if (!scene.disagreement.empty()) {
-        return {kExitVerify, "engines that must agree do not: " + scene.disagreement};
+    const std::string wrong =
+        scene.disagreement.empty() ? std::string() : "engines that must agree do not: " + scene.disagreement;
+    if (!wrong.empty()) {
+        if (!keepsRest) {
+            return {kExitVerify, wrong};
+        }
+        scene.notes.push_back(wrong);
     }
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
         write(out);
         return {};
     });
-    return written.ok() ? Outcome() : Outcome(written.error());
+    VOXTACT_TRY(written);
+    return wrong.empty() ? Outcome() : Outcome{kExitVerify, wrong};
 }
 
 } // namespace
@@ -114,7 +121,7 @@ Outcome runOnScene(const BenchOptions& options, const CLI::App& parser, BenchSce
 Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
     BenchResult result;
     return runOnScene(
-        options, parser, result,
+        options, parser, result, false,
         [&](const device::Session* session, VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps) {
             return bench(options.settings, session, volume, std::move(meshes), steps, result);
         },
@@ -125,7 +132,7 @@ Outcome runLatency(const BenchOptions& options, const CLI::App& parser) {
     LatencyResult result;
     const LatencySettings& settings = options.latencySettings;
     return runOnScene(
-        options, parser, result,
+        options, parser, result, true,
         [&](const device::Session* session, VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps) {
             return measureLatency(settings, session, volume, std::move(meshes), steps, result);
         },
@@ -136,7 +143,7 @@ Outcome runBatches(const BenchOptions& options, const CLI::App& parser) {
     BatchesResult result;
     const BatchesSettings& settings = options.batchesSettings;
     return runOnScene(
-        options, parser, result,
+        options, parser, result, true,
         [&](const device::Session* session, VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps) {
             return measureBatches(settings, session, volume, std::move(meshes), steps, result);
         },

@@ -81,7 +81,7 @@ const PlannedPath* bestOf(const PlanAnswer& answer) {
 }
 
 std::string tenths(double value) {
-    return number(std::round(10 * value) / 10);
+    return number(std::round(10 * value) / 10 + 0.0); // 0, not -0
 }
 
 std::vector<std::string> notesOf(const PlanInputs& inputs, const PlanAnswer& answer) {
@@ -99,7 +99,7 @@ std::vector<std::string> notesOf(const PlanInputs& inputs, const PlanAnswer& ans
                                      ", too oblique: " + std::to_string(answer.tooOblique)));
     if (!inputs.task.mesh) {
         notes.push_back("every path is safe from " + tenths(answer.safeArea) + " of " + tenths(answer.area) +
-                        " mm2 of the entries' surface");
+                        " mm² of the entries' surface");
     }
     const PlannedPath* best = bestOf(answer);
     notes.push_back(best == nullptr
@@ -136,7 +136,7 @@ Outcome runPlan(const PlanOptions& options) {
                           }});
     if (!options.surface.empty()) {
         deliveries.push_back({options.surface, [&](std::ostream& out) -> Result<void> {
-                                  writePlanSurface(out, *answer, options.maximum);
+                                  writePlanSurface(out, *answer, !inputs.task.mesh, options.maximum);
                                   return {};
                               }});
     }

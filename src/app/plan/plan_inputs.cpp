@@ -14,20 +14,24 @@ namespace voxtact::app {
 
 namespace {
 
-Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how) {
+Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, ScalarType type, const ValueRange& values,
+                                         const std::string& source) {
     const Result<std::vector<ControlPoint>> points = loadControlPoints(how);
     VOXTACT_TRY(points);
+    const ValueRange domain = usedDomain(how, type, values, source);
+    return cpu::TransferFunction::create({points->empty() ? defaultRamp(domain) : *points, domain, how.tableSize});
+}
+
+Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how) {
     const Result<VolumeData> data = loadVolume(source);
     VOXTACT_TRY(data);
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
     Result<cpu::Volume> volume = cpu::Volume::create(data->view());
     VOXTACT_TRY(volume);
-    const ValueRange domain = usedDomain(how, data->type, *values, source);
-    Result<cpu::TransferFunction> function =
-        cpu::TransferFunction::create({points->empty() ? defaultRamp(domain) : *points, domain, how.tableSize});
+    Result<cpu::TransferFunction> function = functionOf(how, data->type, *values, source);
     VOXTACT_TRY(function);
-    return PlanVolume{std::move(*volume), std::move(*function)};
+    return PlanVolume{std::move(*volume), std::move(*function), data->type, *values};
 }
 
 std::string listOf(const std::vector<std::string>& names) {
@@ -39,22 +43,54 @@ std::string listOf(const std::vector<std::string>& names) {
     return names.size() > kMost ? out + ", ..." : out;
 }
 
-/// One that the map has.
-Result<std::int32_t> labelOf(const NamedLabels& labels, const std::string& word, const std::string& option) {
+/// The labels that voxels have, ascending: 0 may be known and nowhere.
+std::vector<std::int32_t> presentLabels(const LabelData& labels) {
+    std::vector<bool> seen(labels.values.size());
+    for (const std::uint16_t index : labels.indices) {
+        seen[index] = true;
+    }
+    std::vector<std::int32_t> present;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (seen[i]) {
+            present.push_back(labels.values[i]);
+        }
+    }
+    return present;
+}
+
+/// All that voxels have of a number or a name: several may be called the same. Never none.
+Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const std::string& word,
+                                           const std::string& option) {
     std::int32_t number = 0;
     const std::from_chars_result read = std::from_chars(word.data(), word.data() + word.size(), number);
     const bool isNumber = !word.empty() && read.ec == std::errc() && read.ptr == word.data() + word.size();
     std::vector<std::string> names;
-    for (const std::int32_t value : labels.labels.values) {
+    std::vector<std::int32_t> found;
+    for (const std::int32_t value : presentLabels(labels.labels)) {
         const auto name = labels.names.find(value);
         if (isNumber ? value == number : name != labels.names.end() && name->second == word) {
-            return value;
+            found.push_back(value);
         }
         names.push_back(isNumber || name == labels.names.end() ? std::to_string(value) : name->second);
+    }
+    if (!found.empty()) {
+        return found;
     }
     const std::string meant = nearestName(word, names);
     return badArgument(option + ": no voxel of the label map has the label " + forMessage(word) +
                        (meant.empty() ? "; it has " + listOf(names) : ", did you mean " + meant + "?"));
+}
+
+/// The only one.
+Result<std::int32_t> labelOf(const NamedLabels& labels, const std::string& word, const std::string& option) {
+    const Result<std::vector<std::int32_t>> found = labelsOf(labels, word, option);
+    VOXTACT_TRY(found);
+    if (found->size() > 1) {
+        return badArgument(option + ": " + std::to_string(found->size()) + " labels are called " + forMessage(word) +
+                           ", " + std::to_string((*found)[0]) + " and " + std::to_string((*found)[1]) +
+                           " among them; give the number of one");
+    }
+    return found->front();
 }
 
 /// The centre of the voxel with the label that is nearest to the mean of all of them, so that it is in the label.
@@ -149,6 +185,24 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
     return {};
 }
 
+/// What is opaque in the volume, as it was read, or in another one.
+Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptions& how, PlanInputs& inputs) {
+    if (options.avoidVolume.empty()) {
+        const PlanVolume& head = *inputs.head;
+        Result<cpu::TransferFunction> function = functionOf(how, head.type, head.values, options.volumes.front());
+        VOXTACT_TRY(function);
+        inputs.avoidedInHead = std::move(*function);
+        inputs.obstacles.push_back({&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}});
+        return {};
+    }
+    Result<PlanVolume> avoided = readVolumeOf(options.avoidVolume, how);
+    VOXTACT_TRY(avoided);
+    inputs.avoided = std::move(*avoided);
+    inputs.obstacles.push_back(
+        {&inputs.avoided->volume, &inputs.avoided->transferFunction, how.threshold, nullptr, {}});
+    return {};
+}
+
 Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
     if (options.avoid.empty() && !options.avoidOpacity) {
         return badArgument("--avoid, --avoid-opacity: one of them must say what is not to be touched");
@@ -164,9 +218,9 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         labels.volume = &inputs.head->volume;
         labels.labels = &inputs.labels->labels;
         for (const LabelWord& word : options.avoid) {
-            const Result<std::int32_t> label = labelOf(*inputs.labels, word, "--avoid");
-            VOXTACT_TRY(label);
-            labels.avoid.push_back(*label);
+            const Result<std::vector<std::int32_t>> found = labelsOf(*inputs.labels, word, "--avoid");
+            VOXTACT_TRY(found);
+            labels.avoid.insert(labels.avoid.end(), found->begin(), found->end());
         }
         inputs.obstacles.push_back(labels);
     }
@@ -174,12 +228,7 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         TransferFunctionOptions how = options.transferFunction;
         how.path.clear();
         how.opacity = options.avoidOpacity;
-        Result<PlanVolume> avoided =
-            readVolumeOf(options.avoidVolume.empty() ? options.volumes.front() : options.avoidVolume, how);
-        VOXTACT_TRY(avoided);
-        inputs.avoided = std::move(*avoided);
-        inputs.obstacles.push_back(
-            {&inputs.avoided->volume, &inputs.avoided->transferFunction, how.threshold, nullptr, {}});
+        VOXTACT_TRY(readAvoided(options, how, inputs));
     }
     inputs.task.obstacles = inputs.obstacles;
     return {};

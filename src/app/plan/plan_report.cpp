@@ -31,9 +31,13 @@ std::string htmlText(const std::string& text) {
     return out;
 }
 
-std::string fixed(double value, int digits) {
+using Rounding = double (*)(double);
+
+/// `round`: std::floor and std::ceil keep what is certain of a bound.
+std::string fixed(double value, int digits, Rounding round = std::round) {
+    const double scale = std::pow(10.0, digits);
     std::ostringstream out;
-    out << std::fixed << std::setprecision(digits) << value;
+    out << std::fixed << std::setprecision(digits) << round(value * scale) / scale + 0.0; // 0, not -0
     return out.str();
 }
 
@@ -68,7 +72,7 @@ void writeHalf(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& an
         out << "<circle cx=\"" << fixed(middle + (upper ? 1 : -1) * far * x, 1) << "\" cy=\""
             << fixed(middle + far * y, 1) << "\" r=\"" << fixed(size / 2, 1) << "\" fill=\""
             << colourText(planColour(path, maximum)) << "\"><title>" << path.entry << ": "
-            << fixed(path.clearance.lo, 2) << " mm</title></circle>\n";
+            << fixed(path.clearance.lo, 2, std::floor) << " mm</title></circle>\n";
     }
     out << "</svg><figcaption>" << (upper ? "entries above the target, seen from above" : "below it, seen from below")
         << "</figcaption></figure>\n";
@@ -88,6 +92,12 @@ std::vector<const PlannedPath*> ranked(const PlanAnswer& answer) {
     return safe;
 }
 
+Rounding roundingOf(const std::string& column) {
+    return column == "clearance_lo"   ? Rounding{std::floor}
+           : column == "clearance_hi" ? Rounding{std::ceil}
+                                      : Rounding{std::round};
+}
+
 void writeRanking(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& answer) {
     const io::Table table = planTable(inputs, answer, false);
     out << "<h2>The safest paths</h2>\n<table><tr>";
@@ -103,7 +113,7 @@ void writeRanking(std::ostream& out, const PlanInputs& inputs, const PlanAnswer&
             if (const auto* text = std::get_if<std::string>(&cell)) {
                 out << htmlText(*text);
             } else if (const auto* real = std::get_if<double>(&cell)) {
-                out << (std::isfinite(*real) ? fixed(*real, 2) : number(*real));
+                out << (std::isfinite(*real) ? fixed(*real, 2, roundingOf(table.columns[column])) : number(*real));
             } else if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
                 out << *whole;
             } else if (const auto* word = std::get_if<io::NumberWord>(&cell)) {

@@ -49,12 +49,15 @@ struct PlanOptions {
 struct PlanVolume {
     cpu::Volume volume;
     cpu::TransferFunction transferFunction;
+    ScalarType type{};
+    ValueRange values; ///< of its voxels
 };
 
 /// What is read, and what of it is planned with.
 struct PlanInputs {
     std::optional<PlanVolume> head;
-    std::optional<PlanVolume> avoided; ///< what is opaque of it is an obstacle
+    std::optional<PlanVolume> avoided;                  ///< what is opaque of it is an obstacle
+    std::optional<cpu::TransferFunction> avoidedInHead; ///< the same of `head`
     std::optional<NamedLabels> labels;
     std::optional<cpu::Mesh> mesh;
     std::vector<cpu::PlanObstacle> obstacles; ///< refer to what is above
@@ -73,7 +76,7 @@ struct PlanInputs {
 /// The rows, and what they are about. Refers to both.
 [[nodiscard]] io::Table planTable(const PlanInputs& inputs, const PlanAnswer& answer, bool timing);
 /// The triangles between the entries in colours, as PLY.
-void writePlanSurface(std::ostream& out, const PlanAnswer& answer, double maximum);
+void writePlanSurface(std::ostream& out, const PlanAnswer& answer, bool certified, double maximum);
 /// A page with the notes, the entries in colours, and the best paths.
 void writePlanReport(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& answer,
                      const std::vector<std::string>& notes, double maximum);

@@ -4,7 +4,9 @@
 #include "core/base/text.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <ostream>
 
 namespace voxtact::app {
@@ -19,17 +21,22 @@ template <class Number> void append(std::string& bytes, Number number) {
     bytes.append(raw, sizeof raw);
 }
 
+/// The largest float that is no larger.
+float roundedDown(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
+}
+
 } // namespace
 
-void writePlanSurface(std::ostream& out, const PlanAnswer& answer, double maximum) {
+void writePlanSurface(std::ostream& out, const PlanAnswer& answer, bool certified, double maximum) {
     out << "ply\nformat binary_little_endian 1.0\n"
            "comment entries by voxtact; world, mm, LPS (+x left, +y posterior, +z superior)\n"
            "comment colour of safe paths: clearance from 0 (dark violet) to "
-        << number(maximum)
-        << " mm (yellow), viridis; unsafe: red; possible: grey\n"
-           "comment a face is safe where every path from it is\n"
-           "element vertex "
-        << answer.paths.size()
+        << number(maximum) << " mm (yellow), viridis; unsafe: red; possible: grey\n"
+        << (certified ? "comment a face is safe where every path from it is\n"
+                      : "comment of faces nothing is known: paths of a mesh are decided one by one\n")
+        << "element vertex " << answer.paths.size()
         << "\nproperty float x\nproperty float y\nproperty float z\n"
            "property uchar red\nproperty uchar green\nproperty uchar blue\n"
            "property float clearance\nproperty uint entry\nproperty uchar safe\nelement face "
@@ -43,7 +50,7 @@ void writePlanSurface(std::ostream& out, const PlanAnswer& answer, double maximu
         for (const std::uint8_t component : planColour(path, maximum)) {
             append(bytes, component);
         }
-        append(bytes, static_cast<float>(path.clearance.lo));
+        append(bytes, roundedDown(path.clearance.lo));
         append(bytes, path.entry);
         append(bytes, static_cast<std::uint8_t>(path.safety));
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -89,7 +89,7 @@ io::Table planTable(const PlanInputs& inputs, const PlanAnswer& answer, bool tim
                  {"too_long", std::uint64_t{answer.tooLong}},
                  {"too_oblique", std::uint64_t{answer.tooOblique}},
                  {"area_mm2", answer.area},
-                 {"safe_area_mm2", answer.safeArea}};
+                 {"safe_area_mm2", inputs.task.mesh ? io::Cell() : io::Cell(answer.safeArea)}};
     if (timing) {
         out.timing = {{"entries", std::uint64_t{answer.paths.size()}},
                       {"wall_ms", answer.wallMilliseconds},

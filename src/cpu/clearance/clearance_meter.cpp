@@ -204,13 +204,7 @@ Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_
         if (item.labels == nullptr) {
             return refuse(which + ": labels is null, and clearances to labels are asked for");
         }
-        const Grid& grid = item.volume->grid();
-        const Grid& own = item.labels->grid;
-        if (grid.size != own.size || grid.spacing != own.spacing || grid.origin != own.origin ||
-            grid.direction != own.direction || item.labels->indices.size() != voxelCount(own)) {
-            return Error{ErrorCode::Unsupported, 0,
-                         which + ": the label map is not on the grid of the volume; resample it to that"};
-        }
+        VOXTACT_TRY(checkLabelsOnGrid(*item.labels, item.volume->grid(), which));
     }
     return {};
 }

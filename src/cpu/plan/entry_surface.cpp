@@ -43,8 +43,11 @@ struct VoxelRay {
 template <class Inside> double outermost(const VoxelRay& ray, const Inside& inside) {
     constexpr int kHalvings = 12;
     const double step = kStep / std::max({std::abs(ray.way.x), std::abs(ray.way.y), std::abs(ray.way.z)});
+    const double nearest = std::max(ray.begin, kNearest);
     double outside = ray.end;
-    for (double at = ray.end; at > std::max(ray.begin, kNearest); at -= step) {
+    double number = 0;
+    // Where a step is less than what rounding leaves of the distance, the steps still end.
+    for (double at = ray.end; at > nearest; at = ray.end - ++number * step) {
         if (!inside(ray.from + at * ray.way)) {
             outside = at;
             continue;
@@ -84,8 +87,10 @@ class EntrySearch {
         } else if (surface_.labels != nullptr) {
             space_.emplace(surface_.labels->grid);
             const auto& values = surface_.labels->values;
-            index_ = static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), surface_.label) -
-                                              values.begin());
+            const auto found = std::lower_bound(values.begin(), values.end(), surface_.label);
+            index_ = found != values.end() && *found == surface_.label
+                         ? static_cast<std::size_t>(found - values.begin())
+                         : values.size();
         }
     }
 
@@ -118,7 +123,7 @@ class EntrySearch {
     dvec3 target_;
     std::shared_ptr<const OpaquePart> part_;
     std::optional<VolumeSpace> space_; ///< of the labels
-    std::size_t index_ = 0;
+    std::size_t index_ = 0;            ///< of the label; none has the number of labels
 };
 
 /// Of the surface that the triangles between the entries make: the mean of those around an entry, by their areas.

@@ -84,18 +84,28 @@ void PathMeasure::measure(const Way& way, PlannedPath& out) {
         out.clearance = {std::min(out.clearance.lo, desc.maximum), kInfinity};
         out.nearest.reset();
         out.end = ClearanceEnd::Beyond;
-    } else if (out.clearance.hi - out.clearance.lo <= desc.tolerance + 4 * scene_.slack) {
-        out.end = ClearanceEnd::Closed;
     } else {
-        out.end = exhausted ? ClearanceEnd::Budget : ClearanceEnd::Rounding;
+        out.end = endOf(out.clearance, exhausted);
     }
+}
+
+ClearanceEnd PathMeasure::endOf(const ClearanceBounds& clearance, bool exhausted) const {
+    if (clearance.hi == kInfinity) {
+        return ClearanceEnd::Beyond;
+    }
+    if (clearance.hi - clearance.lo <= scene_.desc.tolerance + 4 * scene_.slack) {
+        return ClearanceEnd::Closed;
+    }
+    return exhausted ? ClearanceEnd::Budget : ClearanceEnd::Rounding;
 }
 
 /// The margin is between the bounds: it is asked for alone.
 void PathMeasure::decide(const Way& way, PlannedPath& out) {
     const double wanted = scene_.margin + scene_.radius;
     double lo = kInfinity;
-    for (std::size_t i = 0; i < scene_.obstacles.size() && out.clearance.hi > scene_.margin; ++i) {
+    bool exhausted = out.end == ClearanceEnd::Budget;
+    std::size_t i = 0;
+    for (; i < scene_.obstacles.size() && out.clearance.hi > scene_.margin; ++i) {
         const Found found = search(way, i,
                                    {.tolerance = 0,
                                     .maximum = wanted + 4 * scene_.slack,
@@ -104,8 +114,14 @@ void PathMeasure::decide(const Way& way, PlannedPath& out) {
                                     .mostSteps = scene_.desc.mostSteps});
         take(found, i, out);
         lo = std::min(lo, found.lo - scene_.radius - scene_.slack);
+        exhausted = exhausted || found.exhausted;
     }
-    out.clearance.lo = std::min(std::max(out.clearance.lo, lo), out.clearance.hi);
+    // What was not asked about says nothing of how near it is.
+    if (i == scene_.obstacles.size()) {
+        out.clearance.lo = std::max(out.clearance.lo, lo);
+    }
+    out.clearance.lo = std::min(out.clearance.lo, out.clearance.hi);
+    out.end = endOf(out.clearance, exhausted);
 }
 
 void PathMeasure::run(const EntryPoint& entry, PlannedPath& out) {

@@ -24,6 +24,8 @@ class PathMeasure {
     [[nodiscard]] Found search(const Way& way, std::size_t obstacle, SearchGoal goal);
     void measure(const Way& way, PlannedPath& out);
     void decide(const Way& way, PlannedPath& out);
+    /// Of bounds that are not beyond the maximum, or are nothing's.
+    [[nodiscard]] ClearanceEnd endOf(const ClearanceBounds& clearance, bool exhausted) const;
     void take(const Found& found, std::size_t obstacle, PlannedPath& out) const;
 
     const PlanScene& scene_;

@@ -2,6 +2,8 @@
 #include "cpu/plan/plan_check.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/batch/output_pair.h"
+#include "cpu/clearance/label_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kLeastTolerance = 1e-6;
 constexpr double kRightAngle = 90;
+constexpr double kFarthest = 1e9; // mm
 
 Error refuse(const std::string& text) {
     return {ErrorCode::InvalidArgument, 0, text};
@@ -19,6 +22,11 @@ Error refuse(const std::string& text) {
 
 bool isFinite(const Vec3& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+/// Farther away a path's coordinates say nothing: they are steps of more than a tenth of a micrometre apart.
+bool isPlace(const Vec3& v) {
+    return isFinite(v) && std::hypot(v[0], v[1], v[2]) <= kFarthest;
 }
 
 Result<void> checkThreshold(double threshold, const std::string& which) {
@@ -36,21 +44,30 @@ Result<void> checkObstacle(const PlanObstacle& obstacle, const std::string& whic
                    ? refuse(which + ": transferFunction and labels are both null; one says what is avoided")
                    : checkThreshold(obstacle.threshold, which);
     }
-    const Grid& grid = obstacle.volume->grid();
-    const Grid& own = obstacle.labels->grid;
-    if (grid.size != own.size || grid.spacing != own.spacing || grid.origin != own.origin ||
-        grid.direction != own.direction || obstacle.labels->indices.size() != voxelCount(own)) {
-        return Error{ErrorCode::Unsupported, 0,
-                     which + ": the label map is not on the grid of the volume; resample it to that"};
+    VOXTACT_TRY(checkLabels(*obstacle.labels));
+    VOXTACT_TRY(checkLabelsOnGrid(*obstacle.labels, obstacle.volume->grid(), which));
+    if (obstacle.avoid.empty()) {
+        return refuse(which + ": there is a label map, and avoid names no label of it");
+    }
+    for (const std::int32_t label : obstacle.avoid) {
+        if (!std::ranges::binary_search(obstacle.labels->values, label)) {
+            return refuse(which + ": avoid names the label " + std::to_string(label) + ", which the label map has not");
+        }
     }
     return checkThreshold(obstacle.threshold, which);
 }
 
 Result<void> checkSurface(const EntrySurface& surface) {
-    if (surface.entries == 0 || surface.entries > kMostEntries) {
+    if (surface.entries == 0) {
+        return refuse("the entries' surface: entries is 0, one is the least");
+    }
+    if (surface.entries > kMostEntries) {
         return Error{ErrorCode::LimitExceeded, 0,
-                     std::to_string(surface.entries) + " entries are asked for, there can be 1 to " +
+                     std::to_string(surface.entries) + " entries are asked for, there can be up to " +
                          std::to_string(kMostEntries) + " (kMostEntries)"};
+    }
+    if (surface.volume != nullptr && surface.labels != nullptr) {
+        return refuse("the entries' surface: volume and labels are both given; one says where it is");
     }
     if (surface.volume != nullptr) {
         return surface.transferFunction == nullptr
@@ -58,7 +75,10 @@ Result<void> checkSurface(const EntrySurface& surface) {
                    : checkThreshold(surface.threshold, "the entries' surface");
     }
     if (surface.labels != nullptr) {
-        return checkGrid(surface.labels->grid);
+        VOXTACT_TRY(checkLabels(*surface.labels));
+        return std::ranges::binary_search(surface.labels->values, surface.label)
+                   ? Result<void>()
+                   : refuse("the entries' surface: the label map has no label " + std::to_string(surface.label));
     }
     return surface.radius > 0 && std::isfinite(surface.radius)
                ? Result<void>()
@@ -78,8 +98,11 @@ Result<void> checkInstrument(const PlanTask& task) {
     if (task.mesh->mesh == nullptr) {
         return refuse("the instrument: mesh is null");
     }
-    if (!isFinite(task.mesh->tip) || !isFinite(task.mesh->axis)) {
-        return refuse("the instrument: tip or axis is not finite");
+    if (!isPlace(task.mesh->tip)) {
+        return refuse("the instrument: the tip is not within " + number(kFarthest) + " mm of the origin");
+    }
+    if (!isFinite(task.mesh->axis)) {
+        return refuse("the instrument: the axis is not finite");
     }
     const Vec3& axis = task.mesh->axis;
     const double length = std::hypot(axis[0], axis[1], axis[2]);
@@ -101,8 +124,8 @@ Result<void> checkPlanner(const PlannerDesc& desc) {
 }
 
 Result<void> checkTask(const PlanTask& task) {
-    if (!isFinite(task.target)) {
-        return refuse("the target is not finite");
+    if (!isPlace(task.target)) {
+        return refuse("the target is not within " + number(kFarthest) + " mm of the origin");
     }
     if (task.obstacles.empty()) {
         return refuse("there are no obstacles: nothing is to be avoided");

@@ -2,8 +2,8 @@
 #include "cpu/plan/plan_scene.h"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +19,26 @@ dvec3 toGlm(const Vec3& v) {
     return {v[0], v[1], v[2]};
 }
 
+/// That of two directions which are no farther apart than a right angle: beyond that, what is left of 1 + cos is more
+/// and more rounding.
+dmat3 sharpTurn(const dvec3& from, const dvec3& to) {
+    const dvec3 axis = glm::cross(from, to);
+    return glm::mat3_cast(glm::normalize(glm::dquat(1 + glm::dot(from, to), axis.x, axis.y, axis.z)));
+}
+
 /// The smallest turn that brings one direction to another; half a turn about some axis where they are opposite.
 dmat3 smallestTurn(const dvec3& from, const dvec3& to) {
-    constexpr double kOpposite = 1e-12;
-    const double along = glm::dot(from, to);
-    if (along < kOpposite - 1) {
-        const dvec3 other = std::abs(from.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-        return glm::mat3_cast(glm::angleAxis(glm::pi<double>(), glm::normalize(glm::cross(from, other))));
+    if (glm::dot(from, to) >= 0) {
+        return sharpTurn(from, to);
     }
-    const dvec3 axis = glm::cross(from, to);
-    return glm::mat3_cast(glm::normalize(glm::dquat(1 + along, axis.x, axis.y, axis.z)));
+    // Half a turn about what is perpendicular to both, and then the little that is missing.
+    dvec3 axis = glm::cross(from, to);
+    if (glm::length(axis) == 0) {
+        axis = glm::cross(from, std::abs(from.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0));
+    }
+    axis = glm::normalize(axis);
+    const dmat3 half = 2.0 * glm::outerProduct(axis, axis) - dmat3(1);
+    return sharpTurn(glm::normalize(half * from), to) * half;
 }
 
 Mat4 poseOf(const dmat3& turn, const dvec3& origin) {
@@ -76,7 +86,10 @@ Mat4 PlanScene::axisPose(const dvec3& direction, double entry) const {
 }
 
 Mat4 PlanScene::meshPose(const dvec3& direction, double entry, Sweep& sweep) const {
-    const dmat3 turn = smallestTurn(glm::normalize(toGlm(task.mesh->axis)), direction);
+    const Vec3& held = task.mesh->axis;
+    // By what neither overflows nor underflows, and then to the last digit.
+    const dvec3 along = toGlm(held) / std::hypot(held[0], held[1], held[2]);
+    const dmat3 turn = smallestTurn(glm::normalize(along), direction);
     sweep.offset = 0.5 * entry * direction;
     sweep.straight = sweep.offset;
     return poseOf(turn, toGlm(task.target) + sweep.offset - turn * toGlm(task.mesh->tip));

@@ -77,7 +77,7 @@ double largestLength(const PlanScene& scene) {
 double magnitudeOf(const PlanScene& scene) {
     const PlanTask& task = scene.task;
     double sum = std::abs(task.target[0]) + std::abs(task.target[1]) + std::abs(task.target[2]);
-    sum += 2 * (largestLength(scene) + scene.margin + scene.desc.maximum) + task.needle.length;
+    sum += 2 * largestLength(scene) + task.needle.length;
     if (task.mesh) {
         const Box& box = task.mesh->mesh->facts().bounds;
         for (std::size_t axis = 0; axis < 3; ++axis) {

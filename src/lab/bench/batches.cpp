@@ -21,6 +21,7 @@ struct Series {
     std::vector<TickTruth> truths; ///< of the first poses
     Engine& certified;             ///< yes or no
     Engine& view;
+    double learning = 0; ///< ms that the last truths took
 };
 
 Result<void> learn(Series& series, std::size_t end) {
@@ -33,6 +34,7 @@ Result<void> learn(Series& series, std::size_t end) {
     VOXTACT_TRY(certified);
     const Result<Pass> view = series.view.run(work, {});
     VOXTACT_TRY(view);
+    series.learning = certified->wallMilliseconds + view->wallMilliseconds;
     for (std::size_t i = 0; i < work.poses.size(); ++i) {
         series.truths.push_back({certified->pairs[i], view->pairs[i]});
     }
@@ -44,6 +46,7 @@ Result<double> takeBatch(Series& series, Engine& engine, bool kept, BatchesRow& 
     VOXTACT_TRY(pass);
     for (std::size_t i = 0; i < row.batch && disagreement.empty(); ++i) {
         const std::string wrong = judgeTick(engine.facts(), pass->pairs[i], series.truths[i]);
+        row.rounding += kept && !engine.facts().certified && differsByRounding(pass->pairs[i], series.truths[i].view);
         if (!wrong.empty()) {
             disagreement = row.mesh + ", pose " + std::to_string(i) + " of " + std::to_string(row.batch) + ": " + wrong;
         }
@@ -79,9 +82,10 @@ Result<Engines> makeBatchEngines(const device::Session* session) {
     return engines;
 }
 
-/// One size, by every engine that is still `alive`; those for which the next would take longer than `longest` ms end.
+/// One size, by every engine that is still `alive`; those for which the next would take longer than `longest` ms end,
+/// and all where the host would take longer than `mostLearning` ms to say what must be answered.
 Result<void> measureSize(Series& series, const Engines& engines, std::vector<bool>& alive, std::uint32_t batch,
-                         double longest, const BatchesSettings& settings, BatchesResult& result) {
+                         double longest, double mostLearning, const BatchesSettings& settings, BatchesResult& result) {
     if (std::ranges::none_of(alive, [](bool on) { return on; })) {
         return {};
     }
@@ -108,7 +112,8 @@ Result<void> measureSize(Series& series, const Engines& engines, std::vector<boo
                                         return !result.disagreement.empty();
                                     }}));
     for (std::size_t i = 0; i < taken.size() && result.disagreement.empty(); ++i) {
-        alive[taken[i]] = 10 * medianOf(result.rows[firstRow + i].wall) <= longest;
+        alive[taken[i]] =
+            10 * medianOf(result.rows[firstRow + i].wall) <= longest && 10 * series.learning <= mostLearning;
     }
     return {};
 }
@@ -124,11 +129,13 @@ Result<void> measureMesh(const BatchesSettings& settings, const VolumePart& volu
                   .certified = *(*engines)[0],
                   .view = *(*engines)[1]};
     // The largest batch, its warm-up and what is smaller: a ninth more.
-    const double longest = limit / (1.2 * (settings.repetitions + 1) * static_cast<double>(engines->size()));
+    const double mostLearning = limit / 4;
+    const double longest =
+        (limit - mostLearning) / (1.2 * (settings.repetitions + 1) * static_cast<double>(engines->size()));
     std::vector<bool> alive(engines->size(), true);
     for (const std::uint32_t batch : batchSizes(settings.most)) {
         if (result.disagreement.empty()) {
-            VOXTACT_TRY(measureSize(series, *engines, alive, batch, longest, settings, result));
+            VOXTACT_TRY(measureSize(series, *engines, alive, batch, longest, mostLearning, settings, result));
         }
         step();
     }
@@ -145,6 +152,7 @@ Row rowOf(const BatchesRow& row) {
         .add("threads", row.engine.threads > 0 ? std::optional(row.engine.threads) : std::nullopt)
         .add("batch", row.batch)
         .add("samples", row.wall.size())
+        .add("rounding", row.rounding)
         .add("wall_ms", row.wall, {"_median", "_min", "_max"})
         .add("gpu_ms", row.gpu, {"_median"})
         .add("pairs_per_s", 1000 * row.batch / std::max(medianOf(row.wall), 1e-6));
@@ -185,6 +193,8 @@ Result<void> measureBatches(const BatchesSettings& settings, const device::Sessi
     for (MeshPart& mesh : meshes) {
         VOXTACT_TRY(measureMesh(settings, volume, mesh, limit, session, steps.step, result));
     }
+    // After a disagreement nothing more is measured.
+    std::erase_if(result.rows, [](const BatchesRow& row) { return row.wall.empty(); });
     return {};
 }
 

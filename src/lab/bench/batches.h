@@ -21,6 +21,7 @@ struct BatchesRow {
     std::uint32_t batch = 0;
     std::vector<double> wall{}; ///< ms of a batch
     std::vector<double> gpu{};  ///< the device's part of it; empty where there is none
+    std::uint64_t rounding = 0; ///< pairs of all samples that the device's rasteriser counts otherwise than cpu
 };
 
 struct BatchesResult : BenchScene {
@@ -32,7 +33,8 @@ struct BatchesResult : BenchScene {
 
 /// Batches of random poses, each a submission that is waited for or a call of the host, by the host and by the methods
 /// of the device: certified yes or no, and the count in the view. The answers of every batch are held against the
-/// host's. The volume and the meshes are made ready; `session` may be null, and must outlive the parts.
+/// host's as by judgeTick(). The volume and the meshes are made ready; `session` may be null, and must outlive the
+/// parts.
 [[nodiscard]] Result<void> measureBatches(const BatchesSettings& settings, const device::Session* session,
                                           VolumePart& volume, std::vector<MeshPart> meshes, const Steps& steps,
                                           BatchesResult& result);

@@ -35,7 +35,15 @@ struct TickTruth {
     std::optional<PairAnswer> raster{};
 };
 
+/// Fragments by which a rasteriser may count otherwise than the host, besides half of what the host counts.
+inline constexpr std::uint64_t kRoundedFragments = 64;
+/// Ticks of a measurement, at most: all their poses are held at once.
+inline constexpr std::uint32_t kMostTicks = 10'000'000;
+
+/// Whether an answer in the view is not the host's.
+[[nodiscard]] bool differsByRounding(const PairAnswer& answer, const PairAnswer& host);
 /// What is wrong with an answer, or nothing; `truth` learns what the rasteriser counts from the first method that does.
+/// A certified answer must be the host's; those of a rasteriser must be each other's, and near the host's in the view.
 [[nodiscard]] std::string judgeTick(const EngineFacts& engine, const PairAnswer& answer, TickTruth& truth);
 
 /// An empty submission, the host, and every method of the device, polled and waited for: certified yes or no and count,

@@ -53,16 +53,21 @@ std::string times(const LatencyRow& row) {
            (p99 ? " us, p99 " + shortNumber(*p99) + " us" : " us");
 }
 
-/// The row of a question with the least p99, or p50 where there is none, among those of the host or of the device.
+/// Whether it answers sooner: by p99, or by p50 where one of the two has too few ticks for that.
+bool isSooner(const LatencyRow& row, const LatencyRow& than) {
+    const auto p99 = [](const LatencyRow& of) { return quantile(of.ticks, 0.99, kForP99); };
+    const auto p50 = [](const LatencyRow& of) { return quantileOf(of.ticks, 0.5); };
+    const bool both = p99(row) && p99(than);
+    return both ? std::pair(*p99(row), p50(row)) < std::pair(*p99(than), p50(than)) : p50(row) < p50(than);
+}
+
+/// The soonest row of a question among those of the host or of the device.
 const LatencyRow* soonest(const LatencyResult& result, const LatencyRow& asked, bool host) {
     const LatencyRow* best = nullptr;
-    const auto key = [](const LatencyRow& row) {
-        return std::pair(quantile(row.ticks, 0.99, kForP99).value_or(1e300), quantileOf(row.ticks, 0.5));
-    };
     for (const LatencyRow& row : result.rows) {
         const bool same = row.mesh == asked.mesh && row.engine.projection == asked.engine.projection &&
                           row.engine.question == asked.engine.question && (row.engine.threads > 0) == host;
-        if (same && !row.ticks.empty() && (best == nullptr || key(row) < key(*best))) {
+        if (same && !row.ticks.empty() && (best == nullptr || isSooner(row, *best))) {
             best = &row;
         }
     }

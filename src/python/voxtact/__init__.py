@@ -44,6 +44,7 @@ from ._files import read_camera, read_opacity, read_poses, write_png
 from ._labels import Labels, read_label_names, read_labels
 from ._mesh import Mesh, read_mesh
 from ._motion import Motion, pose_between
+from ._plan import Plan
 from ._scene import Scene, View
 from ._volume import Volume, read_volume
 
@@ -65,6 +66,7 @@ __all__ = [
     "Motion",
     "NotReadyError",
     "OutOfMemoryError",
+    "Plan",
     "Scene",
     "UnsupportedError",
     "View",

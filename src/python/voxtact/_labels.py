@@ -2,6 +2,7 @@
 """Label maps, and what labels are called."""
 from __future__ import annotations
 
+import difflib
 import os
 from typing import Any, NoReturn, Optional, Union
 
@@ -10,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._common import not_pickled
+from ._errors import InvalidArgumentError
 from ._volume import Volume, read_volume
 
 
@@ -36,6 +38,17 @@ class Labels:
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
         """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
         return self._core.at(points)
+
+    def number(self, label: Union[int, str]) -> int:
+        """The number of a label that is given by its number or its name."""
+        if not isinstance(label, str):
+            return int(label)
+        found = [number for number, name in self.names.items() if name == label]
+        if len(found) != 1:
+            near = difflib.get_close_matches(label, self.names.values(), 3)
+            raise InvalidArgumentError(f"{len(found)} labels are called {label!r}"
+                                       + (f"; did you mean {', '.join(near)}?" if near and not found else ""))
+        return found[0]
 
     def __repr__(self) -> str:
         return f"<voxtact.Labels {self.volume.name!r}: {len(self.values)} labels, {len(self.names)} names>"

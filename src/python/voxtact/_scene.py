@@ -21,6 +21,7 @@ from ._files import read_opacity
 from ._labels import Labels, read_labels
 from ._mesh import Mesh
 from ._motion import Interpolation, Motion
+from ._plan import Plan
 from ._volume import Volume, read_volume
 
 Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
@@ -402,6 +403,72 @@ class Scene:
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _segments_in(meshes, matrices)) as tell:
             return Motion(self._core.motion(meshes, matrices, interpolation, float(resolution), steps, tell))
+
+    def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
+             avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,
+             tip: Optional[npt.ArrayLike] = None, axis: Optional[npt.ArrayLike] = None,
+             entries: int = core.DEFAULT_PLAN_ENTRIES, entry_label: Union[None, int, str] = None,
+             entry_radius: Optional[float] = None, margin: float = 0.0, max_length: Optional[float] = None,
+             max_angle: Optional[float] = None, tolerance: float = core.DEFAULT_PLAN_TOLERANCE,
+             maximum: float = core.DEFAULT_PLAN_MAXIMUM, most_steps: int = core.DEFAULT_PLAN_STEPS) -> Plan:
+        """Which straight paths to a target keep clear of what must not be touched: a `Plan` with a row for each entry.
+
+        An instrument goes straight from an entry to the target, its axis on that line, and is certain to keep its
+        distance all the way, or not.
+
+        target
+            (3,): where the tip goes, LPS, mm
+        avoid
+            labels that must not be touched, by number or name, opaque or not
+        avoid_opacity, avoid_volume
+            what must not be touched besides: all that is opaque under these points, in this volume (None: the scene's)
+        needle
+            (diameter, length), mm: round and solid, with round ends; 2 mm by 200 mm where there is no mesh either
+        mesh, tip, axis
+            instead of a needle: its tip, and the direction from there to where it is held, in its coordinates
+        entries
+            directions from the target, evenly spread: the least 10 n^2 + 2 that is no fewer
+        entry_label, entry_radius
+            entries are on the outside of this label, or all so far from the target, mm; None: on the outside of what is
+            opaque in the scene
+        margin
+            mm that a safe path keeps from all that is to be avoided
+        max_length, max_angle
+            mm; degrees between a path and the normal of the entries' surface: paths beyond are left out
+        tolerance, maximum, most_steps
+            mm, how near to each other the bounds of a clearance are brought; mm, what is farther is not measured; a path
+            that takes more steps is left with the bounds that it has
+
+        The host engine plans, also for scenes on a device. Whether the target is inside of the volume is not asked.
+        """
+        if not len(avoid) and avoid_opacity is None:
+            raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
+        if avoid_volume is not None and avoid_opacity is None:
+            raise InvalidArgumentError("avoid_volume needs avoid_opacity=: what of it is not to be touched")
+        if self._labels is None and (len(avoid) or entry_label is not None):
+            raise InvalidArgumentError("plans that are about labels need a scene with labels=")
+        if entry_label is not None and entry_radius is not None:
+            raise InvalidArgumentError("entry_label and entry_radius both say where entries are; leave out one of them")
+        if mesh is None and (tip is not None or axis is not None):
+            raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
+        if mesh is not None and (needle is not None or tip is None or axis is None):
+            raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
+        numbers: dict[str, Any] = {"entries": _whole([entries], 1, "entries")[0], "margin": float(margin),
+                                   "tolerance": float(tolerance), "maximum": float(maximum),
+                                   "most_steps": _whole([most_steps], 1, "most_steps")[0]}
+        if self._labels is not None:
+            numbers["avoid"] = [self._labels.number(label) for label in avoid]
+        if entry_label is not None and self._labels is not None:
+            numbers["entry_label"] = self._labels.number(entry_label)
+        given = {"needle": needle, "entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
+        numbers.update({name: value for name, value in given.items() if value is not None})
+        if mesh is not None:
+            if not isinstance(mesh, Mesh):
+                raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
+            numbers.update(mesh=mesh._core, tip=np.asarray(tip, np.float64), axis=np.asarray(axis, np.float64))
+        avoided = None if avoid_volume is None else read_volume(avoid_volume)._core
+        return Plan(self._core.plan(np.asarray(target, dtype=np.float64), numbers, avoided, _points(avoid_opacity),
+                                    self.domain if avoided is None else None), self._labels)
 
     # Pictures
 
