@@ -143,6 +143,21 @@ TEST_F(ChunksTest, FilesBesideTheRowsAreTheSame) {
     EXPECT_THAT(refused(2, {"merge", path("run"), "--triangles", path("x.csv")}), HasSubstr("was not asked for it"));
 }
 
+TEST_F(ChunksTest, NotesAreOfAllChunks) {
+    std::string far;
+    for (int i = 0; i < 4; ++i) {
+        far += "1 0 0 1e11 0 1 0 0 0 0 1 0 0 0 0 1\n";
+    }
+    writeText(path("poses.txt"), far);
+    const Arguments command{"detect",  "--volume",        "builtin:sphere:16", "--mesh",      "builtin:ellipsoid:60",
+                            "--poses", path("poses.txt"), "--clearance",       "--tolerance", "1e-6"};
+    const Ran plain = run(command);
+    const Ran chunks = run(with(command, {"--resume", path("run"), "--chunk", "1"}));
+    EXPECT_EQ(chunks.out, plain.out);
+    EXPECT_EQ(chunks.err, plain.err);
+    EXPECT_THAT(plain.err, AllOf(HasSubstr("of 4 poses"), HasSubstr("the bounds of 4 of 4 clearances")));
+}
+
 TEST_F(ChunksTest, MotionsAreTheSame) {
     for (const char* format : {"csv", "json"}) {
         const Arguments motion{"motion",

@@ -211,7 +211,7 @@ Outcome runDetect(const CLI::App& parser, DetectOptions options) {
         return interruptedOutcome(options, *output);
     }
     VOXTACT_TRY(output->finish(milliseconds));
-    for (const std::string& note : {output->noteOfContacts(), output->noteOfClearances()}) {
+    for (const std::string& note : {output->noteOfContacts(), output->clearanceEnds().note()}) {
         if (!note.empty()) {
             notes.push_back(note);
         }

@@ -88,6 +88,7 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
         }
     }
     PairAsker asker(options, inputs, engine);
+    ClearanceEnds ends; // of what this process does
     const DoChunk doChunk = [&](const ChunkRange& range, const ChunkFiles& files,
                                 const std::function<void(std::uint64_t)>& done) -> Result<void> {
         Result<DetectOutput> output = DetectOutput::createChunk(options, inputs, files);
@@ -96,6 +97,7 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
         pairs.first = range.first;
         pairs.count = range.count;
         VOXTACT_TRY(asker.answer(pairs, *output, [&] { done(output->rows()); }));
+        ends.add(output->clearanceEnds());
         return interrupted() ? Result<void>() : output->finish(0);
     };
     ChunkedRun run{"voxtact detect",
@@ -105,6 +107,9 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
                    options.progress};
     Outcome outcome = doChunks(std::move(run), doChunk, paths, notes);
     asker.addTo(notes);
+    if (!ends.note().empty()) {
+        notes.push_back(ends.note());
+    }
     return outcome;
 }
 

@@ -301,14 +301,22 @@ std::string DetectOutput::noteOfContacts() const {
            std::to_string(state.options.extra.contactRoom()) + ")";
 }
 
-std::string DetectOutput::noteOfClearances() const {
+ClearanceEnds DetectOutput::clearanceEnds() const {
     const auto of = [&](ClearanceEnd end) { return state_->ends[static_cast<std::size_t>(end)]; };
-    const std::uint64_t rounding = of(ClearanceEnd::Rounding);
-    const std::uint64_t budget = of(ClearanceEnd::Budget);
+    return {state_->rows, of(ClearanceEnd::Rounding), of(ClearanceEnd::Budget)};
+}
+
+void ClearanceEnds::add(const ClearanceEnds& more) {
+    rows += more.rows;
+    rounding += more.rounding;
+    budget += more.budget;
+}
+
+std::string ClearanceEnds::note() const {
     if (rounding + budget == 0) {
         return {};
     }
-    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(state_->rows) +
+    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(rows) +
            " clearances are farther apart than the tolerance: rounding decides " + std::to_string(rounding) +
            " of them, " + std::to_string(budget) + " took too many steps";
 }

@@ -11,6 +11,17 @@ namespace voxtact::app {
 struct ChunkFiles;
 struct RunOutput;
 
+/// Clearances whose bounds are farther apart than the tolerance.
+struct ClearanceEnds {
+    std::uint64_t rows = 0; ///< all of them
+    std::uint64_t rounding = 0;
+    std::uint64_t budget = 0;
+
+    void add(const ClearanceEnds& more);
+    /// Empty: there are none.
+    [[nodiscard]] std::string note() const;
+};
+
 /// What `voxtact detect` writes: rows on standard output as they come, files when all is done and well, all of them or
 /// none. Thread-safety: none; one thread at a time.
 class DetectOutput {
@@ -44,8 +55,7 @@ class DetectOutput {
 
     /// A list that was cut is still a good run, with fewer contacts than there are; empty: it was not.
     [[nodiscard]] std::string noteOfContacts() const;
-    /// Clearances whose bounds are farther apart than the tolerance; empty: there are none.
-    [[nodiscard]] std::string noteOfClearances() const;
+    [[nodiscard]] ClearanceEnds clearanceEnds() const;
 
     struct State;
 
