@@ -47,6 +47,14 @@ if(VOXTACT_BUILD_APP)
   # What `render` writes on pictures with: it becomes part of the program. Any TrueType file will do.
   find_file(VOXTACT_FONT DejaVuSans.ttf PATHS /usr/share/fonts /usr/local/share/fonts
             PATH_SUFFIXES truetype/dejavu TTF dejavu dejavu-sans-fonts NO_DEFAULT_PATH REQUIRED)
+  # voxtact-mpi alone needs it.
+  if(VOXTACT_BUILD_MPI)
+    find_package(MPI 3.0 QUIET COMPONENTS CXX)
+    if(NOT TARGET MPI::MPI_CXX)
+      message(STATUS "MPI is not found: without voxtact-mpi")
+      set(VOXTACT_BUILD_MPI OFF)
+    endif()
+  endif()
   # FCL is what `bench` compares with, where it is found.
   find_package(octomap QUIET)
   find_package(fcl QUIET)

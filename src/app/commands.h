@@ -11,6 +11,7 @@ namespace voxtact::app {
 [[nodiscard]] Command addDetect(CLI::App& program);
 [[nodiscard]] Command addDevices(CLI::App& program);
 [[nodiscard]] Command addInfo(CLI::App& program);
+[[nodiscard]] Command addMerge(CLI::App& program);
 [[nodiscard]] Command addMotion(CLI::App& program);
 [[nodiscard]] Command addPlan(CLI::App& program);
 [[nodiscard]] Command addRender(CLI::App& program);

@@ -158,7 +158,8 @@ std::size_t CliTest::filesInFolder() const {
 }
 
 std::string withoutProgress(const std::string& err) {
-    static const std::regex progress("voxtact [a-z]+: ([^\n]*, )?[0-9,]+ of [0-9,]+(, about [^\n]* left)?\n");
+    static const std::regex progress(
+        "voxtact [a-z]+: ([a-z]+: )?([^\n]*, )?[0-9,]+ of [0-9,]+(, about [^\n]* left)?\n");
     return std::regex_replace(err, progress, "");
 }
 

@@ -7,7 +7,8 @@
 
 An HTML comment before a block, which no reader sees, says what there is to know about it:
 
-  <!-- test: needs head.nii.gz tool.stl -->   make these first, from FILES below; `device` is a Vulkan device
+  <!-- test: needs head.nii.gz tool.stl -->   make these first, from FILES below; `device` is a Vulkan device, and
+                                              `tool:NAME` a program, without which the block is skipped
   <!-- not run: it installs packages -->      why the block is not run; its voxtact options are checked all the same
   <!-- prints -->                             before a block without a language: exactly what the ```sh block before it
                                               writes to standard output
@@ -18,6 +19,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -32,7 +34,7 @@ FILES = {
     "poses.txt": ["poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--count", "8", "--seed",
                   "7", "--output"],
 }
-SUBCOMMANDS = ("detect", "motion", "plan", "compare", "bench", "render", "info", "devices", "make")
+SUBCOMMANDS = ("detect", "motion", "merge", "plan", "compare", "bench", "render", "info", "devices", "make")
 
 
 class Block:
@@ -115,7 +117,10 @@ def environment(program, folder):
     # Mesa's cache of compiled shaders may be the machine's own: what it holds changes no answer.
     mesa = os.environ.get("MESA_SHADER_CACHE_DIR") or os.path.join(
         os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
-    return {**kept, "HOME": str(home), "MESA_SHADER_CACHE_DIR": mesa,
+    # mpirun refuses root, and more ranks than processors, unless it is told: the tests may have both.
+    mpi = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+           "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    return {**kept, **mpi, "HOME": str(home), "MESA_SHADER_CACHE_DIR": mesa,
             "PATH": f"{pathlib.Path(program).resolve().parent}{os.pathsep}{os.environ['PATH']}"}
 
 
@@ -139,6 +144,9 @@ def run_block(block, folder, env, require_device):
         if name == "device":
             if not has_device(env):
                 return ("there is no Vulkan device" if require_device else None), "", True
+        elif name.startswith("tool:"):
+            if shutil.which(name[len("tool:"):], path=env["PATH"]) is None:
+                return None, "", True
         elif wrong := make(name, folder, env):
             return wrong, "", False
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], cwd=folder, env=env, capture_output=True,

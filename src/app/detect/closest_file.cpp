@@ -26,25 +26,6 @@ std::int32_t labelOf(const DetectInputs& inputs, const Vec3& world) {
     return inputs.labels ? inputs.labels->values[labelAt(*inputs.labels, world)] : 0;
 }
 
-void writeCsv(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
-              std::span<const KeptClosest> kept) {
-    const PairJobs& jobs = options.jobs;
-    const bool named = !inputs.labelNames.empty();
-    out << "pose,mesh,volume,triangle,mesh_x,mesh_y,mesh_z,volume_x,volume_y,volume_z,label,per_x,per_y,per_z,per_rx,"
-           "per_ry,per_rz"
-        << (named ? ",label_name" : "") << (jobs.fromFile ? ",job\n" : "\n");
-    for (const KeptClosest& entry : kept) {
-        const Job& job = jobs.jobs[entry.job];
-        const ClosestPoints& closest = entry.closest;
-        const std::int32_t label = labelOf(inputs, closest.volume);
-        out << entry.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-            << ',' << closest.triangle << ',' << joined(closest.mesh, ',') << ',' << joined(closest.volume, ',') << ','
-            << label << ',' << joined(closest.perTranslation, ',') << ',' << joined(closest.perRotation, ',')
-            << (named ? ',' + io::csvField(labelName(inputs, label)) : "")
-            << (jobs.fromFile ? "," + std::to_string(entry.job) : "") << '\n';
-    }
-}
-
 void writePly(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
               std::span<const KeptClosest> kept) {
     const PairJobs& jobs = options.jobs;
@@ -77,6 +58,28 @@ void writePly(std::ostream& out, const DetectOptions& options, const DetectInput
 
 } // namespace
 
+void writeClosestHeader(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs) {
+    out << "pose,mesh,volume,triangle,mesh_x,mesh_y,mesh_z,volume_x,volume_y,volume_z,label,per_x,per_y,per_z,per_rx,"
+           "per_ry,per_rz"
+        << (inputs.labelNames.empty() ? "" : ",label_name") << (options.jobs.fromFile ? ",job\n" : "\n");
+}
+
+void writeClosestRows(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                      std::span<const KeptClosest> kept) {
+    const PairJobs& jobs = options.jobs;
+    const bool named = !inputs.labelNames.empty();
+    for (const KeptClosest& entry : kept) {
+        const Job& job = jobs.jobs[entry.job];
+        const ClosestPoints& closest = entry.closest;
+        const std::int32_t label = labelOf(inputs, closest.volume);
+        out << entry.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
+            << ',' << closest.triangle << ',' << joined(closest.mesh, ',') << ',' << joined(closest.volume, ',') << ','
+            << label << ',' << joined(closest.perTranslation, ',') << ',' << joined(closest.perRotation, ',')
+            << (named ? ',' + io::csvField(labelName(inputs, label)) : "")
+            << (jobs.fromFile ? "," + std::to_string(entry.job) : "") << '\n';
+    }
+}
+
 ClearanceBounds roundedOutward(const ClearanceBounds& bounds) {
     return {std::floor(bounds.lo * kParts) / kParts, std::ceil(bounds.hi * kParts) / kParts};
 }
@@ -102,7 +105,8 @@ bool isClosestEnding(const std::filesystem::path& path) {
 void writeClosest(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
                   std::span<const KeptClosest> kept) {
     if (options.distance.closest.extension() == ".csv") {
-        writeCsv(out, options, inputs, kept);
+        writeClosestHeader(out, options, inputs);
+        writeClosestRows(out, options, inputs, kept);
     } else {
         writePly(out, options, inputs, kept);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
 #include "app/detect/auto_method.h"
+#include "app/detect/detect_chunks.h"
 #include "app/detect/pair_engine.h"
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
@@ -42,7 +43,9 @@ VTP (VTK, ParaView) and in .mrk.json (3D Slicer); the last two have the boxes of
 Closest points (--closest): pose,mesh,volume,triangle,mesh_x,...,volume_z,label and per_x,...,per_rz, mm of clearance
 for each mm of a move, and for each radian of a turn about the object's origin; as vertices and edges in PLY.
 
-Rows come as they are known. Ctrl-C leaves whole rows on standard output, and files as they were; exit status 130.
+With --resume the run is done in chunks, whose files are in that folder: ended at any moment, the same command goes on
+from there; many processes do it together, each one --shard, and voxtact merge writes the output: the manual's page "Many
+machines". Without --resume rows come as they are known. Ctrl-C leaves whole rows on standard output, and files as they were; exit status 130.
 
 Examples:
   voxtact detect --volume builtin:head:128 --mesh builtin:scalpel
@@ -54,7 +57,9 @@ Examples:
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --clearance --closest closest.csv
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --margin 2
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --pose-tolerance 1,2
-  voxtact detect --jobs jobs.csv --output rows.csv)";
+  voxtact detect --jobs jobs.csv --output rows.csv
+  voxtact detect --jobs jobs.csv --resume run --output rows.csv
+  voxtact detect --jobs jobs.csv --resume run --shard 2/7)";
 
 /// More only wait for each other.
 constexpr std::uint32_t kMostThreads = 1024;
@@ -76,8 +81,8 @@ Result<AutoChoice> choose(const DetectOptions& options, const device::Session& s
     return autoMethod(session, limits, options.device);
 }
 
-/// No output may be an input, or another output.
-Result<void> checkDetectPaths(const DetectOptions& options) {
+/// All files and folders that the options read.
+std::vector<NamedPath> readPaths(const DetectOptions& options) {
     const ExtraOptions& extra = options.extra;
     std::vector<NamedPath> inputs = inputPaths(options.volumes, options.meshes, options.transferFunction, options.view);
     if (options.jobs.fromFile) {
@@ -95,6 +100,14 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
         inputs.push_back({"--labels", extra.labels});
         inputs.push_back({"--label-names", labelNamesPath(extra.labelNames, extra.labels)});
     }
+    return inputs;
+}
+
+/// No output may be an input, or another output.
+Result<void> checkDetectPaths(const DetectOptions& options) {
+    const ExtraOptions& extra = options.extra;
+    std::vector<NamedPath> inputs = readPaths(options);
+    addInput(inputs, "--resume", options.chunks.folder);
     return checkOutputs({{"--output", options.output.path},
                          {"--triangles", extra.triangles},
                          {"--contacts", extra.contacts},
@@ -142,13 +155,41 @@ Outcome interruptedOutcome(const DetectOptions& options, DetectOutput& output) {
                                    : std::to_string(output.rows()) + " pairs are written");
 }
 
-Outcome runDetect(DetectOptions options) {
+/// What went wrong, or that the user wants no more; else the notes are said.
+Outcome endOf(const Outcome& outcome, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        if (outcome.status == kExitDone) {
+            printNote(note);
+        }
+    }
+    return outcome;
+}
+
+Outcome runInChunks(const CLI::App& parser, const DetectOptions& options, DetectInputs& inputs) {
+    Result<RunFacts> facts = detectRunFacts(parser, options, readPaths(options));
+    VOXTACT_TRY(facts);
+    std::vector<std::string> notes;
+    std::shared_ptr<const device::ValidationMessages> messages;
+    Outcome outcome;
+    const Result<void> done = withEngine(options, inputs, notes, messages, [&](PairEngine& engine) -> Result<void> {
+        outcome = answerChunks(options, inputs, std::move(*facts), engine, notes);
+        return {};
+    });
+    VOXTACT_TRY(done);
+    return endOf(outcome, notes);
+}
+
+Outcome runDetect(const CLI::App& parser, DetectOptions options) {
     VOXTACT_TRY(resolveOptions(options));
+    VOXTACT_TRY(checkDetectChunks(options));
     VOXTACT_TRY(checkDetectPaths(options));
     const InterruptGuard guard;
     Result<DetectInputs> inputs = readDetectInputs(options);
     if (!inputs.ok()) {
         return interrupted() ? interruptOutcome("nothing is written") : Outcome(inputs.error());
+    }
+    if (options.chunks.asked()) {
+        return runInChunks(parser, options, *inputs);
     }
     Result<DetectOutput> output = DetectOutput::create(options, *inputs);
     VOXTACT_TRY(output);
@@ -170,15 +211,12 @@ Outcome runDetect(DetectOptions options) {
         return interruptedOutcome(options, *output);
     }
     VOXTACT_TRY(output->finish(milliseconds));
-    for (const std::string& note : {output->noteOfContacts(), output->noteOfClearances()}) {
+    for (const std::string& note : {output->noteOfContacts(), output->clearanceEnds().note()}) {
         if (!note.empty()) {
             notes.push_back(note);
         }
     }
-    for (const std::string& note : notes) {
-        printNote(note);
-    }
-    return {};
+    return endOf({}, notes);
 }
 
 void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
@@ -270,9 +308,10 @@ Command addDetect(CLI::App& program) {
     parser->add_flag("--stats", options->stats,
                      "adds a line with what the device did for the projection conservative; see below");
     addDeviceOptions(*parser, options->device);
+    addChunkOptions(*parser, options->chunks);
     addOutputOptions(*parser, options->output);
     addProgressOption(*parser, options->progress);
-    return {parser, [options] { return runDetect(*options); }};
+    return {parser, [options, parser] { return runDetect(*parser, *options); }};
 }
 
 } // namespace voxtact::app

@@ -40,6 +40,11 @@ struct KeptClosest {
 void writeClosest(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
                   std::span<const KeptClosest> kept);
 
+/// The two parts of the CSV.
+void writeClosestHeader(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs);
+void writeClosestRows(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
+                      std::span<const KeptClosest> kept);
+
 /// pose,mesh,volume,label,name,clearance_lo,clearance_hi; with --jobs also job.
 void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options);
 void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,

@@ -208,6 +208,9 @@ Result<void> resolveOptions(DetectOptions& options) {
     if (options.output.path == "-") {
         options.output.path.clear();
     }
+    if (options.chunks.asked() && options.output.formatName.empty()) {
+        options.output.formatName = "csv"; // whoever looks on: the chunks are the same
+    }
     VOXTACT_TRY(resolveJobs(options));
     VOXTACT_TRY(checkDistance(options));
     VOXTACT_TRY(checkHost(options));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_output.h"
 
+#include "app/chunks/run_chunks.h"
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_table.h"
 #include "app/output/standard_streams.h"
@@ -53,11 +54,12 @@ struct DetectOutput::State {
     DetectColumns columns;
     bool held;
     std::ostringstream text{}; ///< on its way to standard output
-    std::optional<io::OutputFile> table{};
-    std::optional<io::OutputFile> triangles{};
-    std::optional<io::OutputFile> contactsFile{};
-    std::optional<io::OutputFile> closestFile{};
-    std::optional<io::OutputFile> labelFile{};
+    std::optional<ResultFile> table{};
+    std::optional<ResultFile> triangles{};
+    std::optional<ResultFile> contactsFile{};
+    std::optional<ResultFile> closestFile{};
+    std::optional<ResultFile> labelFile{};
+    bool chunk = false; ///< rows alone: what is before and behind them is the run's
     std::optional<io::TableWriter> writer{};
     io::NamedCells facts{};
     std::vector<Row> waiting{}; ///< rows of text before its columns are settled
@@ -124,7 +126,7 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
         if (path->empty()) {
             continue;
         }
-        Result<io::OutputFile> opened = io::OutputFile::create(*path);
+        Result<ResultFile> opened = ResultFile::create(*path);
         VOXTACT_TRY(opened);
         *file = std::move(*opened);
     }
@@ -136,6 +138,50 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
     }
     state->writer.emplace(state->out(), state->format);
     return DetectOutput(std::move(state));
+}
+
+Result<DetectOutput> DetectOutput::createChunk(const DetectOptions& options, const DetectInputs& inputs,
+                                               const ChunkFiles& files) {
+    auto state = std::make_unique<State>(options, inputs);
+    state->chunk = true;
+    Result<ResultFile> table = files.create("--output");
+    VOXTACT_TRY(table);
+    state->table = std::move(*table);
+    std::optional<ResultFile>* const sides[] = {&state->triangles, &state->closestFile, &state->labelFile};
+    const MergePaths paths = sideFiles(options);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (!paths[i].second.empty()) {
+            Result<ResultFile> side = files.create(paths[i].first);
+            VOXTACT_TRY(side);
+            *sides[i] = std::move(*side);
+        }
+    }
+    state->writer.emplace(state->out(), state->format);
+    state->writer->omitHead();
+    return DetectOutput(std::move(state));
+}
+
+std::vector<RunOutput> runOutputs(const DetectOptions& options, const DetectInputs& inputs, const std::string& device,
+                                  const std::string& driver) {
+    const DetectColumns columns(options, inputs);
+    io::Table empty = columns.table({});
+    empty.facts = detectFacts(device, driver);
+    std::vector<RunOutput> outputs{tableOutput(options.output.format(), empty)};
+    for (const auto& [option, path] : sideFiles(options)) {
+        if (path.empty()) {
+            continue;
+        }
+        std::ostringstream sideHead;
+        if (option == "--triangles") {
+            writeTriangleHeader(sideHead, options);
+        } else if (option == "--closest") {
+            writeClosestHeader(sideHead, options, inputs);
+        } else {
+            writeLabelClearanceHeader(sideHead, options);
+        }
+        outputs.push_back({option, option == "--closest" ? ".csv" : "", sideHead.str(), "", ""});
+    }
+    return outputs;
 }
 
 void DetectOutput::begin(const std::string& device, const std::string& driver) {
@@ -210,21 +256,24 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     }
     const io::TableEnd ends[] = {{"stats", state.options.stats ? statsCells(state.counters) : io::NamedCells()},
                                  {"timing", std::move(timing)}};
-    state.writer->end(ends);
+    if (!state.chunk) {
+        state.writer->end(ends);
+    }
     if (state.contactsFile) {
         writeContacts(state.contactsFile->stream(), state.options, state.inputs, {state.contacts, state.bounds});
     }
     if (state.closestFile) {
-        writeClosest(state.closestFile->stream(), state.options, state.inputs, state.closest);
+        const auto write = state.chunk ? writeClosestRows : writeClosest;
+        write(state.closestFile->stream(), state.options, state.inputs, state.closest);
     }
     // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
-    for (std::optional<io::OutputFile>* file :
+    for (std::optional<ResultFile>* file :
          {&state.table, &state.triangles, &state.contactsFile, &state.closestFile, &state.labelFile}) {
         VOXTACT_TRY(*file ? (*file)->close() : Result<void>());
     }
     state.held = false;
     VOXTACT_TRY(state.table ? Result<void>() : state.pass());
-    for (std::optional<io::OutputFile>* file :
+    for (std::optional<ResultFile>* file :
          {&state.labelFile, &state.closestFile, &state.contactsFile, &state.triangles, &state.table}) {
         VOXTACT_TRY(*file ? (*file)->commit() : Result<void>());
     }
@@ -252,14 +301,22 @@ std::string DetectOutput::noteOfContacts() const {
            std::to_string(state.options.extra.contactRoom()) + ")";
 }
 
-std::string DetectOutput::noteOfClearances() const {
+ClearanceEnds DetectOutput::clearanceEnds() const {
     const auto of = [&](ClearanceEnd end) { return state_->ends[static_cast<std::size_t>(end)]; };
-    const std::uint64_t rounding = of(ClearanceEnd::Rounding);
-    const std::uint64_t budget = of(ClearanceEnd::Budget);
+    return {state_->rows, of(ClearanceEnd::Rounding), of(ClearanceEnd::Budget)};
+}
+
+void ClearanceEnds::add(const ClearanceEnds& more) {
+    rows += more.rows;
+    rounding += more.rounding;
+    budget += more.budget;
+}
+
+std::string ClearanceEnds::note() const {
     if (rounding + budget == 0) {
         return {};
     }
-    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(state_->rows) +
+    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(rows) +
            " clearances are farther apart than the tolerance: rounding decides " + std::to_string(rounding) +
            " of them, " + std::to_string(budget) + " took too many steps";
 }

@@ -8,12 +8,29 @@
 
 namespace voxtact::app {
 
+struct ChunkFiles;
+struct RunOutput;
+
+/// Clearances whose bounds are farther apart than the tolerance.
+struct ClearanceEnds {
+    std::uint64_t rows = 0; ///< all of them
+    std::uint64_t rounding = 0;
+    std::uint64_t budget = 0;
+
+    void add(const ClearanceEnds& more);
+    /// Empty: there are none.
+    [[nodiscard]] std::string note() const;
+};
+
 /// What `voxtact detect` writes: rows on standard output as they come, files when all is done and well, all of them or
 /// none. Thread-safety: none; one thread at a time.
 class DetectOutput {
   public:
     /// Opens the files. Both must outlive it. Wants begin() before the rest.
     [[nodiscard]] static Result<DetectOutput> create(const DetectOptions& options, const DetectInputs& inputs);
+    /// Of a chunk: files without what is before and behind the rows. finish() seals them; standard output has nothing.
+    [[nodiscard]] static Result<DetectOutput> createChunk(const DetectOptions& options, const DetectInputs& inputs,
+                                                          const ChunkFiles& files);
     DetectOutput(DetectOutput&&) noexcept;
     ~DetectOutput();
 
@@ -38,8 +55,7 @@ class DetectOutput {
 
     /// A list that was cut is still a good run, with fewer contacts than there are; empty: it was not.
     [[nodiscard]] std::string noteOfContacts() const;
-    /// Clearances whose bounds are farther apart than the tolerance; empty: there are none.
-    [[nodiscard]] std::string noteOfClearances() const;
+    [[nodiscard]] ClearanceEnds clearanceEnds() const;
 
     struct State;
 
@@ -47,5 +63,9 @@ class DetectOutput {
     explicit DetectOutput(std::unique_ptr<State> state) noexcept;
     std::unique_ptr<State> state_;
 };
+
+/// What a run in chunks makes of the options: the table, and the files beside it.
+[[nodiscard]] std::vector<RunOutput> runOutputs(const DetectOptions& options, const DetectInputs& inputs,
+                                                const std::string& device, const std::string& driver);
 
 } // namespace voxtact::app

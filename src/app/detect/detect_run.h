@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/chunks/chunk_options.h"
 #include "app/detect/detect_jobs.h"
 #include "app/detect/pose_source.h"
 #include "app/options/open_session.h"
@@ -63,6 +64,7 @@ struct DetectOptions {
     MethodOptions method;
     DeviceChoice device;
     OutputOptions output;
+    ChunkOptions chunks;
     ExtraOptions extra;
     DistanceOptions distance;
     std::string answer = "count";
@@ -119,6 +121,9 @@ struct KeptBounds {
     std::uint32_t job = 0;
     std::uint64_t pose = 0;
 };
+
+/// The outputs of the options that are files beside the table, and their paths; an empty path: not asked for.
+[[nodiscard]] MergePaths sideFiles(const DetectOptions& options);
 
 /// Decides what the options leave open: afterwards there are a projection and jobs. Refuses options that do not go
 /// together.

@@ -14,58 +14,71 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Consecutive jobs with the volume of the first.
-std::uint32_t endOfGroup(const PairJobs& jobs, std::uint32_t begin) {
-    std::uint32_t end = begin + 1;
-    while (end < jobs.jobs.size() && jobs.jobs[end].volume == jobs.jobs[begin].volume) {
-        ++end;
+} // namespace
+
+std::vector<PairRange> volumeGroups(const PairJobs& jobs) {
+    std::vector<PairRange> groups;
+    for (std::uint32_t job = 0; job < jobs.jobs.size(); ++job) {
+        if (job == 0 || jobs.jobs[job].volume != jobs.jobs[job - 1].volume) {
+            groups.push_back({.begin = job, .end = job});
+        }
+        groups.back().end = job + 1;
     }
-    return end;
+    return groups;
 }
 
-} // namespace
+PairAsker::PairAsker(const DetectOptions& options, DetectInputs& inputs, PairEngine& engine)
+    : options_(options), inputs_(inputs), engine_(engine), fit_(options, inputs) {}
+
+Result<void> PairAsker::answer(const PairRange& range, DetectOutput& output, const std::function<void()>& progress) {
+    const Result<Grid> grid = engine_.use(range.begin);
+    VOXTACT_TRY(grid);
+    PairWindows windows(options_, inputs_, range);
+    Window window;
+    while (!interrupted()) {
+        if (const Result<void> read = windows.next(window); !read.ok()) {
+            return interrupted() ? Result<void>() : read.error();
+        }
+        if (window.pairs == 0) {
+            break;
+        }
+        VOXTACT_TRY(answer(window, *grid, output, progress));
+    }
+    return {};
+}
+
+Result<void> PairAsker::answer(Window& window, const Grid& grid, DetectOutput& output,
+                               const std::function<void()>& progress) {
+    VOXTACT_TRY(selectPoses(options_, inputs_, grid, window, fit_.near()));
+    fit_.look(window, grid);
+    WindowRows rows(options_, window, engine_.untouched(), output);
+    const auto begun = Clock::now();
+    const Result<void> answered = engine_.answer(window, rows, [&] {
+        progress();
+        return interrupted() || !rows.written().ok();
+    });
+    milliseconds_ += std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    VOXTACT_TRY(answered);
+    if (!interrupted()) {
+        rows.endWindow();
+    }
+    VOXTACT_TRY(rows.written());
+    progress();
+    return {};
+}
 
 Result<double> answerPairs(const DetectOptions& options, DetectInputs& inputs, PairEngine& engine, DetectOutput& output,
                            std::vector<std::string>& notes) {
-    const PairJobs& jobs = options.jobs;
     output.begin(engine.device(), engine.driver());
-    Progress progress(options.progress, "voxtact detect: pairs", inputs.pairs(jobs).value_or(0));
-    FitNotes fit(options, inputs);
-    double milliseconds = 0;
-    for (std::uint32_t begin = 0, end = 0; begin < jobs.jobs.size() && !interrupted(); begin = end) {
-        end = endOfGroup(jobs, begin);
-        const Result<Grid> grid = engine.use(begin);
-        VOXTACT_TRY(grid);
-        PairWindows windows(options, inputs, begin, end);
-        Window window;
-        while (!interrupted()) {
-            if (const Result<void> read = windows.next(window); !read.ok()) {
-                return interrupted() ? Result<double>(milliseconds) : read.error();
-            }
-            if (window.pairs == 0) {
-                break;
-            }
-            VOXTACT_TRY(selectPoses(options, inputs, *grid, window, fit.near()));
-            fit.look(window, *grid);
-            WindowRows rows(options, window, engine.untouched(), output);
-            const auto begun = Clock::now();
-            const Result<void> answered = engine.answer(window, rows, [&] {
-                progress.update(output.rows());
-                return interrupted() || !rows.written().ok();
-            });
-            milliseconds += std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
-            VOXTACT_TRY(answered);
-            if (!interrupted()) {
-                rows.endWindow();
-            }
-            if (!rows.written().ok()) {
-                return rows.written().error();
-            }
-            progress.update(output.rows());
+    Progress progress(options.progress, "voxtact detect: pairs", inputs.pairs(options.jobs).value_or(0));
+    PairAsker asker(options, inputs, engine);
+    for (const PairRange& group : volumeGroups(options.jobs)) {
+        if (!interrupted()) {
+            VOXTACT_TRY(asker.answer(group, output, [&] { progress.update(output.rows()); }));
         }
     }
-    fit.addTo(notes);
-    return milliseconds;
+    asker.addTo(notes);
+    return asker.milliseconds();
 }
 
 } // namespace voxtact::app

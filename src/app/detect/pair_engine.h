@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/detect/detect_notes.h"
 #include "app/detect/window_rows.h"
 #include "core/base/try.h"
 
@@ -27,6 +28,34 @@ class PairEngine {
     /// Answers for the selected poses of the window, in order. Ends early, and well, once `stop` says so.
     [[nodiscard]] virtual Result<void> answer(const Window& window, WindowRows& rows,
                                               const std::function<bool()>& stop) = 0;
+};
+
+/// The jobs of each volume, where they stand side by side: all of their pairs.
+[[nodiscard]] std::vector<PairRange> volumeGroups(const PairJobs& jobs);
+
+/// Puts pairs to an engine.
+class PairAsker {
+  public:
+    /// All must outlive it.
+    PairAsker(const DetectOptions& options, DetectInputs& inputs, PairEngine& engine);
+
+    /// The pairs of a range. Ends early, and well, once the user interrupts. `progress` is called now and then.
+    [[nodiscard]] Result<void> answer(const PairRange& range, DetectOutput& output,
+                                      const std::function<void()>& progress);
+    /// That the engine took so far.
+    [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
+    /// What is to be said of meshes and volumes that do not fit.
+    void addTo(std::vector<std::string>& notes) const { fit_.addTo(notes); }
+
+  private:
+    [[nodiscard]] Result<void> answer(Window& window, const Grid& grid, DetectOutput& output,
+                                      const std::function<void()>& progress);
+
+    const DetectOptions& options_;
+    DetectInputs& inputs_;
+    PairEngine& engine_;
+    FitNotes fit_;
+    double milliseconds_ = 0;
 };
 
 /// All pairs of the jobs by the engine. Ends early, and well, once the user interrupts. Returns the milliseconds that

@@ -61,10 +61,18 @@ Result<std::vector<std::uint32_t>> nearPoses(std::span<const Mat4> world_from_ob
 
 } // namespace
 
-PairWindows::PairWindows(const DetectOptions& options, DetectInputs& inputs, std::uint32_t begin, std::uint32_t end)
-    : jobs_(options.jobs), inputs_(inputs), job_(begin), end_(end),
+PairWindows::PairWindows(const DetectOptions& options, DetectInputs& inputs, const PairRange& range)
+    : jobs_(options.jobs), inputs_(inputs), job_(range.begin), end_(range.end), first_(range.first), left_(range.count),
       // Who writes the poses as we read them may want the answers as soon.
-      pace_(kWindowPairs, inputs.pairs(options.jobs).has_value()) {}
+      pace_(kWindowPairs, inputs.pairs(options.jobs).has_value()) {
+    for (; first_ > 0 && job_ < end_; ++job_) {
+        const std::uint64_t poses = inputs.poses[jobs_.jobs[job_].poses].count().value_or(UINT64_MAX);
+        if (first_ < poses) {
+            break;
+        }
+        first_ -= poses;
+    }
+}
 
 Result<void> PairWindows::next(Window& window) {
     window.items.clear();
@@ -73,19 +81,21 @@ Result<void> PairWindows::next(Window& window) {
         return failure_;
     }
     const auto begun = std::chrono::steady_clock::now();
-    while (job_ < end_ && window.pairs < pace_.size() && failure_.ok()) {
+    while (job_ < end_ && left_ > 0 && window.pairs < pace_.size() && failure_.ok()) {
         PoseSource& source = inputs_.poses[jobs_.jobs[job_].poses];
         if (!pose_) {
-            VOXTACT_TRY(source.begin());
-            pose_ = 0;
+            VOXTACT_TRY(source.begin(first_));
+            pose_ = first_;
+            first_ = 0;
         }
         WindowItem item;
         item.job = job_;
         item.firstPose = *pose_;
-        const std::size_t wanted = pace_.size() - window.pairs;
+        const std::size_t wanted = std::min<std::uint64_t>(pace_.size() - window.pairs, left_);
         failure_ = source.next(wanted, item.poses);
         *pose_ += item.poses.size();
         window.pairs += item.poses.size();
+        left_ -= item.poses.size();
         if (failure_.ok() && item.poses.size() < wanted) {
             ++job_;
             pose_.reset();

@@ -25,11 +25,20 @@ struct Window {
     std::size_t pairs = 0; ///< of all items, selected or not
 };
 
-/// Goes through the pairs of the jobs from `begin` to before `end`, which have one volume.
+/// Pairs of jobs with one volume: in order, `count` of them at most, from number `first` of the job `begin` on, or of
+/// those behind it up to before `end`. Only where it is known how many poses these have, `first` is not 0.
+struct PairRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    std::uint64_t first = 0;
+    std::uint64_t count = UINT64_MAX;
+};
+
+/// Goes through the pairs of a range.
 class PairWindows {
   public:
     /// Both must outlive it.
-    PairWindows(const DetectOptions& options, DetectInputs& inputs, std::uint32_t begin, std::uint32_t end);
+    PairWindows(const DetectOptions& options, DetectInputs& inputs, const PairRange& range);
 
     /// The next window, without pairs when all are out.
     [[nodiscard]] Result<void> next(Window& window);
@@ -39,6 +48,8 @@ class PairWindows {
     DetectInputs& inputs_;
     std::uint32_t job_;
     std::uint32_t end_;
+    std::uint64_t first_;               ///< pose of the job with which it begins
+    std::uint64_t left_;                ///< pairs
     std::optional<std::uint64_t> pose_; ///< the next one of the job; nothing: it has not begun
     BatchPace pace_;                    ///< of a source that may be slow
     Result<void> failure_;              ///< of the poses: told once those before it have been given

@@ -69,17 +69,24 @@ Result<void> PoseSource::takeStock() {
     return {};
 }
 
-Result<void> PoseSource::begin() {
-    given_ = 0;
+Result<void> PoseSource::begin(std::uint64_t from) {
     if (isKept_) {
+        given_ = from;
         return {};
     }
-    Result<io::PoseReader> reader =
-        path_ == "-" ? io::PoseReader::over(std::cin, kStandardInput) : io::PoseReader::open(path_);
-    if (!reader.ok()) {
-        return fileFault(reader.error());
+    if (!reader_ || from == 0 || from < given_) {
+        given_ = 0;
+        Result<io::PoseReader> reader =
+            path_ == "-" ? io::PoseReader::over(std::cin, kStandardInput) : io::PoseReader::open(path_);
+        if (!reader.ok()) {
+            return fileFault(reader.error());
+        }
+        reader_ = std::move(*reader);
     }
-    reader_ = std::move(*reader);
+    std::vector<Mat4> passed;
+    while (given_ < from) {
+        VOXTACT_TRY(next(std::min<std::uint64_t>(kMostKept, from - given_), passed));
+    }
     return {};
 }
 

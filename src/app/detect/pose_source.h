@@ -21,8 +21,8 @@ class PoseSource {
     /// How many there are, where that is known.
     [[nodiscard]] std::optional<std::uint64_t> count() const noexcept { return count_; }
 
-    /// From the first one on.
-    [[nodiscard]] Result<void> begin();
+    /// From number `from` on, which must be below count(), or 0. Forward from where it is, nothing is read twice.
+    [[nodiscard]] Result<void> begin(std::uint64_t from = 0);
     /// The next ones, at most so many, in place of what `poses` holds; none at the end.
     [[nodiscard]] Result<void> next(std::size_t most, std::vector<Mat4>& poses);
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
-#include "app/motion/motion_table.h"
-#include "app/options/inputs.h"
-#include "app/options/output_paths.h"
+#include "app/motion/motion_run.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
-#include "voxtact/cpu.h"
 
 #include <CLI/CLI.hpp>
 
@@ -30,38 +27,22 @@ constexpr const char* kFooter =
 --interpolation screw turns about and moves along one axis; slerp moves the middle of the mesh's box straight and turns
 about it. By the host, in double precision; nothing is sampled: a thin plate that crosses a thin sheet is found.
 
+With --resume the run is done in chunks, whose files are in that folder: ended at any moment, the same command goes on
+from there; many processes do it together, each one --shard, and voxtact merge writes the output: the manual's page "Many
+machines".
+
 Examples:
   voxtact motion --volume head.nii.gz --mesh tool.stl --poses path.txt
-  voxtact motion --volume builtin:head:128 --mesh builtin:scalpel --poses path.txt --interpolation slerp --timing)";
+  voxtact motion --volume builtin:head:128 --mesh builtin:scalpel --poses path.txt --interpolation slerp --timing
+  voxtact motion --volume head.nii.gz --mesh tool.stl --poses path.txt --resume run --shard 2/7)";
 
 /// More only wait for each other.
 constexpr std::uint32_t kMostThreads = 1024;
 /// Of segments that are checked before an interrupt is looked for.
 constexpr std::size_t kBatch = 256;
 
-struct MotionOptions {
-    std::vector<std::string> volumes;
-    MeshOptions meshes;
-    TransferFunctionOptions transferFunction;
-    std::filesystem::path poses;
-    std::filesystem::path labels;
-    std::filesystem::path labelNames;
-    std::string interpolation = "screw";
-    double resolution = kDefaultMotionResolution;
-    std::uint32_t threads = 0;
-    bool timing = false;
-    OutputOptions output;
-};
-
-struct MotionInputs {
-    std::vector<cpu::Mesh> meshes;
-    std::vector<ControlPoint> points;
-    std::vector<Mat4> poses;
-    std::optional<LabelData> labels;
-    std::map<std::int32_t, std::string> labelNames;
-};
-
-Result<void> checkPaths(const MotionOptions& options) {
+/// All files and folders that the options read.
+std::vector<NamedPath> readPaths(const MotionOptions& options) {
     ViewOptions view;
     view.poses = options.poses;
     std::vector<NamedPath> inputs = inputPaths(options.volumes, options.meshes, options.transferFunction, view);
@@ -69,7 +50,21 @@ Result<void> checkPaths(const MotionOptions& options) {
         inputs.push_back({"--labels", options.labels});
         inputs.push_back({"--label-names", labelNamesPath(options.labelNames, options.labels)});
     }
+    return inputs;
+}
+
+Result<void> checkPaths(const MotionOptions& options) {
+    std::vector<NamedPath> inputs = readPaths(options);
+    addInput(inputs, "--resume", options.chunks.folder);
     return checkOutputs({{"--output", options.output.path}}, inputs);
+}
+
+/// All at once; a run in chunks has its own way.
+Result<void> readPoses(const MotionOptions& options, MotionInputs& inputs) {
+    Result<std::vector<Mat4>> poses = loadPoses(options.poses);
+    VOXTACT_TRY(poses);
+    inputs.poses = std::move(*poses);
+    return checkPoseCount(options, inputs.poses.size());
 }
 
 Result<void> readLabels(const MotionOptions& options, MotionInputs& inputs) {
@@ -90,12 +85,8 @@ Result<MotionInputs> readInputs(const MotionOptions& options) {
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
     VOXTACT_TRY(points);
     inputs.points = std::move(*points);
-    Result<std::vector<Mat4>> poses = loadPoses(options.poses);
-    VOXTACT_TRY(poses);
-    inputs.poses = std::move(*poses);
-    if (inputs.poses.size() < 2) {
-        return badArgument("--poses: '" + options.poses.string() + "' has " + std::to_string(inputs.poses.size()) +
-                           " poses, a motion needs two or more");
+    if (!options.chunks.asked()) {
+        VOXTACT_TRY(readPoses(options, inputs));
     }
     for (const std::string& source : options.meshes.sources) {
         const Result<MeshData> data = loadMesh(source, options.meshes);
@@ -108,78 +99,11 @@ Result<MotionInputs> readInputs(const MotionOptions& options) {
     return inputs;
 }
 
-/// The rows of one volume, some at a time; fewer where an interrupt comes.
-class Checking {
-  public:
-    Checking(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker)
-        : options_(options), inputs_(inputs), checker_(checker) {}
-
-    [[nodiscard]] Result<void> add(std::uint32_t number) {
-        const std::string& source = options_.volumes[number];
-        const Result<VolumeData> data = loadVolume(source);
-        VOXTACT_TRY(data);
-        const Result<ValueRange> values = checkVolume(data->view());
-        VOXTACT_TRY(values);
-        const Result<cpu::Volume> volume = cpu::Volume::create(data->view());
-        VOXTACT_TRY(volume);
-        const TransferFunctionOptions& how = options_.transferFunction;
-        const ValueRange domain = usedDomain(how, data->type, *values, source);
-        const Result<cpu::TransferFunction> function = cpu::TransferFunction::create(
-            {inputs_.points.empty() ? defaultRamp(domain) : inputs_.points, domain, how.tableSize});
-        VOXTACT_TRY(function);
-        for (std::uint32_t mesh = 0; mesh < inputs_.meshes.size(); ++mesh) {
-            VOXTACT_TRY(add(number, mesh, *volume, *function));
-        }
-        return {};
+Outcome runMotion(const CLI::App& parser, MotionOptions options) {
+    if (options.chunks.asked() && options.output.formatName.empty()) {
+        options.output.formatName = "csv"; // whoever looks on: the chunks are the same
     }
-    [[nodiscard]] const std::vector<MotionRow>& rows() const noexcept { return rows_; }
-    [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
-
-  private:
-    [[nodiscard]] Result<void> add(std::uint32_t volumeNumber, std::uint32_t mesh, const cpu::Volume& volume,
-                                   const cpu::TransferFunction& function) {
-        const std::span<const Mat4> poses = inputs_.poses;
-        for (std::size_t first = 0; first + 1 < poses.size() && !interrupted(); first += kBatch) {
-            const cpu::BatchItem item{&inputs_.meshes[mesh], &volume, &function,
-                                      poses.subspan(first, std::min(kBatch + 1, poses.size() - first))};
-            const Result<MotionAnswer> answer =
-                checker_.check({std::span(&item, 1), {}, options_.transferFunction.threshold});
-            VOXTACT_TRY(answer);
-            milliseconds_ += answer->wallMilliseconds;
-            for (SegmentMotion motion : answer->segments) {
-                motion.pose += static_cast<std::uint32_t>(first);
-                rows_.push_back({mesh, volumeNumber, motion});
-            }
-        }
-        return {};
-    }
-
-    const MotionOptions& options_;
-    const MotionInputs& inputs_;
-    cpu::MotionChecker& checker_;
-    std::vector<MotionRow> rows_;
-    double milliseconds_ = 0;
-};
-
-/// What is less than was asked for.
-void noteEnds(const std::vector<MotionRow>& rows) {
-    const auto count = [&](MotionEnd end) {
-        return std::to_string(
-            std::count_if(rows.begin(), rows.end(), [end](const MotionRow& row) { return row.motion.end == end; }));
-    };
-    if (const std::string grazing = count(MotionEnd::Grazes); grazing != "0") {
-        printNote("segments that graze: " + grazing +
-                  "; their free_until and touch_at are farther apart than "
-                  "--resolution-mm, or there is no touch_at");
-    }
-    if (const std::string cut = count(MotionEnd::Budget); cut != "0") {
-        printNote("segments that took too many steps: " + cut +
-                  "; they are free until free_until, and the rest of them "
-                  "is not looked at");
-    }
-}
-
-Outcome runMotion(const MotionOptions& options) {
+    VOXTACT_TRY(checkMotionChunks(options));
     VOXTACT_TRY(checkPaths(options));
     const InterruptGuard guard;
     const Result<MotionInputs> inputs = readInputs(options);
@@ -189,14 +113,25 @@ Outcome runMotion(const MotionOptions& options) {
          .interpolation = options.interpolation == "slerp" ? Interpolation::Slerp : Interpolation::Screw,
          .resolution = options.resolution});
     VOXTACT_TRY(checker);
-    Checking checking(options, *inputs, *checker);
-    for (std::uint32_t volume = 0; volume < options.volumes.size() && !interrupted(); ++volume) {
-        VOXTACT_TRY(checking.add(volume));
+    if (options.chunks.asked()) {
+        return runMotionChunks(parser, options, *inputs, *checker, readPaths(options));
+    }
+    SegmentChecker checking(options, *inputs, *checker);
+    std::vector<MotionRow> rows;
+    Progress progress(options.progress, "voxtact motion: segments",
+                      (inputs->poses.size() - 1) * inputs->meshes.size() * options.volumes.size());
+    checking.showOn(progress);
+    for (std::uint32_t number = 0; number < options.volumes.size() && !interrupted(); ++number) {
+        const Result<MotionVolume> volume = loadMotionVolume(options, *inputs, number);
+        VOXTACT_TRY(volume);
+        for (std::uint32_t mesh = 0; mesh < inputs->meshes.size(); ++mesh) {
+            VOXTACT_TRY(checking.check(*volume, number, mesh, inputs->poses, 0, rows));
+        }
     }
     if (interrupted()) {
         return interruptOutcome("nothing is written");
     }
-    MotionTable table{options.meshes.sources, options.volumes, inputs->labels, inputs->labelNames, checking.rows(), {}};
+    MotionTable table{options.meshes.sources, options.volumes, inputs->labels, inputs->labelNames, rows, {}};
     if (options.timing) {
         table.wallMilliseconds = checking.milliseconds();
     }
@@ -205,11 +140,79 @@ Outcome runMotion(const MotionOptions& options) {
         return {};
     });
     VOXTACT_TRY(written);
-    noteEnds(checking.rows());
+    MotionEnds ends;
+    ends.add(rows);
+    std::vector<std::string> notes;
+    ends.addTo(notes);
+    for (const std::string& note : notes) {
+        printNote(note);
+    }
     return {};
 }
 
 } // namespace
+
+Result<void> checkPoseCount(const MotionOptions& options, std::uint64_t poses) {
+    return poses >= 2 ? Result<void>()
+                      : badArgument("--poses: '" + options.poses.string() + "' has " + std::to_string(poses) +
+                                    " poses, a motion needs two or more");
+}
+
+Result<MotionVolume> loadMotionVolume(const MotionOptions& options, const MotionInputs& inputs, std::uint32_t number) {
+    const std::string& source = options.volumes[number];
+    const Result<VolumeData> data = loadVolume(source);
+    VOXTACT_TRY(data);
+    const Result<ValueRange> values = checkVolume(data->view());
+    VOXTACT_TRY(values);
+    Result<cpu::Volume> volume = cpu::Volume::create(data->view());
+    VOXTACT_TRY(volume);
+    const TransferFunctionOptions& how = options.transferFunction;
+    const ValueRange domain = usedDomain(how, data->type, *values, source);
+    Result<cpu::TransferFunction> function = cpu::TransferFunction::create(
+        {inputs.points.empty() ? defaultRamp(domain) : inputs.points, domain, how.tableSize});
+    VOXTACT_TRY(function);
+    return MotionVolume{std::move(*volume), std::move(*function)};
+}
+
+Result<void> SegmentChecker::check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
+                                   std::span<const Mat4> poses, std::uint64_t firstPose, std::vector<MotionRow>& rows) {
+    for (std::size_t first = 0; first + 1 < poses.size() && !interrupted(); first += kBatch) {
+        const cpu::BatchItem item{&inputs_.meshes[mesh], &volume.volume, &volume.transferFunction,
+                                  poses.subspan(first, std::min(kBatch + 1, poses.size() - first))};
+        const Result<MotionAnswer> answer =
+            checker_.check({std::span(&item, 1), {}, options_.transferFunction.threshold});
+        VOXTACT_TRY(answer);
+        milliseconds_ += answer->wallMilliseconds;
+        for (SegmentMotion motion : answer->segments) {
+            motion.pose += static_cast<std::uint32_t>(firstPose + first);
+            rows.push_back({mesh, volumeNumber, motion});
+        }
+        if (progress_ != nullptr) {
+            progress_->update(rows.size());
+        }
+    }
+    return {};
+}
+
+void MotionEnds::add(std::span<const MotionRow> rows) {
+    for (const MotionRow& row : rows) {
+        grazing += row.motion.end == MotionEnd::Grazes ? 1 : 0;
+        cut += row.motion.end == MotionEnd::Budget ? 1 : 0;
+    }
+}
+
+void MotionEnds::addTo(std::vector<std::string>& notes) const {
+    if (grazing > 0) {
+        notes.push_back("segments that graze: " + std::to_string(grazing) +
+                        "; their free_until and touch_at are farther apart than "
+                        "--resolution-mm, or there is no touch_at");
+    }
+    if (cut > 0) {
+        notes.push_back("segments that took too many steps: " + std::to_string(cut) +
+                        "; they are free until free_until, and the rest of them "
+                        "is not looked at");
+    }
+}
 
 Command addMotion(CLI::App& program) {
     auto options = std::make_shared<MotionOptions>();
@@ -234,8 +237,10 @@ Command addMotion(CLI::App& program) {
         *parser, "--threads", [options](std::uint32_t threads) { options->threads = threads; },
         {.least = 0, .most = kMostThreads}, "0: one for each processor", 0);
     parser->add_flag("--timing", options->timing, "adds a last line: # segments= wall_ms= segments_per_s=");
+    addChunkOptions(*parser, options->chunks);
     addOutputOptions(*parser, options->output);
-    return {parser, [options] { return runMotion(*options); }};
+    addProgressOption(*parser, options->progress);
+    return {parser, [options, parser] { return runMotion(*parser, *options); }};
 }
 
 } // namespace voxtact::app

@@ -81,32 +81,6 @@ std::vector<std::string> siblingNames(const fs::path& header, const std::string&
     return {stem + ".hdr", stem + ".hdr.gz"};
 }
 
-/// Names that `header` may mean beside itself; no format is read strictly here.
-std::vector<std::string> namesIn(const fs::path& header) {
-    std::string ending = header.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-    if (ending == ".gz") {
-        const fs::path inner = header.stem();
-        return inner.extension() == ".hdr" || inner.extension() == ".img"
-                   ? siblingNames(inner, inner.extension().string())
-                   : std::vector<std::string>{};
-    }
-    if (ending == ".hdr" || ending == ".img") {
-        return siblingNames(header, ending);
-    }
-    std::vector<std::string> names;
-    if (ending == ".nhdr" || ending == ".mhd" || ending == ".gltf") {
-        constexpr std::size_t kMost = std::size_t{1} << 22U;
-        std::ifstream file(header, std::ios::binary);
-        std::string line;
-        for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
-            addNames(line, names);
-        }
-    }
-    return names;
-}
-
 /// Whether the existing file `output` is read together with the file `input`.
 bool isNamedBy(const FileIdentity& output, const fs::path& input) {
     const std::vector<std::string> names = namesIn(input);
@@ -155,6 +129,31 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
 }
 
 } // namespace
+
+std::vector<std::string> namesIn(const fs::path& header) {
+    std::string ending = header.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    if (ending == ".gz") {
+        const fs::path inner = header.stem();
+        return inner.extension() == ".hdr" || inner.extension() == ".img"
+                   ? siblingNames(inner, inner.extension().string())
+                   : std::vector<std::string>{};
+    }
+    if (ending == ".hdr" || ending == ".img") {
+        return siblingNames(header, ending);
+    }
+    std::vector<std::string> names;
+    if (ending == ".nhdr" || ending == ".mhd" || ending == ".gltf") {
+        constexpr std::size_t kMost = std::size_t{1} << 22U;
+        std::ifstream file(header, std::ios::binary);
+        std::string line;
+        for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
+            addNames(line, names);
+        }
+    }
+    return names;
+}
 
 NamedImage namedImage(const std::string& source) {
     std::error_code ignored;

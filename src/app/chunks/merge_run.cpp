@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "app/chunks/run_chunks.h"
+#include "app/output/standard_streams.h"
+#include "core/base/try.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <ostream>
+#include <system_error>
+
+namespace voxtact::app {
+
+namespace {
+
+/// Standard output takes what comes, part by part: a run need not fit into memory.
+class Sink {
+  public:
+    [[nodiscard]] static Result<Sink> create(const std::filesystem::path& path) {
+        Sink sink;
+        if (!path.empty() && path != "-") {
+            Result<io::OutputFile> file = io::OutputFile::create(path);
+            VOXTACT_TRY(file);
+            sink.file_ = std::move(*file);
+        }
+        return sink;
+    }
+    void write(std::string_view text) {
+        if (file_) {
+            file_->stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+        } else if (failure_.ok()) {
+            failure_ = writeStandardOutput(text);
+        }
+    }
+    /// Whether all went well so far.
+    [[nodiscard]] Result<void> state() { return file_ && !file_->stream() ? file_->close() : failure_; }
+    [[nodiscard]] Result<void> close() { return file_ ? file_->close() : failure_; }
+    [[nodiscard]] Result<void> commit() { return file_ ? file_->commit() : Result<void>(); }
+
+  private:
+    Sink() = default;
+
+    std::optional<io::OutputFile> file_;
+    Result<void> failure_;
+};
+
+/// "shards 3/7 and 5/7": those that have begun here and have not all of their chunks.
+std::string shardsText(const RunFolder& folder, const std::vector<std::uint64_t>& missing) {
+    std::string text;
+    std::size_t named = 0;
+    constexpr std::size_t kMostNamed = 8;
+    for (const Shard& shard : folder.shards()) {
+        const auto [begin, end] = chunksOf(shard, folder.manifest().chunks);
+        const auto first = std::lower_bound(missing.begin(), missing.end(), begin);
+        if (first == missing.end() || *first >= end) {
+            continue;
+        }
+        if (++named > kMostNamed) {
+            return text + ", ...";
+        }
+        text += (text.empty() ? "of shard " : ", ") + std::to_string(shard.index) + "/" + std::to_string(shard.count);
+    }
+    return text;
+}
+
+/// All chunks are there and whole. Nothing is written before that is known.
+Result<void> checkChunks(const RunFolder& folder) {
+    std::vector<std::uint64_t> missing;
+    std::vector<std::uint64_t> damaged;
+    for (std::uint64_t chunk = 0; chunk < folder.manifest().chunks; ++chunk) {
+        const ChunkState state = folder.stateOf(chunk);
+        if (state != ChunkState::Whole) {
+            (state == ChunkState::Missing ? missing : damaged).push_back(chunk);
+        }
+    }
+    const auto refusal = [&](const std::vector<std::uint64_t>& which, const std::string& what) {
+        const std::string shards = shardsText(folder, which);
+        return Error{
+            ErrorCode::File, 0,
+            "cannot merge " + folderText(folder.path()) + ": " + std::to_string(which.size()) + " of " +
+                std::to_string(folder.manifest().chunks) + " chunks are " + what +
+                (shards.empty() ? ", the first is number " + std::to_string(which.front()) : " (" + shards + ")") +
+                "; run the same commands again with --resume, they do only these"};
+    };
+    if (!damaged.empty()) {
+        return refusal(damaged, "damaged");
+    }
+    return missing.empty() ? Result<void>() : Result<void>(refusal(missing, "missing"));
+}
+
+Result<void> writeOutput(const RunFolder& folder, const RunOutput& output, Sink& sink) {
+    sink.write(output.head);
+    for (std::uint64_t chunk = 0; chunk < folder.manifest().chunks; ++chunk) {
+        if (chunk > 0) {
+            sink.write(output.between);
+        }
+        const SealState state = readSealed(folder.chunkPath(chunk, output), folder.chunkLine(chunk, output),
+                                           [&](std::string_view part) { sink.write(part); });
+        if (state != SealState::Whole) {
+            return Error{ErrorCode::File, 0,
+                         "cannot merge " + folderText(folder.path()) + ": chunk " + std::to_string(chunk) +
+                             " changed while it was read"};
+        }
+        VOXTACT_TRY(sink.state());
+    }
+    sink.write(output.tail);
+    return sink.close();
+}
+
+} // namespace
+
+Result<void> mergeRun(const RunFolder& folder, const MergePaths& paths) {
+    VOXTACT_TRY(checkChunks(folder));
+    // Files first, each whole before one gets its name; what is on standard output cannot be taken back.
+    std::vector<Sink> files;
+    const auto isFile = [](const std::filesystem::path& path) { return !path.empty() && path != "-"; };
+    for (const bool file : {true, false}) {
+        for (const RunOutput& output : folder.manifest().outputs) {
+            const auto found = std::find_if(paths.begin(), paths.end(),
+                                            [&](const auto& entry) { return entry.first == output.option; });
+            if (found == paths.end() || isFile(found->second) != file) {
+                continue;
+            }
+            Result<Sink> sink = Sink::create(found->second);
+            VOXTACT_TRY(sink);
+            VOXTACT_TRY(writeOutput(folder, output, *sink));
+            files.push_back(std::move(*sink));
+        }
+    }
+    for (auto sink = files.rbegin(); sink != files.rend(); ++sink) {
+        VOXTACT_TRY(sink->commit());
+    }
+    return {};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "app/chunks/run_folder.h"
+
+#include "app/chunks/content_hash.h"
+#include "core/base/try.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/file.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace voxtact::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kManifestName = "voxtact-run.json";
+constexpr const char* kLockName = "run.lock";
+constexpr std::string_view kShardName = "shard-";
+constexpr std::string_view kShardEnding = ".lock";
+/// Of what is written under another name first (io::OutputFile).
+constexpr std::string_view kTemporaryName = ".tmp";
+
+Error cannotUse(const fs::path& folder, const std::string& why) {
+    return {ErrorCode::File, 0, "--resume: cannot use " + folderText(folder) + ": " + why};
+}
+
+std::string dump(const Json& json, int indent = -1) {
+    // File names may hold any bytes; their hashes tell apart what is replaced here.
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string shardName(const Shard& shard) {
+    return std::string(kShardName) + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) +
+           std::string(kShardEnding);
+}
+
+/// All but the check.
+Json bodyOf(const RunManifest& manifest) {
+    Json facts = Json::array();
+    for (const auto& [name, value] : manifest.facts) {
+        facts.push_back({name, value});
+    }
+    Json outputs = Json::array();
+    for (const RunOutput& output : manifest.outputs) {
+        outputs.push_back({{"option", output.option},
+                           {"ending", output.ending},
+                           {"head", output.head},
+                           {"between", output.between},
+                           {"tail", output.tail}});
+    }
+    return {{"voxtact_run", 1}, {"chunks", manifest.chunks}, {"facts", facts}, {"outputs", outputs}};
+}
+
+std::string textOf(const RunManifest& manifest) {
+    Json body = bodyOf(manifest);
+    body["check"] = hashOf(dump(bodyOf(manifest)));
+    return dump(body, 1) + "\n";
+}
+
+/// Nothing where the text is not a manifest, or was changed.
+std::optional<RunManifest> manifestOf(const std::string& text) {
+    Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object()) {
+        return std::nullopt;
+    }
+    const auto check = json.value("check", Json());
+    json.erase("check");
+    if (!check.is_string() || check.get<std::string>() != hashOf(dump(json)) ||
+        json.value("voxtact_run", Json()) != 1) {
+        return std::nullopt;
+    }
+    // What has its check was written by textOf().
+    RunManifest manifest;
+    manifest.chunks = json["chunks"].get<std::uint64_t>();
+    for (const Json& fact : json["facts"]) {
+        manifest.facts.emplace_back(fact[0].get<std::string>(), fact[1].get<std::string>());
+    }
+    for (const Json& output : json["outputs"]) {
+        manifest.outputs.push_back({output["option"].get<std::string>(), output["ending"].get<std::string>(),
+                                    output["head"].get<std::string>(), output["between"].get<std::string>(),
+                                    output["tail"].get<std::string>()});
+    }
+    return manifest;
+}
+
+/// As it will be read: what a file of text cannot hold is replaced.
+RunManifest asWritten(const RunManifest& manifest) {
+    return manifestOf(textOf(manifest)).value_or(manifest);
+}
+
+/// Whether a file is one that may be there before there is a manifest.
+bool isPreparation(const std::string& name) {
+    return name == kLockName || name.starts_with(kTemporaryName) || name.starts_with(kShardName);
+}
+
+/// Makes the folder if it is not there; refuses what is not ours.
+Result<void> prepare(const fs::path& folder) {
+    std::error_code problem;
+    const fs::file_status status = fs::status(folder, problem);
+    if (status.type() == fs::file_type::not_found) {
+        fs::create_directory(folder, problem);
+        // Another process may have been faster.
+        return problem && !fs::is_directory(folder) ? cannotUse(folder, problem.message()) : Result<void>();
+    }
+    if (!fs::is_directory(status)) {
+        return cannotUse(folder, problem ? problem.message() : "it is a file; give a folder, which need not be there");
+    }
+    if (fs::exists(folder / kManifestName, problem)) {
+        return {};
+    }
+    for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
+        if (const std::string name = entry->path().filename().string(); !isPreparation(name) && name != kManifestName) {
+            return cannotUse(folder, "it has '" + name + "' and is no folder of a run; give a new or an empty one");
+        }
+    }
+    return problem ? cannotUse(folder, problem.message()) : Result<void>();
+}
+
+/// Puts the manifest there unless there is one: of two processes one is first.
+Result<void> place(const fs::path& folder, const RunManifest& manifest) {
+    const fs::path target = folder / kManifestName;
+    std::error_code problem;
+    if (fs::exists(target, problem)) {
+        return {};
+    }
+    // A name of our own: an OutputFile replaces what is there, a link does not.
+    const fs::path own =
+        folder / (std::string(kTemporaryName) + "-manifest-" + std::to_string(::getpid()) + "-" + manifest.id());
+    const Result<void> written = io::writeFile(own, [&](std::ostream& out) -> Result<void> {
+        out << textOf(manifest);
+        return {};
+    });
+    if (!written.ok()) {
+        return cannotUse(folder, written.error().text);
+    }
+    fs::create_hard_link(own, target, problem);
+    if (problem && problem != std::errc::file_exists) {
+        // A file system without links.
+        fs::rename(own, target, problem);
+        return problem ? cannotUse(folder, problem.message()) : Result<void>();
+    }
+    fs::remove(own, problem);
+    return {};
+}
+
+Result<RunManifest> readManifest(const fs::path& folder) {
+    std::ifstream file(folder / kManifestName, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::optional<RunManifest> manifest = manifestOf(text);
+    if (!manifest) {
+        return Error{ErrorCode::Format, 0,
+                     "'" + (folder / kManifestName).string() +
+                         "' is damaged, or of another version of voxtact; begin anew with an empty folder"};
+    }
+    return std::move(*manifest);
+}
+
+} // namespace
+
+std::string RunManifest::id() const {
+    return hashOf(dump(bodyOf({facts, {}, chunks})));
+}
+
+/// An flock() of a file, which the system lifts however the process ends.
+class RunFolder::Lock {
+  public:
+    explicit Lock(int file) noexcept : file_(file) {}
+    Lock(Lock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+    Lock& operator=(Lock&& other) noexcept {
+        std::swap(file_, other.file_);
+        return *this;
+    }
+    ~Lock() {
+        if (file_ >= 0) {
+            ::close(file_);
+        }
+    }
+
+    /// Nothing where another process has it.
+    [[nodiscard]] static Result<std::optional<Lock>> take(const fs::path& folder, const std::string& name, bool alone) {
+        constexpr mode_t kMode = 0666; // less the user's mask
+        Lock lock(::open((folder / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode));
+        if (lock.file_ < 0) {
+            return cannotUse(folder, std::generic_category().message(errno));
+        }
+        if (::flock(lock.file_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+            // Some file systems know no locks. Nothing is lost without: a chunk that is done twice is the same twice.
+            return std::optional(std::move(lock));
+        }
+        return std::optional<Lock>();
+    }
+
+  private:
+    int file_;
+};
+
+RunFolder::RunFolder(fs::path path, RunManifest manifest)
+    : path_(std::move(path)), manifest_(std::move(manifest)), id_(manifest_.id()) {}
+RunFolder::RunFolder(RunFolder&&) noexcept = default;
+RunFolder& RunFolder::operator=(RunFolder&&) noexcept = default;
+RunFolder::~RunFolder() = default;
+
+Result<void> RunFolder::lock(const std::optional<Shard>& shard) {
+    Result<std::optional<Lock>> whole = Lock::take(path_, kLockName, !shard);
+    VOXTACT_TRY(whole);
+    if (!*whole) {
+        return cannotUse(path_, shard ? "another process does the whole run; wait for it, or stop it"
+                                      : "other processes do this run; wait for them, or stop them");
+    }
+    locks_.push_back(std::move(**whole));
+    if (shard) {
+        Result<std::optional<Lock>> own = Lock::take(path_, shardName(*shard), true);
+        VOXTACT_TRY(own);
+        if (!*own) {
+            return cannotUse(path_, "another process does shard " + std::to_string(shard->index) + "/" +
+                                        std::to_string(shard->count) + "; wait for it, or stop it");
+        }
+        locks_.push_back(std::move(**own));
+    }
+    return {};
+}
+
+Result<RunFolder> RunFolder::join(const fs::path& path, const RunManifest& manifest) {
+    Result<RunManifest> there = readManifest(path);
+    VOXTACT_TRY(there);
+    const RunManifest here = asWritten(manifest);
+    if (const std::string difference = differenceOf(there->facts, here.facts); !difference.empty()) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "--resume: " + folderText(path) + " has another run: " + difference +
+                         "; give another folder, or what it has"};
+    }
+    return RunFolder(path, std::move(*there));
+}
+
+Result<RunFolder> RunFolder::open(const fs::path& path, const RunManifest& manifest,
+                                  const std::optional<Shard>& shard) {
+    VOXTACT_TRY(prepare(path));
+    VOXTACT_TRY(place(path, manifest));
+    Result<RunFolder> folder = join(path, manifest);
+    VOXTACT_TRY(folder);
+    VOXTACT_TRY(folder->lock(shard));
+    return folder;
+}
+
+Result<RunFolder> RunFolder::read(const fs::path& path) {
+    std::error_code problem;
+    if (!fs::is_regular_file(path / kManifestName, problem)) {
+        return Error{ErrorCode::File, 0,
+                     "cannot merge " + folderText(path) + ": it is no folder of a run, as detect --resume makes it"};
+    }
+    Result<RunManifest> manifest = readManifest(path);
+    VOXTACT_TRY(manifest);
+    return RunFolder(path, std::move(*manifest));
+}
+
+fs::path RunFolder::chunkPath(std::uint64_t chunk, const RunOutput& output) const {
+    constexpr std::size_t kDigits = 8;
+    constexpr std::size_t kHash = 16;
+    std::string number = std::to_string(chunk);
+    number.insert(0, number.size() < kDigits ? kDigits - number.size() : 0, '0');
+    return path_ / (number + "-" + hashOf(id_ + " " + number).substr(0, kHash) + "." + output.name());
+}
+
+std::string RunFolder::chunkLine(std::uint64_t chunk, const RunOutput& output) const {
+    return "voxtact chunk " + id_ + " " + std::to_string(chunk) + " " + output.name();
+}
+
+ChunkState RunFolder::stateOf(std::uint64_t chunk) const {
+    ChunkState state = ChunkState::Whole;
+    for (const RunOutput& output : manifest_.outputs) {
+        switch (readSealed(chunkPath(chunk, output), chunkLine(chunk, output))) {
+        case SealState::Damaged:
+            return ChunkState::Damaged;
+        case SealState::Missing:
+            state = ChunkState::Missing;
+            break;
+        case SealState::Whole:
+            break;
+        }
+    }
+    return state;
+}
+
+std::vector<Shard> RunFolder::shards() const {
+    std::vector<Shard> found;
+    std::error_code problem;
+    for (fs::directory_iterator entry(path_, problem), end; !problem && entry != end; entry.increment(problem)) {
+        const std::string name = entry->path().filename().string();
+        Shard shard;
+        const std::string_view rest = std::string_view(name).substr(std::min(name.size(), kShardName.size()));
+        const auto [index, bad] = std::from_chars(rest.data(), rest.data() + rest.size(), shard.index);
+        const std::size_t of = name.find("-of-");
+        if (!name.starts_with(kShardName) || of == std::string::npos || bad != std::errc()) {
+            continue;
+        }
+        std::from_chars(name.data() + of + 4, name.data() + name.size(), shard.count);
+        if (shardName(shard) == name && shard.index >= 1 && shard.index <= shard.count) {
+            found.push_back(shard);
+        }
+    }
+    std::sort(found.begin(), found.end(),
+              [](const Shard& a, const Shard& b) { return std::pair(a.count, a.index) < std::pair(b.count, b.index); });
+    return found;
+}
+
+std::pair<std::uint64_t, std::uint64_t> chunksOf(const Shard& shard, std::uint64_t chunks) {
+    // No product of two large numbers: shards differ by one chunk at most.
+    const std::uint64_t each = chunks / shard.count;
+    const std::uint64_t more = chunks % shard.count;
+    const auto begin = [&](std::uint64_t index) { return index * each + std::min(index, more); };
+    return {begin(shard.index - 1), begin(shard.index)};
+}
+
+std::string folderText(const fs::path& path) {
+    return "'" + path.string() + "'";
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "app/chunks/sealed_file.h"
+
+#include "core/base/try.h"
+
+#include <array>
+#include <fstream>
+#include <ostream>
+#include <streambuf>
+#include <system_error>
+#include <vector>
+
+namespace voxtact::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPart = std::size_t{1} << 16U;
+
+/// Of so many characters whatever it says, so that it can be found from the end.
+std::string sealOf(const ContentHash& hash) {
+    constexpr std::size_t kDigits = 20; // of 2^64
+    std::string length = std::to_string(hash.length());
+    length.insert(0, kDigits - length.size(), '0');
+    return "\nvoxtact end " + length + " " + hash.hex() + "\n";
+}
+
+std::size_t sealLength() {
+    static const std::size_t length = sealOf({}).size();
+    return length;
+}
+
+/// Hands on to another buffer what it takes, and hashes it.
+class HashingBuffer : public std::streambuf {
+  public:
+    explicit HashingBuffer(std::streambuf& sink) : sink_(sink) { setp(part_.data(), part_.data() + part_.size()); }
+
+    [[nodiscard]] const ContentHash& hash() const noexcept { return hash_; }
+
+  protected:
+    int_type overflow(int_type character) override {
+        if (sync() != 0) {
+            return traits_type::eof();
+        }
+        if (!traits_type::eq_int_type(character, traits_type::eof())) {
+            *pptr() = traits_type::to_char_type(character);
+            pbump(1);
+        }
+        return traits_type::not_eof(character);
+    }
+    int sync() override {
+        const std::string_view held(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+        hash_.add(held);
+        const auto size = static_cast<std::streamsize>(held.size());
+        setp(part_.data(), part_.data() + part_.size());
+        return sink_.sputn(held.data(), size) == size ? 0 : -1;
+    }
+
+  private:
+    std::streambuf& sink_;
+    ContentHash hash_;
+    std::array<char, kPart> part_{};
+};
+
+} // namespace
+
+class ResultFile::Sealing {
+  public:
+    explicit Sealing(std::streambuf& sink) : buffer_(sink) { stream_.imbue(std::locale::classic()); }
+
+    [[nodiscard]] std::ostream& stream() noexcept { return stream_; }
+    /// Empty where it cannot be written any more.
+    [[nodiscard]] std::string seal() {
+        stream_.flush();
+        return stream_ ? sealOf(buffer_.hash()) : std::string();
+    }
+
+  private:
+    HashingBuffer buffer_;
+    std::ostream stream_{&buffer_};
+};
+
+ResultFile::ResultFile(io::OutputFile file) noexcept : file_(std::move(file)) {}
+ResultFile::ResultFile(ResultFile&&) noexcept = default;
+ResultFile& ResultFile::operator=(ResultFile&&) noexcept = default;
+ResultFile::~ResultFile() = default;
+
+Result<ResultFile> ResultFile::create(const fs::path& path) {
+    Result<io::OutputFile> file = io::OutputFile::create(path);
+    VOXTACT_TRY(file);
+    return ResultFile(std::move(*file));
+}
+
+Result<ResultFile> ResultFile::createSealed(const fs::path& path, const std::string& firstLine) {
+    Result<ResultFile> file = create(path);
+    VOXTACT_TRY(file);
+    std::ostream& out = file->file_.stream();
+    out << firstLine << '\n';
+    file->sealing_ = std::make_unique<Sealing>(*out.rdbuf());
+    return file;
+}
+
+std::ostream& ResultFile::stream() noexcept {
+    return sealing_ ? sealing_->stream() : file_.stream();
+}
+
+Result<void> ResultFile::close() {
+    if (sealing_) {
+        const std::string seal = sealing_->seal();
+        if (seal.empty()) {
+            file_.stream().setstate(std::ios::badbit);
+        }
+        file_.stream() << seal;
+    }
+    return file_.close();
+}
+
+Result<void> ResultFile::commit() {
+    return file_.commit();
+}
+
+SealState readSealed(const fs::path& path, const std::string& firstLine,
+                     const std::function<void(std::string_view)>& take) {
+    std::error_code problem;
+    const std::uintmax_t size = fs::file_size(path, problem);
+    if (problem) {
+        return fs::exists(path, problem) ? SealState::Damaged : SealState::Missing;
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string first(firstLine.size() + 1, '\0');
+    if (size < first.size() + sealLength() || !file.read(first.data(), static_cast<std::streamsize>(first.size())) ||
+        first != firstLine + "\n") {
+        return SealState::Damaged;
+    }
+    ContentHash hash;
+    std::vector<char> part(kPart);
+    for (std::uintmax_t left = size - first.size() - sealLength(); left > 0;) {
+        const std::size_t wanted = static_cast<std::size_t>(std::min<std::uintmax_t>(left, part.size()));
+        if (!file.read(part.data(), static_cast<std::streamsize>(wanted))) {
+            return SealState::Damaged;
+        }
+        const std::string_view taken(part.data(), wanted);
+        hash.add(taken);
+        if (take) {
+            take(taken);
+        }
+        left -= wanted;
+    }
+    std::string seal(sealLength(), '\0');
+    return file.read(seal.data(), static_cast<std::streamsize>(seal.size())) && seal == sealOf(hash)
+               ? SealState::Whole
+               : SealState::Damaged;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "app/chunks/run_chunks.h"
+#include "app/commands.h"
+#include "core/base/try.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(DIR is the folder that detect or motion filled with --resume, by one process or by all shards. What is written is byte
+for byte what the same command writes without --resume. A file that is asked for beside the rows must be one that the
+run was asked for. Chunks that are missing or damaged are said, and nothing is written; DIR stays as it is.
+
+Examples:
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --resume run --shard 1/2
+  voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --resume run --shard 2/2
+  voxtact merge run --output rows.csv)";
+
+struct MergeOptions {
+    std::filesystem::path folder;
+    std::filesystem::path output;
+    std::filesystem::path triangles;
+    std::filesystem::path closest;
+    std::filesystem::path labels;
+};
+
+/// The paths that were given, for outputs that the run has.
+Result<MergePaths> pathsOf(const MergeOptions& options, const RunFolder& folder) {
+    MergePaths paths{{"--output", options.output}};
+    for (const auto& [option, path] :
+         {std::pair("--triangles", options.triangles), std::pair("--closest", options.closest),
+          std::pair("--label-clearance", options.labels)}) {
+        if (path.empty()) {
+            continue;
+        }
+        const std::vector<RunOutput>& outputs = folder.manifest().outputs;
+        const auto found = std::find_if(outputs.begin(), outputs.end(),
+                                        [name = option](const RunOutput& output) { return output.option == name; });
+        if (found == outputs.end()) {
+            return badArgument(option + (": the run in " + folderText(options.folder)) +
+                               " was not asked for it; leave it out");
+        }
+        if (!found->ending.empty() && path.extension() != found->ending) {
+            return badArgument(option + (": the run has it as " + found->ending) + ", which the ending of '" +
+                               path.string() + "' must be");
+        }
+        paths.emplace_back(option, path);
+    }
+    return paths;
+}
+
+Outcome runMerge(const MergeOptions& options) {
+    // A folder with its files, none of which may be written over.
+    VOXTACT_TRY(checkOutputs({{"--output", options.output},
+                              {"--triangles", options.triangles},
+                              {"--closest", options.closest},
+                              {"--label-clearance", options.labels}},
+                             {{"DIR", options.folder}}));
+    const Result<RunFolder> folder = RunFolder::read(options.folder);
+    VOXTACT_TRY(folder);
+    const Result<MergePaths> paths = pathsOf(options, *folder);
+    VOXTACT_TRY(paths);
+    VOXTACT_TRY(mergeRun(*folder, *paths));
+    return {};
+}
+
+} // namespace
+
+Command addMerge(CLI::App& program) {
+    auto options = std::make_shared<MergeOptions>();
+    CLI::App* parser = program.add_subcommand("merge", "the output of a run that was done in chunks");
+    parser->footer(kFooter);
+    parser->add_option("DIR", options->folder, "the folder of the run, as --resume named it")->required();
+    addPath(*parser, "--output", options->output, "a file for the rows, or - for standard output, the default");
+    addPath(*parser, "--triangles", options->triangles, "a file for what detect --triangles writes");
+    addPath(*parser, "--closest", options->closest, "a .csv file for what detect --closest writes");
+    addPath(*parser, "--label-clearance", options->labels, "a file for what detect --label-clearance writes");
+    return {parser, [options] { return runMerge(*options); }};
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/chunks/chunk_options.h"
+#include "app/motion/motion_table.h"
+#include "app/options/inputs.h"
+#include "app/options/output_paths.h"
+#include "app/output/progress.h"
+#include "voxtact/cpu.h"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What the parts of `voxtact motion` share.
+namespace voxtact::app {
+
+struct MotionOptions {
+    std::vector<std::string> volumes;
+    MeshOptions meshes;
+    TransferFunctionOptions transferFunction;
+    std::filesystem::path poses;
+    std::filesystem::path labels;
+    std::filesystem::path labelNames;
+    std::string interpolation = "screw";
+    double resolution = kDefaultMotionResolution;
+    std::uint32_t threads = 0;
+    bool timing = false;
+    bool progress = true;
+    OutputOptions output;
+    ChunkOptions chunks;
+};
+
+struct MotionInputs {
+    std::vector<cpu::Mesh> meshes;
+    std::vector<ControlPoint> points;
+    std::vector<Mat4> poses; ///< none where they are read as they are needed
+    std::optional<LabelData> labels;
+    std::map<std::int32_t, std::string> labelNames;
+};
+
+/// Refuses fewer than two.
+[[nodiscard]] Result<void> checkPoseCount(const MotionOptions& options, std::uint64_t poses);
+
+/// A volume with its transfer function.
+struct MotionVolume {
+    cpu::Volume volume;
+    cpu::TransferFunction transferFunction;
+};
+[[nodiscard]] Result<MotionVolume> loadMotionVolume(const MotionOptions& options, const MotionInputs& inputs,
+                                                    std::uint32_t number);
+
+/// Checks the segments of some meshes and volumes.
+class SegmentChecker {
+  public:
+    /// All must outlive it.
+    SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker)
+        : options_(options), inputs_(inputs), checker_(checker) {}
+
+    /// Adds the rows of the segments between poses of which the first has the number `firstPose`; fewer where an
+    /// interrupt comes.
+    [[nodiscard]] Result<void> check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
+                                     std::span<const Mat4> poses, std::uint64_t firstPose,
+                                     std::vector<MotionRow>& rows);
+    /// Is told now and then how many rows there are.
+    void showOn(Progress& progress) { progress_ = &progress; }
+    /// That it took so far.
+    [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
+
+  private:
+    const MotionOptions& options_;
+    const MotionInputs& inputs_;
+    cpu::MotionChecker& checker_;
+    Progress* progress_ = nullptr;
+    double milliseconds_ = 0;
+};
+
+/// How many segments ended with less than was asked for.
+struct MotionEnds {
+    std::uint64_t grazing = 0;
+    std::uint64_t cut = 0;
+
+    void add(std::span<const MotionRow> rows);
+    void addTo(std::vector<std::string>& notes) const;
+};
+
+/// Refuses what a run in chunks cannot have.
+[[nodiscard]] Result<void> checkMotionChunks(const MotionOptions& options);
+/// The run in chunks. `reads`: all files that the options name.
+[[nodiscard]] Outcome runMotionChunks(const CLI::App& parser, const MotionOptions& options, const MotionInputs& inputs,
+                                      cpu::MotionChecker& checker, const std::vector<NamedPath>& reads);
+
+} // namespace voxtact::app
