@@ -24,6 +24,7 @@ struct LaneCells {
 shared LaneCells ofLane[VOXTACT_COMPUTE_GROUP];
 shared uint parts; // of large triangles
 shared uint firstPart;
+shared uint groupsIfLeft; // of certified_finish, for all large triangles
 
 /// Work groups of certified_large that share a triangle: one for every 64 bricks, up to a point.
 uint partsOf(CellBox cells) {
@@ -86,6 +87,7 @@ void main() {
         listed = 0;
         parts = 0;
         firstPart = 0;
+        groupsIfLeft = 0;
     }
     barrier();
     const TriangleLane own = triangleLane(gl_WorkGroupID.x, lane);
@@ -95,11 +97,16 @@ void main() {
         const TriangleVertices at = verticesOf(transforms[own.pair], own.number);
         const CertifiedBounds bounds = boundsOf(at);
         const CellBox cells = cellsOf(bounds);
+        const bool wanted = !isDone(own.pair);
         if (isEmpty(cells)) {
         } else if (isLarge(cells) || !bounds.usable) {
-            partsOfLane = bounds.usable ? partsOf(cells) : 1;
-            slot = atomicAdd(parts, partsOfLane);
-        } else {
+            // Those of pairs that are done, too: certified_finish must find the same, and more will be done by then.
+            atomicAdd(groupsIfLeft, groupsOfTriangle(transforms[own.pair], bounds, cells));
+            if (wanted) {
+                partsOfLane = bounds.usable ? partsOf(cells) : 1;
+                slot = atomicAdd(parts, partsOfLane);
+            }
+        } else if (wanted) {
             ofLane[lane] = LaneCells(own.pair, own.number, cells.lo, cells.hi - cells.lo + 1);
             listCells(triangleOf(at, bounds.delta), cells);
         }
@@ -109,12 +116,12 @@ void main() {
         const uint room = VOXTACT_ROOM_LARGE(constants.queueRoom);
         firstPart = reserve(VOXTACT_QUEUE_LARGE, parts, room, 1);
         if (firstPart + parts > room) {
-            leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0);
+            leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft);
         }
     }
     const bool fits = reserveList();
     if (!fits && lane == 0) {
-        leave(VOXTACT_LEFT_SMALL, gl_WorkGroupID.x, 0);
+        leave(VOXTACT_LEFT_SMALL, gl_WorkGroupID.x, 0, kSharesOfSmall);
     }
     putLarge(own, slot, partsOfLane);
     for (uint i = lane; fits && i < listed; i += VOXTACT_COMPUTE_GROUP) {

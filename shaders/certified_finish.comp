@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative`, what is left: cells that single precision leaves undecided, decided again with more of
-// it, a lane each; and what the queue of cells or of large triangles had no room for, found and decided here, a work
-// group for each entry. No barriers: the lanes have loops of many lengths.
+// it, a lane each; and, in a dispatch of its own, what the queue of cells or of large triangles had no room for, found
+// and decided here. Each entry of that has as many work groups as its bricks need.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -35,10 +35,15 @@ struct Share {
     ivec3 cell;
     bool large;     // the triangle must be; else it must not, unless it is a single cell
     int firstBrick; // of the triangle's
+    int bricks;     // at most
+    int stride;     // to the next brick
     int skip;       // bricks after every 64th
     int first;      // of each brick's cells
     int step;
 };
+
+shared uvec4 entryOfGroup; // of the queue of what is left
+shared uint groupsOfLane[VOXTACT_COMPUTE_GROUP];
 
 uint survivors = 0;
 bool undecided = false;
@@ -90,13 +95,23 @@ bool planeMisses(Placed triangle, PrecisePlane plane, vec3 centre, float radius)
     return triangle.usable ? certifiedPlaneMisses(triangle.rounded, at, radius) : precisePlaneMisses(plane, at, radius);
 }
 
-void decideShare(Share share) {
+void decideShare(Share given) {
+    Share share = given;
     const CertifiedPair transform = transforms[share.pair];
     const TriangleVertices at = verticesOf(transform, share.number);
     const CertifiedBounds bounds = boundsOf(at);
     const CellBox cells = share.single ? CellBox(share.cell, share.cell) : cellsOf(bounds);
     if (isEmpty(cells) || (!share.single && share.large != (isLarge(cells) || !bounds.usable))) {
         return;
+    }
+    if (share.large && isLost(transform, bounds)) {
+        // All of it: each lane has bricks of its own.
+        share.firstBrick = int(gl_LocalInvocationIndex);
+        share.stride = VOXTACT_COMPUTE_GROUP;
+        share.bricks = 0x7fffffff;
+        share.skip = 0;
+        share.first = 0;
+        share.step = 1;
     }
     const Placed triangle =
         Placed(share.pair, share.number, triangleOf(at, bounds.delta), bounds.usable, share.single,
@@ -109,8 +124,10 @@ void decideShare(Share share) {
     const bool byOthers = share.large && gl_LocalInvocationIndex > 0; // all lanes look at the same bricks
     uint bricksSeen = 0;
     uint cellsSeen = 0;
-    for (int i = share.firstBrick; i < count; i += (i & 63) == 63 ? 1 + share.skip : 1) {
+    int i = share.firstBrick;
+    for (int turn = 0; turn < share.bricks && i < count; ++turn) {
         const ivec3 brick = placeIn(box, i);
+        i += share.stride + ((i & 63) == 63 ? share.skip : 0);
         const vec4 range = brickAt(brick);
         ++bricksSeen;
         if (!brickMayBeOpaque(range)) {
@@ -134,52 +151,110 @@ void decideShare(Share share) {
         }
     }
     if (!share.single) {
-        countWork(VOXTACT_WORK_BRICKS_LEFT, byOthers ? 0 : bricksSeen);
+        countWork(VOXTACT_WORK_BRICKS_LEFT, byOthers && share.stride == 1 ? 0 : bricksSeen);
         countWork(VOXTACT_WORK_CELLS_LEFT, cellsSeen);
     }
 }
 
-Share shareOf(TriangleLane own, bool large) {
-    return large ? Share(own.some, own.pair, own.number, false, ivec3(0), true, 0, 0, int(gl_LocalInvocationIndex),
-                         VOXTACT_COMPUTE_GROUP)
-                 : Share(own.some, own.pair, own.number, false, ivec3(0), false, 0, 0, 0, 1);
+const Share kNoShare = Share(false, 0, 0, false, ivec3(0), false, 0, 0, 1, 0, 0, 1);
+
+/// A cell that was left undecided.
+Share shareOfCell(uint number) {
+    if (number >= queueCount(VOXTACT_QUEUE_OPEN)) {
+        return kNoShare;
+    }
+    const uint open = queues[constants.queueWord + VOXTACT_WORD_OPEN(constants.queueRoom) + number];
+    const uvec4 entry = quads[quadOf(VOXTACT_WORD_CELLS, open)];
+    return Share(true, entry.x, entry.y, true, unpackCell(entry.zw), false, 0, 1, 1, 0, 0, 1);
 }
 
-/// `turn` counts the triangles of what is left of a work group's large ones.
-Share shareOfEntry(uint what, uint number, uint brick, uint turn) {
+/// The bricks of a large triangle, or of its part that has every skip + 1st block of 64, that are the `turn`th of those
+/// from `brick` on which a work group has.
+Share shareOfLarge(uint pair, uint triangle, uint brick, uint skip, uint turn) {
+    const uint place = brick % VOXTACT_COMPUTE_GROUP + turn * kBricksOfGroup;
+    const uint block = brick / VOXTACT_COMPUTE_GROUP + place / VOXTACT_COMPUTE_GROUP * (skip + 1);
+    const uint first = block * VOXTACT_COMPUTE_GROUP + place % VOXTACT_COMPUTE_GROUP;
+    return Share(true, pair, triangle, false, ivec3(0), true, int(first), int(kBricksOfGroup), 1,
+                 int(skip * VOXTACT_COMPUTE_GROUP), int(gl_LocalInvocationIndex), VOXTACT_COMPUTE_GROUP);
+}
+
+/// Of the large triangles of a work group of certified_expand: the one that has the `turn`th of their work groups here.
+Share shareOfTriangles(uint group, uint turn) {
+    const uint lane = gl_LocalInvocationIndex;
+    const TriangleLane own = triangleLane(group, lane);
+    groupsOfLane[lane] = 0;
+    if (own.some) {
+        const CertifiedBounds bounds = boundsOf(verticesOf(transforms[own.pair], own.number));
+        const CellBox cells = cellsOf(bounds);
+        if (!isEmpty(cells) && (isLarge(cells) || !bounds.usable)) {
+            groupsOfLane[lane] = groupsOfTriangle(transforms[own.pair], bounds, cells);
+        }
+    }
+    barrier();
+    uint before = 0;
+    uint of = 0;
+    while (of < VOXTACT_COMPUTE_GROUP && turn - before >= groupsOfLane[of]) {
+        before += groupsOfLane[of];
+        ++of;
+    }
+    if (of == VOXTACT_COMPUTE_GROUP) {
+        return kNoShare;
+    }
+    const TriangleLane found = triangleLane(group, of);
+    return shareOfLarge(found.pair, found.number, 0, 0, turn - before);
+}
+
+/// What a work group has of what is left. Asked by all lanes together.
+Share shareOfGroup(uint group) {
+    const uint lane = gl_LocalInvocationIndex;
+    if (lane == 0) {
+        entryOfGroup = uvec4(0);
+    }
+    barrier();
+    const uint entries = queueCount(VOXTACT_QUEUE_LEFT);
+    for (uint i = lane; i < entries; i += VOXTACT_COMPUTE_GROUP) {
+        const uvec4 entry = quads[quadOf(VOXTACT_WORD_LEFT(constants.queueRoom), i)];
+        if (group - entry.w < entry.z) {
+            entryOfGroup = entry;
+        }
+    }
+    barrier();
+    const uvec4 entry = entryOfGroup;
+    barrier();
+    if (entry.z == 0) {
+        return kNoShare;
+    }
+    const uint what = entry.x >> VOXTACT_LEFT_SHIFT;
+    const uint number = entry.x & ((1u << VOXTACT_LEFT_SHIFT) - 1);
+    const uint turn = group - entry.w;
     if (what == VOXTACT_LEFT_SMALL) {
-        return shareOf(triangleLane(number, gl_LocalInvocationIndex), false);
+        const TriangleLane own = triangleLane(number, lane);
+        return Share(own.some, own.pair, own.number, false, ivec3(0), false, 0, VOXTACT_CELLS_OF_A_LANE, 1, 0,
+                     int(turn), int(kSharesOfSmall));
     }
     if (what == VOXTACT_LEFT_GROUP) {
-        return shareOf(triangleLane(number, turn), true);
+        return shareOfTriangles(number, turn);
     }
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
-    return Share(!isDone(entry.x), entry.x, entry.y, false, ivec3(0), true, int(brick),
-                 int(entry.w - 1) * VOXTACT_COMPUTE_GROUP, int(gl_LocalInvocationIndex), VOXTACT_COMPUTE_GROUP);
+    const uvec4 part = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
+    return shareOfLarge(part.x, part.y, entry.y, part.w - 1, turn);
 }
 
 void main() {
-    const uint opens = queueCount(VOXTACT_QUEUE_OPEN);
-    const uint groupsOfCells = (opens + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP;
-    const bool ofCells = gl_WorkGroupID.x < groupsOfCells;
-    const uint left = constants.queueWord + VOXTACT_WORD_LEFT(constants.queueRoom) +
-                      (ofCells ? 0 : 2 * (gl_WorkGroupID.x - groupsOfCells));
-    const uint what = queues[left] >> VOXTACT_LEFT_SHIFT;
-    const uint number = queues[left] & ((1u << VOXTACT_LEFT_SHIFT) - 1);
-    const uint turns = !ofCells && what == VOXTACT_LEFT_GROUP ? VOXTACT_COMPUTE_GROUP : 1;
-    for (uint turn = 0; turn < turns; ++turn) {
+    const bool ofCells = gl_NumWorkGroups.y != VOXTACT_LEFT_ROWS;
+    const uint layer = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    const uint groups = ofCells ? gl_WorkGroupID.x + 1 : queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
+    // One turn, unless the device has not as many work groups.
+    for (uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y + layer * gl_WorkGroupID.z;
+         group < groups; group += layer * gl_NumWorkGroups.z) {
         Share share;
         if (ofCells) {
-            const bool some = gl_GlobalInvocationID.x < opens;
-            const uint open = constants.queueWord + VOXTACT_WORD_OPEN(constants.queueRoom) + gl_GlobalInvocationID.x;
-            const uvec4 entry = some ? quads[quadOf(VOXTACT_WORD_CELLS, queues[open])] : uvec4(0);
-            share = Share(some && !isDone(entry.x), entry.x, entry.y, true, unpackCell(entry.zw), false, 0, 0, 0, 1);
+            share = shareOfCell(gl_GlobalInvocationID.x);
         } else {
-            share = shareOfEntry(what, number, queues[left + 1], turn);
+            share = shareOfGroup(group);
         }
         survivors = 0;
         undecided = false;
-        if (share.some) {
+        if (share.some && !isDone(share.pair)) {
             decideShare(share);
             if (survivors > 0) {
                 addSurvivors(share.pair, survivors);

@@ -41,24 +41,31 @@ bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 bric
     return fits;
 }
 
+/// The work groups that certified_finish needs for what a part has from a brick on.
+uint groupsFrom(uvec4 entry, uint brick, uint count) {
+    const uint blocks = ((count - 1) / VOXTACT_COMPUTE_GROUP - brick / VOXTACT_COMPUTE_GROUP) / entry.w + 1;
+    return groupsOfBricks(min(blocks * VOXTACT_COMPUTE_GROUP - brick % VOXTACT_COMPUTE_GROUP, count - brick));
+}
+
 void main() {
     const uint lane = gl_LocalInvocationIndex;
     const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), gl_WorkGroupID.x)];
     if (entry.x == kNoPair || isDone(entry.x)) {
         return;
     }
-    const TriangleVertices at = verticesOf(transforms[entry.x], entry.y);
+    const CertifiedPair transform = transforms[entry.x];
+    const TriangleVertices at = verticesOf(transform, entry.y);
     const CertifiedBounds bounds = boundsOf(at);
-    if (!bounds.usable) {
+    const CellBox cells = cellsOf(bounds);
+    const CellBox box = bricksOf(cells);
+    const int count = volumeOf(box);
+    if (!bounds.usable) { // one part has all
         if (lane == 0) {
-            leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, entry.z);
+            leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, 0, groupsOfTriangle(transform, bounds, cells));
         }
         return;
     }
     const CertifiedTriangle triangle = triangleOf(at, bounds.delta);
-    const CellBox cells = cellsOf(bounds);
-    const CellBox box = bricksOf(cells);
-    const int count = volumeOf(box);
     bool fits = true;
     for (int block = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && block < count;
          block += int(entry.w) * VOXTACT_COMPUTE_GROUP) {
@@ -85,13 +92,14 @@ void main() {
                 left &= left - 1;
                 fits = putBrick(entry, triangle, cells, placeIn(box, brick));
                 if (!fits && lane == 0) {
-                    leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, uint(brick));
+                    leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, uint(brick),
+                          groupsFrom(entry, uint(brick), uint(count)));
                 }
             }
         }
         barrier();
     }
-    if (lane == 0 && isCut()) {
+    if (isCut()) { // lanes that run together are: others are not
         atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);
     }
 }

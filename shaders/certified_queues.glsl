@@ -51,14 +51,27 @@ ivec3 unpackCell(uvec2 words) {
 /// In place of a pair: the entry is a gap.
 const uint kNoPair = 0xffffffffu;
 
-/// An entry of certified_finish.
-void leave(uint what, uint number, uint brick) {
+/// What is left of a triangle is dealt to work groups of certified_finish by so many bricks; of small triangles, each
+/// of these work groups has one of so many shares of the cells. No lane then has more than some tens of cells, however
+/// large the triangles are.
+const uint kBricksOfGroup = 8;
+const uint kSharesOfSmall = 3;
+
+uint groupsOfBricks(uint bricks) {
+    return (bricks + kBricksOfGroup - 1) / kBricksOfGroup;
+}
+
+/// An entry of certified_finish, for which it needs `groups` work groups.
+void leave(uint what, uint number, uint brick, uint groups) {
     const uint word = constants.headerWord + 4 * VOXTACT_QUEUE_LEFT;
     const uint entry = atomicAdd(queues[word + 3], 1u);
-    atomicAdd(queues[constants.headerWord + 4 * VOXTACT_QUEUE_OPEN], 1u);
-    const uint to = constants.queueWord + VOXTACT_WORD_LEFT(constants.queueRoom) + 2 * entry;
-    queues[to] = what << VOXTACT_LEFT_SHIFT | number;
-    queues[to + 1] = brick;
+    const uint first = atomicAdd(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], groups);
+    const uint layers = (first + groups + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER -
+                        (first + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER;
+    atomicAdd(queues[word + 2], layers);
+    atomicMin(queues[word + 2], VOXTACT_LEFT_MOST_LAYERS);
+    quads[quadOf(VOXTACT_WORD_LEFT(constants.queueRoom), entry)] =
+        uvec4(what << VOXTACT_LEFT_SHIFT | number, brick, groups, first);
 }
 
 #endif

@@ -144,6 +144,17 @@ CellBox within(CellBox cells, ivec3 brick) {
     return CellBox(max(cells.lo, corner), min(cells.hi, corner + kBrickSide - 1));
 }
 
+/// Whether a triangle is so far off that no precision will place it, most likely: certified_finish then needs but one
+/// look at a brick that may be opaque.
+bool isLost(CertifiedPair transform, CertifiedBounds bounds) {
+    return !bounds.usable && !(bounds.delta * transform.reference.w <= CERTIFIED_MOST_DELTA);
+}
+
+/// The work groups of certified_finish for a large triangle that is left.
+uint groupsOfTriangle(CertifiedPair transform, CertifiedBounds bounds, CellBox cells) {
+    return isLost(transform, bounds) ? 1 : groupsOfBricks(uint(volumeOf(bricksOf(cells))));
+}
+
 /// Whether loops were left before their end: llvmpipe leaves every loop of an invocation after its first round once all
 /// of them together have had 65,535 rounds (seen in Mesa 22.3). Nothing that was found after that is known. The bound
 /// is 2, which compilers cannot know.
@@ -171,7 +182,7 @@ uint triangleAt(uint place) {
 }
 
 /// A lane of the passes that have a lane for each triangle: of the work group `group`, four entries of the queue of
-/// runs.
+/// runs. Also of pairs that are done.
 struct TriangleLane {
     bool some; // false: there is none
     uint pair;
@@ -185,7 +196,7 @@ TriangleLane triangleLane(uint group, uint lane) {
         const uint word = constants.queueWord + VOXTACT_WORD_RUNS(constants.queueRoom) + 2 * entry;
         const uint place = queues[word + 1] * VOXTACT_RUN_TRIANGLES + lane % VOXTACT_RUN_TRIANGLES;
         own.pair = queues[word];
-        own.some = place < constants.triangleCount && !isDone(own.pair);
+        own.some = place < constants.triangleCount;
         own.number = own.some ? triangleAt(place) : 0;
     }
     return own;

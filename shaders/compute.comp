@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The counting method `compute`: covers the pixels that a rasteriser covers, in the exact arithmetic of exact.h. A
 // triangle with few pixels is one lane's; one with many is queued and shared by the whole group, so that a huge
-// triangle does not serialise.
+// triangle does not serialise; and by as many groups along z as the host has taken for those that are huge.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -112,7 +112,7 @@ uint countTriangle(PairTransform transform, uint triangle) {
         if (exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
             const int pixels = (piece.maxX - piece.minX + 1) * (piece.maxY - piece.minY + 1);
             if (pixels <= kMostPixelsOfALane) {
-                survivors += countPixels(piece, 0, 1);
+                survivors += gl_WorkGroupID.z == 0 ? countPixels(piece, 0, 1) : 0;
             } else {
                 queue[atomicAdd(queued, 1u)] = triangle * 8 + uint(number);
             }
@@ -133,7 +133,8 @@ uint countQueued(PairTransform transform, uint entry) {
     if (!exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
         return 0;
     }
-    return countPixels(piece, int(gl_LocalInvocationIndex), VOXTACT_COMPUTE_GROUP);
+    return countPixels(piece, int(gl_LocalInvocationIndex + VOXTACT_COMPUTE_GROUP * gl_WorkGroupID.z),
+                       int(VOXTACT_COMPUTE_GROUP * gl_NumWorkGroups.z));
 }
 
 void main() {

@@ -155,8 +155,8 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUE_RUNS 1     // pair, run: for certified_expand
 #define VOXTACT_QUEUE_LARGE 2    // pair, triangle, part, parts: for certified_large
 #define VOXTACT_QUEUE_CELLS 3    // pair, triangle, place: for certified_decide
-#define VOXTACT_QUEUE_OPEN 4     // numbers of cells; its command counts the next queue, too: for certified_finish
-#define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_*, where from
+#define VOXTACT_QUEUE_OPEN 4     // numbers of cells: for certified_finish
+#define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_* and number, brick, work groups, the first of these: the same
 #define VOXTACT_QUEUES 6
 #define VOXTACT_HEADER_WORDS 32 // of a round
 #define VOXTACT_HEADERS 64
@@ -167,6 +167,7 @@ struct CertifiedConstants {
 #define VOXTACT_WORK_DECIDED 27     // lanes in use
 #define VOXTACT_WORK_BRICKS_LEFT 28 // looked at by certified_finish, where a queue had no room
 #define VOXTACT_WORK_CELLS_LEFT 29  // the same
+#define VOXTACT_GROUPS_LEFT 30      // work groups of certified_finish that the entries of VOXTACT_QUEUE_LEFT ask for
 // The CertifiedCounters of a batch, behind the headers.
 #define VOXTACT_WORD_COUNTERS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
 #define VOXTACT_COUNTER_WORDS 36
@@ -182,12 +183,18 @@ struct CertifiedConstants {
 #define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_RUNS(room) (VOXTACT_WORD_CLUSTERS(room) + 2 * (room))
 #define VOXTACT_WORD_LEFT(room) (VOXTACT_WORD_RUNS(room) + 2 * VOXTACT_ROOM_RUNS(room))
-#define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 2 * VOXTACT_ROOM_LEFT(room))
+#define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
 // What certified_finish is left, where the queue of cells or of large triangles was full: a number and what it is of.
 #define VOXTACT_LEFT_SMALL 0  // the small triangles of a work group of certified_expand
 #define VOXTACT_LEFT_GROUP 1  // its large ones
 #define VOXTACT_LEFT_LARGE 2  // an entry of the queue of large triangles, from a brick on
 #define VOXTACT_LEFT_SHIFT 28 // these are above so many bits of a number
+// The command of certified_finish for what is left has as many layers as it takes, each of VOXTACT_LEFT_COLUMNS times
+// VOXTACT_LEFT_ROWS work groups. The other one has one row: so it knows which it is.
+#define VOXTACT_LEFT_COLUMNS 8
+#define VOXTACT_LEFT_ROWS 2
+#define VOXTACT_LEFT_LAYER (VOXTACT_LEFT_COLUMNS * VOXTACT_LEFT_ROWS)
+#define VOXTACT_LEFT_MOST_LAYERS 65535u // Vulkan's least maxComputeWorkGroupCount
 
 // Descriptor sets.
 #define VOXTACT_SET_VOLUME 0
@@ -240,8 +247,8 @@ static_assert(sizeof(ComputeConstants) == 80);
 static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
-static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CELLS_LEFT < VOXTACT_HEADER_WORDS);
-static_assert(VOXTACT_WORD_CELLS % 4 == 0);
+static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_GROUPS_LEFT < VOXTACT_HEADER_WORDS);
+static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);
 static_assert(sizeof(BrickConstants) == 24);
 } // namespace voxtact::shader
 #endif

@@ -152,7 +152,7 @@ def engine():
     step(780, 50, 180, "expand", ("a lane a triangle:", "which cells need a decision"), "certified_expand")
     step(780, 190, 180, "large", ("work groups share", "what has many cells"), "certified_large")
     step(400, 190, 180, "decide", ("a lane a cell: clip,", "bound, halve"), "certified_decide")
-    step(20, 190, 180, "finish", ("a lane an open cell:", "again, precisely"), "certified_finish")
+    step(20, 190, 180, "finish", ("a lane an open cell, or", "one that had no room"), "certified_finish")
     queue(235, 76, 130, "clusters", "1 each")
     queue(615, 76, 130, "runs", "4 each")
     queue(615, 216, 130, "cells", "32 each")

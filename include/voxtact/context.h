@@ -40,8 +40,8 @@ struct ContextDesc {
     std::span<const std::uint32_t> queueFamilies;
     /// Of all projections but conservative, which ResultsDesc::clustersAtOnce is for: a draw or a dispatch tests at
     /// most so many fragments, were each of its triangles as large as the viewport; a batch with more is more draws. At
-    /// least a triangle in one view. Never more than 2^22 triangles. Make it less for a GPU whose driver takes a long
-    /// draw for a GPU that hangs. 0: 2^34.
+    /// least a triangle in one view (by `compute`, 64). Never more than 2^22 triangles. Make it less for a GPU whose
+    /// driver takes a long draw for a GPU that hangs. 0: 2^34.
     std::uint64_t fragmentsAtOnce = 0;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;   ///< optional; used, never destroyed
     const VkAllocationCallbacks* allocator = nullptr; ///< optional

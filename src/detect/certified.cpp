@@ -166,6 +166,9 @@ void CertifiedPass::recordRound(VkCommandBuffer commandBuffer, const ResultsImpl
         const VkDeviceSize command = VkDeviceSize{constants.headerWord} + 4 * kPasses[i].queue;
         vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(), command * sizeof(std::uint32_t));
     }
+    // The last pass once more, for what had no room: it only adds to what the other one adds to.
+    const VkDeviceSize command = VkDeviceSize{constants.headerWord} + 4 * VOXTACT_QUEUE_LEFT;
+    vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(), command * sizeof(std::uint32_t));
 }
 
 void CertifiedPass::recordTally(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,

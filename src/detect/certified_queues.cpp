@@ -42,6 +42,10 @@ void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffe
             words[command + 1] = 1;
             words[command + 2] = 1;
         }
+        const std::size_t left = round * VOXTACT_HEADER_WORDS + std::size_t{4} * VOXTACT_QUEUE_LEFT;
+        words[left] = VOXTACT_LEFT_COLUMNS;
+        words[left + 1] = VOXTACT_LEFT_ROWS;
+        words[left + 2] = 0;
     }
     cmdUpdateBuffer(context, commandBuffer, results.transforms.get(), firstQueueByte(results),
                     std::as_bytes(std::span(words)));

@@ -12,8 +12,8 @@ inline constexpr std::uint32_t kLeastQueueRoom = 16;
 inline constexpr std::uint32_t kMostQueueRoom = 16384;
 /// What Results get that were not asked for another.
 inline constexpr std::uint32_t kUsualQueueRoom = 2048;
-static_assert(VOXTACT_ROOM_CELLS(kMostQueueRoom) / VOXTACT_COMPUTE_GROUP + VOXTACT_ROOM_LEFT(kMostQueueRoom) <= 65535,
-              "Vulkan's least maxComputeWorkGroupCount, for the last pass");
+static_assert(VOXTACT_ROOM_CELLS(kMostQueueRoom) / VOXTACT_COMPUTE_GROUP <= 65535,
+              "Vulkan's least maxComputeWorkGroupCount");
 
 static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::uint32_t));
 

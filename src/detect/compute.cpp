@@ -5,6 +5,7 @@
 #include "core/method/method_table.h"
 #include "detect/batch.h"
 #include "detect/outputs.h"
+#include "detect/pixel_slices.h"
 #include "exact.h"
 #include "gpu/scene_impl.h"
 
@@ -79,13 +80,14 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
     const std::uint32_t groupsAtOnce = most.triangles == item.mesh->triangles()
                                            ? std::min(groups, limits[0])
                                            : std::clamp(most.triangles / VOXTACT_COMPUTE_GROUP, 1U, limits[0]);
-    for (std::uint32_t view = 0; view < views; view += std::min(viewsAtOnce, views - view)) {
-        for (std::uint32_t group = 0; group < groups; group += std::min(groupsAtOnce, groups - group)) {
+    const PixelSlices slices(*context_, desc_, batch, item, viewportOf(desc_, batch, item));
+    for (std::uint32_t group = 0, end = 0; group < groups; group = end) {
+        end = slices.endOf(group, group + std::min(groupsAtOnce, groups - group));
+        for (std::uint32_t view = 0; view < views; view += std::min(viewsAtOnce, views - view)) {
             constants.firstTransform = viewsOfPair * firstPair + view;
             constants.firstTriangle = group * VOXTACT_COMPUTE_GROUP;
             vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
-            vk.CmdDispatch(commandBuffer, std::min(groupsAtOnce, groups - group), std::min(viewsAtOnce, views - view),
-                           1);
+            vk.CmdDispatch(commandBuffer, end - group, std::min(viewsAtOnce, views - view), slices.of(group));
         }
     }
 }

@@ -40,6 +40,8 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     /// being put into the tiles: some tiles then end the query twice. A scene that is flushed after each query does
     /// not fill up.
     bool flushAfterQuery = false;
+    /// llvmpipe (seen in Mesa 22.3 and 25.0) leaves all loops of an invocation that has had 65,535 rounds of them.
+    bool endsLongLoops = false;
     VkPhysicalDeviceMemoryProperties memory{};
     std::vector<MethodSupport> methods;
 

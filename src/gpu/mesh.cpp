@@ -80,12 +80,13 @@ std::vector<double> squaresBefore(const MeshView& mesh, std::span<const std::uin
 Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions& options, const char* name) {
     ContextImpl& context = mesh.context;
     std::vector<std::uint32_t> clusters;
+    mesh.squaresBeforeGroup = squaresBefore(data, {});
     if (options.clusters) {
         const MeshClusters made = makeClusters(data);
         clusters = clusterWords(data, made);
         mesh.squaresBefore = squaresBefore(data, made.triangles);
     } else {
-        mesh.squaresBefore = squaresBefore(data, {});
+        mesh.squaresBefore = mesh.squaresBeforeGroup;
     }
     const VkDeviceSize positions = data.positions.size_bytes();
     const VkDeviceSize described = positions + data.indices.size_bytes();

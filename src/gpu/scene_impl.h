@@ -67,6 +67,7 @@ struct MeshImpl {
     /// Of the longest sides of triangles, squared, object units: sums over the clusters before each number, the last
     /// over all. 64 triangles each, as the passes take them. Empty when wrapped.
     std::vector<double> squaresBefore{};
+    std::vector<double> squaresBeforeGroup{}; ///< the same, of 64 triangles each in the order of the mesh
     Buffer staging{};
     bool uploaded = false; ///< recorded, or the caller's own
 };

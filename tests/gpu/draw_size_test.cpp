@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Draws and dispatches of the projections with fragments are as large as ContextDesc::fragmentsAtOnce says, and no
 // answer depends on it. Nor does one on how many work groups the device has.
+#include "core/geometry/pair_transform.h"
+#include "detect/pixel_slices.h"
+#include "exact.h"
+#include "gpu/scene_impl.h"
 #include "gpu_fixture.h"
 #include "interception.h"
 #include "support/scenes.h"
+#include "voxtact/cpu.h"
 #include "voxtact/samples.h"
 
 #include <algorithm>
+#include <iostream>
 
 namespace voxtact::test {
 namespace {
@@ -154,6 +160,124 @@ TEST_F(DrawSizeTest, NoAnswerDependsOnIt) {
             }
         }
     }
+}
+
+/// A work group of huge triangles by `compute`: more pixels than llvmpipe lets one invocation do (docs/facts.md).
+TEST_F(DrawSizeTest, TrianglesAsLargeAsTheViewportAreCountedWhole) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData ball = take(makeBuiltinVolume("sphere:64"));
+    MeshData data;
+    for (std::uint32_t corner = 0; corner < 3 * 64; ++corner) {
+        const double turn = 2.0943951 * (corner % 3) + uniform(random, -0.2, 0.2);
+        for (const double place : {120 * std::cos(turn), 120 * std::sin(turn), uniform(random, -15, 15)}) {
+            data.positions.push_back(static_cast<float>(place));
+        }
+        data.indices.push_back(corner);
+    }
+    const TransferFunctionDesc table{points_, {0, 255}, kDefaultTableSize};
+    const Mesh mesh = upload(data);
+    const Volume volume = upload(ball);
+    const TransferFunction function = upload(points_, {0, 255});
+    const cpu::Volume hostVolume = take(cpu::Volume::create(ball.view()));
+    const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
+    const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+    // The same triangles in the caller's own buffers: nothing is known of them.
+    WrappedMesh buffers;
+    buffers.vertices = buffers.indices = mesh.impl().vertices;
+    buffers.vertexCount = 3 * 64;
+    buffers.indexOffset = mesh.impl().indexOffset;
+    buffers.triangleCount = 64;
+    buffers.storage = true;
+    const Mesh wrapped = take(Mesh::wrap(context(), buffers));
+    // From 60 mm above: some triangles are behind the eye in the second pose.
+    const Mat4 perspective =
+        multiply({2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.001, -1, 0, 0, -1, 0}, translation({0, 0, -60}));
+    const Mat4 framing = framingCamera(ball.grid, 700, 700);
+    struct Look {
+        const Mesh& mesh;
+        Projection projection;
+        std::uint32_t samples;
+        const Mat4& clip_from_world;
+    };
+    const std::array poses{identity(), translation({0, 0, 50})};
+    for (const Look& look :
+         {Look{mesh, Projection::View, 1, framing}, Look{mesh, Projection::View, 1, perspective},
+          Look{wrapped, Projection::View, 1, perspective}, Look{mesh, Projection::DominantAxis, 8, framing}}) {
+        const BatchItem item{&look.mesh, &volume, &function, poses};
+        const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
+        const View view{look.clip_from_world, 700, 700};
+        const BatchAnswer onHost =
+            take(take(cpu::Detector::create({.projection = look.projection, .samplesPerVoxel = look.samples}))
+                     .detect({{&hostItem, 1}, view, 0.05}));
+        const BatchAnswer onDevice = take(detector({.method = CountingMethod::Compute,
+                                                    .projection = look.projection,
+                                                    .filter = Filter::Exact,
+                                                    .samplesPerVoxel = look.samples})
+                                              .detect({{&item, 1}, view, 0.05}));
+        SCOPED_TRACE(std::string(toString(look.projection)) + ", seed " + std::to_string(seed));
+        EXPECT_GT(onHost.pairs[0].count, 1000000U);
+        expectSame(onDevice, onHost);
+    }
+}
+
+/// What PixelSlices expects is no less than what the boxes of triangles have, of any size, in any view.
+TEST_F(DrawSizeTest, NoLaneHasMorePixelsThanItShould) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const Volume volume = upload(makeBytes(unitGrid(8), [](auto...) { return 255.0; }));
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    double fullest = 0;
+    std::uint32_t sliced = 0;
+    for (int turn = 0; turn < 400; ++turn) {
+        MeshData data;
+        const double size = std::exp2(uniform(random, -6, 4));
+        for (std::uint32_t corner = 0; corner < 3 * 64; ++corner) {
+            for (int axis = 0; axis < 3; ++axis) {
+                data.positions.push_back(static_cast<float>(size * uniform(random, -1, 1)));
+            }
+            data.indices.push_back(corner);
+        }
+        const Mesh mesh = take(Mesh::create(context(), data.view()));
+        const auto side = static_cast<std::uint32_t>(std::exp2(uniform(random, 4, 14)));
+        const double depth = turn % 2 == 0 ? 0 : -1; // w = 1, or the distance from the eye
+        View view{{uniform(random, 0.3, 3), 0, 0, 0, 0, uniform(random, 0.3, 3), 0, 0, 0, 0, depth == 0 ? -0.01 : -1.01,
+                   depth, 0, 0, depth == 0 ? 0.5 : -0.1, depth == 0 ? 1.0 : 0.0},
+                  side,
+                  side};
+        const Mat4 pose =
+            translation({uniform(random, -2, 2), uniform(random, -2, 2), -size * uniform(random, 0.5, 8)});
+        const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
+        const PixelSlices slices(context().impl(), {}, {{&item, 1}, view, 0.5}, item, {side, side});
+        const shader::PairTransform transform = pairTransform(view.clip_from_world, pose, identity());
+        const float guard = shader::exactGuard(side);
+        double rounds = 0; // of the lanes of each slice
+        for (std::size_t triangle = 0; triangle < 64; ++triangle) {
+            shader::ExactCorner corners[EXACT_MAX_CORNERS];
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const float* at = &data.positions[9 * triangle + 3 * corner];
+                corners[corner] = shader::exactVertex(transform, at[0], at[1], at[2]);
+            }
+            const int count = shader::exactClip(corners, 3, guard, guard);
+            for (int i = 1; i + 1 < count; ++i) {
+                shader::ExactTriangle piece;
+                if (shader::exactSetUp(corners[0], corners[i], corners[i + 1], static_cast<int>(side),
+                                       static_cast<int>(side), piece)) {
+                    const double pixels =
+                        static_cast<double>(piece.maxX - piece.minX + 1) * (piece.maxY - piece.minY + 1);
+                    rounds += pixels <= 64 ? 0 : std::ceil(pixels / (64.0 * slices.of(0)));
+                }
+            }
+        }
+        // A slice has one round more of each piece than its share.
+        EXPECT_LE(rounds, kMostPixelRounds + 64 * 7) << "turn " << turn << ", seed " << seed;
+        fullest = std::max(fullest, rounds / kMostPixelRounds);
+        sliced += slices.of(0) > 1 ? 1U : 0U;
+    }
+    std::cout << "at most " << fullest << " of it, " << sliced << " of 400 in slices\n";
+    EXPECT_GT(fullest, 0.02);
+    EXPECT_GT(sliced, 20U);
+    EXPECT_LT(sliced, 380U);
 }
 
 /// A device of few work groups takes a mesh of any size.

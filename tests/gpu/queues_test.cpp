@@ -49,6 +49,21 @@ void expectSame(const BatchAnswer& device, const BatchAnswer& host, const std::s
     }
 }
 
+/// Triangles about the origin in any direction, of such a size.
+MeshData hugeTriangles(std::uint32_t count, double size, std::mt19937_64& random) {
+    MeshData out;
+    for (std::uint32_t corner = 0; corner < 3 * count; ++corner) {
+        const double turn = 2.0943951 * (corner % 3) + uniform(random, -0.3, 0.3);
+        const double height = uniform(random, -0.4, 0.4);
+        const std::array<double, 3> place{size * std::cos(turn), size * std::sin(turn), size * height};
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            out.positions.push_back(static_cast<float>(place[(axis + corner / 3) % 3]));
+        }
+        out.indices.push_back(corner);
+    }
+    return out;
+}
+
 /// A scalpel of small triangles, and one whose triangles are large: with room for all, and with queues that hold a few
 /// triangles' cells, so that nearly everything is left to the last pass.
 TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
@@ -85,6 +100,46 @@ TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
                                std::to_string(seed));
             }
         }
+    }
+}
+
+/// Triangles through the whole of a volume, obliquely: some 10,000 cells each, which the last pass finds and decides.
+/// More than llvmpipe lets one invocation do (docs/facts.md), and of several pairs in a work group.
+TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    // A cell of noise takes many pieces.
+    const VolumeData ball = take(makeBuiltinVolume("sphere:128"));
+    const VolumeData noise = makeBytes(ball.grid, [&](auto...) { return static_cast<double>(random() % 256); });
+    const std::array ramp{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const std::array peak{ControlPoint{120, 0}, ControlPoint{122, 1}, ControlPoint{124, 0}};
+    struct Scene {
+        const VolumeData& image;
+        std::span<const ControlPoint> points;
+        double threshold;
+        std::uint32_t clusters;
+    };
+    const std::array poses{identity(), translation({1e4, 0, 0}), translation({-1, 2.5, 3})};
+    const MeshData data = hugeTriangles(4, 0.9 * 128, random);
+    const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
+    const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+    const DetectorDesc desc{
+        .method = CountingMethod::Compute, .projection = Projection::Conservative, .outputs = {.triangles = true}};
+    for (const Scene& scene :
+         {Scene{ball, ramp, 0.05, 16}, Scene{ball, ramp, 0.05, 2048}, Scene{noise, peak, 0.5, 16}}) {
+        const TransferFunctionDesc table{scene.points, {0, 255}, kDefaultTableSize};
+        const Volume volume = take(Volume::upload(context(), queue(), scene.image.view(), {.bricks = true}));
+        const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
+        const cpu::Volume hostVolume = take(cpu::Volume::create(scene.image.view()));
+        const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
+        const BatchItem item{&mesh, &volume, &function, poses};
+        const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
+        const BatchAnswer onHost =
+            take(take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.triangles = true}}))
+                     .detect({{&hostItem, 1}, {}, scene.threshold}));
+        EXPECT_GT(onHost.pairs[0].count, 10000U);
+        expectSame(detect(desc, {{&item, 1}, {}, scene.threshold}, 3, scene.clusters), onHost,
+                   std::to_string(scene.clusters) + " clusters at once, seed " + std::to_string(seed));
     }
 }
 
