@@ -60,8 +60,11 @@ void drawAnswer(State& state) {
     if (answer.contacts.empty()) {
         ImGui::TextColored(quietColour(), "%d triangles", static_cast<int>(answer.triangles.size()));
     } else {
-        ImGui::TextColored(quietColour(), "%d triangles, deepest %.2f mm", static_cast<int>(answer.triangles.size()),
-                           answer.contacts.front().depth);
+        const double deepest = answer.contacts.front().depth;
+        // It is not followed any farther.
+        const char* more = deepest >= kDefaultMaxDepth ? " or more" : "";
+        ImGui::TextColored(quietColour(), "%d triangles, deepest %.4g mm%s", static_cast<int>(answer.triangles.size()),
+                           deepest, more);
     }
     ImGui::EndGroup();
     drawMethods(state);

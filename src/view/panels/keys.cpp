@@ -160,7 +160,7 @@ void drawHelp(State& state) {
     }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
-    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 34, size.y * 0.86F}, ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 46, size.y * 0.86F}, ImGuiCond_Appearing);
     if (ImGui::Begin("Keys and mouse", &state.helpOpen, ImGuiWindowFlags_NoCollapse) &&
         ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
         for (const Nudge& one : kNudges) {
