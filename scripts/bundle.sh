@@ -25,7 +25,7 @@ layer=libVkLayer_khronos_validation.so
 layer_manifest=/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json
 head=/usr/share/mricron/templates/ch2.nii.gz
 # Packages of which something is compiled in.
-compiled_in=(libcli11-dev libglm-dev libgtest-dev libstb-dev libvulkan-dev libvulkan-volk-dev nlohmann-json3-dev
+compiled_in=(libcli11-dev libglm-dev libgtest-dev libimgui-dev libstb-dev libvulkan-dev libvulkan-volk-dev nlohmann-json3-dev
     fonts-dejavu-core libjs-chart.js)
 
 version=$("$build/voxtact" --version | sed -n '1s/^voxtact \([^ ]*\).*/\1/p')

@@ -17,14 +17,15 @@ allowed() {
     device) echo "core gpu detect device" ;;
     samples) echo "core samples" ;;
     lab) echo "core gpu detect render io cpu samples oracle device lab" ;;
+    view) echo "core gpu detect render io cpu samples oracle device view" ;;
     c) echo "c" ;;
     python) echo "python" ;;
-    app) echo "core gpu detect render io cpu samples oracle device lab app" ;;
+    app) echo "core gpu detect render io cpu samples oracle device lab view app" ;;
     *) return 1 ;;
     esac
 }
 
-parts="core gpu detect render io cpu samples oracle device lab c python app"
+parts="core gpu detect render io cpu samples oracle device lab view c python app"
 wrong=0
 complain() {
     printf '%s\n' "$1" >&2
@@ -47,7 +48,7 @@ done
 # No Vulkan in the parts that promise to do without.
 while IFS= read -r hit; do
     complain "$hit: no Vulkan here"
-done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu src/samples src/oracle 2>/dev/null | cut -d: -f1,2)
+done < <(grep -rnE '#include *[<"](vulkan/|volk)' src/core src/io src/cpu src/samples src/oracle src/view/model 2>/dev/null | cut -d: -f1,2)
 
 while IFS=: read -r file line text; do
     case "$text" in

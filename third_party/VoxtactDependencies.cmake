@@ -64,6 +64,19 @@ if(VOXTACT_BUILD_APP)
   endif()
 endif()
 
+# the window of the program: Dear ImGui with its GLFW backend, which Debian's library has in it and builds with FreeType.
+# What it draws we record ourselves, so that nothing links the Vulkan loader.
+if(VOXTACT_BUILD_VIEW)
+  find_package(glfw3 3.3 CONFIG REQUIRED)
+  find_package(Freetype REQUIRED)
+  find_path(VOXTACT_IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+  find_library(VOXTACT_IMGUI_LIBRARY imgui REQUIRED)
+  find_library(VOXTACT_STB_LIBRARY stb REQUIRED) # Debian's Dear ImGui has no copies of its files
+  add_library(voxtact_imgui INTERFACE)
+  target_include_directories(voxtact_imgui SYSTEM INTERFACE "${VOXTACT_IMGUI_INCLUDE_DIR}")
+  target_link_libraries(voxtact_imgui INTERFACE "${VOXTACT_IMGUI_LIBRARY}" "${VOXTACT_STB_LIBRARY}" glfw Freetype::Freetype)
+endif()
+
 if(VOXTACT_BUILD_TESTS)
   find_package(GTest REQUIRED)
   if(VOXTACT_BUILD_IO)

@@ -15,6 +15,7 @@ namespace voxtact::app {
 [[nodiscard]] Command addMotion(CLI::App& program);
 [[nodiscard]] Command addPlan(CLI::App& program);
 [[nodiscard]] Command addRender(CLI::App& program);
+[[nodiscard]] Command addView(CLI::App& program);
 /// `make` has commands of its own: mesh, volume, poses.
 [[nodiscard]] std::vector<Command> addMake(CLI::App& program);
 

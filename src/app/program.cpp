@@ -88,9 +88,9 @@ int run(std::vector<std::string> arguments) {
     program.set_version_flag("--version", versionText());
     program.footer("Example:\n  voxtact detect --volume builtin:head:128 --mesh builtin:scalpel\n\n"
                    "Exit status: 0 done, 1 failed at run time, 2 unusable arguments, 3 a verification failed.");
-    std::vector<Command> commands{addDetect(program),  addCompare(program), addBench(program),
-                                  addDevices(program), addInfo(program),    addMerge(program),
-                                  addMotion(program),  addPlan(program),    addRender(program)};
+    std::vector<Command> commands{addDetect(program), addCompare(program), addBench(program),  addDevices(program),
+                                  addInfo(program),   addMerge(program),   addMotion(program), addPlan(program),
+                                  addRender(program), addView(program)};
     for (Command& command : addMake(program)) {
         commands.push_back(std::move(command));
     }

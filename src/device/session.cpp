@@ -6,8 +6,8 @@
 namespace voxtact::device {
 
 Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevice& physical, PipelineStore store,
-                              LogCallback log) {
-    Result<VulkanDevice> device = VulkanDevice::create(instance, physical);
+                              LogCallback log, const DeviceOptions& options) {
+    Result<VulkanDevice> device = VulkanDevice::create(instance, physical, options);
     VOXTACT_TRY(device);
     PipelineCache pipelines(*device, std::move(store));
     ContextDesc desc = device->contextDesc();

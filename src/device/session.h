@@ -18,6 +18,6 @@ struct Session {
 
 /// `log` may be null.
 [[nodiscard]] Result<Session> openSessionOn(const VulkanInstance& instance, const PhysicalDevice& physical,
-                                            PipelineStore store, LogCallback log);
+                                            PipelineStore store, LogCallback log, const DeviceOptions& options = {});
 
 } // namespace voxtact::device

@@ -10,6 +10,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <iterator>
 #include <optional>
 
 namespace voxtact::device {
@@ -64,23 +65,30 @@ std::optional<VkQueueFamilyProperties> findGraphicsFamily(const InstanceFunction
 /// Of a device that is not all of Vulkan; who makes it must enable it. Its name is in Vulkan's beta headers alone.
 constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
 
-/// Those of voxtact's optional extensions that the device has, and the one that it demands.
-Result<std::vector<const char*>> findExtensions(const InstanceFunctions& functions, VkPhysicalDevice physical) {
+/// Those of voxtact's optional extensions that the device has, the one that it demands, and all that are required.
+Result<std::vector<const char*>> findExtensions(const InstanceFunctions& functions, const PhysicalDevice& device,
+                                                std::span<const char* const> required) {
     const auto there =
         enumerate<VkExtensionProperties>("listing the device's extensions failed", [&](auto... arguments) {
-            return functions.enumerateDeviceExtensionProperties(physical, nullptr, arguments...);
+            return functions.enumerateDeviceExtensionProperties(device.handle, nullptr, arguments...);
         });
     VOXTACT_TRY(there);
+    const auto has = [&there](const char* wanted) {
+        return std::ranges::any_of(*there, [wanted](const VkExtensionProperties& extension) {
+            return std::strcmp(extension.extensionName, wanted) == 0;
+        });
+    };
     std::vector<const char*> all(optionalDeviceExtensions().begin(), optionalDeviceExtensions().end());
     all.push_back(kPortabilitySubset);
-    std::vector<const char*> out;
-    for (const char* wanted : all) {
-        if (std::ranges::any_of(*there, [wanted](const VkExtensionProperties& extension) {
-                return std::strcmp(extension.extensionName, wanted) == 0;
-            })) {
-            out.push_back(wanted);
+    std::vector<const char*> out(required.begin(), required.end());
+    for (const char* wanted : out) {
+        if (!has(wanted)) {
+            return Error{ErrorCode::Unsupported, 0,
+                         "the device '" + device.name + "' has no extension " + wanted +
+                             "; choose another with --device"};
         }
     }
+    std::ranges::copy_if(all, std::back_inserter(out), has);
     return out;
 }
 
@@ -246,7 +254,7 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
     request.vulkan13.dynamicRendering &= supported.vulkan13.dynamicRendering;
     request.vulkan13.synchronization2 &= supported.vulkan13.synchronization2;
 
-    Result<std::vector<const char*>> extensions = findExtensions(functions, physical.handle);
+    Result<std::vector<const char*>> extensions = findExtensions(functions, physical, options.extensions);
     VOXTACT_TRY(extensions);
     state->extensions = std::move(*extensions);
 

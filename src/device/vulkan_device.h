@@ -59,6 +59,7 @@ struct PhysicalDevice {
 
 struct InstanceOptions {
     bool validate = false; ///< the Khronos layer with synchronization validation; messages go to messages()
+    std::vector<const char*> extensions{}; ///< that a window system asks for; without them there is no instance
 };
 
 /// Copies share the instance; it ends with the last copy and the last device made from it.
@@ -91,7 +92,8 @@ class VulkanInstance {
 
 struct DeviceOptions {
     /// Changes what is enabled, before the device is made: a test takes features away with it.
-    std::function<void(FeatureRequest&)> adjustFeatures;
+    std::function<void(FeatureRequest&)> adjustFeatures{};
+    std::vector<const char*> extensions{}; ///< beside voxtact's optional ones; without them there is no device
 };
 
 /// A device with one graphics queue and every feature that voxtact can use.

@@ -111,6 +111,16 @@ Result<void> createInstance(const InstanceOptions& options, VulkanInstance::Stat
     if (*debugUtils) {
         state.extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    for (const char* extension : options.extensions) {
+        const Result<bool> there = hasExtension(extension);
+        VOXTACT_TRY(there);
+        if (!*there) {
+            return Error{ErrorCode::Unsupported, 0,
+                         std::string("no Vulkan driver here can show pictures in a window: the instance extension ") +
+                             extension + " is missing"};
+        }
+        state.extensions.push_back(extension);
+    }
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;

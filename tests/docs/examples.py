@@ -34,7 +34,7 @@ FILES = {
     "poses.txt": ["poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--count", "8", "--seed",
                   "7", "--output"],
 }
-SUBCOMMANDS = ("detect", "motion", "merge", "plan", "compare", "bench", "render", "info", "devices", "make")
+SUBCOMMANDS = ("detect", "motion", "merge", "plan", "compare", "bench", "render", "view", "info", "devices", "make")
 
 
 class Block:

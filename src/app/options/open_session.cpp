@@ -6,15 +6,16 @@
 
 namespace voxtact::app {
 
-Result<device::Session> openSession(const DeviceChoice& choice) {
-    Result<device::VulkanInstance> instance = device::VulkanInstance::create({.validate = choice.validate});
+Result<device::Session> openSession(const DeviceChoice& choice, const SessionExtensions& extensions) {
+    Result<device::VulkanInstance> instance =
+        device::VulkanInstance::create({.validate = choice.validate, .extensions = extensions.instance});
     VOXTACT_TRY(instance);
     const Result<std::vector<device::PhysicalDevice>> devices = instance->devices();
     VOXTACT_TRY(devices);
     const Result<device::PhysicalDevice> chosen = device::chooseDevice(*devices, choice.wanted);
     VOXTACT_TRY(chosen);
     return device::openSessionOn(*instance, *chosen, pipelineStore(choice, *chosen),
-                                 [](void*, const char* text) { printNote(text); });
+                                 [](void*, const char* text) { printNote(text); }, {.extensions = extensions.device});
 }
 
 device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device) {

@@ -7,8 +7,14 @@
 
 namespace voxtact::app {
 
+/// What a window needs of instance and device beside what everybody does.
+struct SessionExtensions {
+    std::vector<const char*> instance{};
+    std::vector<const char*> device{};
+};
+
 /// On the device that the user chose. The context's warnings are printed as notes.
-[[nodiscard]] Result<device::Session> openSession(const DeviceChoice& choice);
+[[nodiscard]] Result<device::Session> openSession(const DeviceChoice& choice, const SessionExtensions& extensions = {});
 /// Where the user wants a device's pipelines to be kept.
 [[nodiscard]] device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device);
 

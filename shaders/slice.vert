@@ -1,0 +1,10 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// A triangle that covers the picture.
+
+layout(location = 0) out vec2 clip;
+
+void main() {
+    clip = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(clip, 0.0, 1.0);
+}

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "app/view/view_options.h"
+
+#include "app/options/inputs.h"
+#include "app/options/output_paths.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
+#include "view/model/session_file.h"
+#include "voxtact/io.h"
+#include "voxtact/looks.h"
+
+#include <CLI/CLI.hpp>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(A window with the volume, the mesh in it, three slices, and the answer to whether they touch, which follows every
+change of pose and transfer function. F1 shows keys and mouse. Without --volume and --session: the builtin head and
+scalpel. Needs a display (X11) and a Vulkan driver that can show pictures on it.
+
+--device cpu: the host engine answers, whatever draws. By default the GPU answers where there is one that can, else the
+host. --count and --projection choose another way, and so does the list under the answer.
+
+--report-state PATH: a JSON file, written anew after each answer: hit (0, 1, or 2 for possible), count, method,
+projection, pose (16 numbers, row by row), command (a line for a shell that gives the same answer) and more.
+
+Examples:
+  voxtact view
+  voxtact view --volume head.nii.gz --preset mr --mesh tool.stl --poses poses.txt
+  voxtact view --session session.json)";
+
+std::vector<const char*> presetNames() {
+    std::vector<const char*> names;
+    for (const LookPreset& preset : lookPresets()) {
+        names.push_back(preset.name);
+    }
+    return names;
+}
+
+/// A method that was asked for, or the host for --device cpu.
+std::optional<view::MethodChoice> methodOf(const ViewerOptions& options) {
+    const MethodOptions& method = options.method;
+    if (options.device.wanted == "cpu") {
+        return view::MethodChoice{CountingMethod::Cpu, method.projection.value_or(Projection::Conservative)};
+    }
+    if (!method.count && !method.projection) {
+        return std::nullopt;
+    }
+    const CountingMethod count = method.count.value_or(CountingMethod::Cpu);
+    const Projection standard = rowOf(count).certified ? Projection::Conservative : Projection::View;
+    return view::MethodChoice{count, method.projection.value_or(standard)};
+}
+
+Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type, const ValueRange& values) {
+    view::Document document;
+    Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
+    VOXTACT_TRY(points);
+    document.domain = tableDomain(options.transferFunction, type, values);
+    document.tableSize = options.transferFunction.tableSize;
+    document.edit.threshold = options.transferFunction.threshold;
+    Result<Look> look =
+        options.preset.empty() ? Look{defaultRamp(document.domain), plainColours()} : lookNamed(options.preset, values);
+    VOXTACT_TRY(look);
+    document.edit.curve = points->empty() ? look->opacity : *points;
+    document.colours = look->colours;
+    if (!options.transferFunction.path.empty()) {
+        const Result<std::vector<ColourPoint>> colours = io::readColours(options.transferFunction.path);
+        VOXTACT_TRY(colours);
+        document.colours = colours->empty() ? document.colours : *colours;
+    }
+    if (!options.poses.empty()) {
+        const Result<std::vector<Mat4>> poses = loadPoses(options.poses);
+        VOXTACT_TRY(poses);
+        document.poses = *poses;
+        document.edit.world_from_object = poses->front();
+    }
+    document.method = methodOf(options);
+    return document;
+}
+
+} // namespace
+
+void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
+    parser.footer(kFooter);
+    addVolumeOption(parser, options.volumes);
+    parser.get_option("--volume")->required(false);
+    addMeshOptions(parser, options.meshes, false);
+    addPath(parser, "--poses", options.poses,
+            "a world_from_object matrix a line: 16 numbers, row by row; the first is shown; default: the identity");
+    addTransferFunctionOptions(parser, options.transferFunction, true);
+    addName(parser, "--preset", options.preset, presetNames(),
+            "colours, and the opacity where none is given, as of voxtact render");
+    addMethodOptions(parser, options.method);
+    for (const char* fixed : {"--samples-per-voxel", "--resolution", "--filter", "--boundary"}) {
+        parser.remove_option(parser.get_option(fixed));
+    }
+    addDeviceOptions(parser, options.device);
+    addPath(parser, "--session", options.session, "opens what File, Save session has written");
+    for (const char* other : {"--volume", "--mesh", "--mesh-space", "--mesh-scale", "--poses", "--transfer-function",
+                              "--opacity", "--tf-domain", "--tf-size", "--threshold", "--preset"}) {
+        parser.get_option("--session")->excludes(parser.get_option(other));
+    }
+    addPath(parser, "--report-state", options.reportState, "a JSON file to write anew after each answer");
+    addWholeNumber(
+        parser, "--frames", [&options](std::uint32_t frames) { options.frames = frames; }, {.least = 1},
+        "ends by itself after so many frames; default: when it is closed", 0);
+    addSize(
+        parser, [&options](const VkExtent2D& size) { options.size = size; }, "of the window, in points");
+}
+
+Result<void> checkViewerOptions(const ViewerOptions& options) {
+    if (options.volumes.size() > 1 || options.meshes.sources.size() > 1) {
+        return badArgument(std::string(options.volumes.size() > 1 ? "--volume" : "--mesh") +
+                           ": the window shows one; leave out the others");
+    }
+    const view::MethodChoice method = methodOf(options).value_or(view::MethodChoice{});
+    if (rowOf(method.projection).certified && !rowOf(method.count).certified) {
+        return badArgument(std::string("--count ") + toString(method.count) +
+                           ": the projection conservative is answered by compute and cpu only; choose another "
+                           "--projection");
+    }
+    constexpr std::uint32_t kLeast = 320;
+    constexpr std::uint32_t kMost = 16384;
+    for (const std::uint32_t side : {options.size.width, options.size.height}) {
+        if (side < kLeast || side > kMost) {
+            return badArgument("--size " + std::to_string(options.size.width) + "x" +
+                               std::to_string(options.size.height) + ": a window has 320 to 16384 points a side");
+        }
+    }
+    ViewOptions inputs;
+    inputs.poses = options.poses;
+    return checkOutputs({{"--report-state", options.reportState}},
+                        inputPaths(options.volumes, options.meshes, options.transferFunction, inputs));
+}
+
+Result<Opened> openDocument(const ViewerOptions& options) {
+    Opened opened;
+    if (!options.session.empty()) {
+        Result<view::Document> document = view::readSession(options.session);
+        VOXTACT_TRY(document);
+        opened.document = std::move(*document);
+        if (options.method.count || options.method.projection || options.device.wanted == "cpu") {
+            opened.document.method = methodOf(options);
+        }
+    }
+    view::Sources sources = opened.document.sources;
+    if (options.session.empty()) {
+        sources.volume = options.volumes.empty() ? "builtin:head" : options.volumes.front();
+        sources.mesh = options.meshes.sources.empty() ? "builtin:scalpel" : options.meshes.sources.front();
+        sources.meshSpace = options.meshes.space;
+        sources.meshScale = options.meshes.scale;
+    }
+    Result<VolumeData> volume = loadVolume(sources.volume);
+    VOXTACT_TRY(volume);
+    const Result<ValueRange> values = checkVolume(volume->view());
+    VOXTACT_TRY(values);
+    Result<MeshData> mesh =
+        loadMesh(sources.mesh, {.sources = {}, .space = sources.meshSpace, .scale = sources.meshScale});
+    VOXTACT_TRY(mesh);
+    if (options.session.empty()) {
+        Result<view::Document> document = documentOf(options, volume->type, *values);
+        VOXTACT_TRY(document);
+        opened.document = std::move(*document);
+        opened.document.sources = sources;
+    }
+    opened.volume = std::move(*volume);
+    opened.mesh = std::move(*mesh);
+    opened.values = *values;
+    return opened;
+}
+
+} // namespace voxtact::app

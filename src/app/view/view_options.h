@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options/shared_options.h"
+#include "view/model/document.h"
+
+namespace voxtact::app {
+
+/// The options of `voxtact view`.
+struct ViewerOptions {
+    std::vector<std::string> volumes;
+    MeshOptions meshes;
+    TransferFunctionOptions transferFunction;
+    std::filesystem::path poses;
+    std::string preset;
+    MethodOptions method;
+    DeviceChoice device;
+    std::filesystem::path session;
+    std::filesystem::path reportState;
+    std::optional<std::uint32_t> frames;
+    VkExtent2D size{1280, 800};
+};
+
+void addViewerOptions(CLI::App& parser, ViewerOptions& options);
+/// What a parser cannot see.
+[[nodiscard]] Result<void> checkViewerOptions(const ViewerOptions& options);
+
+/// What is shown at first, with volume and mesh read.
+struct Opened {
+    view::Document document;
+    VolumeData volume;
+    MeshData mesh;
+    ValueRange values;
+};
+[[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options);
+
+} // namespace voxtact::app

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "view/frame/device_scene.h"
+
+#include "core/base/try.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace voxtact::view {
+
+namespace {
+
+constexpr std::size_t kAlignment = 256; // that PaintedTriangles::wrap() asks for
+constexpr Colour kBackground{0.055, 0.062, 0.075};
+constexpr std::uint32_t kAnswerSide = 512; // as voxtact detect has it
+
+/// Half a voxel apart in a fine picture, a whole one in a coarse one.
+RenderTransferFunctionDesc renderDesc(const State& state, bool fine) {
+    const Document& document = state.document;
+    RenderTransferFunctionDesc desc;
+    desc.opacity = {document.edit.curve, document.domain, document.tableSize};
+    desc.colours = document.colours;
+    desc.step = *std::ranges::min_element(state.volume.grid.spacing) * (fine ? 0.5 : 1);
+    return desc;
+}
+
+double diagonalOf(const Grid& grid) {
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sum += std::pow(grid.spacing[axis] * grid.size[axis], 2);
+    }
+    return std::sqrt(sum);
+}
+
+bool same(const Curve& a, const Curve& b) {
+    return std::ranges::equal(a, b, [](const ControlPoint& one, const ControlPoint& other) {
+        return one.value == other.value && one.opacity == other.opacity;
+    });
+}
+
+} // namespace
+
+Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& session, const State& state,
+                                                         const Lighting& light) {
+    std::unique_ptr<DeviceScene> scene(new DeviceScene);
+    const QueueAccess queue = session.device.queueAccess();
+    scene->light_ = light;
+    Result<BlockingRenderer> blocking = BlockingRenderer::create(session.context, queue);
+    VOXTACT_TRY(blocking);
+    scene->blocking_ = std::move(*blocking);
+    Result<Volume> volume = Volume::upload(session.context, queue, state.volume.view(), {.bricks = true});
+    VOXTACT_TRY(volume);
+    scene->volume_ = std::move(*volume);
+    Result<RenderBricks> bricks = RenderBricks::create(scene->renderer(), *scene->volume_);
+    VOXTACT_TRY(bricks);
+    scene->bricks_ = std::move(*bricks);
+    VOXTACT_TRY(scene->uploadFunctions(session, state));
+    VOXTACT_TRY(scene->uploadMesh(session, state));
+    return scene;
+}
+
+Result<void> DeviceScene::uploadFunctions(const device::Session& session, const State& state) {
+    const QueueAccess queue = session.device.queueAccess();
+    curve_ = state.document.edit.curve;
+    Result<TransferFunction> function =
+        TransferFunction::upload(session.context, queue, renderDesc(state, true).opacity);
+    VOXTACT_TRY(function);
+    function_ = std::move(*function);
+    Result<RenderTransferFunction> fine = RenderTransferFunction::upload(renderer(), queue, renderDesc(state, true));
+    VOXTACT_TRY(fine);
+    fine_ = std::move(*fine);
+    Result<RenderTransferFunction> coarse = RenderTransferFunction::upload(renderer(), queue, renderDesc(state, false));
+    VOXTACT_TRY(coarse);
+    coarse_ = std::move(*coarse);
+    return {};
+}
+
+Result<void> DeviceScene::uploadMesh(const device::Session& session, const State& state) {
+    const QueueAccess queue = session.device.queueAccess();
+    // The same triangles in the same order, with sharp edges.
+    const Result<MeshData> creased = splitAtCreases(state.mesh.view());
+    VOXTACT_TRY(creased);
+    Result<Mesh> mesh = Mesh::upload(session.context, queue, creased->view(), {.clusters = true});
+    VOXTACT_TRY(mesh);
+    mesh_ = std::move(*mesh);
+    Result<MeshNormals> normals = MeshNormals::upload(renderer(), queue, creased->view());
+    VOXTACT_TRY(normals);
+    normals_ = std::move(*normals);
+    const std::size_t words = (std::size_t{mesh_->triangles()} + 31) / 32;
+    maskBytes_ = (words * sizeof(std::uint32_t) + kAlignment - 1) / kAlignment * kAlignment;
+    Result<HostBuffer> masks =
+        HostBuffer::create(session.device, kFramesInFlight * maskBytes_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    VOXTACT_TRY(masks);
+    masks_ = std::move(*masks);
+    std::ranges::fill(masks_.bytes(), std::byte{});
+    for (std::uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
+        Result<PaintedTriangles> painted =
+            PaintedTriangles::wrap(renderer(), {masks_.handle(), slot * maskBytes_, maskBytes_});
+        if (painted.ok()) { // else, without geometry shaders, nothing is painted
+            painted_[slot] = std::move(*painted);
+        }
+    }
+    return {};
+}
+
+Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state) {
+    const Curve& curve = state.document.edit.curve;
+    if (same(curve, curve_)) {
+        return {};
+    }
+    VOXTACT_TRY(function_->cmdUpdate(commands, renderDesc(state, true).opacity));
+    VOXTACT_TRY(fine_->cmdUpdate(commands, renderDesc(state, true)));
+    VOXTACT_TRY(coarse_->cmdUpdate(commands, renderDesc(state, false)));
+    curve_ = curve;
+    return {};
+}
+
+void DeviceScene::paint(const State& state, std::uint32_t slot) {
+    const std::span<std::byte> mask = masks_.bytes().subspan(slot * maskBytes_, maskBytes_);
+    std::ranges::fill(mask, std::byte{});
+    if (!state.answer) {
+        return;
+    }
+    for (const std::uint32_t triangle : state.answer->triangles) {
+        // Lowest bits first, in words of the machine's order: in bytes too, on machines that Vulkan runs on.
+        mask[triangle / 8] |= std::byte{1} << (triangle % 8);
+    }
+}
+
+const Scene& DeviceScene::scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) {
+    scene_ = {};
+    scene_.mesh = &*mesh_;
+    scene_.normals = &*normals_;
+    scene_.world_from_object = state.document.edit.world_from_object;
+    if (painted_[slot]) {
+        scene_.paint.what = Paint::Triangles;
+        scene_.paint.triangles = &*painted_[slot];
+        scene_.paint.through = 0.45;
+    }
+    scene_.volume = &*volume_;
+    scene_.bricks = &*bricks_;
+    scene_.transferFunction = fine ? &*fine_ : &*coarse_;
+    scene_.lighting = light_;
+    if (!fine) {
+        scene_.lighting.occlusion = 0;
+    }
+    scene_.clip_from_world = clipFromWorld(state.camera, extent, 2 * diagonalOf(state.volume.grid));
+    scene_.background = kBackground;
+    return scene_;
+}
+
+Batch DeviceScene::batch(const State& state) {
+    pose_ = state.document.edit.world_from_object;
+    item_ = {&*mesh_, &*volume_, &*function_, {&pose_, 1}};
+    Batch batch;
+    batch.items = {&item_, 1};
+    batch.view = {framingCamera(state.volume.grid, kAnswerSide, kAnswerSide), kAnswerSide, kAnswerSide};
+    batch.threshold = state.document.edit.threshold;
+    return batch;
+}
+
+} // namespace voxtact::view

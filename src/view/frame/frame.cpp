@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "view/frame/frame.h"
+
+#include "core/base/try.h"
+#include "core/method/method_table.h"
+#include "device/created.h"
+
+#include <imgui.h>
+
+namespace voxtact::view {
+
+namespace {
+
+using device::createdOrNull;
+using device::vulkanError;
+
+std::array<Extent, 3> extentsOf(const State& state) {
+    return {state.slices[0].extent, state.slices[1].extent, state.slices[2].extent};
+}
+
+} // namespace
+
+Result<std::unique_ptr<Frames>> Frames::create(const device::Session& session, VkSurfaceKHR surface, State& state,
+                                               const Lighting& light, const std::function<void()>& wake) {
+    std::unique_ptr<Frames> frames(new Frames(session));
+    Result<Swapchain> swapchain = Swapchain::create(session.device, surface);
+    VOXTACT_TRY(swapchain);
+    frames->swapchain_.emplace(std::move(*swapchain));
+    Result<std::unique_ptr<DeviceScene>> scene = DeviceScene::create(session, state, light);
+    VOXTACT_TRY(scene);
+    frames->scene_ = std::move(*scene);
+    Result<DeviceAnswers> answers = DeviceAnswers::create(session, *frames->scene_);
+    VOXTACT_TRY(answers);
+    frames->device_ = std::move(*answers);
+    Result<std::unique_ptr<HostAnswers>> host = HostAnswers::create(state, wake);
+    VOXTACT_TRY(host);
+    frames->host_ = std::move(*host);
+    Result<Gui> gui = Gui::create(session.device, frames->swapchain_->format());
+    VOXTACT_TRY(gui);
+    frames->gui_ = std::move(*gui);
+    Result<Pictures> pictures = Pictures::create(session.device, frames->scene_->renderer());
+    VOXTACT_TRY(pictures);
+    frames->pictures_.emplace(std::move(*pictures));
+    Result<SlicePass> slices = SlicePass::create(session.device, frames->scene_->volume());
+    VOXTACT_TRY(slices);
+    frames->slices_ = std::move(*slices);
+    VOXTACT_TRY(frames->makeSlots());
+    VOXTACT_TRY(frames->makeTextures(state));
+    state.methods = DeviceAnswers::choices(session.context);
+    frames->answering_ = state.method;
+    return frames;
+}
+
+Result<void> Frames::makeSlots() {
+    const VolkDeviceTable& table = session_->device.table();
+    VkDevice device = session_->device.handle();
+    for (Slot& slot : slots_) {
+        VkCommandPoolCreateInfo pool{};
+        pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+        pool.queueFamilyIndex = session_->device.queueAccess().family;
+        VkResult result = createdOrNull(table.vkCreateCommandPool(device, &pool, nullptr, &slot.pool), slot.pool);
+        VkCommandBufferAllocateInfo allocate{};
+        allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        allocate.commandPool = slot.pool;
+        allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        allocate.commandBufferCount = 1;
+        result = result == VK_SUCCESS ? table.vkAllocateCommandBuffers(device, &allocate, &slot.commands) : result;
+        VkFenceCreateInfo fence{};
+        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        if (result == VK_SUCCESS) {
+            result = createdOrNull(table.vkCreateFence(device, &fence, nullptr, &slot.done), slot.done);
+        }
+        VkSemaphoreCreateInfo semaphore{};
+        semaphore.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+        if (result == VK_SUCCESS) {
+            result = createdOrNull(table.vkCreateSemaphore(device, &semaphore, nullptr, &slot.acquired), slot.acquired);
+        }
+        if (result != VK_SUCCESS) {
+            return vulkanError(result, "making the frames of the window");
+        }
+    }
+    return {};
+}
+
+Result<void> Frames::makeTextures(State& state) {
+    std::array<VkDescriptorSet, 5> sets{};
+    for (VkDescriptorSet& set : sets) {
+        const Result<VkDescriptorSet> texture = gui_->addTexture();
+        VOXTACT_TRY(texture);
+        set = *texture;
+    }
+    coarse_ = sets[3];
+    fine_ = sets[4];
+    for (std::size_t slice = 0; slice < state.slices.size(); ++slice) {
+        state.slices[slice].texture = sets[slice];
+    }
+    setTextures(state);
+    return {};
+}
+
+void Frames::setTextures(const State& state) {
+    gui_->setTexture(coarse_, pictures_->coarse(), VK_IMAGE_LAYOUT_GENERAL);
+    gui_->setTexture(fine_, pictures_->fine(), VK_IMAGE_LAYOUT_GENERAL);
+    for (std::size_t slice = 0; slice < state.slices.size(); ++slice) {
+        gui_->setTexture(static_cast<VkDescriptorSet>(state.slices[slice].texture), slices_->view(slice),
+                         VK_IMAGE_LAYOUT_GENERAL);
+    }
+}
+
+Frames::~Frames() {
+    const VolkDeviceTable& table = session_->device.table();
+    VkDevice device = session_->device.handle();
+    host_.reset();
+    // Of a lost device too it returns.
+    table.vkDeviceWaitIdle(device);
+    for (const Slot& slot : slots_) {
+        table.vkDestroySemaphore(device, slot.acquired, nullptr);
+        table.vkDestroyFence(device, slot.done, nullptr);
+        table.vkDestroyCommandPool(device, slot.pool, nullptr);
+    }
+}
+
+bool Frames::ready() const {
+    const Slot& next = slots_[slot_];
+    return !next.used ||
+           session_->device.table().vkGetFenceStatus(session_->device.handle(), next.done) != VK_NOT_READY;
+}
+
+Result<void> Frames::collect(State& state) {
+    Slot& next = slot();
+    if (next.used) {
+        const VkResult result = session_->device.table().vkGetFenceStatus(session_->device.handle(), next.done);
+        if (result != VK_SUCCESS) {
+            return vulkanError(result, "a frame of the window failed");
+        }
+        next.used = false;
+        const double wall = std::chrono::duration<double, std::milli>(State::Clock::now() - next.submitted).count();
+        pictures_->collect(slot_, wall);
+        if (std::optional<Result<LiveAnswer>> answer = device_->collect(slot_, wall)) {
+            take(state, std::move(*answer));
+        }
+    }
+    if (std::optional<Result<LiveAnswer>> answer = host_->take()) {
+        take(state, std::move(*answer));
+    }
+    return {};
+}
+
+/// An answer that another method gave meanwhile is none any more.
+void Frames::take(State& state, Result<LiveAnswer> answer) {
+    if (!answer.ok()) {
+        if (answer.error().code != ErrorCode::Cancelled) {
+            state.complain(answer.error().text);
+        }
+        return;
+    }
+    if (state.answer && state.answer->revision >= answer->revision) {
+        return;
+    }
+    const bool host = rowOf(answer->pair.method).host;
+    const std::string by = host ? "host" : session_->device.physical().name;
+    const MethodChoice method{answer->pair.method, answer->pair.projection};
+    if (!(method == answering_)) {
+        state.times = {}; // of one method at a time
+    }
+    answering_ = method;
+    state.times.add(answer->milliseconds);
+    state.answeredBy = by;
+    state.answer = std::move(*answer);
+}
+
+Result<void> Frames::fitSizes(State& state, VkExtent2D window) {
+    const bool windowFits = !swapchain_->stale() && swapchain_->extent().width == window.width &&
+                            swapchain_->extent().height == window.height;
+    const bool pictureFits = pictures_->fits(state.picture.extent);
+    const bool slicesFit = slices_->fits(extentsOf(state));
+    if (windowFits && pictureFits && slicesFit) {
+        return {};
+    }
+    const VkResult result = session_->device.table().vkDeviceWaitIdle(session_->device.handle());
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "waiting for the frames of the window");
+    }
+    if (!windowFits) {
+        VOXTACT_TRY(swapchain_->resize(window));
+    }
+    if (!pictureFits) {
+        VOXTACT_TRY(pictures_->resize(scene_->renderer(), state.picture.extent));
+        state.fineShare = 0;
+    }
+    if (!slicesFit) {
+        VOXTACT_TRY(slices_->resize(extentsOf(state)));
+    }
+    setTextures(state);
+    return {};
+}
+
+/// A question that was not asked yet, of the host or into this frame.
+Result<void> Frames::ask(State& state) {
+    if (asked_ == state.revision) {
+        return {};
+    }
+    asked_ = state.revision;
+    if (rowOf(state.method.count).host) {
+        host_->ask({state.revision, state.document.edit, state.method.projection});
+        return {};
+    }
+    return device_->record(slot().commands, *scene_, state, slot_);
+}
+
+Result<void> Frames::begin() {
+    const VolkDeviceTable& table = session_->device.table();
+    VkResult result = table.vkResetCommandPool(session_->device.handle(), slot().pool, 0);
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    result = result == VK_SUCCESS ? table.vkBeginCommandBuffer(slot().commands, &info) : result;
+    return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "recording a frame of the window");
+}
+
+/// The transfer function and the question. A method that cannot answer is told of, and the one before comes back.
+Result<void> Frames::recordAnswer(State& state) {
+    VOXTACT_TRY(begin());
+    VOXTACT_TRY(scene_->cmdUpdate(slot().commands, state));
+    if (const Result<void> asked = ask(state); !asked.ok()) {
+        if (asked.error().code == ErrorCode::DeviceLost || state.method == answering_) {
+            return asked.error();
+        }
+        state.complain(asked.error().text);
+        state.method = answering_;
+        // What was recorded so far is not to be submitted.
+        scene_->forgetUpdate();
+        VOXTACT_TRY(begin());
+        return scene_->cmdUpdate(slot().commands, state);
+    }
+    return {};
+}
+
+Result<void> Frames::record(State& state, const ImDrawData& panels, std::uint32_t image) {
+    const VolkDeviceTable& table = session_->device.table();
+    VkCommandBuffer commands = slot().commands;
+    VOXTACT_TRY(recordAnswer(state));
+    scene_->paint(state, slot_);
+    VOXTACT_TRY(pictures_->record(commands, *scene_, state, slot_));
+    slices_->record(commands, state);
+    memoryBarrier(session_->device, commands,
+                  {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
+                  {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
+    const BarrierSide draw{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    layoutBarrier(session_->device, commands,
+                  {swapchain_->image(image), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
+                  {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_NONE}, draw);
+    beginRendering(session_->device, commands, swapchain_->view(image), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                   swapchain_->extent());
+    const Result<void> drawn = gui_->record(commands, panels, slot_);
+    table.vkCmdEndRendering(commands);
+    VOXTACT_TRY(drawn);
+    layoutBarrier(session_->device, commands,
+                  {swapchain_->image(image), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR},
+                  draw, {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE});
+    const VkResult result = table.vkEndCommandBuffer(commands);
+    return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "recording a frame of the window");
+}
+
+Result<void> Frames::submit(std::uint32_t image) {
+    VkSemaphoreSubmitInfo wait{};
+    wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    wait.semaphore = slot().acquired;
+    wait.stageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    VkSemaphoreSubmitInfo signal = wait;
+    signal.semaphore = swapchain_->drawn(image);
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkCommandBufferSubmitInfo buffer{};
+    buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+    buffer.commandBuffer = slot().commands;
+    VkSubmitInfo2 info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    info.waitSemaphoreInfoCount = 1;
+    info.pWaitSemaphoreInfos = &wait;
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &buffer;
+    info.signalSemaphoreInfoCount = 1;
+    info.pSignalSemaphoreInfos = &signal;
+    const VolkDeviceTable& table = session_->device.table();
+    VkResult result = table.vkResetFences(session_->device.handle(), 1, &slot().done);
+    if (result == VK_SUCCESS) {
+        result = table.vkQueueSubmit2(session_->device.queueAccess().queue, 1, &info, slot().done);
+    }
+    return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "submitting a frame of the window");
+}
+
+Result<void> Frames::show(State& state, const ImDrawData& panels, VkExtent2D window) {
+    VOXTACT_TRY(fitSizes(state, window));
+    std::uint32_t image = 0;
+    if (swapchain_->stale()) {
+        return {}; // the window is not shown, or changes its size right now
+    }
+    const Result<bool> acquired = swapchain_->acquire(slot().acquired, image);
+    VOXTACT_TRY(acquired);
+    if (!*acquired) {
+        return {};
+    }
+    VOXTACT_TRY(record(state, panels, image));
+    VOXTACT_TRY(submit(image));
+    slot().used = true;
+    slot().submitted = State::Clock::now();
+    slot_ = (slot_ + 1) % kFramesInFlight;
+    const bool fine = state.fineShare >= 1;
+    const Extent full = state.picture.extent;
+    const Extent coarse = pictures_->coarseExtent();
+    state.picture.texture = fine ? fine_ : coarse_;
+    state.picture.used =
+        fine ? Point2{1, 1}
+             : Point2{static_cast<double>(coarse.width) / full.width, static_cast<double>(coarse.height) / full.height};
+    return swapchain_->present(session_->device.queueAccess().queue, image);
+}
+
+Result<Picture> Frames::screenshot(const State& state, const Extent& extent) {
+    // The frames before may still read the objects: so does the picture, and writes only its own.
+    return scene_->blocking().render(scene_->scene(state, slot_, true, extent), {extent.width, extent.height});
+}
+
+} // namespace voxtact::view

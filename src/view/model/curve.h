@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <cstddef>
+#include <vector>
+
+/// The transfer function while it is edited: at least one point, values ascending, opacities 0..1.
+namespace voxtact::view {
+
+using Curve = std::vector<ControlPoint>;
+
+/// Opacity of a value: linear between the points, constant outside. At a step that of its right side.
+[[nodiscard]] double opacityAt(const Curve& curve, double value) noexcept;
+
+/// Adds a point where its value belongs, and returns its number. The opacity is brought into 0..1.
+std::size_t addPoint(Curve& curve, const ControlPoint& point);
+
+/// Moves a point, between its neighbours' values and within the domain, and keeps its number.
+void movePoint(Curve& curve, std::size_t number, const ControlPoint& to, const ValueRange& domain) noexcept;
+
+/// False, and nothing is removed, where it is the last one.
+bool removePoint(Curve& curve, std::size_t number);
+
+/// With no more digits than a pointer can mean: thousandths of the domain and of the opacity, in decimal steps.
+[[nodiscard]] ControlPoint rounded(const ControlPoint& point, const ValueRange& domain) noexcept;
+
+/// Where the curve is at or above the threshold, within the domain: ascending, apart from each other.
+[[nodiscard]] std::vector<ValueRange> opaqueRanges(const Curve& curve, double threshold, const ValueRange& domain);
+
+} // namespace voxtact::view

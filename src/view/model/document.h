@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/model/camera.h"
+#include "view/model/curve.h"
+#include "voxtact/methods.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// All that the window shows, as plain data: what a session file holds.
+namespace voxtact::view {
+
+/// Where volume and mesh come from, as the command line takes them.
+struct Sources {
+    std::string volume;
+    std::string mesh;
+    std::string meshSpace = "lps";
+    double meshScale = 1;
+};
+
+/// What commands change, and undo gives back.
+struct Edit {
+    Curve curve;
+    double threshold = kDefaultThreshold;
+    Mat4 world_from_object = identity();
+
+    [[nodiscard]] bool operator==(const Edit& other) const {
+        const auto same = [](const ControlPoint& a, const ControlPoint& b) {
+            return a.value == b.value && a.opacity == b.opacity;
+        };
+        return threshold == other.threshold && world_from_object == other.world_from_object &&
+               curve.size() == other.curve.size() && std::equal(curve.begin(), curve.end(), other.curve.begin(), same);
+    }
+};
+
+/// How the answer is found.
+struct MethodChoice {
+    CountingMethod count = CountingMethod::Cpu;
+    Projection projection = Projection::Conservative;
+
+    [[nodiscard]] bool operator==(const MethodChoice&) const = default;
+};
+
+struct Document {
+    Sources sources;
+    Edit edit;
+    std::vector<ColourPoint> colours; ///< of the picture
+    ValueRange domain{0, 255};
+    std::uint32_t tableSize = kDefaultTableSize;
+    std::vector<Mat4> poses;            ///< the list; may be empty
+    std::size_t pose = 0;               ///< the one of the list that was taken last
+    std::optional<MethodChoice> method; ///< nothing: what the machine is best at
+    std::optional<Camera> camera;       ///< nothing: framing the volume
+    std::optional<Vec3> cursor;         ///< world, mm: where the slices are; nothing: the middle of the volume
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/model/document.h"
+#include "voxtact/results.h"
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+/// What the window says of the pair that it shows.
+namespace voxtact::view {
+
+/// Contacts that are shown and listed, at most.
+inline constexpr std::size_t kShownContacts = 2000;
+
+struct LiveAnswer {
+    std::uint64_t revision = 0; ///< of the question
+    Mat4 world_from_object = identity();
+    PairAnswer pair;
+    std::vector<std::uint32_t> triangles; ///< with survivors
+    std::vector<Contact> contacts;        ///< the deepest first, at most kShownContacts
+    std::uint64_t contactsFound = 0;
+    double milliseconds = 0; ///< the host: wall clock; a device: its own clock, where it has one
+};
+
+/// Of a batch with one pair.
+[[nodiscard]] LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, const Mat4& world_from_object,
+                                    double milliseconds);
+
+/// "yes", "no" or "possible".
+[[nodiscard]] const char* verdict(const PairAnswer& answer) noexcept;
+/// As `voxtact detect` writes it: 0, 1, or 2 for possible.
+[[nodiscard]] int hitNumber(const PairAnswer& answer) noexcept;
+
+/// The times of the last 1,000 answers.
+class Times {
+  public:
+    void add(double milliseconds);
+    [[nodiscard]] std::size_t count() const { return last_.size(); }
+    /// The nearest rank: the least time that at least this share (0..1) of them does not exceed. 0 without any.
+    [[nodiscard]] double percentile(double share) const;
+    /// In their order.
+    [[nodiscard]] const std::deque<double>& last() const { return last_; }
+
+  private:
+    std::deque<double> last_;
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace voxtact::view {
+
+std::string reportText(const StateReport& report) {
+    const LiveAnswer& answer = *report.answer;
+    nlohmann::ordered_json json;
+    json["hit"] = hitNumber(answer.pair);
+    json["count"] = answer.pair.count;
+    json["exact"] = answer.pair.exactness == Exactness::Exact ? 1 : 0;
+    json["method"] = toString(answer.pair.method);
+    json["projection"] = toString(answer.pair.projection);
+    json["pose"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < answer.world_from_object.size(); ++i) {
+        json["pose"].push_back(answer.world_from_object[4 * (i % 4) + i / 4]);
+    }
+    json["triangles"] = answer.triangles.size();
+    json["contacts"] = answer.contactsFound;
+    json["device"] = report.device;
+    json["milliseconds"] = answer.milliseconds;
+    json["p50_ms"] = report.times->percentile(0.5);
+    json["p99_ms"] = report.times->percentile(0.99);
+    json["answers"] = answer.revision;
+    json["threshold"] = report.document->edit.threshold;
+    json["points"] = nlohmann::ordered_json::array();
+    for (const ControlPoint& point : report.document->edit.curve) {
+        json["points"].push_back({point.value, point.opacity});
+    }
+    json["frame"] = report.frame;
+    json["frame_ms"] = report.frameMilliseconds;
+    json["settled"] = report.settled;
+    json["command"] = report.command;
+    return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+} // namespace voxtact::view

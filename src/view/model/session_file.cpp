@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/session_file.h"
+
+#include "core/base/try.h"
+#include "voxtact/io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace voxtact::view {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+constexpr const char* kMark = "voxtact_session";
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
+
+/// Reads members, and keeps what was wrong first; what is read after that means nothing.
+class Reader {
+  public:
+    explicit Reader(const Json& root) : root_(&root) {}
+
+    [[nodiscard]] const std::string& wrong() const { return wrong_; }
+    void refuse(const std::string& member, const std::string& why) {
+        wrong_ = wrong_.empty() ? member + ": " + why : wrong_;
+    }
+
+    /// The member "a.b", or null.
+    [[nodiscard]] const Json* find(const std::string& path) {
+        const Json* at = root_;
+        for (std::size_t begin = 0; begin <= path.size();) {
+            const std::size_t end = std::min(path.find('.', begin), path.size());
+            if (!at->is_object()) {
+                refuse(path.substr(0, begin == 0 ? 0 : begin - 1), "is not an object");
+                return nullptr;
+            }
+            const auto member = at->find(path.substr(begin, end - begin));
+            if (member == at->end() || member->is_null()) {
+                return nullptr;
+            }
+            at = &*member;
+            begin = end + 1;
+        }
+        return at;
+    }
+    std::string text(const std::string& path, const std::string& standard) {
+        const Json* json = find(path);
+        if (json != nullptr && !json->is_string()) {
+            refuse(path, "is not a text");
+            return standard;
+        }
+        return json == nullptr ? standard : json->get<std::string>();
+    }
+    double number(const std::string& path, const Json* json) {
+        if (json == nullptr || !json->is_number()) {
+            refuse(path, json == nullptr ? "is missing" : "is not a number");
+            return 0;
+        }
+        return json->get<double>();
+    }
+    double number(const std::string& path, double standard) {
+        const Json* json = find(path);
+        return json == nullptr ? standard : number(path, json);
+    }
+    /// So many numbers.
+    template <std::size_t N> std::array<double, N> numbers(const std::string& path, const Json& json) {
+        std::array<double, N> out{};
+        if (!json.is_array() || json.size() != N) {
+            refuse(path, "is not an array of " + std::to_string(N) + " numbers");
+            return out;
+        }
+        for (std::size_t i = 0; i < N; ++i) {
+            out[i] = number(path + "[" + std::to_string(i) + "]", &json[i]);
+        }
+        return out;
+    }
+    /// Calls `use` with the name and value of each element of an array that may be missing.
+    template <class Use> void each(const std::string& path, Use&& use) {
+        const Json* json = find(path);
+        if (json != nullptr && !json->is_array()) {
+            refuse(path, "is not an array");
+            return;
+        }
+        for (std::size_t i = 0; json != nullptr && i < json->size() && wrong_.empty(); ++i) {
+            use(path + "[" + std::to_string(i) + "]", (*json)[i]);
+        }
+    }
+
+  private:
+    const Json* root_;
+    std::string wrong_;
+};
+
+/// Row by row, as pose files have them.
+Mat4 readPose(Reader& reader, const std::string& name, const Json& json) {
+    const std::array<double, 16> rows = reader.numbers<16>(name, json);
+    Mat4 pose{};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        pose[4 * (i % 4) + i / 4] = rows[i];
+    }
+    if (reader.wrong().empty()) {
+        if (const Result<void> affine = checkAffine(pose, name); !affine.ok()) {
+            reader.refuse(name, affine.error().text);
+        }
+    }
+    return pose;
+}
+
+Json poseJson(const Mat4& pose) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        rows.push_back(pose[4 * (i % 4) + i / 4]);
+    }
+    return rows;
+}
+
+void readSources(Reader& reader, Sources& sources) {
+    sources.volume = reader.text("volume", "");
+    sources.mesh = reader.text("mesh", "");
+    sources.meshSpace = reader.text("mesh_space", "lps");
+    sources.meshScale = reader.number("mesh_scale", 1.0);
+    for (const auto& [name, source] : {std::pair("volume", &sources.volume), std::pair("mesh", &sources.mesh)}) {
+        if (source->empty()) {
+            reader.refuse(name, "is missing");
+        }
+    }
+    if (sources.meshSpace != "lps" && sources.meshSpace != "ras") {
+        reader.refuse("mesh_space", "is neither lps nor ras");
+    }
+    if (!(sources.meshScale > 0) || !std::isfinite(sources.meshScale)) {
+        reader.refuse("mesh_scale", "is not a positive number");
+    }
+}
+
+void readFunction(Reader& reader, Document& document) {
+    const std::string name = "transfer_function";
+    reader.each(name + ".points", [&](const std::string& at, const Json& json) {
+        const auto [value, opacity] = reader.numbers<2>(at, json);
+        document.edit.curve.push_back({value, opacity});
+    });
+    reader.each(name + ".colours", [&](const std::string& at, const Json& json) {
+        const auto [value, red, green, blue] = reader.numbers<4>(at, json);
+        document.colours.push_back({value, {red, green, blue}});
+        for (const double channel : {red, green, blue}) {
+            if (!(channel >= 0 && channel <= 1)) {
+                reader.refuse(at, "a colour's channel is not in 0..1");
+            }
+        }
+        const std::size_t count = document.colours.size();
+        if (count > 1 && !(document.colours[count - 2].value <= value)) {
+            reader.refuse(at, "its value is below the one before");
+        }
+    });
+    if (const Json* json = reader.find(name + ".domain"); json != nullptr) {
+        const auto [lo, hi] = reader.numbers<2>(name + ".domain", *json);
+        document.domain = {lo, hi};
+    }
+    const double size = reader.number(name + ".size", double{kDefaultTableSize});
+    constexpr double kMostEntries = 1024; // a picture's table
+    if (!(size >= 2 && size <= kMostEntries && size == std::floor(size))) {
+        reader.refuse(name + ".size", "is not a whole number from 2 to 1024");
+        return;
+    }
+    document.tableSize = static_cast<std::uint32_t>(size);
+    document.edit.threshold = reader.number(name + ".threshold", kDefaultThreshold);
+    if (!(document.edit.threshold >= 0 && document.edit.threshold <= 1)) {
+        reader.refuse(name + ".threshold", "is not in 0..1");
+    }
+    if (!reader.wrong().empty()) {
+        return;
+    }
+    const auto table = sampleTable({document.edit.curve, document.domain, document.tableSize});
+    if (!table.ok()) {
+        reader.refuse(name, table.error().text);
+    }
+}
+
+void readInstrument(Reader& reader, Document& document) {
+    if (const Json* json = reader.find("instrument.pose"); json != nullptr) {
+        document.edit.world_from_object = readPose(reader, "instrument.pose", *json);
+    }
+    reader.each("instrument.poses",
+                [&](const std::string& at, const Json& json) { document.poses.push_back(readPose(reader, at, json)); });
+    const double number = reader.number("instrument.pose_number", 0.0);
+    const auto poses = static_cast<double>(document.poses.size());
+    if (!(number >= 0 && number == std::floor(number) && (number < poses || number == 0))) {
+        reader.refuse("instrument.pose_number", "is not the number of one of instrument.poses");
+        return;
+    }
+    document.pose = static_cast<std::size_t>(number);
+}
+
+void readMethod(Reader& reader, Document& document) {
+    const std::string count = reader.text("method.count", "auto");
+    const std::string projection = reader.text("method.projection", "conservative");
+    const auto method = countingMethodFromName(count);
+    const auto how = projectionFromName(projection);
+    if (count != "auto" && !method) {
+        reader.refuse("method.count", "is not the name of a counting method");
+    } else if (!how) {
+        reader.refuse("method.projection", "is not the name of a projection");
+    } else if (method) {
+        document.method = MethodChoice{*method, *how};
+    }
+}
+
+void readCamera(Reader& reader, Document& document) {
+    if (const Json* cursor = reader.find("cursor"); cursor != nullptr) {
+        document.cursor = reader.numbers<3>("cursor", *cursor);
+    }
+    const Json* target = reader.find("camera.target");
+    if (target == nullptr) {
+        return;
+    }
+    Camera camera;
+    camera.target = reader.numbers<3>("camera.target", *target);
+    camera.direction = {reader.number("camera.azimuth", 0.0), reader.number("camera.elevation", 0.0)};
+    camera.halfHeight = reader.number("camera.half_height", camera.halfHeight);
+    if (!(camera.halfHeight > 0) || !std::isfinite(camera.halfHeight)) {
+        reader.refuse("camera.half_height", "is not a positive number");
+    }
+    document.camera = camera;
+}
+
+} // namespace
+
+Result<Document> parseSession(std::string_view text, const std::string& name) {
+    const auto wrong = [&name](const std::string& why) {
+        return Error{ErrorCode::Format, 0, "cannot use the session '" + name + "': " + why};
+    };
+    const Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded()) {
+        return wrong("it is not JSON");
+    }
+    Reader reader(json);
+    const Json* mark = json.is_object() ? reader.find(kMark) : nullptr;
+    if (mark == nullptr || !mark->is_number_integer()) {
+        return wrong(std::string("it has no number '") + kMark + "', by which a session is known");
+    }
+    if (*mark != kVersion) {
+        return wrong(std::string(kMark) + " is not " + std::to_string(kVersion) + ": another version wrote it");
+    }
+    Document document;
+    readSources(reader, document.sources);
+    readFunction(reader, document);
+    readInstrument(reader, document);
+    readMethod(reader, document);
+    readCamera(reader, document);
+    return reader.wrong().empty() ? Result<Document>(std::move(document)) : wrong(reader.wrong());
+}
+
+std::string sessionText(const Document& document) {
+    Json json;
+    json[kMark] = kVersion;
+    json["volume"] = document.sources.volume;
+    json["mesh"] = document.sources.mesh;
+    json["mesh_space"] = document.sources.meshSpace;
+    json["mesh_scale"] = document.sources.meshScale;
+    Json& function = json["transfer_function"];
+    function["points"] = Json::array();
+    for (const ControlPoint& point : document.edit.curve) {
+        function["points"].push_back({point.value, point.opacity});
+    }
+    function["colours"] = Json::array();
+    for (const auto& [value, colour] : document.colours) {
+        function["colours"].push_back({value, colour[0], colour[1], colour[2]});
+    }
+    function["domain"] = {document.domain.lo, document.domain.hi};
+    function["size"] = document.tableSize;
+    function["threshold"] = document.edit.threshold;
+    Json& instrument = json["instrument"];
+    instrument["pose"] = poseJson(document.edit.world_from_object);
+    instrument["poses"] = Json::array();
+    for (const Mat4& pose : document.poses) {
+        instrument["poses"].push_back(poseJson(pose));
+    }
+    instrument["pose_number"] = document.pose;
+    if (document.method) {
+        json["method"] = {{"count", toString(document.method->count)},
+                          {"projection", toString(document.method->projection)}};
+    }
+    if (document.cursor) {
+        json["cursor"] = *document.cursor;
+    }
+    if (document.camera) {
+        json["camera"] = {{"target", document.camera->target},
+                          {"azimuth", document.camera->direction.azimuth},
+                          {"elevation", document.camera->direction.elevation},
+                          {"half_height", document.camera->halfHeight}};
+    }
+    // What is no UTF-8, which a path may be, would otherwise throw.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<Document> readSession(const std::filesystem::path& path) {
+    std::error_code failed;
+    const auto refuse = [&path](const std::string& why) {
+        return Error{ErrorCode::File, 0, "cannot read the session '" + path.string() + "': " + why};
+    };
+    if (!std::filesystem::is_regular_file(path, failed)) {
+        return refuse(failed ? failed.message() : "it is not a file");
+    }
+    if (std::filesystem::file_size(path, failed) > kMostBytes || failed) {
+        return refuse(failed ? failed.message() : "it is longer than 64 MiB");
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (!file.good() && !file.eof()) {
+        return refuse("reading failed");
+    }
+    return parseSession(text, path.string());
+}
+
+Result<void> writeSession(const std::filesystem::path& path, const Document& document) {
+    return io::writeFile(path, [&document](std::ostream& out) -> Result<void> {
+        out << sessionText(document);
+        return {};
+    });
+}
+
+Result<void> writeTransferFunction(const std::filesystem::path& path, const Document& document) {
+    return io::writeFile(path, [&document](std::ostream& out) -> Result<void> {
+        const Json all = Json::parse(sessionText(document));
+        const Json& function = all["transfer_function"];
+        Json json;
+        json["points"] = function["points"];
+        json["colours"] = function["colours"];
+        out << json.dump(1) << "\n";
+        return {};
+    });
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "view/panels/panels.h"
+
+#include "view/model/command_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace voxtact::view {
+
+namespace {
+
+std::string methodText(const MethodChoice& method) {
+    return std::string(toString(method.projection)) + ", " + toString(method.count);
+}
+
+void drawMethods(State& state) {
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo("##method", methodText(state.method).c_str(), ImGuiComboFlags_HeightLarge)) {
+        return;
+    }
+    for (const MethodChoice& choice : state.methods) {
+        if (ImGui::Selectable(methodText(choice).c_str(), choice == state.method)) {
+            state.method = choice;
+        }
+    }
+    ImGui::EndCombo();
+}
+
+void drawTimes(const State& state) {
+    const LiveAnswer& answer = *state.answer;
+    ImGui::TextColored(quietColour(), "%.2f ms, by %s", answer.milliseconds, state.answeredBy.c_str());
+    ImGui::TextColored(quietColour(), "last %d: p50 %.2f ms, p99 %.2f ms", static_cast<int>(state.times.count()),
+                       state.times.percentile(0.5), state.times.percentile(0.99));
+}
+
+} // namespace
+
+void drawAnswer(State& state) {
+    heading("Does it touch?");
+    if (!state.answer) {
+        ImGui::TextColored(quietColour(), "asking ...");
+        drawMethods(state);
+        return;
+    }
+    const LiveAnswer& answer = *state.answer;
+    const bool current = answer.revision == state.revision;
+    ImVec4 colour = verdictColour(answer.pair);
+    colour.w = current ? 1.0F : 0.5F;
+    constexpr float kLarge = 1.7F;
+    ImGui::SetWindowFontScale(kLarge);
+    ImGui::TextColored(colour, "%s", verdict(answer.pair));
+    ImGui::SetWindowFontScale(1);
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    const char* kind = state.answer->pair.projection == Projection::Conservative ? "certified cells" : "fragments";
+    const char* exact = answer.pair.exactness == Exactness::Exact ? "" : "at least ";
+    ImGui::Text("%s%llu %s", exact, static_cast<unsigned long long>(answer.pair.count), kind);
+    if (answer.contacts.empty()) {
+        ImGui::TextColored(quietColour(), "%d triangles", static_cast<int>(answer.triangles.size()));
+    } else {
+        const double deepest = answer.contacts.front().depth;
+        // It is not followed any farther.
+        const char* more = deepest >= kDefaultMaxDepth ? " or more" : "";
+        ImGui::TextColored(quietColour(), "%d triangles, deepest %.4g mm%s", static_cast<int>(answer.triangles.size()),
+                           deepest, more);
+    }
+    ImGui::EndGroup();
+    drawMethods(state);
+    drawTimes(state);
+}
+
+std::string commandOf(const State& state) {
+    return copyAsCommand(state.document, state.method, state.deviceOption);
+}
+
+void copyCommand(State& state) {
+    ImGui::SetClipboardText(commandOf(state).c_str());
+    state.say("copied: voxtact detect with the pose, curve and method that are shown");
+}
+
+void drawContacts(State& state) {
+    const std::size_t shown = state.answer ? state.answer->contacts.size() : 0;
+    const unsigned long long found = state.answer ? state.answer->contactsFound : 0;
+    heading("Contacts");
+    ImGui::SameLine();
+    ImGui::TextColored(quietColour(), shown < found ? "%llu, the deepest %d listed" : "%llu", found,
+                       static_cast<int>(shown));
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("show___").x);
+    ImGui::Checkbox("show", &state.showContacts);
+    const ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchSame;
+    if (!ImGui::BeginTable("contacts", 5, flags)) {
+        return;
+    }
+    ImGui::TableSetupScrollFreeze(0, 1);
+    for (const char* column : {"depth", "x", "y", "z", "value"}) {
+        ImGui::TableSetupColumn(column);
+    }
+    ImGui::TableHeadersRow();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(shown));
+    while (clipper.Step()) {
+        for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
+            const Contact& contact = state.answer->contacts[static_cast<std::size_t>(row)];
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::PushID(row);
+            char text[32];
+            std::snprintf(text, sizeof text, "%.2f", contact.depth);
+            if (ImGui::Selectable(text, false, ImGuiSelectableFlags_SpanAllColumns)) {
+                state.cursor = contact.position;
+                state.camera.target = contact.position;
+            }
+            ImGui::PopID();
+            for (const double number : {contact.position[0], contact.position[1], contact.position[2], contact.value}) {
+                ImGui::TableNextColumn();
+                ImGui::Text("%.1f", number);
+            }
+        }
+    }
+    ImGui::EndTable();
+}
+
+} // namespace voxtact::view

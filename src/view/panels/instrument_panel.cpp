@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/pose.h"
+#include "view/panels/panels.h"
+
+#include <algorithm>
+#include <array>
+
+namespace voxtact::view {
+
+namespace {
+
+void move(State& state, const Vec3& mm, Axes axes) {
+    state.command([&](Edit& edit) { edit.world_from_object = moved(edit.world_from_object, mm, axes); }, "nudge");
+}
+
+void turn(State& state, std::size_t axis, double degrees, Axes axes) {
+    state.command([&](Edit& edit) { edit.world_from_object = turned(edit.world_from_object, axis, degrees, axes); },
+                  "nudge");
+}
+
+/// The tip in numbers: dragged or typed.
+void drawPlace(State& state) {
+    const Vec3 tip = originOf(state.document.edit.world_from_object);
+    std::array<float, 3> numbers{static_cast<float>(tip[0]), static_cast<float>(tip[1]), static_cast<float>(tip[2])};
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("tip, mm_").x);
+    if (ImGui::DragFloat3("tip, mm", numbers.data(), 0.1F, 0, 0, "%.2f")) {
+        Vec3 to = tip;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            // What was not changed keeps the digits that a float has not.
+            if (numbers[axis] != static_cast<float>(tip[axis])) {
+                to[axis] = static_cast<double>(numbers[axis]);
+            }
+        }
+        state.command([&](Edit& edit) { edit.world_from_object = placedAt(edit.world_from_object, to); }, "tip");
+    }
+    if (ImGui::IsItemDeactivated()) {
+        state.history.end();
+    }
+    const Vec3 angles = anglesOf(state.document.edit.world_from_object);
+    ImGui::TextColored(quietColour(), "turned %.1f, %.1f, %.1f degrees about x, y, z", angles[0], angles[1], angles[2]);
+}
+
+/// A pair of buttons, less and more.
+int lessOrMore(const char* less, const char* more, float width) {
+    int way = 0;
+    ImGui::PushButtonRepeat(true);
+    if (ImGui::Button(less, {width, 0})) {
+        way = -1;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button(more, {width, 0})) {
+        way = 1;
+    }
+    ImGui::PopButtonRepeat();
+    return way;
+}
+
+void drawNudges(State& state) {
+    const float width = (ImGui::GetContentRegionAvail().x - 5 * ImGui::GetStyle().ItemSpacing.x) / 6;
+    for (const auto& [axis, less, more] : {std::tuple(0, "R", "L"), std::tuple(1, "A", "P"), std::tuple(2, "I", "S")}) {
+        const int way = lessOrMore(less, more, width);
+        if (axis < 2) {
+            ImGui::SameLine();
+        }
+        if (way != 0) {
+            Vec3 mm{};
+            mm[static_cast<std::size_t>(axis)] = way * state.stepMillimetres;
+            move(state, mm, Axes::World);
+        }
+    }
+    for (const auto& [axis, less, more] :
+         {std::tuple(0, "-x", "+x"), std::tuple(1, "-y", "+y"), std::tuple(2, "-z", "+z")}) {
+        const int way = lessOrMore(less, more, width);
+        if (axis < 2) {
+            ImGui::SameLine();
+        }
+        if (way != 0) {
+            turn(state, static_cast<std::size_t>(axis), way * state.stepDegrees, Axes::Own);
+        }
+    }
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (const int way = lessOrMore("withdraw", "insert", half); way != 0) {
+        move(state, {0, 0, -way * state.stepMillimetres}, Axes::Own);
+    }
+}
+
+void drawSteps(State& state) {
+    const float width = ImGui::GetFontSize() * 5;
+    ImGui::SetNextItemWidth(width);
+    ImGui::InputDouble("mm", &state.stepMillimetres, 0, 0, "%.3g");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    ImGui::InputDouble("degrees a step", &state.stepDegrees, 0, 0, "%.3g");
+    constexpr double kMost = 1000;
+    state.stepMillimetres = std::clamp(state.stepMillimetres, 1e-6, kMost);
+    state.stepDegrees = std::clamp(state.stepDegrees, 1e-6, 180.0);
+}
+
+void drawPoses(State& state) {
+    const std::size_t count = state.document.poses.size();
+    if (count == 0) {
+        return;
+    }
+    int number = static_cast<int>(state.document.pose);
+    if (ImGui::Button(state.playing ? "stop" : "play", {ImGui::GetFontSize() * 3, 0})) {
+        state.playing = !state.playing;
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    const std::string format = "pose %d of " + std::to_string(count);
+    if (ImGui::SliderInt("##poses", &number, 0, static_cast<int>(count) - 1, format.c_str())) {
+        state.takePose(static_cast<std::size_t>(std::clamp(number, 0, static_cast<int>(count) - 1)));
+    }
+    if (ImGui::IsItemDeactivated()) {
+        state.history.end();
+    }
+}
+
+} // namespace
+
+void drawInstrument(State& state) {
+    heading("Instrument");
+    drawPlace(state);
+    drawNudges(state);
+    drawSteps(state);
+    if (ImGui::Button("tip to the cursor")) {
+        state.command([&](Edit& edit) { edit.world_from_object = placedAt(edit.world_from_object, state.cursor); });
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("add pose to list")) {
+        state.document.poses.push_back(state.document.edit.world_from_object);
+        state.document.pose = state.document.poses.size() - 1;
+    }
+    drawPoses(state);
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/pose.h"
+#include "view/panels/panels.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace voxtact::view {
+
+namespace {
+
+/// A key that moves or turns the instrument by a step; with shift ten, with control a tenth.
+struct Nudge {
+    int key;
+    Vec3 mm{};      ///< in steps
+    Vec3 degrees{}; ///< about its own axes, in steps
+    Axes axes = Axes::World;
+    const char* name;
+    const char* does;
+};
+
+const std::array<Nudge, 14> kNudges{{
+    {GLFW_KEY_LEFT, {-1, 0, 0}, {}, Axes::World, "left", "to the patient's right (-x)"},
+    {GLFW_KEY_RIGHT, {1, 0, 0}, {}, Axes::World, "right", "to the patient's left (+x)"},
+    {GLFW_KEY_UP, {0, -1, 0}, {}, Axes::World, "up", "to the front (-y)"},
+    {GLFW_KEY_DOWN, {0, 1, 0}, {}, Axes::World, "down", "to the back (+y)"},
+    {GLFW_KEY_PAGE_UP, {0, 0, 1}, {}, Axes::World, "page up", "upwards (+z)"},
+    {GLFW_KEY_PAGE_DOWN, {0, 0, -1}, {}, Axes::World, "page down", "downwards (-z)"},
+    {GLFW_KEY_I, {0, 0, -1}, {}, Axes::Own, "I", "insert along its own axis"},
+    {GLFW_KEY_O, {0, 0, 1}, {}, Axes::Own, "O", "withdraw along its own axis"},
+    {GLFW_KEY_W, {}, {1, 0, 0}, Axes::Own, "W", "turn about its own +x"},
+    {GLFW_KEY_S, {}, {-1, 0, 0}, Axes::Own, "S", "turn back"},
+    {GLFW_KEY_A, {}, {0, 1, 0}, Axes::Own, "A", "turn about its own +y"},
+    {GLFW_KEY_D, {}, {0, -1, 0}, Axes::Own, "D", "turn back"},
+    {GLFW_KEY_Q, {}, {0, 0, 1}, Axes::Own, "Q", "turn about its own +z"},
+    {GLFW_KEY_E, {}, {0, 0, -1}, Axes::Own, "E", "turn back"},
+}};
+
+struct Direction {
+    int key;
+    const char* name;
+    const char* view;
+};
+constexpr std::array<Direction, 6> kDirections{{{GLFW_KEY_1, "1", "front"},
+                                                {GLFW_KEY_2, "2", "back"},
+                                                {GLFW_KEY_3, "3", "left"},
+                                                {GLFW_KEY_4, "4", "right"},
+                                                {GLFW_KEY_5, "5", "top"},
+                                                {GLFW_KEY_6, "6", "bottom"}}};
+
+void nudge(State& state, const Nudge& how, const KeyPress& press) {
+    const double factor = press.shift ? 10 : press.control ? 0.1 : 1;
+    state.command(
+        [&](Edit& edit) {
+            Vec3 mm = how.mm;
+            for (double& one : mm) {
+                one *= factor * state.stepMillimetres;
+            }
+            edit.world_from_object = moved(edit.world_from_object, mm, how.axes);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                if (how.degrees[axis] != 0) {
+                    edit.world_from_object =
+                        turned(edit.world_from_object, axis, factor * state.stepDegrees * how.degrees[axis], how.axes);
+                }
+            }
+        },
+        "nudge");
+}
+
+void takeControlKey(State& state, const KeyPress& press) {
+    switch (press.key) {
+    case GLFW_KEY_Z:
+        press.shift ? state.redo() : state.undo();
+        break;
+    case GLFW_KEY_Y:
+        state.redo();
+        break;
+    case GLFW_KEY_C:
+        copyCommand(state);
+        break;
+    case GLFW_KEY_Q:
+        state.quit = true;
+        break;
+    default:
+        break;
+    }
+}
+
+void takePlainKey(State& state, const KeyPress& press) {
+    const std::size_t poses = state.document.poses.size();
+    switch (press.key) {
+    case GLFW_KEY_F:
+        state.camera = framing(state.volume.grid, state.camera.direction);
+        break;
+    case GLFW_KEY_G:
+        state.cursor = originOf(state.document.edit.world_from_object);
+        break;
+    case GLFW_KEY_ESCAPE:
+        state.maximised = Maximised::None;
+        break;
+    case GLFW_KEY_SPACE:
+        state.playing = !state.playing && poses > 0;
+        break;
+    case GLFW_KEY_LEFT_BRACKET:
+        state.takePose(state.document.pose == 0 ? 0 : state.document.pose - 1);
+        break;
+    case GLFW_KEY_RIGHT_BRACKET:
+        state.takePose(poses == 0 ? 0 : std::min(state.document.pose + 1, poses - 1));
+        break;
+    default:
+        break;
+    }
+    const auto* direction =
+        std::ranges::find_if(kDirections, [&press](const Direction& one) { return one.key == press.key; });
+    if (direction != kDirections.end()) {
+        state.camera.direction = directionNamed(direction->view).value_or(state.camera.direction);
+    }
+}
+
+void takeKey(State& state, const KeyPress& press) {
+    if (press.key == GLFW_KEY_F1) {
+        state.helpOpen = !state.helpOpen;
+    }
+    const bool letter = press.key < GLFW_KEY_ESCAPE; // with control these are commands
+    for (const Nudge& one : kNudges) {
+        if (one.key == press.key && !(letter && press.control)) {
+            nudge(state, one, press);
+        }
+    }
+    press.control ? takeControlKey(state, press) : takePlainKey(state, press);
+}
+
+void row(const char* key, const char* does) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(key);
+    ImGui::TableNextColumn();
+    ImGui::TextColored(quietColour(), "%s", does);
+}
+
+} // namespace
+
+void takeKeys(State& state) {
+    const std::vector<KeyPress> keys = std::exchange(state.keys, {});
+    if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
+        return; // they are written into a field
+    }
+    for (const KeyPress& press : keys) {
+        takeKey(state, press);
+    }
+}
+
+void drawHelp(State& state) {
+    if (!state.helpOpen) {
+        return;
+    }
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
+    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 46, size.y * 0.86F}, ImGuiCond_Appearing);
+    if (ImGui::Begin("Keys and mouse", &state.helpOpen, ImGuiWindowFlags_NoCollapse) &&
+        ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+        for (const Nudge& one : kNudges) {
+            row(one.name, one.does);
+        }
+        row("shift, control", "with these keys: ten steps, a tenth (control: not with letters)");
+        row("[  ]", "the pose before, the next one");
+        row("space", "play the list of poses");
+        for (const Direction& direction : kDirections) {
+            row(direction.name, direction.view);
+        }
+        row("F", "frame the volume");
+        row("G", "slices through the tip");
+        row("control Z, control Y", "undo, redo");
+        row("control C", "copy as command");
+        row("control Q", "quit");
+        row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
+        row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
+        row("curve", "left: add or drag a point; right: remove it");
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "view/panels/panels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::view {
+
+namespace {
+
+void drawMenu(State& state) {
+    if (!ImGui::BeginMenuBar()) {
+        return;
+    }
+    if (ImGui::BeginMenu("File")) {
+        drawFileMenu(state);
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Edit")) {
+        if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.history.canUndo())) {
+            state.undo();
+        }
+        if (ImGui::MenuItem("Redo", "Ctrl+Y", false, state.history.canRedo())) {
+            state.redo();
+        }
+        ImGui::Separator();
+        if (ImGui::MenuItem("Copy as command", "Ctrl+C")) {
+            copyCommand(state);
+        }
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("View")) {
+        for (const char* name : {"front", "back", "left", "right", "top", "bottom"}) {
+            if (ImGui::MenuItem(name)) {
+                state.camera.direction = directionNamed(name).value_or(state.camera.direction);
+            }
+        }
+        if (ImGui::MenuItem("Frame the volume", "F")) {
+            state.camera = framing(state.volume.grid, state.camera.direction);
+        }
+        ImGui::Separator();
+        if (ImGui::MenuItem("Dark")) {
+            setColours(Theme::Dark);
+        }
+        if (ImGui::MenuItem("Light")) {
+            setColours(Theme::Light);
+        }
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Help")) {
+        if (ImGui::MenuItem("Keys and mouse", "F1")) {
+            state.helpOpen = true;
+        }
+        ImGui::EndMenu();
+    }
+    const std::string names = state.document.sources.volume + "   " + state.document.sources.mesh;
+    const float width = ImGui::CalcTextSize(names.c_str()).x + 14;
+    ImGui::SameLine(std::max(ImGui::GetWindowWidth() - width, ImGui::GetCursorPosX() + 20));
+    ImGui::TextColored(quietColour(), "%s", names.c_str());
+    ImGui::EndMenuBar();
+}
+
+/// A child without a frame of its own for a picture, to its edges.
+template <class Draw> void pane(const char* name, const ImVec2& size, Draw&& draw) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    draw();
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+}
+
+void drawPanes(State& state, const ImVec2& size) {
+    if (state.maximised == Maximised::Picture) {
+        pane("picture", size, [&] { drawPicture(state); });
+        return;
+    }
+    if (state.maximised != Maximised::None) {
+        const auto slice = static_cast<std::size_t>(state.maximised) - static_cast<std::size_t>(Maximised::Slice0);
+        pane("slice", size, [&] { drawSlice(state, slice); });
+        return;
+    }
+    const float gap = ImGui::GetStyle().ItemSpacing.y;
+    const float lower = std::floor(std::min(size.y * 0.36F, size.x / 3));
+    pane("picture", {size.x, size.y - lower - gap}, [&] { drawPicture(state); });
+    const float width = std::floor((size.x - 2 * gap) / 3);
+    for (std::size_t slice = 0; slice < kSlices.size(); ++slice) {
+        if (slice > 0) {
+            ImGui::SameLine(0, gap);
+        }
+        pane(kSlices[slice].name, {width, lower}, [&] { drawSlice(state, slice); });
+    }
+}
+
+/// A child as high as what is in it, which is drawn first.
+template <class Draw> void card(const char* name, float height, Draw&& draw) {
+    ImGui::BeginChild(name, {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    draw();
+    ImGui::EndChild();
+}
+
+void drawColumn(State& state) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    // Rows of a line with a frame round it, and the card's own edges.
+    const auto rows = [&style](float number) {
+        return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
+    };
+    card("answer", rows(5.2F), [&] { drawAnswer(state); });
+    card("curve", rows(3) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
+    card("instrument", rows(state.document.poses.empty() ? 7.9F : 8.9F), [&] { drawInstrument(state); });
+    card("contacts", 0, [&] { drawContacts(state); });
+}
+
+void drawStatus(const State& state) {
+    ImGui::TextColored(quietColour(), "%s", state.status.empty() ? "F1: keys" : state.status.c_str());
+    char text[160];
+    const char* fine = state.fineShare >= 1 ? "fine" : "coarse";
+    std::snprintf(text, sizeof text, "%s   %.0f ms a frame   %s", fine, state.frameTimes.percentile(0.5),
+                  state.deviceName.c_str());
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - 12);
+    ImGui::TextColored(quietColour(), "%s", text);
+}
+
+} // namespace
+
+void drawPanels(State& state) {
+    takeKeys(state);
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+    ImGui::Begin("voxtact", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_MenuBar |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar();
+    drawMenu(state);
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float gap = ImGui::GetStyle().ItemSpacing.y;
+    const float height = all.y - ImGui::GetTextLineHeightWithSpacing();
+    const float column = std::min(ImGui::GetFontSize() * 25, all.x / 2);
+    ImGui::BeginChild("left", {all.x - column - gap, height}, false, ImGuiWindowFlags_NoBackground);
+    drawPanes(state, ImGui::GetContentRegionAvail());
+    ImGui::EndChild();
+    ImGui::SameLine(0, gap);
+    ImGui::BeginChild("right", {0, height}, false, ImGuiWindowFlags_NoBackground);
+    drawColumn(state);
+    ImGui::EndChild();
+    drawStatus(state);
+    drawDialogs(state);
+    ImGui::End();
+    drawHelp(state);
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/state.h"
+
+#include <imgui.h>
+
+#include <span>
+
+/// The window's panels: they read and write a State, and know no Vulkan.
+namespace voxtact::view {
+
+/// All of them, of the window's whole size. Between ImGui::NewFrame() and ImGui::Render().
+void drawPanels(State& state);
+
+/// Colours, spaces and the font, for a display where a point is so many pixels.
+void applyTheme(float scale, std::span<const unsigned char> font);
+enum class Theme { Dark, Light };
+void setColours(Theme theme);
+/// Red, green or yellow for a verdict, and gray.
+[[nodiscard]] ImVec4 verdictColour(const PairAnswer& answer);
+/// Of what is secondary.
+[[nodiscard]] ImVec4 quietColour();
+inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
+
+// The parts; each inside of a window or child that the layout has begun.
+void drawAnswer(State& state);
+void drawInstrument(State& state);
+void drawCurve(State& state);
+void drawPicture(State& state);
+void drawSlice(State& state, std::size_t slice);
+void drawContacts(State& state);
+/// Dialogs of files, and their menu.
+void drawFileMenu(State& state);
+void drawDialogs(State& state);
+/// What is pressed.
+void takeKeys(State& state);
+void drawHelp(State& state);
+
+/// A title with a line.
+void heading(const char* text);
+/// Clipboard and status line.
+void copyCommand(State& state);
+/// As copyAsCommand() for what is shown.
+[[nodiscard]] std::string commandOf(const State& state);
+/// Where the mouse is in an item, 0..1 from its upper left corner.
+[[nodiscard]] Point2 mouseIn(const ImVec2& corner, const ImVec2& size);
+
+} // namespace voxtact::view

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/pose.h"
+#include "view/panels/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxtact::view {
+
+namespace {
+
+/// From the world to points of the window.
+struct Onto {
+    Mat4 clip_from_world;
+    ImVec2 corner;
+    ImVec2 size;
+
+    [[nodiscard]] ImVec2 at(const Vec3& world) const {
+        const Vec3 clip = transformPoint(clip_from_world, world);
+        return {corner.x + static_cast<float>(clip[0] + 1) / 2 * size.x,
+                corner.y + static_cast<float>(clip[1] + 1) / 2 * size.y};
+    }
+};
+
+void takeMouse(State& state, const ImVec2& corner) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const Extent& extent = state.picture.extent;
+    const ImVec2 scale = io.DisplayFramebufferScale;
+    if (ImGui::IsItemActive()) {
+        const double right = static_cast<double>(io.MouseDelta.x * scale.x);
+        const double down = static_cast<double>(io.MouseDelta.y * scale.y);
+        const bool panning = ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+        if (right != 0 || down != 0) {
+            panning ? pan(state.camera, right, down, extent) : orbit(state.camera, right, down, extent);
+        }
+    }
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+        constexpr double kFactor = 0.88;
+        zoom(state.camera, std::pow(kFactor, static_cast<double>(io.MouseWheel)),
+             static_cast<double>((io.MousePos.x - corner.x) * scale.x),
+             static_cast<double>((io.MousePos.y - corner.y) * scale.y), extent);
+    }
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        state.maximised = state.maximised == Maximised::None ? Maximised::Picture : Maximised::None;
+    }
+}
+
+void drawContactPoints(const State& state, const Onto& onto, ImDrawList& list) {
+    constexpr double kNormal = 4; // mm
+    for (const Contact& contact : state.answer->contacts) {
+        const ImVec2 at = onto.at(contact.position);
+        const ImVec2 end = onto.at({contact.position[0] + kNormal * contact.normal[0],
+                                    contact.position[1] + kNormal * contact.normal[1],
+                                    contact.position[2] + kNormal * contact.normal[2]});
+        list.AddLine(at, end, IM_COL32(255, 214, 120, 70));
+        list.AddRectFilled({at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}, IM_COL32(255, 214, 120, 220));
+    }
+}
+
+void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
+    const std::vector<Mat4>& poses = state.document.poses;
+    for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+        list.AddLine(onto.at(originOf(poses[i])), onto.at(originOf(poses[i + 1])), IM_COL32(120, 190, 255, 110));
+    }
+}
+
+/// Three of the patient's sides, as they lie in the picture.
+void drawSides(const Onto& onto, const State& state, ImDrawList& list) {
+    const float length = ImGui::GetFontSize() * 2;
+    const ImVec2 middle{onto.corner.x + length * 1.6F, onto.corner.y + onto.size.y - length * 1.6F};
+    const ImVec2 target = onto.at(state.camera.target);
+    constexpr std::array<const char*, 3> kNames{"L", "P", "S"};
+    constexpr std::array<ImU32, 3> kColours{IM_COL32(235, 100, 90, 255), IM_COL32(110, 200, 110, 255),
+                                            IM_COL32(110, 160, 250, 255)};
+    const double mm = 2 * state.camera.halfHeight / static_cast<double>(onto.size.y) * static_cast<double>(length);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Vec3 end = state.camera.target;
+        end[axis] += mm;
+        const ImVec2 at = onto.at(end);
+        const ImVec2 tip{middle.x + at.x - target.x, middle.y + at.y - target.y};
+        list.AddLine(middle, tip, kColours[axis], 2);
+        list.AddText({tip.x - ImGui::GetFontSize() * 0.3F + (tip.x - middle.x) * 0.25F,
+                      tip.y - ImGui::GetFontSize() * 0.5F + (tip.y - middle.y) * 0.25F},
+                     kColours[axis], kNames[axis]);
+    }
+}
+
+void drawBar(const State& state, const Onto& onto, ImDrawList& list) {
+    const double mmOfPoint = 2 * state.camera.halfHeight / static_cast<double>(onto.size.y);
+    const double length = barLength(mmOfPoint * static_cast<double>(onto.size.x) / 5);
+    const auto points = static_cast<float>(length / mmOfPoint);
+    const ImVec2 right{onto.corner.x + onto.size.x - 14, onto.corner.y + onto.size.y - 14};
+    list.AddLine({right.x - points, right.y}, right, IM_COL32(235, 238, 242, 230), 2);
+    char text[32];
+    std::snprintf(text, sizeof text, "%g mm", length);
+    list.AddText({right.x - points, right.y - ImGui::GetFontSize() - 5}, IM_COL32(235, 238, 242, 230), text);
+}
+
+void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
+    if (!state.answer) {
+        return;
+    }
+    const LiveAnswer& answer = *state.answer;
+    std::string text = answer.pair.hit ? "touches" : answer.pair.possible ? "may touch" : "does not touch";
+    const float size = ImGui::GetFontSize() * 1.3F;
+    const ImVec2 at{onto.corner.x + 12, onto.corner.y + 9};
+    list.AddText(ImGui::GetFont(), size, {at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text.c_str());
+    list.AddText(ImGui::GetFont(), size, at, ImGui::GetColorU32(verdictColour(answer.pair)), text.c_str());
+}
+
+} // namespace
+
+void drawPicture(State& state) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImVec2 size = ImGui::GetContentRegionAvail();
+    size = {std::max(size.x, 8.0F), std::max(size.y, 8.0F)};
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    state.picture.extent = {static_cast<std::uint32_t>(size.x * scale.x), static_cast<std::uint32_t>(size.y * scale.y)};
+    ImGui::InvisibleButton("picture", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    takeMouse(state, corner);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end{corner.x + size.x, corner.y + size.y};
+    if (state.picture.texture != nullptr) {
+        list.AddImage(state.picture.texture, corner, end, {0, 0},
+                      {static_cast<float>(state.picture.used[0]), static_cast<float>(state.picture.used[1])});
+    }
+    list.PushClipRect(corner, end, true);
+    // Depth does not matter here.
+    const Onto onto{clipFromWorld(state.camera, state.picture.extent, 1), corner, size};
+    drawPath(state, onto, list);
+    if (state.showContacts && state.answer) {
+        drawContactPoints(state, onto, list);
+    }
+    drawSides(onto, state, list);
+    drawBar(state, onto, list);
+    drawVerdict(state, onto, list);
+    list.PopClipRect();
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/histogram.h"
+#include "view/panels/panels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxtact::view {
+
+namespace {
+
+/// How far a turn of the wheel goes: a voxel, at least along the axis that is nearest.
+double stepOf(const State& state) {
+    return *std::ranges::min_element(state.volume.grid.spacing);
+}
+
+void takeMouse(State& state, std::size_t slice, const SlicePlace& place, const Point2& mouse) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+        state.cursor = worldAt(place, {std::clamp(mouse[0], 0.0, 1.0), std::clamp(mouse[1], 0.0, 1.0)});
+    } else if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+        // To the right more contrast, down brighter: a value is shown as lighter the lower the window lies.
+        constexpr double kShare = 1.0 / 300;
+        const double width = state.window.hi - state.window.lo;
+        const double least = (state.values.hi - state.values.lo) / 1e4;
+        const double wider = std::max(width * (1 - kShare * static_cast<double>(io.MouseDelta.x)), least);
+        const double level = (state.window.lo + state.window.hi) / 2 -
+                             kShare * static_cast<double>(io.MouseDelta.y) * (state.values.hi - state.values.lo);
+        state.window = {level - wider / 2, level + wider / 2};
+    }
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+        const std::size_t axis = kSlices[slice].axis;
+        const Box box = transformBox(worldFromTexture(state.volume.grid), {{0, 0, 0}, {1, 1, 1}});
+        const double to = state.cursor[axis] + static_cast<double>(io.MouseWheel) * stepOf(state);
+        state.cursor[axis] = std::clamp(to, box.lo[axis], box.hi[axis]);
+    }
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        const auto own = static_cast<Maximised>(static_cast<int>(Maximised::Slice0) + static_cast<int>(slice));
+        state.maximised = state.maximised == Maximised::None ? own : Maximised::None;
+    }
+}
+
+/// What is under the pointer goes to the status line.
+void tellPlace(State& state, const Vec3& world) {
+    const std::optional<double> value = valueAt(state.volume.view(), state.texture_from_world, world);
+    char text[128];
+    if (value) {
+        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: %g", world[0], world[1], world[2], *value);
+    } else {
+        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: outside of the volume", world[0], world[1], world[2]);
+    }
+    state.say(text);
+}
+
+struct Rect {
+    ImVec2 corner;
+    ImVec2 size;
+
+    [[nodiscard]] ImVec2 at(const Point2& point) const {
+        return {corner.x + static_cast<float>(point[0]) * size.x, corner.y + static_cast<float>(point[1]) * size.y};
+    }
+};
+
+void drawMesh(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
+    const std::size_t axis = kSlices[slice].axis;
+    static const std::vector<std::uint32_t> kNone;
+    const std::vector<std::uint32_t>& touching = state.answer ? state.answer->triangles : kNone;
+    for (const OutlinePiece& piece :
+         outline(state.mesh.view(), state.document.edit.world_from_object, axis, state.cursor[axis], place)) {
+        // An answer has them by their numbers.
+        const bool touches = std::ranges::binary_search(touching, piece.triangle);
+        list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : IM_COL32(120, 200, 255, 255),
+                     1.6F);
+    }
+}
+
+void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
+    const ImU32 colour = IM_COL32(225, 229, 235, 200);
+    const float size = ImGui::GetFontSize();
+    const auto text = [&](float x, float y, const char* letter) {
+        list.AddText({rect.corner.x + x, rect.corner.y + y}, colour, letter);
+    };
+    text(4, rect.size.y / 2 - size / 2, kind.left);
+    text(rect.size.x - size * 0.8F, rect.size.y / 2 - size / 2, kind.right);
+    text(rect.size.x / 2 - size * 0.3F, 2, kind.top);
+    text(rect.size.x / 2 - size * 0.3F, rect.size.y - size - 3, kind.bottom);
+}
+
+} // namespace
+
+void drawSlice(State& state, std::size_t slice) {
+    const SliceKind& kind = kSlices[slice];
+    Pane& pane = state.slices[slice];
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImVec2 size = ImGui::GetContentRegionAvail();
+    size = {std::max(size.x, 8.0F), std::max(size.y, 8.0F)};
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+    pane.extent = {static_cast<std::uint32_t>(size.x * scale.x), static_cast<std::uint32_t>(size.y * scale.y)};
+    ImGui::InvisibleButton("slice", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    SlicePlace place = slicePlace(kind, state.volume.grid, state.cursor, pane.extent);
+    const Point2 mouse = mouseIn(corner, size);
+    takeMouse(state, slice, place, mouse);
+    if (ImGui::IsItemHovered()) {
+        tellPlace(state, worldAt(place, mouse));
+    }
+    place = slicePlace(kind, state.volume.grid, state.cursor, pane.extent);
+    const Rect rect{corner, size};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end{corner.x + size.x, corner.y + size.y};
+    if (pane.texture != nullptr) {
+        list.AddImage(pane.texture, corner, end);
+    }
+    list.PushClipRect(corner, end, true);
+    const ImVec2 cross = rect.at(pictureAt(place, state.cursor));
+    const ImU32 line = IM_COL32(110, 160, 250, 90);
+    list.AddLine({corner.x, cross.y}, {end.x, cross.y}, line);
+    list.AddLine({cross.x, corner.y}, {cross.x, end.y}, line);
+    drawMesh(state, slice, place, rect, list);
+    drawLetters(kind, rect, list);
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %.1f mm", kind.name, state.cursor[kind.axis]);
+    list.AddText({corner.x + 6, corner.y + 3}, IM_COL32(180, 188, 198, 255), text);
+    list.PopClipRect();
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "view/panels/panels.h"
+
+#include <array>
+#include <vector>
+
+namespace voxtact::view {
+
+namespace {
+
+constexpr float kFontSize = 15;
+
+ImVec4 rgb(int red, int green, int blue, float alpha = 1) {
+    constexpr float kMost = 255;
+    return {static_cast<float>(red) / kMost, static_cast<float>(green) / kMost, static_cast<float>(blue) / kMost,
+            alpha};
+}
+
+void darkColours(ImGuiStyle& style) {
+    ImGui::StyleColorsDark(&style);
+    const auto set = [&style](std::initializer_list<ImGuiCol> which, const ImVec4& colour) {
+        for (const ImGuiCol one : which) {
+            style.Colors[one] = colour;
+        }
+    };
+    set({ImGuiCol_WindowBg, ImGuiCol_MenuBarBg}, rgb(24, 27, 32));
+    set({ImGuiCol_ChildBg}, rgb(31, 35, 41));
+    set({ImGuiCol_PopupBg}, rgb(36, 40, 47));
+    set({ImGuiCol_Border}, rgb(52, 58, 67));
+    set({ImGuiCol_Text}, rgb(222, 226, 232));
+    set({ImGuiCol_TextDisabled}, rgb(134, 143, 155));
+    set({ImGuiCol_FrameBg}, rgb(43, 48, 56));
+    set({ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered}, rgb(62, 76, 96));
+    set({ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive}, rgb(70, 98, 138));
+    set({ImGuiCol_Button}, rgb(50, 57, 67));
+    set({ImGuiCol_Header}, rgb(50, 66, 90));
+    set({ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive}, rgb(62, 86, 122));
+    set({ImGuiCol_SliderGrab, ImGuiCol_CheckMark}, rgb(96, 160, 240));
+    set({ImGuiCol_SliderGrabActive}, rgb(130, 184, 250));
+    set({ImGuiCol_Separator}, rgb(52, 58, 67));
+    set({ImGuiCol_ScrollbarBg}, rgb(28, 31, 37));
+    set({ImGuiCol_TableHeaderBg}, rgb(43, 48, 56));
+    set({ImGuiCol_TitleBgActive}, rgb(42, 56, 78));
+}
+
+} // namespace
+
+void setColours(Theme theme) {
+    ImGuiStyle& style = ImGui::GetStyle();
+    if (theme == Theme::Dark) {
+        darkColours(style);
+    } else {
+        ImGui::StyleColorsLight(&style);
+        style.Colors[ImGuiCol_ChildBg] = rgb(250, 250, 251);
+        style.Colors[ImGuiCol_WindowBg] = rgb(233, 236, 240);
+    }
+}
+
+void applyTheme(float scale, std::span<const unsigned char> font) {
+    ImGuiStyle& style = ImGui::GetStyle();
+    setColours(Theme::Dark);
+    style.WindowPadding = {8, 8};
+    style.FramePadding = {7, 3};
+    style.ItemSpacing = {7, 5};
+    style.ItemInnerSpacing = {6, 4};
+    style.WindowRounding = 5;
+    style.ChildRounding = 5;
+    style.FrameRounding = 4;
+    style.GrabRounding = 4;
+    style.PopupRounding = 5;
+    style.WindowBorderSize = 0;
+    style.ScaleAllSizes(scale);
+    ImFontConfig config;
+    config.FontDataOwnedByAtlas = false;
+    // Dear ImGui only reads it.
+    ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
+                                               kFontSize * scale, &config);
+}
+
+ImVec4 verdictColour(const PairAnswer& answer) {
+    return answer.hit ? rgb(255, 104, 74) : answer.possible ? rgb(245, 196, 66) : rgb(92, 200, 130);
+}
+
+ImVec4 quietColour() {
+    return ImGui::GetStyle().Colors[ImGuiCol_TextDisabled];
+}
+
+void heading(const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_SliderGrab]);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+}
+
+Point2 mouseIn(const ImVec2& corner, const ImVec2& size) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    return {static_cast<double>((mouse.x - corner.x) / size.x), static_cast<double>((mouse.y - corner.y) / size.y)};
+}
+
+} // namespace voxtact::view

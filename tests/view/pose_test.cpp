@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/pose.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+namespace {
+
+auto near(double x, double y, double z) {
+    return ElementsAre(DoubleNear(x, 1e-12), DoubleNear(y, 1e-12), DoubleNear(z, 1e-12));
+}
+
+/// Own x is the world's y, own y the world's -x; twice as large; the tip at 10, 20, 30.
+constexpr Mat4 kPose{0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 10, 20, 30, 1};
+
+} // namespace
+
+TEST(ViewPose, MovesAlongTheWorldsAxes) {
+    EXPECT_THAT(originOf(moved(kPose, {1, 2, 3}, Axes::World)), near(11, 22, 33));
+}
+
+TEST(ViewPose, MovesAlongItsOwnAxesInMillimetresWhateverItsScale) {
+    EXPECT_THAT(originOf(moved(kPose, {1, 2, 3}, Axes::Own)), near(8, 21, 33));
+}
+
+TEST(ViewPose, AMoveChangesNothingButThePlace) {
+    Mat4 back = moved(kPose, {1, 2, 3}, Axes::Own);
+    back = placedAt(back, {10, 20, 30});
+    EXPECT_EQ(back, kPose);
+}
+
+TEST(ViewPose, TurnsAboutTheWorldsAxisThroughTheTip) {
+    const Mat4 turnedPose = turned(kPose, 2, 90, Axes::World);
+    EXPECT_THAT(originOf(turnedPose), near(10, 20, 30));
+    // Its own x was the world's y: a quarter turn about z, counter-clockwise from above, makes it -x.
+    EXPECT_THAT(axisOf(turnedPose, 0), near(-1, 0, 0));
+    EXPECT_THAT(axisOf(turnedPose, 2), near(0, 0, 1));
+}
+
+TEST(ViewPose, TurnsAboutItsOwnAxis) {
+    // Its own x is the world's y: about it z goes to the world's x.
+    const Mat4 turnedPose = turned(kPose, 0, 90, Axes::Own);
+    EXPECT_THAT(axisOf(turnedPose, 0), near(0, 1, 0));
+    EXPECT_THAT(axisOf(turnedPose, 2), near(1, 0, 0));
+}
+
+TEST(ViewPose, ATurnKeepsTheScale) {
+    const Mat4 turnedPose = turned(kPose, 1, 33, Axes::Own);
+    EXPECT_THAT(transformPoint(turnedPose, {0, 1, 0}), near(8, 20, 30));
+}
+
+TEST(ViewPose, FourQuarterTurnsAreNone) {
+    Mat4 pose = kPose;
+    for (int i = 0; i < 4; ++i) {
+        pose = turned(pose, 0, 90, Axes::World);
+    }
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        EXPECT_NEAR(pose[i], kPose[i], 1e-12);
+    }
+}
+
+TEST(ViewPose, TellsItsAngles) {
+    EXPECT_THAT(anglesOf(kPose), near(0, 0, 90));
+    EXPECT_THAT(anglesOf(turned(identity(), 0, 25, Axes::World)), near(25, 0, 0));
+    EXPECT_THAT(anglesOf(turned(identity(), 1, -40, Axes::World)), near(0, -40, 0));
+}
+
+TEST(ViewPose, AnAxisWithoutLengthIsTheWorlds) {
+    EXPECT_THAT(axisOf(Mat4{}, 1), near(0, 1, 0));
+}
+
+} // namespace voxtact::test

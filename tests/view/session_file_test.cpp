@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/session_file.h"
+
+#include "voxtact/io.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+using testing::HasSubstr;
+
+namespace {
+
+Document document() {
+    Document out;
+    out.sources = {"head.nii.gz", "tool.stl", "ras", 0.001};
+    out.edit.curve = {{-40.5, 0}, {1.0 / 3, 0.1}, {80, 1}};
+    out.edit.threshold = 0.25;
+    out.edit.world_from_object = translation({1.5, -2, 1.0 / 3});
+    out.colours = {{0, {0, 0.5, 1}}, {100, {1, 1, 1}}};
+    out.domain = {-1024, 3071};
+    out.tableSize = 512;
+    out.poses = {identity(), translation({1, 2, 3})};
+    out.pose = 1;
+    out.method = MethodChoice{CountingMethod::Atomic, Projection::TwoView};
+    out.camera = Camera{{1, 2, 3}, {30, -10}, 77};
+    out.cursor = Vec3{4, 5, 6};
+    return out;
+}
+
+/// The session with one member changed: the error's text.
+std::string refused(const std::string& pointer, const nlohmann::json& value) {
+    nlohmann::json json = nlohmann::json::parse(sessionText(document()));
+    json[nlohmann::json::json_pointer(pointer)] = value;
+    const Result<Document> parsed = parseSession(json.dump(), "s.json");
+    return parsed.ok() ? "" : parsed.error().text;
+}
+
+} // namespace
+
+TEST(ViewSession, ComesBackAsItWas) {
+    const Document before = document();
+    const Result<Document> after = parseSession(sessionText(before), "s.json");
+    ASSERT_TRUE(after.ok()) << after.error().text;
+    EXPECT_EQ(sessionText(*after), sessionText(before));
+    EXPECT_EQ(after->edit, before.edit);
+    EXPECT_EQ(after->poses, before.poses);
+    EXPECT_EQ(after->method, before.method);
+    EXPECT_EQ(after->cursor, before.cursor);
+    EXPECT_EQ(after->sources.meshSpace, "ras");
+    EXPECT_EQ(after->camera->halfHeight, 77);
+}
+
+TEST(ViewSession, ComesBackFromAFile) {
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / ("voxtact_session_" + std::to_string(getpid()) + ".json");
+    ASSERT_TRUE(writeSession(path, document()).ok());
+    const Result<Document> read = readSession(path);
+    ASSERT_TRUE(read.ok()) << read.error().text;
+    EXPECT_EQ(sessionText(*read), sessionText(document()));
+    ASSERT_TRUE(writeTransferFunction(path, document()).ok());
+    const auto points = io::readTransferFunction(path);
+    ASSERT_TRUE(points.ok()) << points.error().text;
+    EXPECT_EQ(points->size(), 3U);
+    EXPECT_EQ((*points)[1].value, 1.0 / 3);
+    const auto colours = io::readColours(path);
+    ASSERT_TRUE(colours.ok());
+    EXPECT_EQ(colours->size(), 2U);
+    std::filesystem::remove(path);
+}
+
+TEST(ViewSession, AFileThatIsNotThereIsNamed) {
+    const Result<Document> read = readSession("/nowhere/s.json");
+    ASSERT_FALSE(read.ok());
+    EXPECT_THAT(read.error().text, HasSubstr("'/nowhere/s.json'"));
+}
+
+TEST(ViewSession, OtherFilesAreNoSessions) {
+    for (const char* text : {"", "{", "[]", "3", "{}", "{\"voxtact_session\": \"1\"}", "{\"voxtact_session\": 2}"}) {
+        const Result<Document> parsed = parseSession(text, "s.json");
+        ASSERT_FALSE(parsed.ok()) << text;
+        EXPECT_THAT(parsed.error().text, HasSubstr("'s.json'")) << text;
+        EXPECT_EQ(parsed.error().code, ErrorCode::Format);
+    }
+}
+
+TEST(ViewSession, WhatIsWrongIsNamed) {
+    using Json = nlohmann::json;
+    EXPECT_EQ(refused("/mesh_space", "lps"), "");
+    const std::vector<std::tuple<const char*, Json, const char*>> cases{
+        {"/volume", Json(), "volume: is missing"},
+        {"/mesh", 3, "mesh: is not a text"},
+        {"/mesh_space", "xyz", "mesh_space: is neither"},
+        {"/mesh_scale", -1, "mesh_scale: is not a positive number"},
+        {"/transfer_function", 3, "transfer_function: is not an object"},
+        {"/transfer_function/points", Json::array(), "transfer_function: "},
+        {"/transfer_function/points/1", Json::array({-100, 0.5}), "transfer_function: "},
+        {"/transfer_function/points/1", Json::array({5}), "transfer_function.points[1]: is not an array of 2 numbers"},
+        {"/transfer_function/points/1/1", "x", "transfer_function.points[1][1]: is not a number"},
+        {"/transfer_function/points/1/1", 1.5, "transfer_function: "},
+        {"/transfer_function/colours/0/2", 7, "transfer_function.colours[0]: a colour's channel"},
+        {"/transfer_function/colours/1/0", -7, "transfer_function.colours[1]: its value is below"},
+        {"/transfer_function/domain", Json::array({5, 5}), "transfer_function: "},
+        {"/transfer_function/size", 1, "transfer_function.size: "},
+        {"/transfer_function/size", 1e9, "transfer_function.size: "},
+        {"/transfer_function/threshold", 2, "transfer_function.threshold: "},
+        {"/instrument/pose", Json::array({1, 2}), "instrument.pose: is not an array of 16 numbers"},
+        {"/instrument/pose/12", 1, "instrument.pose: "},
+        {"/instrument/poses/1/15", 0, "instrument.poses[1]: "},
+        {"/instrument/pose_number", 2, "instrument.pose_number: "},
+        {"/method/count", "guess", "method.count: "},
+        {"/method/projection", "guess", "method.projection: "},
+        {"/camera/half_height", 0, "camera.half_height: "},
+        {"/camera/target", Json::array({1, 2}), "camera.target: "},
+        {"/cursor", "here", "cursor: "},
+    };
+    for (const auto& [pointer, value, text] : cases) {
+        const std::string error = refused(pointer, value);
+        EXPECT_THAT(error, HasSubstr(std::string("cannot use the session 's.json': ") + text)) << pointer;
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+    }
+}
+
+TEST(ViewSession, PathsThatAreNoUtf8DoNoHarm) {
+    Document odd = document();
+    odd.sources.volume = "\xff\xfe";
+    EXPECT_TRUE(parseSession(sessionText(odd), "s.json").ok());
+}
+
+} // namespace voxtact::test

@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The window as a person uses it: on an X server of its own, by keys, under validation.
+
+  window.py PROGRAM keys      the instrument is moved into the head, back and through a list; each answer is compared
+                              with that of the command that the window copies; the window is resized and closed
+  window.py PROGRAM methods   the device's ways to answer, each compared in the same way
+  window.py PROGRAM refusals  no display, and what cannot be shown
+
+Nothing sleeps for a fixed time: each step is waited for, at most so long as a slow machine may need.
+Exit status: 0 passed, 1 failed.
+"""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+PATIENCE = 240  # s, for a single step
+SIZE = "640x480"
+
+
+def fail(text):
+    raise AssertionError(text)
+
+
+class Server:
+    """An X server without a screen, on a display that is free."""
+
+    def __init__(self):
+        for program in ("Xvfb", "xdotool"):
+            if shutil.which(program) is None:
+                fail(f"{program} is not installed")
+        self.process = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        number = self.process.stdout.readline().strip()
+        self.environment = {**os.environ, "DISPLAY": f":{number}"}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+
+class Window:
+    def __init__(self, program, server, folder, arguments):
+        self.server, self.program = server, program
+        self.state_path = pathlib.Path(folder) / "state.json"
+        self.state_path.unlink(missing_ok=True)
+        self.process = subprocess.Popen(
+            [program, "view", "--size", SIZE, "--validate", "--report-state", str(self.state_path), *arguments],
+            env=server.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.id = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.communicate()
+
+    def state(self):
+        try:
+            return json.loads(self.state_path.read_text())
+        except FileNotFoundError:
+            return None
+
+    def until(self, what, true_of):
+        """The state, when that is true of it."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            state = self.state()
+            if state is not None and true_of(state):
+                return state
+            if self.process.poll() is not None:
+                fail(f"the window ended ({self.process.returncode}) before {what}: {self.process.stderr.read()}")
+            time.sleep(0.02)
+        fail(f"not within {PATIENCE} s: {what}; the last state: {self.state()}")
+
+    def tool(self, *arguments):
+        return subprocess.run(["xdotool", *arguments], env=self.server.environment, check=True, capture_output=True,
+                              text=True, timeout=PATIENCE).stdout
+
+    def press(self, *keys):
+        if self.id is None:
+            self.id = self.tool("search", "--sync", "--onlyvisible", "--name", "^voxtact$").split()[0]
+            self.tool("windowfocus", "--sync", self.id)
+        self.tool("key", *keys)
+
+    def end(self):
+        """The exit status is 0 only where validation had nothing to say."""
+        out, err = self.process.communicate(timeout=PATIENCE)
+        if (self.process.returncode, out, err) != (0, "", ""):
+            fail(f"the window ended with {self.process.returncode}: {out}{err}")
+
+
+def compare(program, state):
+    """The state's answer is that of its command."""
+    environment = {**os.environ, "PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
+    ran = subprocess.run(["sh", "-c", state["command"] + " --format csv"], env=environment, capture_output=True,
+                         text=True, timeout=PATIENCE)
+    if ran.returncode != 0:
+        fail(f"{state['command']}: {ran.stderr}")
+    row, = csv.DictReader(ran.stdout.splitlines())
+    for name in ("hit", "count", "exact", "method", "projection"):
+        if row[name] != str(state[name]):
+            fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
+
+
+def poses(folder, *heights):
+    path = pathlib.Path(folder) / "poses.txt"
+    path.write_text("".join(f"1 0 0 3 0 1 0 -8 0 0 1 {height} 0 0 0 1\n" for height in heights))
+    return str(path)
+
+
+SCENE = ["--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--preset", "mr"]
+HEIGHT = 11  # of a pose's numbers, row by row
+
+
+def keys(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 130, 40)]) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        assert (state["hit"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
+        compare(program, state)
+        height = 130
+        while state["hit"] == 0 and height > 0:
+            height -= 10
+            window.press("shift+Next")
+            state = window.until(f"a pose {height} mm high", lambda s: s["pose"][HEIGHT] == height)
+        assert state["hit"] == 1 and state["count"] > 0 and state["triangles"] > 0, state
+        compare(program, state)
+        # Many at once: none is lost.
+        window.press("Prior", "Prior", "Prior", "Next")
+        state = window.until("three up and one down", lambda s: abs(s["pose"][HEIGHT] - height - 2) < 1e-9)
+        compare(program, state)
+        # Nudges that follow each other are one command.
+        window.press("ctrl+z")
+        state = window.until("the first pose again", lambda s: s["pose"][HEIGHT] == 130)
+        assert state["hit"] == 0, state
+        window.press("ctrl+y")
+        window.until("what was undone", lambda s: abs(s["pose"][HEIGHT] - height - 2) < 1e-9)
+        window.press("bracketright")
+        state = window.until("the second pose of the list", lambda s: s["pose"][HEIGHT] == 40 and s["hit"] == 1)
+        compare(program, state)
+        # Another size: frames go on, and the answer stays.
+        before = window.until("the fine picture", lambda s: s["settled"])["frame"]
+        window.tool("windowsize", window.id, "800", "560")
+        window.press("Left")
+        state = window.until("an answer in another size", lambda s: s["pose"][3] == 2 and s["settled"])
+        assert state["frame"] > before, state
+        compare(program, state)
+        window.press("ctrl+q")
+        window.end()
+
+
+def methods(program, folder):
+    with Server() as server:
+        for method, projection in (("compute", "conservative"), ("query", "view"), ("atomic", "dominant-axis")):
+            with Window(program, server, folder, [*SCENE, "--poses", poses(folder, 60), "--count", method,
+                                                  "--projection", projection]) as window:
+                state = window.until(f"the answer of {method}", lambda s: s["settled"])
+                assert state["count"] > 0 and state["device"] != "host", state
+                compare(program, state)
+                window.press("Next")
+                state = window.until(f"the next answer of {method}", lambda s: s["pose"][HEIGHT] == 59)
+                compare(program, state)
+                window.press("ctrl+q")
+                window.end()
+
+
+def refused(program, status, text, arguments, environment):
+    ran = subprocess.run([program, "view", *arguments], env=environment, capture_output=True, text=True,
+                         timeout=PATIENCE)
+    lines = ran.stderr.splitlines()
+    if ran.returncode != status or len(lines) != 1 or text not in lines[0] or ran.stdout:
+        fail(f"{arguments}: status {ran.returncode} and {ran.stderr!r}, not {status} and a line with {text!r}")
+
+
+def refusals(program, folder):
+    without = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    refused(program, 1, "there is no display to open a window on", [*SCENE], without)
+    session = pathlib.Path(folder) / "session.json"
+    session.write_text('{"voxtact_session": 1, "volume": "builtin:head:16", "mesh": "builtin:scalpel:300"}')
+    refused(program, 1, "transfer_function: ", ["--session", str(session)], without)
+    refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
+    refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"], without)
+    refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
+    refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
+    with Server() as server:
+        no_driver = {**server.environment, "VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
+        refused(program, 1, "Vulkan", [*SCENE], no_driver)
+
+
+def main(arguments):
+    checks = {"keys": keys, "methods": methods, "refusals": refusals}
+    if len(arguments) != 2 or arguments[1] not in checks:
+        print(__doc__, file=sys.stderr)
+        return 2
+    begun = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        checks[arguments[1]](arguments[0], folder)
+    print(f"{arguments[1]}: passed in {time.monotonic() - begun:.1f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
