@@ -33,7 +33,7 @@ Result<void> show(const ViewerOptions& options, Opened opened, Outcome& invalid)
     DeviceChoice choice = options.device;
     choice.wanted = choice.wanted == "cpu" ? "" : choice.wanted;
     std::shared_ptr<const device::ValidationMessages> messages;
-    const Result<void> shown = [&]() -> Result<void> {
+    Result<void> shown = [&]() -> Result<void> {
         const Result<device::Session> session =
             openSession(choice, {(*display)->instanceExtensions(), (*display)->deviceExtensions()});
         VOXTACT_TRY(session);
