@@ -51,8 +51,8 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     VkSampler nearestSampler = VK_NULL_HANDLE; ///< for formats that cannot be filtered: shaders fetch their texels
     std::array<VkDescriptorSetLayout, 4> setLayouts{}; ///< by SetIndex
     VkPipelineLayout rasterLayout = VK_NULL_HANDLE;    ///< sets 0 to 2, and RasterConstants for the fragment stage
-    VkPipelineLayout dominantLayout = VK_NULL_HANDLE;  ///< all sets, RasterConstants, and DominantConstants for vertices
-    VkPipelineLayout computeLayout = VK_NULL_HANDLE;   ///< all sets; null where the device's limits do not allow for it
+    VkPipelineLayout dominantLayout = VK_NULL_HANDLE; ///< all sets, RasterConstants, and DominantConstants for vertices
+    VkPipelineLayout computeLayout = VK_NULL_HANDLE;  ///< all sets; null where the device's limits do not allow for it
 
     std::mutex onDemandMutex; ///< of those below, which are made for the first object that needs them
     Owned<VkPipeline> brickPipeline;

@@ -41,7 +41,7 @@ struct PlanCase {
             obstacle.threshold = scene.threshold;
         } else {
             obstacle.labels = &labels;
-            obstacle.avoid = {2};
+            obstacle.avoid = {labels.values.back()};
         }
         task.obstacles = std::span(&obstacle, 1);
         const Vec3 place{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)};
@@ -85,7 +85,7 @@ struct PlanCase {
         }
         const std::vector<ControlPoint> all{{0, 1}, {1, 1}};
         pair.transferFunction.points = all;
-        return take(oracle::labelClearanceOracle(pair, labels, 2, 1.0 / 32));
+        return take(oracle::labelClearanceOracle(pair, labels, obstacle.avoid.front(), 1.0 / 32));
     }
 
   public:

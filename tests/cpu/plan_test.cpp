@@ -302,7 +302,7 @@ TEST(Plan, RefusesWhatItCannotUse) {
     };
     EXPECT_EQ(refused([](auto&) {}), "");
     EXPECT_EQ(refused([](auto& task) { task.target[1] = std::nan(""); }),
-              "the target is not within 1000000000 mm of the origin");
+              "the target is not within 1e+09 mm of the origin");
     EXPECT_NE(refused([](auto& task) { task.target[2] = 1e18; }).find("the target"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.obstacles = {}; }).find("no obstacles"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.margin = -1; }).find("margin"), std::string::npos);

@@ -67,8 +67,9 @@ TEST(TickJudgeTest, TheRasteriserAgreesWithItselfAndComputeWithTheHost) {
     EXPECT_EQ(judgeTick(facts("atomic", "count", false), answer(100, CountingMethod::Atomic), must),
               "atomic view count says 100, it must be 101");
     EXPECT_EQ(judgeTick(facts("query-any", "count", false), answer(1, CountingMethod::QueryAny), must), "");
-    EXPECT_EQ(judgeTick(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
-              "query-any view count says no hit where cpu counts 100: more than what roundings of a rasteriser explain");
+    EXPECT_EQ(
+        judgeTick(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
+        "query-any view count says no hit where cpu counts 100: more than what roundings of a rasteriser explain");
     EXPECT_EQ(judgeTick(facts("compute", "count", false), answer(100, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgeTick(facts("compute", "count", false), answer(101, CountingMethod::Compute), must),
               "compute view count says 101, it must be 100");
