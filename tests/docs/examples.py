@@ -119,7 +119,9 @@ def environment(program, folder):
         os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
     # mpirun refuses root, and more ranks than processors, unless it is told: the tests may have both.
     mpi = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-           "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+           "OMPI_MCA_rmaps_base_oversubscribe": "1",
+           # in a container one process may not read another's memory
+           "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
     return {**kept, **mpi, "HOME": str(home), "MESA_SHADER_CACHE_DIR": mesa,
             "PATH": f"{pathlib.Path(program).resolve().parent}{os.pathsep}{os.environ['PATH']}"}
 
