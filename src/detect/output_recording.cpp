@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/try.h"
 #include "core/batch/output_pair.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
@@ -12,42 +13,32 @@ namespace {
 
 constexpr VkDeviceSize kWord = sizeof(std::uint32_t);
 
-/// Words that a batch uses of the parts of an outputs buffer.
-struct Used {
-    std::uint64_t bounds = 0;
-    std::uint64_t triangles = 0;
-    std::uint64_t mask = 0;
-    std::uint64_t labels = 0;
-};
-
-Used usedBy(const OutputStore& store) {
-    Used used;
-    for (const OutputItem& item : store.items) {
-        used.bounds += std::uint64_t{item.pairs} * OUTPUT_BOUND_WORDS;
-        used.triangles += std::uint64_t{item.pairs} * item.triangles;
-        used.mask += std::uint64_t{item.pairs} * ((std::uint64_t{item.triangles} + 31) / 32);
-        used.labels += item.labels == nullptr ? 0 : std::uint64_t{item.pairs} * item.labels->size();
+/// Words that the batch recorded last uses of a part; of a list, all that it has room for.
+std::uint64_t usedOf(const OutputStore& store, const OutputPartRow& part) {
+    if (!(store.recorded.*part.output)) {
+        return 0;
     }
-    const Outputs& outputs = store.recorded;
-    return {outputs.bounds ? used.bounds : 0, outputs.triangles ? used.triangles : 0, outputs.triangles ? used.mask : 0,
-            outputs.labels ? used.labels : 0};
+    if (part.ofPair == nullptr) {
+        return part.room(store.room, store.maxPairs);
+    }
+    std::uint64_t words = 0;
+    for (const OutputItem& item : store.items) {
+        words += item.pairs * part.ofPair(item);
+    }
+    return words;
 }
 
 void clear(const ContextImpl& context, VkCommandBuffer commandBuffer, const OutputStore& store) {
-    const auto fill = [&](std::uint64_t first, std::uint64_t words) {
-        if (words > 0) {
-            context.vk.CmdFillBuffer(commandBuffer, store.words.get(), first * kWord, words * kWord, 0);
+    for (std::size_t i = 0; i < kOutputParts; ++i) {
+        const OutputPartRow& part = outputParts()[i];
+        const std::uint64_t words = usedOf(store, part);
+        if (words > 0 && part.ofPair != nullptr) {
+            context.vk.CmdFillBuffer(commandBuffer, store.words.get(), store.layout[i] * kWord, words * kWord, 0);
+        } else if (words > 0) {
+            const std::uint32_t header[OUTPUT_HEADER_WORDS] = {0, 0, store.room.contacts, 0};
+            context.vk.CmdUpdateBuffer(commandBuffer, store.words.get(), store.layout[i] * kWord, sizeof header,
+                                       header);
         }
-    };
-    const Used used = usedBy(store);
-    fill(store.layout.bounds, used.bounds);
-    fill(store.layout.triangles, used.triangles);
-    fill(store.layout.mask, used.mask);
-    fill(store.layout.labels, used.labels);
-    if (store.recorded.contacts) {
-        const std::uint32_t header[OUTPUT_HEADER_WORDS] = {0, 0, store.room.contacts, 0};
-        context.vk.CmdUpdateBuffer(commandBuffer, store.words.get(), store.layout.contacts * kWord, sizeof header,
-                                   header);
     }
 }
 
@@ -75,21 +66,16 @@ void recordPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
                  const OutputStore& store) {
     BufferUpdate<shader::OutputPair> update(context, commandBuffer, store.pairs.get());
     OutputLayout next = store.layout;
-    const auto word = [](std::uint64_t at) { return static_cast<std::uint32_t>(at); };
-    for (const BatchItem& item : batch.items) {
-        shader::OutputPair pair = pairOf(item, batch.threshold, store.recorded);
-        pair.contacts = word(store.layout.contacts);
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        shader::OutputPair pair = pairOf(batch.items[i], batch.threshold, store.recorded);
         pair.contactRoom = store.room.contacts;
-        for (std::size_t pose = 0; pose < item.world_from_object.size(); ++pose) {
-            pair.firstBound = word(next.bounds);
-            pair.firstTriangle = word(next.triangles);
-            pair.firstMask = word(next.mask);
-            pair.firstLabel = word(next.labels);
+        for (std::uint32_t pose = 0; pose < store.items[i].pairs; ++pose) {
+            for (std::size_t part = 0; part < kOutputParts; ++part) {
+                const OutputPartRow& row = outputParts()[part];
+                pair.*row.first = static_cast<std::uint32_t>(next[part]);
+                next[part] += row.ofPair == nullptr ? 0 : row.ofPair(store.items[i]);
+            }
             update.add(pair);
-            next.bounds += OUTPUT_BOUND_WORDS;
-            next.triangles += item.mesh->triangles();
-            next.mask += (std::uint64_t{item.mesh->triangles()} + 31) / 32;
-            next.labels += pair.labelCount;
         }
     }
     update.finish();
@@ -109,17 +95,25 @@ void recordOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, co
 }
 
 void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, const OutputStore& store) {
-    const auto copy = [&](std::uint64_t first, std::uint64_t words) {
+    for (std::size_t i = 0; i < kOutputParts; ++i) {
+        const OutputPartRow& part = outputParts()[i];
+        const std::uint64_t words = part.unpack == nullptr ? 0 : usedOf(store, part);
         if (words > 0) {
-            const VkBufferCopy region{first * kWord, first * kWord, words * kWord};
+            const VkBufferCopy region{store.layout[i] * kWord, store.layout[i] * kWord, words * kWord};
             context.vk.CmdCopyBuffer(commandBuffer, store.words.get(), store.readBack.get(), 1, &region);
         }
-    };
-    const Used used = usedBy(store);
-    copy(store.layout.bounds, used.bounds);
-    copy(store.layout.triangles, used.triangles);
-    copy(store.layout.labels, used.labels);
-    copy(store.layout.contacts, store.recorded.contacts ? store.layout.end - store.layout.contacts : 0);
+    }
+}
+
+Result<void> unpackOutputs(const OutputStore& store, BatchAnswer& answer) {
+    const auto* const words = static_cast<const std::uint32_t*>(store.readBack.mapped);
+    for (std::size_t i = 0; i < kOutputParts; ++i) {
+        const OutputPartRow& part = outputParts()[i];
+        if (part.unpack != nullptr && store.recorded.*part.output) {
+            VOXTACT_TRY(part.unpack({words + store.layout[i], store.items, store.room}, answer));
+        }
+    }
+    return {};
 }
 
 } // namespace voxtact

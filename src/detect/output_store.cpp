@@ -20,13 +20,11 @@ std::uint64_t aligned(std::uint64_t word) {
 }
 
 OutputLayout layoutOf(const OutputRoom& room, std::uint64_t pairs) {
-    OutputLayout layout;
-    layout.triangles = aligned(layout.bounds + pairs * OUTPUT_BOUND_WORDS);
-    layout.mask = aligned(layout.triangles + room.triangles);
-    // Each pair begins with a word of its own.
-    layout.labels = aligned(layout.mask + room.triangles / 32 + pairs);
-    layout.contacts = aligned(layout.labels + room.labels);
-    layout.end = layout.contacts + OUTPUT_HEADER_WORDS + std::uint64_t{room.contacts} * OUTPUT_CONTACT_WORDS;
+    OutputLayout layout{};
+    for (std::size_t part = 0; part < kOutputParts; ++part) {
+        const std::uint64_t end = layout[part] + outputParts()[part].room(room, pairs);
+        layout[part + 1] = part + 1 < kOutputParts ? aligned(end) : end;
+    }
     return layout;
 }
 
@@ -34,7 +32,7 @@ Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
     const std::uint64_t most = context.limits.maxStorageBufferRange;
     // Sums of larger ones could overflow.
     const bool huge = desc.room->triangles > most || desc.room->labels > most;
-    if (huge || layoutOf(*desc.room, desc.maxPairs).end * kWord > most) {
+    if (huge || layoutOf(*desc.room, desc.maxPairs).back() * kWord > most) {
         return Error{ErrorCode::LimitExceeded, 0,
                      "the outputs of " + std::to_string(desc.maxPairs) + " pairs with room for " +
                          std::to_string(desc.room->triangles) + " triangles, " + std::to_string(desc.room->labels) +
@@ -51,7 +49,7 @@ Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
 }
 
 Result<void> makeBuffers(ContextImpl& context, const ResultsDesc& desc, OutputStore& out) {
-    const VkDeviceSize bytes = out.layout.end * kWord;
+    const VkDeviceSize bytes = out.layout.back() * kWord;
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Result<Buffer> pairs = makeBuffer(context, VkDeviceSize{desc.maxPairs} * sizeof(shader::OutputPair), kTo,
                                       MemoryUse::Device, "output pairs");
@@ -94,11 +92,13 @@ Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer tr
     return {};
 }
 
-BufferRange rangeOf(const OutputStore& store, std::uint64_t first, std::uint64_t words) {
+/// Empty where there is no store, or no room for the part.
+BufferRange rangeOf(const std::unique_ptr<OutputStore>& store, OutputPart part) {
+    const std::uint64_t words = store == nullptr ? 0 : outputParts()[part].room(store->room, store->maxPairs);
     if (words == 0) {
         return {};
     }
-    return {store.words.get(), first * kWord, words * kWord};
+    return {store->words.get(), store->layout[part] * kWord, words * kWord};
 }
 
 } // namespace
@@ -131,34 +131,23 @@ VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noex
 }
 
 BufferRange Results::triangleCounts() const noexcept {
-    const OutputStore* store = live(impl_).outputs.get();
-    return store == nullptr ? BufferRange{} : rangeOf(*store, store->layout.triangles, store->room.triangles);
+    return rangeOf(live(impl_).outputs, kTrianglesPart);
 }
 
 BufferRange Results::triangleMask() const noexcept {
-    const OutputStore* store = live(impl_).outputs.get();
-    if (store == nullptr || store->room.triangles == 0) {
-        return {};
-    }
-    return rangeOf(*store, store->layout.mask, store->room.triangles / 32 + store->maxPairs);
+    return rangeOf(live(impl_).outputs, kMaskPart);
 }
 
 BufferRange Results::contacts() const noexcept {
-    const OutputStore* store = live(impl_).outputs.get();
-    return store == nullptr ? BufferRange{}
-                            : rangeOf(*store, store->layout.contacts, store->layout.end - store->layout.contacts);
+    return rangeOf(live(impl_).outputs, kContactsPart);
 }
 
 BufferRange Results::bounds() const noexcept {
-    const OutputStore* store = live(impl_).outputs.get();
-    return store == nullptr
-               ? BufferRange{}
-               : rangeOf(*store, store->layout.bounds, std::uint64_t{store->maxPairs} * OUTPUT_BOUND_WORDS);
+    return rangeOf(live(impl_).outputs, kBoundsPart);
 }
 
 BufferRange Results::labelCounts() const noexcept {
-    const OutputStore* store = live(impl_).outputs.get();
-    return store == nullptr ? BufferRange{} : rangeOf(*store, store->layout.labels, store->room.labels);
+    return rangeOf(live(impl_).outputs, kLabelsPart);
 }
 
 } // namespace voxtact

@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "contact.h"
+#include "detect/output_parts.h"
 #include "gpu/memory.h"
-#include "voxtact/detector.h"
 
 #include <memory>
 
 namespace voxtact {
-
-/// Where the parts of an outputs buffer begin, in words. Each part begins where a descriptor may.
-struct OutputLayout {
-    std::uint64_t bounds = 0;
-    std::uint64_t triangles = 0;
-    std::uint64_t mask = 0;
-    std::uint64_t labels = 0;
-    std::uint64_t contacts = 0;
-    std::uint64_t end = 0;
-};
-
-/// What readOutputs() needs of a batch item.
-struct OutputItem {
-    std::uint32_t pairs = 0;
-    std::uint32_t triangles = 0;
-    std::shared_ptr<const std::vector<std::int32_t>> labels{}; ///< null: no label map
-};
 
 /// The outputs of a Results that has room for them.
 struct OutputStore {

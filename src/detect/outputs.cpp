@@ -43,11 +43,6 @@ Result<void> checkRoom(const char* what, std::uint64_t needed, std::uint64_t roo
 
 } // namespace
 
-std::uint32_t outputsConstant(const Outputs& outputs) noexcept {
-    return (outputs.triangles ? OUTPUT_TRIANGLES : 0U) | (outputs.contacts ? OUTPUT_CONTACTS : 0U) |
-           (outputs.bounds ? OUTPUT_BOUNDS : 0U) | (outputs.labels ? OUTPUT_LABELS : 0U);
-}
-
 VkPipelineLayout bindForCompute(const ContextImpl& context, VkCommandBuffer commandBuffer, const BatchItem& item,
                                 const ResultsImpl& results, const Outputs& outputs) {
     const bool any = outputs.any();

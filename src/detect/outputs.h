@@ -6,9 +6,6 @@
 
 namespace voxtact {
 
-/// VOXTACT_CONSTANT_OUTPUTS of a pipeline.
-[[nodiscard]] std::uint32_t outputsConstant(const Outputs& outputs) noexcept;
-
 /// Binds what a compute pass needs of an item, with or without outputs. Returns the layout.
 VkPipelineLayout bindForCompute(const ContextImpl& context, VkCommandBuffer commandBuffer, const BatchItem& item,
                                 const ResultsImpl& results, const Outputs& outputs);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "detect/output_parts.h"
 #include "core/batch/sort_contacts.h"
-#include "detect/output_store.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,22 +12,18 @@ namespace voxtact {
 namespace {
 
 /// Goes through the pairs of a batch in their order, each with its item.
-template <class Visitor> void forEachPair(const OutputStore& store, Visitor&& visitor) {
+template <class Visitor> void forEachPair(std::span<const OutputItem> items, Visitor&& visitor) {
     std::uint32_t pair = 0;
-    for (const OutputItem& item : store.items) {
+    for (const OutputItem& item : items) {
         for (std::uint32_t pose = 0; pose < item.pairs; ++pose) {
             visitor(pair++, item);
         }
     }
 }
 
-const std::uint32_t* wordsAt(const OutputStore& store, std::uint64_t first) {
-    return static_cast<const std::uint32_t*>(store.readBack.mapped) + first;
-}
-
-void unpackTriangles(const OutputStore& store, BatchAnswer& answer) {
-    const std::uint32_t* counts = wordsAt(store, store.layout.triangles);
-    forEachPair(store, [&](std::uint32_t pair, const OutputItem& item) {
+Result<void> unpackTriangles(const OutputWords& of, BatchAnswer& answer) {
+    const std::uint32_t* counts = of.words;
+    forEachPair(of.items, [&](std::uint32_t pair, const OutputItem& item) {
         for (std::uint32_t triangle = 0; triangle < item.triangles; ++triangle) {
             if (counts[triangle] > 0) {
                 answer.triangles.push_back({pair, triangle, counts[triangle]});
@@ -35,15 +31,16 @@ void unpackTriangles(const OutputStore& store, BatchAnswer& answer) {
         }
         counts += item.triangles;
     });
+    return {};
 }
 
 double boundOf(std::uint32_t word) {
     return static_cast<double>(std::bit_cast<float>(VOXTACT_BOUND_BITS(word)));
 }
 
-void unpackBounds(const OutputStore& store, BatchAnswer& answer) {
-    const std::uint32_t* words = wordsAt(store, store.layout.bounds);
-    forEachPair(store, [&](std::uint32_t, const OutputItem&) {
+Result<void> unpackBounds(const OutputWords& of, BatchAnswer& answer) {
+    const std::uint32_t* words = of.words;
+    forEachPair(of.items, [&](std::uint32_t, const OutputItem&) {
         if (words[0] == 0) {
             answer.bounds.emplace_back();
         } else {
@@ -52,11 +49,12 @@ void unpackBounds(const OutputStore& store, BatchAnswer& answer) {
         }
         words += OUTPUT_BOUND_WORDS;
     });
+    return {};
 }
 
-void unpackLabels(const OutputStore& store, BatchAnswer& answer) {
-    const std::uint32_t* counts = wordsAt(store, store.layout.labels);
-    forEachPair(store, [&](std::uint32_t pair, const OutputItem& item) {
+Result<void> unpackLabels(const OutputWords& of, BatchAnswer& answer) {
+    const std::uint32_t* counts = of.words;
+    forEachPair(of.items, [&](std::uint32_t pair, const OutputItem& item) {
         for (std::size_t label = 0; label < item.labels->size(); ++label) {
             if (counts[label] > 0) {
                 answer.labels.push_back({pair, (*item.labels)[label], counts[label]});
@@ -64,6 +62,7 @@ void unpackLabels(const OutputStore& store, BatchAnswer& answer) {
         }
         counts += item.labels->size();
     });
+    return {};
 }
 
 Contact contactOf(const ContactResult& result, const OutputItem& item) {
@@ -88,12 +87,12 @@ const OutputItem* itemOf(const ContactResult& result, std::span<const OutputItem
     return known ? &item : nullptr;
 }
 
-Result<void> unpackContacts(const OutputStore& store, BatchAnswer& answer) {
+Result<void> unpackContacts(const OutputWords& of, BatchAnswer& answer) {
     std::vector<const OutputItem*> items;
-    forEachPair(store, [&](std::uint32_t, const OutputItem& item) { items.push_back(&item); });
-    const std::uint32_t* header = wordsAt(store, store.layout.contacts);
+    forEachPair(of.items, [&](std::uint32_t, const OutputItem& item) { items.push_back(&item); });
+    const std::uint32_t* header = of.words;
     answer.contactsFound = (std::uint64_t{header[1]} << 32U) | header[0];
-    const std::uint64_t listed = std::min<std::uint64_t>(answer.contactsFound, store.room.contacts);
+    const std::uint64_t listed = std::min<std::uint64_t>(answer.contactsFound, of.room.contacts);
     const std::uint32_t* words = header + OUTPUT_HEADER_WORDS;
     answer.contacts.reserve(listed);
     for (std::uint64_t i = 0; i < listed; ++i, words += OUTPUT_CONTACT_WORDS) {
@@ -115,20 +114,57 @@ Result<void> unpackContacts(const OutputStore& store, BatchAnswer& answer) {
     return {};
 }
 
+constexpr std::uint64_t kMaskBits = 32;
+
+constexpr std::array<OutputPartRow, kOutputParts> kParts{{
+    {.output = &Outputs::bounds,
+     .bit = OUTPUT_BOUNDS,
+     .first = &shader::OutputPair::firstBound,
+     .room = [](const OutputRoom&, std::uint64_t pairs) -> std::uint64_t { return pairs * OUTPUT_BOUND_WORDS; },
+     .ofPair = [](const OutputItem&) -> std::uint64_t { return OUTPUT_BOUND_WORDS; },
+     .unpack = unpackBounds},
+    {.output = &Outputs::triangles,
+     .bit = OUTPUT_TRIANGLES,
+     .first = &shader::OutputPair::firstTriangle,
+     .room = [](const OutputRoom& room, std::uint64_t) -> std::uint64_t { return room.triangles; },
+     .ofPair = [](const OutputItem& item) -> std::uint64_t { return item.triangles; },
+     .unpack = unpackTriangles},
+    // Each pair begins with a word of its own.
+    {.output = &Outputs::triangles,
+     .bit = OUTPUT_TRIANGLES,
+     .first = &shader::OutputPair::firstMask,
+     .room = [](const OutputRoom& room, std::uint64_t pairs) -> std::uint64_t {
+         return room.triangles == 0 ? 0 : room.triangles / kMaskBits + pairs;
+     },
+     .ofPair = [](const OutputItem& item) -> std::uint64_t { return (item.triangles + kMaskBits - 1) / kMaskBits; }},
+    {.output = &Outputs::labels,
+     .bit = OUTPUT_LABELS,
+     .first = &shader::OutputPair::firstLabel,
+     .room = [](const OutputRoom& room, std::uint64_t) -> std::uint64_t { return room.labels; },
+     .ofPair = [](const OutputItem& item) -> std::uint64_t { return item.labels == nullptr ? 0 : item.labels->size(); },
+     .unpack = unpackLabels},
+    {.output = &Outputs::contacts,
+     .bit = OUTPUT_CONTACTS,
+     .first = &shader::OutputPair::contacts,
+     .room = [](const OutputRoom& room, std::uint64_t) -> std::uint64_t {
+         return OUTPUT_HEADER_WORDS + std::uint64_t{room.contacts} * OUTPUT_CONTACT_WORDS;
+     },
+     .ofPair = nullptr,
+     .unpack = unpackContacts},
+}};
+
 } // namespace
 
-Result<void> unpackOutputs(const OutputStore& store, BatchAnswer& answer) {
-    const Outputs& outputs = store.recorded;
-    if (outputs.triangles) {
-        unpackTriangles(store, answer);
+const std::array<OutputPartRow, kOutputParts>& outputParts() noexcept {
+    return kParts;
+}
+
+std::uint32_t outputsConstant(const Outputs& outputs) noexcept {
+    std::uint32_t bits = 0;
+    for (const OutputPartRow& part : kParts) {
+        bits |= outputs.*part.output ? part.bit : 0U;
     }
-    if (outputs.bounds) {
-        unpackBounds(store, answer);
-    }
-    if (outputs.labels) {
-        unpackLabels(store, answer);
-    }
-    return outputs.contacts ? unpackContacts(store, answer) : Result<void>();
+    return bits;
 }
 
 } // namespace voxtact
