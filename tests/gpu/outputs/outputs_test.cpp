@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The outputs beside the counts, on the device: the methods against each other, compute against the host bit for bit,
 // the rasteriser against its own trace, and solids whose normals and depths are known.
-#include "gpu_fixture.h"
+#include "outputs_fixture.h"
 
 #include "cpu/random_scene.h"
 #include "detect/results_impl.h"
@@ -25,9 +25,6 @@ namespace voxtact::test {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .labels = true};
-constexpr std::uint32_t kMany = 1U << 19U;
 
 constexpr CountingMethod kRaster[] = {CountingMethod::Query, CountingMethod::QueryAny, CountingMethod::Atomic,
                                       CountingMethod::Subgroup};
@@ -69,37 +66,10 @@ RandomScene smallScene(std::mt19937_64& random, std::size_t poses) {
     return scene;
 }
 
-class OutputsTest : public GpuTest {
-  protected:
-    [[nodiscard]] BlockingDetector detectorOf(CountingMethod method, const Outputs& outputs,
-                                              std::uint32_t mostContacts = kMany) const {
-        return take(BlockingDetector::create(
-            context(),
-            {.method = method, .filter = defaultFilter(method), .boundary = Boundary::Range, .outputs = outputs},
-            queue(), mostContacts));
-    }
-
-    /// An opaque unit cube, a square across it, and a label map of two labels.
-    struct Simple {
-        Volume volume;
-        TransferFunction function;
-        Mesh mesh;
-        LabelMap labels;
-        Mat4 pose = identity();
-        [[nodiscard]] BatchItem item() const { return {&mesh, &volume, &function, std::span(&pose, 1), &labels}; }
-    };
-    [[nodiscard]] Simple simple() const {
-        const LabelData labels{unitGrid(2), {0, 1, 0, 1, 0, 1, 0, 1}, {0, 3}};
-        return {upload(makeBytes(unitGrid(4), [](auto...) { return 255.0; })), upload(byteRamp(), {0, 255}),
-                upload(makeFlat(0, 1, 0, 1, 0.5)), take(LabelMap::upload(context(), queue(), labels))};
-    }
-    static View sixteen() { return flatView(0, 1, 16, 16); }
-};
-
 TEST_F(OutputsTest, ComputeIsTheHostBitForBit) {
     std::mt19937_64 random(testSeed());
-    BlockingDetector compute = detectorOf(CountingMethod::Compute, kAll);
-    cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range, .outputs = kAll}));
+    BlockingDetector compute = detectorOf(CountingMethod::Compute, kAllOutputs);
+    cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range, .outputs = kAllOutputs}));
     std::uint64_t contacts = 0;
     const std::size_t scenes = randomCases(20, 3);
     for (std::size_t round = 0; (round < scenes || contacts < 2000) && round < 200 && !HasFailure(); ++round) {
@@ -123,7 +93,7 @@ TEST_F(OutputsTest, TheRasterMethodsAgreeWithEachOtherAndTheTrace) {
     std::mt19937_64 random(testSeed());
     std::vector<BlockingDetector> detectors;
     for (const CountingMethod method : kRaster) {
-        detectors.push_back(detectorOf(method, kAll));
+        detectors.push_back(detectorOf(method, kAllOutputs));
     }
     FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
     std::uint64_t contacts = 0;
@@ -197,7 +167,7 @@ TEST_F(OutputsTest, NormalsAndDepthsOfKnownSolids) {
 
 TEST_F(OutputsTest, LabelsAreThoseOfTheMap) {
     std::mt19937_64 random(testSeed());
-    BlockingDetector query = detectorOf(CountingMethod::Query, kAll);
+    BlockingDetector query = detectorOf(CountingMethod::Query, kAllOutputs);
     std::uint64_t compared = 0;
     for (int round = 0; round < 200 && compared < 5000; ++round) {
         const RandomScene scene = smallScene(random, 2);
@@ -274,7 +244,7 @@ TEST_F(OutputsTest, EachOutputAlone) {
     const BatchItem item = scene.item();
     const Outputs each[] = {{.triangles = true}, {.contacts = true}, {.bounds = true}, {.labels = true}};
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Subgroup, CountingMethod::Compute}) {
-        BlockingDetector all = detectorOf(method, kAll);
+        BlockingDetector all = detectorOf(method, kAllOutputs);
         const BatchAnswer whole = take(all.detect({std::span(&item, 1), sixteen(), 0.5}));
         for (const Outputs& outputs : each) {
             BlockingDetector one = detectorOf(method, outputs);
@@ -316,161 +286,6 @@ TEST_F(OutputsTest, WhatIsOffHasNoBuffers) {
          {with.triangleCounts(), with.triangleMask(), with.contacts(), with.bounds(), with.labelCounts()}) {
         EXPECT_EQ(range.offset % 256, 0U);
         EXPECT_NE(range.buffer, VkBuffer{VK_NULL_HANDLE});
-    }
-}
-
-/// The device's copy of a range, by a copy of the test's own.
-class RecordedOutputsTest : public OutputsTest {
-  protected:
-    std::vector<std::uint32_t> wordsOf(const BufferRange& range, const std::vector<std::uint32_t>& all) {
-        const auto first = all.begin() + static_cast<std::ptrdiff_t>(range.offset / 4);
-        return {first, first + static_cast<std::ptrdiff_t>(range.size / 4)};
-    }
-};
-
-/// Bits go on in the next word.
-TEST_F(RecordedOutputsTest, AMeshOfMoreTrianglesThanAWordHasBits) {
-    constexpr std::uint32_t kTriangles = 40;
-    Simple scene = simple();
-    MeshData strips;
-    for (std::uint32_t strip = 0; strip < kTriangles / 2; ++strip) {
-        const MeshData one = makeFlat(strip / 20.0, (strip + 1) / 20.0, 0, 1, 0.5);
-        const auto first = static_cast<std::uint32_t>(strips.positions.size() / 3);
-        strips.positions.insert(strips.positions.end(), one.positions.begin(), one.positions.end());
-        std::ranges::transform(one.indices, std::back_inserter(strips.indices),
-                               [first](std::uint32_t index) { return first + index; });
-    }
-    scene.mesh = upload(strips);
-    const BatchItem item = scene.item();
-    const View view = flatView(0, 1, 80, 80);
-    const Detector detector =
-        take(Detector::create(context(), {.method = CountingMethod::Atomic, .outputs = {.triangles = true}}));
-    Results results = take(Results::create(context(), {.maxPairs = 1, .room = OutputRoom{.triangles = kTriangles}}));
-    ContextImpl& impl = context().impl();
-    Buffer host = take(makeBuffer(impl, results.impl().outputs->words.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                  MemoryUse::ReadBack, "the test's copy"));
-    Submitter submitter = take(Submitter::create(impl, queue()));
-    const VkCommandBuffer commandBuffer = take(submitter.begin());
-    take(detector.cmdDetect(commandBuffer, {std::span(&item, 1), view, 0.5}, results));
-    const VkBufferCopy region{0, 0, host.size};
-    impl.vk.CmdCopyBuffer(commandBuffer, results.triangleMask().buffer, host.get(), 1, &region);
-    take(submitter.submitAndWait());
-    take(invalidate(impl, host));
-    const auto* mapped = static_cast<const std::uint32_t*>(host.mapped);
-    const std::vector<std::uint32_t> mask = wordsOf(results.triangleMask(), {mapped, mapped + host.size / 4});
-    EXPECT_EQ(mask[0], 0xffffffffU);
-    EXPECT_EQ(mask[1], 0xffU);
-}
-
-TEST_F(RecordedOutputsTest, TheDevicesLayoutIsAsDocumented) {
-    const Simple scene = simple();
-    const Mesh cube = upload(makeCube(0.25, 0.75));
-    BatchItem items[] = {scene.item(), scene.item()};
-    items[0].mesh = &cube;
-    const Detector detector = take(Detector::create(context(), {.method = CountingMethod::Atomic, .outputs = kAll}));
-    Results results = take(
-        Results::create(context(), {.maxPairs = 3, .room = OutputRoom{.triangles = 20, .labels = 5, .contacts = 8}}));
-    ContextImpl& impl = context().impl();
-    Buffer host = take(makeBuffer(impl, results.impl().outputs->words.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                  MemoryUse::ReadBack, "the test's copy"));
-    Submitter submitter = take(Submitter::create(impl, queue()));
-    const VkCommandBuffer commandBuffer = take(submitter.begin());
-    take(detector.cmdDetect(commandBuffer, {items, sixteen(), 0.5}, results));
-    const VkBufferCopy region{0, 0, host.size};
-    impl.vk.CmdCopyBuffer(commandBuffer, results.bounds().buffer, host.get(), 1, &region);
-    take(submitter.submitAndWait());
-    take(invalidate(impl, host));
-    const auto* mapped = static_cast<const std::uint32_t*>(host.mapped);
-    const std::vector<std::uint32_t> all(mapped, mapped + host.size / 4);
-
-    const std::vector<std::uint32_t> counts = wordsOf(results.triangleCounts(), all);
-    const std::vector<std::uint32_t> mask = wordsOf(results.triangleMask(), all);
-    std::uint32_t sum = 0;
-    for (std::uint32_t triangle = 0; triangle < 14; ++triangle) {
-        // The cube has twelve triangles, the square two: its bits are in the next word.
-        const std::uint32_t word = triangle < 12 ? mask[0] >> triangle : mask[1] >> (triangle - 12);
-        EXPECT_EQ(word & 1U, counts[triangle] > 0 ? 1U : 0U) << triangle;
-        sum += counts[triangle];
-    }
-    EXPECT_EQ(sum, 128U + 256U);
-    EXPECT_EQ(counts[12] + counts[13], 256U);
-    EXPECT_EQ(mask[1], 3U);
-    const std::vector<std::uint32_t> labels = wordsOf(results.labelCounts(), all);
-    EXPECT_EQ((std::vector<std::uint32_t>(labels.begin(), labels.begin() + 4)),
-              (std::vector<std::uint32_t>{64, 64, 128, 128}));
-    const std::vector<std::uint32_t> bounds = wordsOf(results.bounds(), all);
-    const auto bound = [&](std::size_t word) {
-        return static_cast<double>(std::bit_cast<float>(VOXTACT_BOUND_BITS(bounds[word])));
-    };
-    EXPECT_NEAR(-bound(6), 0.5 / 16, 1e-6);
-    EXPECT_NEAR(bound(9), 15.5 / 16, 1e-6);
-    EXPECT_NEAR(-bound(2), 0.25, 1e-6);
-    EXPECT_NEAR(bound(5), 0.75, 1e-6);
-    const std::vector<std::uint32_t> contacts = wordsOf(results.contacts(), all);
-    EXPECT_EQ((std::vector<std::uint32_t>(contacts.begin(), contacts.begin() + 4)),
-              (std::vector<std::uint32_t>{384, 0, 8, 0}));
-    for (std::size_t i = 0; i < 8; ++i) {
-        ContactResult contact{};
-        std::memcpy(&contact, contacts.data() + 4 + 12 * i, sizeof contact);
-        EXPECT_LT(contact.pair, 2U);
-        EXPECT_LT(contact.triangle, 12U);
-        EXPECT_EQ(contact.value, 255);
-    }
-}
-
-TEST_F(RecordedOutputsTest, ResultsAreUsedAgainAndReadByFrames) {
-    const Simple scene = simple();
-    const Mat4 away = translation({0, 0, 5});
-    BatchItem item = scene.item();
-    const Detector detector = take(Detector::create(context(), {.method = CountingMethod::Query, .outputs = kAll}));
-    ResultRing ring =
-        take(ResultRing::create(context(), 2, {.room = OutputRoom{.triangles = 2, .labels = 2, .contacts = 256}}));
-    Submitter submitter = take(Submitter::create(context().impl(), queue()));
-    for (std::uint64_t frame = 0; frame < 6; ++frame) {
-        item.world_from_object = frame % 3 == 0 ? std::span(&away, 1) : std::span(&scene.pose, 1);
-        Results* results = take(ring.begin(frame));
-        const VkCommandBuffer commandBuffer = take(submitter.begin());
-        take(detector.cmdDetect(commandBuffer, {std::span(&item, 1), sixteen(), 0.5}, *results));
-        BatchAnswer answer;
-        EXPECT_EQ(ring.readOutputs(frame, answer).error().code, ErrorCode::NotReady);
-        take(results->cmdReadBack(commandBuffer));
-        take(submitter.submitAndWait());
-        take(ring.readOutputs(frame, answer));
-        const std::uint64_t expected = frame % 3 == 0 ? 0 : 256;
-        EXPECT_EQ(answer.contactsFound, expected);
-        EXPECT_EQ(answer.contacts.size(), expected);
-        EXPECT_EQ(answer.triangles.size(), expected == 0 ? 0U : 2U);
-        EXPECT_EQ(answer.bounds[0].has_value(), expected > 0);
-        EXPECT_EQ(answer.labels.size(), expected == 0 ? 0U : 2U);
-    }
-    BatchAnswer answer;
-    EXPECT_EQ(ring.readOutputs(1, answer).error().code, ErrorCode::NotReady);
-}
-
-TEST_F(RecordedOutputsTest, RoomIsCheckedBeforeAnythingIsRecorded) {
-    const Simple scene = simple();
-    const BatchItem items[] = {scene.item(), scene.item()};
-    const Detector detector = take(Detector::create(
-        context(), {.method = CountingMethod::Atomic, .outputs = {.triangles = true, .labels = true}}));
-    const auto refusal = [&](const std::optional<OutputRoom>& room) {
-        Results results = take(Results::create(context(), {.maxPairs = 2, .room = room}));
-        Submitter submitter = take(Submitter::create(context().impl(), queue()));
-        const Result<void> recorded = detector.cmdDetect(take(submitter.begin()), {items, sixteen(), 0.5}, results);
-        return recorded.ok() ? std::string() : recorded.error().text;
-    };
-    EXPECT_THAT(refusal(std::nullopt), HasSubstr("without room"));
-    EXPECT_THAT(refusal(OutputRoom{.triangles = 3, .labels = 4}),
-                HasSubstr("have 4 triangles, the Results have room for 3"));
-    EXPECT_THAT(refusal(OutputRoom{.triangles = 4, .labels = 3}),
-                HasSubstr("have 4 labels, the Results have room for 3"));
-    EXPECT_EQ(refusal(OutputRoom{.triangles = 4, .labels = 4, .contacts = 0}), "");
-    for (const OutputRoom& room : {OutputRoom{.triangles = std::numeric_limits<std::uint64_t>::max()},
-                                   OutputRoom{.labels = std::numeric_limits<std::uint64_t>::max()},
-                                   OutputRoom{.contacts = std::numeric_limits<std::uint32_t>::max()}}) {
-        const Result<Results> results = Results::create(context(), {.room = room});
-        ASSERT_FALSE(results.ok());
-        EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
-        EXPECT_THAT(results.error().text, HasSubstr("maxStorageBufferRange"));
     }
 }
 
