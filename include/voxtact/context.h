@@ -30,8 +30,9 @@ struct ContextDesc {
     /// The chain that vkCreateDevice was given, or one that says the same: what was *enabled*, not what is supported.
     /// Both VkPhysicalDeviceVulkan1xFeatures and the single-feature structs are read.
     const VkPhysicalDeviceFeatures2* enabledFeatures = nullptr;
-    std::span<const char* const> enabledInstanceExtensions; ///< only VK_EXT_debug_utils is looked for: names and labels
-    std::span<const char* const> enabledDeviceExtensions;   ///< those of optionalDeviceExtensions() are looked for
+    /// Only VK_EXT_debug_utils is looked for: names and labels.
+    std::span<const char* const> enabledInstanceExtensions{};
+    std::span<const char* const> enabledDeviceExtensions{}; ///< those of optionalDeviceExtensions() are looked for
     /// The families of the queues that will use what is made with the Context, each once. Two or more: buffers and
     /// images are shared by them (VK_SHARING_MODE_CONCURRENT), and between queues you need semaphores alone. None or
     /// one: they are exclusive, as upload() and cmdUpload() leave them to the family that they are submitted to; for a

@@ -100,14 +100,14 @@ struct BatchItem {
     const Mesh* mesh = nullptr;                         ///< must be given, as all but the labels; read by detect() only
     const Volume* volume = nullptr;                     ///< what is touched
     const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
-    std::span<const Mat4> world_from_object;            ///< affine
+    std::span<const Mat4> world_from_object{};          ///< affine
     const LabelData* labels = nullptr;                  ///< for the outputs contacts (optional) and labels
 };
 
 /// The pairs of one call: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items;     ///< any number; answers are in their order
-    View view;                            ///< at most kMaxViewport pixels a side; only for projections with a camera
+    std::span<const BatchItem> items{};   ///< any number; answers are in their order
+    View view{};                          ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
     /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
     /// threads at rest; until then it must stay true. They look at it between cells and steps of a search. May be null.
@@ -275,7 +275,7 @@ struct PlanObstacle {
     const TransferFunction* transferFunction = nullptr; ///< what of it is opaque; null: labels at any opacity
     double threshold = kDefaultThreshold;               ///< 0..1
     const LabelData* labels = nullptr;                  ///< on the volume's grid; null: all that is opaque
-    std::vector<std::int32_t> avoid;                    ///< these labels
+    std::vector<std::int32_t> avoid{};                  ///< these labels
 };
 
 /// Where paths may begin: along each direction from the target, the outermost point of something.
@@ -300,13 +300,13 @@ struct PlanMesh {
 /// What is to be planned.
 struct PlanTask {
     Vec3 target{};                             ///< world mm
-    EntrySurface surface;                      ///< where paths begin
-    std::span<const PlanObstacle> obstacles;   ///< at least one
-    Needle needle;                             ///< the instrument
-    std::optional<PlanMesh> mesh;              ///< instead of the needle. Triangles are then not certified
+    EntrySurface surface{};                    ///< where paths begin
+    std::span<const PlanObstacle> obstacles{}; ///< at least one
+    Needle needle{};                           ///< the instrument
+    std::optional<PlanMesh> mesh{};            ///< instead of the needle. Triangles are then not certified
     double margin = 0;                         ///< mm, that is to be kept
-    std::optional<double> longest;             ///< mm, of paths
-    std::optional<double> steepest;            ///< degrees between a path and the normal of the surface, to 90
+    std::optional<double> longest{};           ///< mm, of paths
+    std::optional<double> steepest{};          ///< degrees between a path and the normal of the surface, to 90
     const std::atomic<bool>* cancel = nullptr; ///< as Batch::cancel
 };
 

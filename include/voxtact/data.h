@@ -118,7 +118,7 @@ inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sampl
 /// s = (i+0.5)/tableSize, where s = (value - domain.lo) / (domain.hi - domain.lo). Between entries: linear. Outside
 /// the domain: the first and the last entry. The look-up coordinate is s itself.
 struct TransferFunctionDesc {
-    std::span<const ControlPoint> points;        ///< ascending values; piecewise linear between, constant outside
+    std::span<const ControlPoint> points{};      ///< ascending values; piecewise linear between, constant outside
     ValueRange domain{0, 255};                   ///< lo < hi, and hi - lo finite
     std::uint32_t tableSize = kDefaultTableSize; ///< entries; at least 2
 };

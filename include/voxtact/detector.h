@@ -39,14 +39,14 @@ struct BatchItem {
     const Mesh* mesh = nullptr;     ///< must be given, as all but the labels; outlives the command buffer
     const Volume* volume = nullptr; ///< what is touched
     const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
-    std::span<const Mat4> world_from_object;            ///< a pose a pair; affine. Read while recording only
+    std::span<const Mat4> world_from_object{};          ///< a pose a pair; affine. Read while recording only
     const LabelMap* labels = nullptr;                   ///< for the outputs contacts (optional) and labels
 };
 
 /// The pairs of one submission: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items;     ///< any number; results are in their order
-    View view;                            ///< not looked at by projections without a camera
+    std::span<const BatchItem> items{};   ///< any number; results are in their order
+    View view{};                          ///< not looked at by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
 

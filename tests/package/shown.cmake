@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# README, EXAMPLE. The code block of the README after `<!-- docs/example/embed.cpp -->` is, byte for byte and less the
-# indentation, what the example has between [readme] and [/readme].
+# PAGE, EXAMPLE, NAMES. The code block of the page after `<!-- docs/example/EXAMPLE: NAME -->` is, byte for byte and less
+# the indentation, what the example has between [NAME] and [/NAME].
 cmake_minimum_required(VERSION 3.22)
 
 # between(TEXT BEGIN END OUT): what is between the first BEGIN and the END after it.
@@ -21,10 +21,13 @@ function(between text begin end out)
 endfunction()
 
 file(READ "${EXAMPLE}" example)
-between("${example}" "    // [readme]\n" "    // [/readme]\n" compiled)
-string(REGEX REPLACE "\n    " "\n" compiled "\n${compiled}")
-file(READ "${README}" readme)
-between("${readme}" "<!-- docs/example/embed.cpp -->\n```cpp" "```" shown)
-if(NOT "${shown}" STREQUAL "${compiled}")
-  message(FATAL_ERROR "the README shows\n${shown}\ninstead of what is compiled:\n${compiled}")
-endif()
+file(READ "${PAGE}" page)
+get_filename_component(file "${EXAMPLE}" NAME)
+foreach(name ${NAMES})
+  between("${example}" "    // [${name}]\n" "    // [/${name}]\n" compiled)
+  string(REGEX REPLACE "\n    " "\n" compiled "\n${compiled}")
+  between("${page}" "<!-- docs/example/${file}: ${name} -->\n```cpp" "```" shown)
+  if(NOT "${shown}" STREQUAL "${compiled}")
+    message(FATAL_ERROR "${PAGE} shows\n${shown}\ninstead of what is compiled:\n${compiled}")
+  endif()
+endforeach()
