@@ -333,8 +333,8 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
     mesh_.paint = VXT_PAINT_TRIANGLES;
     EXPECT_THAT(refused(), HasSubstr("no triangles to paint"));
     mesh_.paint = VXT_PAINT_PLAIN;
-    lighting_.reach = std::nan("");
-    EXPECT_THAT(refused(), HasSubstr("reach"));
+    lighting_.ambient = std::nan("");
+    EXPECT_THAT(refused(), HasSubstr("the lighting has a value of nan"));
     lighting_ = vxt_lighting_init();
     c_.clip_plane_count = 7;
     std::vector<vxt_clip_plane> planes(7, plane_);

@@ -67,34 +67,32 @@ class Timeline {
 class SemaphoreTest : public GpuTest {};
 
 TEST_F(SemaphoreTest, ABlockingCallWaitsBehindWhatTheQueueWaitsFor) {
-    const device::VulkanInstance instance = take(device::VulkanInstance::create({.validate = true}));
+    // Without validation: the layer of Debian 12 waits 10 s for a value that the host signals, and then says that this
+    // is "most likely a validation bug".
+    const device::VulkanInstance instance = take(device::VulkanInstance::create({}));
     const auto devices = take(instance.devices());
     const device::VulkanDevice own = take(device::VulkanDevice::create(
         instance, take(device::chooseDevice(devices, {})),
         {.adjustFeatures = [](FeatureRequest& features) { features.vulkan12.timelineSemaphore = VK_TRUE; }}));
-    {
-        const Context context = take(Context::create(own.contextDesc()));
-        const QueueAccess queue = own.queueAccess();
-        const VolumeData half = makeBytes(unitGrid(4), [](std::uint32_t x, auto, auto) { return x < 2 ? 255.0 : 0.0; });
-        const Volume volume = take(Volume::upload(context, queue, half.view()));
-        const TransferFunction function = take(TransferFunction::upload(context, queue, {byteRamp(), kBytes}));
-        const Mesh mesh = take(Mesh::upload(context, queue, makeFlat(0, 1, 0, 1, 0.5).view()));
-        BlockingDetector detector = take(BlockingDetector::create(context, {.method = CountingMethod::Atomic}, queue));
-        const Timeline engine(own);
-        const Mat4 pose = identity();
-        const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
-        for (std::uint64_t frame = 1; frame <= 3; ++frame) {
-            engine.makeQueueWait(queue, frame);
-            auto answer = std::async(std::launch::async, [&] {
-                return detector.detect({std::span(&item, 1), flatView(0, 1, 16, 16), 0.5});
-            });
-            EXPECT_EQ(answer.wait_for(200ms), std::future_status::timeout) << "it did not wait, in frame " << frame;
-            engine.signal(frame);
-            EXPECT_EQ(take(answer.get()).pairs.at(0).count, 128U);
-        }
-    }
-    for (const std::string& message : instance.messages()->all()) {
-        ADD_FAILURE() << "validation: " << message;
+    const Context context = take(Context::create(own.contextDesc()));
+    const QueueAccess queue = own.queueAccess();
+    const VolumeData half = makeBytes(unitGrid(4), [](std::uint32_t x, auto, auto) { return x < 2 ? 255.0 : 0.0; });
+    const Volume volume = take(Volume::upload(context, queue, half.view()));
+    const TransferFunction function =
+        take(TransferFunction::upload(context, queue, {byteRamp(), {0, 255}, kDefaultTableSize}));
+    const Mesh mesh = take(Mesh::upload(context, queue, makeFlat(0, 1, 0, 1, 0.5).view()));
+    BlockingDetector detector = take(BlockingDetector::create(context, {.method = CountingMethod::Atomic}, queue));
+    const Timeline engine(own);
+    const Mat4 pose = identity();
+    const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
+    for (std::uint64_t frame = 1; frame <= 3; ++frame) {
+        engine.makeQueueWait(queue, frame);
+        auto answer = std::async(std::launch::async, [&] {
+            return detector.detect({std::span(&item, 1), flatView(0, 1, 16, 16), 0.5});
+        });
+        EXPECT_EQ(answer.wait_for(200ms), std::future_status::timeout) << "it did not wait, in frame " << frame;
+        engine.signal(frame);
+        EXPECT_EQ(take(answer.get()).pairs.at(0).count, 128U);
     }
 }
 
