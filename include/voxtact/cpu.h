@@ -110,16 +110,20 @@ struct Batch {
     View view{};                          ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
     /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
-    /// threads at rest; until then it must stay true. They look at it between cells and steps of a search. May be null.
+    /// threads at rest; until then it must stay true. They look at it between cells and steps of a search. Where it is
+    /// true when the call begins, nothing is done at all. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
 
 /// Pixels along a side of a View, at most.
 inline constexpr std::uint32_t kMaxViewport = 16384;
 
+/// Threads that one object may have, at most.
+inline constexpr std::uint32_t kMostThreads = 4096;
+
 /// What a Detector of the host is made for.
 struct DetectorDesc {
-    std::uint32_t threads = 0;          ///< 0: one for each processor
+    std::uint32_t threads = 0;          ///< 0: one for each processor; at most kMostThreads
     Boundary boundary = Boundary::Auto; ///< Auto is the range test: the host has nothing to gain from clamping
     bool stopAtFirst = false;           ///< the count is then 0 or 1, and its exactness LowerBound
     /// dominant-axis sets its triangles up one by one: a good deal slower than a view for meshes of small triangles.
@@ -153,7 +157,7 @@ class Detector {
 
 /// What a ClearanceMeter is made for.
 struct ClearanceDesc {
-    std::uint32_t threads = 0;            ///< 0: one for each processor
+    std::uint32_t threads = 0;            ///< 0: one for each processor; at most kMostThreads
     double tolerance = kDefaultTolerance; ///< mm, from 1e-6 on: how near to each other the bounds are brought
     double maximum = std::numeric_limits<double>::infinity(); ///< mm, above 0: what is farther is not measured
     double resolution = kDefaultResolution;                   ///< of the touch, as in DetectorDesc
@@ -235,7 +239,7 @@ class ClearanceTracker {
 
 /// What a MotionChecker is made for.
 struct MotionDesc {
-    std::uint32_t threads = 0;                          ///< 0: one for each processor
+    std::uint32_t threads = 0;                          ///< 0: one for each processor; at most kMostThreads
     Interpolation interpolation = Interpolation::Screw; ///< of the poses in between
     /// mm, from 1e-6 on: how far the mesh moves at most between the end of what is free and a touch.
     double resolution = kDefaultMotionResolution;
@@ -312,7 +316,7 @@ struct PlanTask {
 
 /// What a Planner is made for.
 struct PlannerDesc {
-    std::uint32_t threads = 0;                ///< 0: one for each processor
+    std::uint32_t threads = 0;                ///< 0: one for each processor; at most kMostThreads
     double tolerance = kDefaultPlanTolerance; ///< mm, from 1e-6 on: how near to each other the bounds are brought
     double maximum = kDefaultPlanMaximum;     ///< mm, above 0: what is farther from a path is not measured
     std::uint64_t mostSteps = 1U << 18U;      ///< a path that takes more is left with the bounds it has; at least 1

@@ -112,6 +112,8 @@ struct ColourPoint {
 
 /// Entries of a transfer function's table, where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultTableSize = 256;
+/// Entries of a table, at most: floats do not tell more apart.
+inline constexpr std::uint32_t kMostTableSize = 1U << 24U;
 inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sample is opaque (paper, section 5)
 
 /// Scalar -> opacity, sampled into a table: entry i of `tableSize` holds the opacity at the normalised scalar
@@ -120,11 +122,12 @@ inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sampl
 struct TransferFunctionDesc {
     std::span<const ControlPoint> points{};      ///< ascending values; piecewise linear between, constant outside
     ValueRange domain{0, 255};                   ///< lo < hi, and hi - lo finite
-    std::uint32_t tableSize = kDefaultTableSize; ///< entries; at least 2
+    std::uint32_t tableSize = kDefaultTableSize; ///< entries; 2 to kMostTableSize
 };
 
 /// Refuses no points, values not finite or not ascending (equal ones make a step) or too far apart for a difference,
-/// opacities outside [0,1], a domain empty or too wide and a table of fewer than 2 entries. Returns the table.
+/// opacities outside [0,1], a domain empty or too wide, a table of fewer than 2 entries, and one of more than
+/// kMostTableSize (LimitExceeded). Returns the table.
 [[nodiscard]] VOXTACT_API Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc);
 
 /// A triangle mesh somebody else owns, in object space. Three floats a vertex, three indices a triangle.

@@ -80,8 +80,9 @@ struct PlanAnswer {
 };
 
 /// The label values that a straight line crosses, in order from `from` to `to`, each once; 0 is left out. By the voxels
-/// that the line is in (labelAt()); those that it only grazes may be missing.
-[[nodiscard]] VOXTACT_API std::vector<std::int32_t> labelsAlong(const LabelData& labels, const Vec3& from,
-                                                                const Vec3& to);
+/// that the line is in (labelAt()); those that it only grazes may be missing. Refuses ends that are not finite, and a
+/// grid that checkGrid() refuses. Expects what makeLabels() returns otherwise.
+[[nodiscard]] VOXTACT_API Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec3& from,
+                                                                        const Vec3& to);
 
 } // namespace voxtact

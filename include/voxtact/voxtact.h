@@ -9,6 +9,7 @@
 #include "voxtact/voxtact_files.h"
 #include "voxtact/voxtact_host.h"
 #include "voxtact/voxtact_motion.h"
+#include "voxtact/voxtact_plan.h"
 
 /// @file
 /// voxtact in C: data, the host engine, files and builtins. Nothing here needs Vulkan; what runs on a Vulkan device is

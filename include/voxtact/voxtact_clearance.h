@@ -39,10 +39,10 @@ typedef struct vxt_pair_clearance {
     vxt_clearance_end end;     ///< why the bounds are no nearer to each other
 } vxt_pair_clearance;
 
-/// The clearance of one pair to what is opaque and has a label: voxtact::LabelClearance.
+/// The clearance of one pair to what is opaque and has a label, or to what has it: voxtact::LabelClearance.
 typedef struct vxt_label_clearance {
     double lo;             ///< mm
-    double hi;             ///< mm; both are infinite where nothing opaque has the label
+    double hi;             ///< mm; both are infinite where nothing of it is looked for
     uint32_t pair;         ///< number in the batch
     uint32_t item;         ///< number of the item
     uint32_t pose;         ///< number of the pose in the item
@@ -69,7 +69,8 @@ typedef struct vxt_host_clearance_desc {
     double resolution;   ///< of the touch, as for a detector; default 1/64
     uint64_t most_steps; ///< of a pair, at least 1; default 2^18
     uint32_t threads;    ///< 0, the default: one for each processor
-    uint32_t reserved;   ///< 0
+    /// To labels: all of each, be it opaque or not; default 0: its part of what is opaque.
+    uint32_t labels_at_any_opacity;
 } vxt_host_clearance_desc;
 
 /// Nothing.
@@ -109,7 +110,8 @@ VXT_CHECKED vxt_result vxt_host_clearance_meter_create(const vxt_host_clearance_
 /// The clearance of every pair.
 VXT_CHECKED vxt_result vxt_host_clearance_meter_measure(vxt_host_clearance_meter* meter, const vxt_host_batch* batch,
                                                         vxt_clearances* clearances);
-/// The clearance of every pair to each label's part of what is opaque. Every item needs labels, on its volume's grid.
+/// The clearance of every pair to each label's part of what is opaque, or to all of the label
+/// (vxt_host_clearance_desc::labels_at_any_opacity). Every item needs labels, on its volume's grid.
 VXT_CHECKED vxt_result vxt_host_clearance_meter_measure_labels(vxt_host_clearance_meter* meter,
                                                                const vxt_host_batch* batch, const int32_t* labels,
                                                                size_t label_count, vxt_clearances* clearances);

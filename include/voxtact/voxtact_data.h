@@ -58,7 +58,7 @@ typedef struct vxt_transfer_function_desc {
     const vxt_control_point* points; ///< ascending values; piecewise linear between, constant outside
     size_t point_count;              ///< at least 1
     vxt_range domain;                ///< what the table covers; lo < hi; default 0..255
-    uint32_t table_size;             ///< entries; at least 2; default 256
+    uint32_t table_size;             ///< entries; 2 to 2^24; default 256
     uint32_t reserved;               ///< 0
 } vxt_transfer_function_desc;
 

@@ -45,8 +45,8 @@ VXT_CHECKED vxt_result vxt_host_mesh_facts(const vxt_host_mesh* mesh, vxt_mesh_f
 /// Ends it.
 VXT_API void vxt_host_mesh_destroy(vxt_host_mesh* mesh);
 
-/// Ends calls of the host engine early: those whose batch has it soon return CANCELLED once it is set. Setting it is
-/// safe from any thread while calls look at it.
+/// Ends calls of the host engine early: those whose batch or task has it soon return CANCELLED once it is set, and at
+/// once where it was set before. Setting it is safe from any thread while calls look at it.
 typedef struct vxt_cancel vxt_cancel;
 /// One that is not set.
 VXT_CHECKED vxt_result vxt_cancel_create(vxt_cancel** cancel);

@@ -30,7 +30,8 @@ cpu::ClearanceDesc toDesc(const vxt_host_clearance_desc* given) {
             .tolerance = desc.tolerance,
             .maximum = desc.maximum == 0 ? std::numeric_limits<double>::infinity() : desc.maximum,
             .resolution = desc.resolution,
-            .mostSteps = desc.most_steps};
+            .mostSteps = desc.most_steps,
+            .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0};
 }
 
 vxt_pair_clearance toPair(const PairClearance& pair) noexcept {

@@ -43,6 +43,12 @@ Grid toGrid(const vxt_grid& grid) noexcept {
     return out;
 }
 
+Grid checkedGrid(const vxt_grid* grid) {
+    const Grid checked = toGrid(need(grid, "grid"));
+    take(checkGrid(checked));
+    return checked;
+}
+
 vxt_grid fromGrid(const Grid& grid) noexcept {
     vxt_grid out = vxt_grid_init();
     std::ranges::copy(grid.size, out.size);
@@ -114,6 +120,16 @@ Mat4 toMat4(const double* matrix, const char* what) {
     Mat4 out;
     std::copy_n(&need(matrix, what), out.size(), out.begin());
     return out;
+}
+
+Colour toColour(const double (&colour)[3]) noexcept {
+    return {colour[0], colour[1], colour[2]};
+}
+
+void checkPixels(std::uint32_t width, std::uint32_t height) {
+    if (width == 0 || height == 0) {
+        refuse(ErrorCode::InvalidArgument, "a view needs at least one pixel along each side");
+    }
 }
 
 void writeMat4(double* out, const Mat4& matrix, const char* what) {

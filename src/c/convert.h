@@ -14,6 +14,8 @@ template <class To, class From> To number(From from) noexcept {
 }
 
 [[nodiscard]] Grid toGrid(const vxt_grid& grid) noexcept;
+/// Refuses what checkGrid() refuses, and null.
+[[nodiscard]] Grid checkedGrid(const vxt_grid* grid);
 [[nodiscard]] vxt_grid fromGrid(const Grid& grid) noexcept;
 [[nodiscard]] VolumeView toVolumeView(const vxt_volume_view* view);
 [[nodiscard]] vxt_volume_view fromVolumeView(const VolumeView& view) noexcept;
@@ -28,6 +30,9 @@ template <class To, class From> To number(From from) noexcept {
 [[nodiscard]] vxt_range fromRange(const ValueRange& range) noexcept;
 [[nodiscard]] Vec3 toVec3(const double* vector, const char* what);
 [[nodiscard]] Mat4 toMat4(const double* matrix, const char* what);
+[[nodiscard]] Colour toColour(const double (&colour)[3]) noexcept;
+/// Refuses a view without a pixel.
+void checkPixels(std::uint32_t width, std::uint32_t height);
 void writeMat4(double* out, const Mat4& matrix, const char* what);
 void writeVec3(double* out, const Vec3& vector, const char* what);
 /// A view that no projection with a camera accepts where there is none.

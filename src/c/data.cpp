@@ -9,12 +9,6 @@ using namespace voxtact::c;
 
 namespace {
 
-Grid checkedGrid(const vxt_grid* grid) {
-    const Grid checked = toGrid(need(grid, "grid"));
-    take(checkGrid(checked));
-    return checked;
-}
-
 std::vector<Box> toBoxes(const vxt_box* boxes, std::size_t count, const char* what) {
     std::vector<Box> out;
     for (const vxt_box& box : toSpan(boxes, count, what)) {
@@ -42,7 +36,7 @@ const char* vxt_scalar_type_name(vxt_scalar_type type) {
 }
 
 vxt_result vxt_check_grid(const vxt_grid* grid) {
-    return call([&] { checkedGrid(grid); });
+    return call([&] { static_cast<void>(checkedGrid(grid)); });
 }
 
 vxt_result vxt_check_affine(const double b_from_a[16]) {
@@ -87,9 +81,7 @@ vxt_result vxt_framing_view(const vxt_grid* grid, uint32_t width, uint32_t heigh
     return call([&] {
         const Grid checked = checkedGrid(grid);
         vxt_view& out = need(view, "view");
-        if (width == 0 || height == 0) {
-            refuse(ErrorCode::InvalidArgument, "a view needs at least one pixel along each side");
-        }
+        checkPixels(width, height);
         writeMat4(out.clip_from_world, framingCamera(checked, width, height), "view");
         out.width = width;
         out.height = height;

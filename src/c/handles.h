@@ -52,6 +52,9 @@ struct vxt_host_clearance_tracker {
 struct vxt_host_motion_checker {
     voxtact::cpu::MotionChecker object;
 };
+struct vxt_host_planner {
+    voxtact::cpu::Planner object;
+};
 
 namespace voxtact::c {
 

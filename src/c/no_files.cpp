@@ -1,73 +1,62 @@
 // SPDX-License-Identifier: MIT
 // Files, of a library without voxtact::io: the functions are there, so that the interface is the same, and refuse.
-#include "c/errors.h"
+#include "c/absent.h"
 
 using namespace voxtact;
 using namespace voxtact::c;
 
 namespace {
 
-vxt_result refused() {
-    return call([] {
-        refuse(ErrorCode::Unsupported,
-               "this library was built without voxtact::io and reads no files; build it with VOXTACT_BUILD_IO");
-    });
-}
-
-template <class Handle> vxt_result refused(Handle** out) {
-    if (out != nullptr) {
-        *out = nullptr;
-    }
-    return refused();
-}
+constexpr const char* kWhy =
+    "this library was built without voxtact::io and reads no files; build it with VOXTACT_BUILD_IO";
 
 } // namespace
 
 vxt_result vxt_read_volume(const char*, const vxt_volume_read_options*, vxt_volume_data** data) {
-    return refused(data);
+    return absent(kWhy, data);
 }
 
 vxt_result vxt_read_volume_bytes(const char*, const void*, size_t, const vxt_volume_read_options*,
                                  vxt_volume_data** data) {
-    return refused(data);
+    return absent(kWhy, data);
 }
 
 vxt_result vxt_write_volume(const char*, const vxt_volume_view*) {
-    return refused();
+    return absent(kWhy);
 }
 
 vxt_result vxt_read_mesh(const char*, const vxt_mesh_read_options*, vxt_mesh_data** data) {
-    return refused(data);
+    return absent(kWhy, data);
 }
 
 vxt_result vxt_read_mesh_bytes(const char*, const void*, size_t, const vxt_mesh_read_options*, vxt_mesh_data** data) {
-    return refused(data);
+    return absent(kWhy, data);
 }
 
 vxt_result vxt_write_mesh(const char*, const vxt_mesh_view*) {
-    return refused();
+    return absent(kWhy);
 }
 
 vxt_result vxt_read_camera(const char*, double[16]) {
-    return refused();
+    return absent(kWhy);
 }
 
 vxt_result vxt_read_poses(const char*, vxt_poses** poses) {
-    return refused(poses);
+    return absent(kWhy, poses);
 }
 
 vxt_result vxt_pose_reader_open(const char*, vxt_pose_reader** reader) {
-    return refused(reader);
+    return absent(kWhy, reader);
 }
 
 vxt_result vxt_pose_reader_read(vxt_pose_reader*, double*, size_t, size_t*) {
-    return refused();
+    return absent(kWhy);
 }
 
 void vxt_pose_reader_destroy(vxt_pose_reader*) {}
 
 vxt_result vxt_read_colours(const char*, vxt_colour_points** points) {
-    return refused(points);
+    return absent(kWhy, points);
 }
 
 const vxt_colour_point* vxt_colour_points_get(const vxt_colour_points*, size_t*) {
@@ -77,19 +66,19 @@ const vxt_colour_point* vxt_colour_points_get(const vxt_colour_points*, size_t*)
 void vxt_colour_points_destroy(vxt_colour_points*) {}
 
 vxt_result vxt_write_png(const char*, uint32_t, uint32_t, const void*, size_t) {
-    return refused();
+    return absent(kWhy);
 }
 
 vxt_result vxt_read_transfer_function(const char*, vxt_control_points** points) {
-    return refused(points);
+    return absent(kWhy, points);
 }
 
 vxt_result vxt_parse_opacity(const char*, vxt_control_points** points) {
-    return refused(points);
+    return absent(kWhy, points);
 }
 
 vxt_result vxt_read_label_names(const char*, vxt_label_names** names) {
-    return refused(names);
+    return absent(kWhy, names);
 }
 
 const char* vxt_label_names_get(const vxt_label_names*, size_t, int32_t*) {

@@ -25,4 +25,13 @@ Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch) {
     return voxtact::checkBatch(desc.projection, desc.samplesPerVoxel, batch, HostSide{});
 }
 
+Result<void> checkThreads(std::uint32_t threads) {
+    if (threads > kMostThreads) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     std::to_string(threads) + " threads are asked for, the most is " + std::to_string(kMostThreads) +
+                         " (cpu::kMostThreads)"};
+    }
+    return {};
+}
+
 } // namespace voxtact::cpu

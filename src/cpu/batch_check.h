@@ -10,4 +10,7 @@ namespace voxtact::cpu {
 /// number of pairs.
 [[nodiscard]] Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch);
 
+/// Refuses more than kMostThreads.
+[[nodiscard]] Result<void> checkThreads(std::uint32_t threads);
+
 } // namespace voxtact::cpu

@@ -39,6 +39,7 @@ Result<void> checkDesc(const DetectorDesc& desc) {
             return known;
         }
     }
+    VOXTACT_TRY(checkThreads(desc.threads));
     VOXTACT_TRY(checkSamples(desc.samplesPerVoxel));
     return checkResolution(desc.resolution);
 }
@@ -65,6 +66,7 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
         const Result<std::uint32_t> pairs = checkBatch(impl_->desc, batch);
         VOXTACT_TRY(pairs);
         VOXTACT_TRY(checkLabelMaps(batch, impl_->desc.outputs));
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         DetectorImpl& impl = *impl_;
         BatchAnswer answer = rowOf(impl.desc.projection).certified
                                  ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)

@@ -229,18 +229,13 @@ OutputRun::OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t
 }
 
 void OutputRun::collect(std::size_t item, std::uint32_t pair, std::uint32_t thread,
-                        const std::function<void(Sink&)>& body) noexcept {
-    try {
-        Sink sink(*this, item, pair, thread);
-        body(sink);
-        sink.publish();
-    } catch (const std::bad_alloc&) {
-        outOfMemory_.store(true, std::memory_order_relaxed);
-    }
+                        const std::function<void(Sink&)>& body) {
+    Sink sink(*this, item, pair, thread);
+    body(sink);
+    sink.publish();
 }
 
-std::uint64_t OutputRun::collect(const PairJob& job, std::size_t item, std::uint32_t pair,
-                                 std::uint32_t thread) noexcept {
+std::uint64_t OutputRun::collect(const PairJob& job, std::size_t item, std::uint32_t pair, std::uint32_t thread) {
     std::uint64_t survivors = 0;
     collect(item, pair, thread, [&](Sink& sink) {
         const auto add = [&sink](std::uint32_t triangle, const ContactVector& at) { sink.add(triangle, at); };
@@ -300,9 +295,6 @@ void OutputRun::mergeLabels(BatchAnswer& answer) const {
 }
 
 void OutputRun::finish(BatchAnswer& answer) {
-    if (outOfMemory_.load(std::memory_order_relaxed)) {
-        throw std::bad_alloc();
-    }
     for (const Found& found : found_) {
         answer.contacts.insert(answer.contacts.end(), found.contacts.begin(), found.contacts.end());
     }

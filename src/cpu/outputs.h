@@ -27,11 +27,10 @@ class OutputRun {
 
     /// Survivors of the job's clusters, every fragment one after the other, after whose outputs were taken. No two
     /// calls at a time with the same thread, nor two with the same cluster of a pair.
-    std::uint64_t collect(const PairJob& job, std::size_t item, std::uint32_t pair, std::uint32_t thread) noexcept;
+    std::uint64_t collect(const PairJob& job, std::size_t item, std::uint32_t pair, std::uint32_t thread);
     /// `body` is called with a Sink for some survivors of a pair, found by somebody else. As collect().
-    void collect(std::size_t item, std::uint32_t pair, std::uint32_t thread,
-                 const std::function<void(Sink&)>& body) noexcept;
-    /// Once all threads are done. Throws std::bad_alloc where one of them had no memory.
+    void collect(std::size_t item, std::uint32_t pair, std::uint32_t thread, const std::function<void(Sink&)>& body);
+    /// Once all threads are done.
     void finish(BatchAnswer& answer);
 
   private:
@@ -60,7 +59,6 @@ class OutputRun {
     std::vector<ItemOutputs> items_;
     std::vector<Found> found_; ///< by thread
     std::atomic<std::uint64_t> contacts_{0};
-    std::atomic<bool> outOfMemory_{false};
 };
 
 /// Takes the outputs of survivors of one pair.

@@ -2,6 +2,7 @@
 #include "cpu/thread_pool.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voxtact::cpu {
 
@@ -43,10 +44,22 @@ void ThreadPool::run(std::uint32_t threads, const std::function<void(std::uint32
         }
         start_.notify_all();
     }
-    body(0);
-    if (others > 0) {
-        std::unique_lock lock(mutex_);
-        finished_.wait(lock, [this] { return running_ == 0; });
+    attempt(body, 0);
+    std::unique_lock lock(mutex_);
+    finished_.wait(lock, [this] { return running_ == 0; });
+    if (thrown_ != nullptr) {
+        std::rethrow_exception(std::exchange(thrown_, nullptr));
+    }
+}
+
+void ThreadPool::attempt(const std::function<void(std::uint32_t)>& body, std::uint32_t thread) noexcept {
+    try {
+        body(thread);
+    } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (thrown_ == nullptr) {
+            thrown_ = std::current_exception();
+        }
     }
 }
 
@@ -61,7 +74,7 @@ void ThreadPool::work(std::uint32_t thread) {
         seen = round_;
         const std::function<void(std::uint32_t)>& body = *body_;
         lock.unlock();
-        body(thread);
+        attempt(body, thread);
         lock.lock();
         if (--running_ == 0) {
             finished_.notify_one();

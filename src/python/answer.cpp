@@ -51,6 +51,18 @@ py::array boxesOf(const std::vector<std::array<double, 6>>& bounds, const py::ob
                      bounds.data(), owner);
 }
 
+/// In the order of voxtact.Counters; nothing where they were not asked for.
+py::object countersOf(const Answer& answer) {
+    if (!answer.counters) {
+        return py::none();
+    }
+    const CertifiedCounters& of = *answer.counters;
+    return py::make_tuple(of.clusters, of.clustersKept, of.runsKept, of.largeParts, of.bricksSeen, of.cellsSeen,
+                          of.cellsListed, of.cellsDecided, of.lanes, of.cellsOpen, of.left, of.bricksLeft, of.cellsLeft,
+                          of.rounds, of.room, of.mostClusters, of.mostRuns, of.mostParts, of.mostCells, of.mostOpen,
+                          of.mostLeft, of.mostLooks, of.mostLooksLeft);
+}
+
 template <class T>
 py::array inLabelColumns(const Clearances& from, const std::vector<T>& values, const py::object& owner) {
     return from.labels.empty() ? shown(values, owner) : shown(values, from.labels.size(), owner);
@@ -80,6 +92,9 @@ void Answer::add(std::size_t first, BatchAnswer piece) {
                              : std::array{kNone, kNone, kNone, kNone, kNone, kNone});
     }
     contactsFound += piece.contactsFound;
+    if (piece.counters) {
+        counters = counters ? together(*counters, *piece.counters) : *piece.counters;
+    }
     addContacts(first, std::move(piece.contacts));
     milliseconds += piece.wallMilliseconds;
 }
@@ -141,6 +156,7 @@ void defineAnswers(py::module_& module) {
         .def_readonly("contacts_found", &Answer::contactsFound)
         .def_readonly("milliseconds", &Answer::milliseconds)
         .def_readonly("revision", &Answer::revision)
+        .def_property_readonly("counters", &countersOf)
         .def_property_readonly("method", [](const Answer& answer) { return toString(answer.method); })
         .def_property_readonly("projection", [](const Answer& answer) { return toString(answer.question.projection); })
         .def_property_readonly("outputs",

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 /// Answers as columns, which numpy shows.
@@ -31,6 +32,7 @@ class Answer {
     std::vector<std::array<double, 6>> bounds;
     std::vector<LabelCount> labels;
     std::uint64_t contactsFound = 0;
+    std::optional<CertifiedCounters> counters; ///< of all pieces together, where the question asks for them
     double milliseconds = 0;
 
   private:

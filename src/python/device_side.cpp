@@ -39,6 +39,7 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.resolution = question.resolution;
     desc.stopAtFirst = question.yesNo && question.projection == Projection::Conservative;
     desc.overestimate = question.overestimate;
+    desc.counters = question.counters;
     return desc;
 }
 

@@ -79,6 +79,10 @@ cpu::Detector& HostSide::detectorFor(const Question& question, std::uint32_t thr
         refuse(ErrorCode::Unsupported, "the host engine has the filter exact alone, and no overestimate; for others "
                                        "make the scene with device=");
     }
+    if (question.counters) {
+        refuse(ErrorCode::Unsupported, "counters are of what the passes on a device do; for them make the scene with "
+                                       "device=");
+    }
     return keptOrMade(detectors_, std::pair(Question::Key(question.key()), threads), [&] {
         return cpu::Detector::create({.threads = threads,
                                       .boundary = question.boundary,
@@ -96,7 +100,8 @@ cpu::ClearanceMeter& HostSide::meterFor(const Distance& distance) {
         return cpu::ClearanceMeter::create({.threads = threads_,
                                             .tolerance = distance.tolerance,
                                             .maximum = distance.maximum,
-                                            .mostSteps = distance.mostSteps});
+                                            .mostSteps = distance.mostSteps,
+                                            .labelsAtAnyOpacity = distance.labelsAtAnyOpacity});
     });
 }
 
@@ -168,6 +173,11 @@ BatchAnswer HostSide::around(const Part& part, const PoseTolerance& tolerance, d
     const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
     return interruptibly(cpu::Batch{items, {}, threshold},
                          [&](const cpu::Batch& batch) { return take(checker.around(batch, tolerance)); });
+}
+
+TrackedClearance HostSide::track(cpu::ClearanceTracker& tracker, const Shape& mesh, const Mat4& world_from_object,
+                                 double threshold) const {
+    return take(tracker.track({&mesh.onHost(), &volume_, &function_, {&world_from_object, 1}}, threshold));
 }
 
 PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelData* labels) {

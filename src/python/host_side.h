@@ -36,6 +36,8 @@ class HostSide {
     /// `part` counts segments.
     [[nodiscard]] MotionAnswer move(const Part& part, const Way& way, double threshold);
     [[nodiscard]] BatchAnswer around(const Part& part, const PoseTolerance& tolerance, double threshold);
+    [[nodiscard]] TrackedClearance track(cpu::ClearanceTracker& tracker, const Shape& mesh,
+                                         const Mat4& world_from_object, double threshold) const;
     /// `labels` may be null where the wish is not about labels.
     [[nodiscard]] PlanAnswer plan(const PlanWish& wish, double threshold, const LabelData* labels);
     /// That a call runs on.

@@ -5,6 +5,7 @@
 #include "plans.h"
 #include "process.h"
 #include "scene.h"
+#include "tracker.h"
 
 #include <pybind11/pybind11.h>
 
@@ -18,6 +19,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("DEFAULT_MOST_STEPS") = cpu::ClearanceDesc().mostSteps;
     module.attr("DEFAULT_MOTION_RESOLUTION") = kDefaultMotionResolution;
     module.attr("DEFAULT_MOTION_STEPS") = cpu::MotionDesc().mostSteps;
+    module.attr("DEFAULT_TRACKER_STEPS") = cpu::TrackerDesc().mostSteps;
     module.attr("DEFAULT_PLAN_ENTRIES") = cpu::EntrySurface().entries;
     module.attr("DEFAULT_PLAN_TOLERANCE") = kDefaultPlanTolerance;
     module.attr("DEFAULT_PLAN_MAXIMUM") = kDefaultPlanMaximum;
@@ -30,4 +32,5 @@ PYBIND11_MODULE(_core, module) {
     python::defineMotions(module);
     python::definePlans(module);
     python::defineScene(module);
+    python::defineTracker(module);
 }

@@ -2,6 +2,7 @@
 #include "plans.h"
 
 #include "arrays.h"
+#include "request.h"
 
 #include <pybind11/stl.h>
 
@@ -90,9 +91,7 @@ Plan::Plan(PlanAnswer answer, bool withLabels) : totals(std::move(answer)) {
 PlanWish planWishOf(const Doubles& target, const py::dict& options) {
     PlanWish wish;
     wish.target = vectorOf(target, "target");
-    for (const auto& [name, value] : options) {
-        read(wish, name.cast<std::string>(), value);
-    }
+    readOptions(options, [&](const std::string& name, const py::handle& value) { read(wish, name, value); });
     return wish;
 }
 

@@ -60,6 +60,8 @@ void read(Question& question, const std::string& name, const py::handle& value) 
         question.yesNo = value.cast<bool>();
     } else if (name == "overestimate") {
         question.overestimate = value.cast<bool>();
+    } else if (name == "counters") {
+        question.counters = value.cast<bool>();
     } else if (name == "most_contacts") {
         question.mostContacts = value.cast<std::uint32_t>();
     } else if (name == "view") {
@@ -149,16 +151,20 @@ Request requestOf(const py::object& meshes, const py::object& poses) {
     return request;
 }
 
-Question questionOf(const py::dict& options) {
-    Question question;
+void readOptions(const py::dict& options, const std::function<void(const std::string&, const py::handle&)>& read) {
     for (const auto& [key, value] : options) {
         const auto name = key.cast<std::string>();
         try {
-            read(question, name, value);
+            read(name, value);
         } catch (const py::cast_error&) {
             throw py::type_error(name + " cannot be " + py::repr(value).cast<std::string>());
         }
     }
+}
+
+Question questionOf(const py::dict& options) {
+    Question question;
+    readOptions(options, [&](const std::string& name, const py::handle& value) { read(question, name, value); });
     return question;
 }
 

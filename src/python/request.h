@@ -5,6 +5,7 @@
 #include "voxtact/results.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,17 +68,18 @@ struct Question {
     double resolution = kDefaultResolution;
     bool yesNo = false;
     bool overestimate = false;
+    bool counters = false;
     std::uint32_t mostContacts = 1U << 20U;
     std::optional<View> view; ///< nothing: the volume from above
 
     /// What a detector is made for, without the view.
     [[nodiscard]] auto key() const noexcept {
         return std::tuple(projection, method, filter, boundary, outputs.triangles, outputs.contacts, outputs.bounds,
-                          outputs.labels, outputs.maxDepth, samplesPerVoxel, resolution, yesNo, overestimate,
+                          outputs.labels, outputs.maxDepth, samplesPerVoxel, resolution, yesNo, overestimate, counters,
                           mostContacts);
     }
     using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
-                           bool, double, std::uint32_t, double, bool, bool, std::uint32_t>;
+                           bool, double, std::uint32_t, double, bool, bool, bool, std::uint32_t>;
 };
 
 /// How a clearance is measured.
@@ -85,15 +87,18 @@ struct Distance {
     double tolerance = 0;
     double maximum = 0;
     std::uint64_t mostSteps = 0;
+    bool labelsAtAnyOpacity = false;
 
-    [[nodiscard]] auto key() const noexcept { return std::tuple(tolerance, maximum, mostSteps); }
-    using Key = std::tuple<double, double, std::uint64_t>;
+    [[nodiscard]] auto key() const noexcept { return std::tuple(tolerance, maximum, mostSteps, labelsAtAnyOpacity); }
+    using Key = std::tuple<double, double, std::uint64_t, bool>;
 };
 
 /// The camera of a question; without one, the volume from above. Nothing where the projection has none.
 [[nodiscard]] View viewOf(const Question& question, const Grid& grid);
 /// A request of a mesh and poses, or of a list of these.
 [[nodiscard]] Request requestOf(const py::object& meshes, const py::object& poses);
+/// Calls `read(name, value)` for each option; a value that it cannot cast becomes a TypeError with the option's name.
+void readOptions(const py::dict& options, const std::function<void(const std::string&, const py::handle&)>& read);
 /// Names as on the command line; None is the default.
 [[nodiscard]] Question questionOf(const py::dict& options);
 

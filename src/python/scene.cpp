@@ -237,6 +237,12 @@ std::shared_ptr<Motions> Scene::motion(std::shared_ptr<const Request> request, c
     return found;
 }
 
+TrackedClearance Scene::track(cpu::ClearanceTracker& tracker, const Shape& mesh, const Mat4& world_from_object) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    return host().track(tracker, mesh, world_from_object, desc_.threshold);
+}
+
 std::shared_ptr<Plan> Scene::plan(const PlanWish& wish) {
     const Turns::Turn turn(turns_);
     checkOpen();

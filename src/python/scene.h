@@ -56,6 +56,9 @@ class Scene {
                                                   const Progress& progress);
     [[nodiscard]] std::shared_ptr<Answer> around(const std::shared_ptr<const Request>& request,
                                                  const PoseTolerance& tolerance, const Progress& progress);
+    /// Of a pose that need not be affine: that is looked at.
+    [[nodiscard]] TrackedClearance track(cpu::ClearanceTracker& tracker, const Shape& mesh,
+                                         const Mat4& world_from_object);
     /// One that is about labels needs a label map.
     [[nodiscard]] std::shared_ptr<Plan> plan(const PlanWish& wish);
     /// `device` is for a scene that has none.

@@ -117,10 +117,11 @@ std::vector<double> engineSeconds(Scene& scene, const py::object& meshes, const 
 
 std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, const py::object& poses, double tolerance,
                                       double maximum, std::uint64_t mostSteps,
-                                      std::optional<std::vector<std::int32_t>> labels, const py::object& callback) {
+                                      std::optional<std::vector<std::int32_t>> labels, bool labelsAtAnyOpacity,
+                                      const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
-    const Distance distance{tolerance, maximum, mostSteps};
+    const Distance distance{tolerance, maximum, mostSteps, labelsAtAnyOpacity};
     const py::gil_scoped_release release;
     return labels ? scene.labelClearance(request, distance, std::move(*labels), progress)
                   : scene.clearance(request, distance, progress);
@@ -263,7 +264,7 @@ void defineScene(py::module_& module) {
         .def("engine_seconds", &engineSeconds, py::arg("meshes"), py::arg("poses"), py::arg("options"),
              py::arg("times"))
         .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
-             py::arg("most_steps"), py::arg("labels"), py::arg("progress"))
+             py::arg("most_steps"), py::arg("labels"), py::arg("labels_at_any_opacity"), py::arg("progress"))
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("progress"))
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),
              py::arg("most_steps"), py::arg("progress"))

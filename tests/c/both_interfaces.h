@@ -22,6 +22,13 @@ inline void take(const Result<void>& result) {
     }
 }
 
+/// So many voxels a side of 1 mm each, the first one's centre at the origin.
+inline Grid millimetreGrid(std::uint32_t side) {
+    Grid grid;
+    grid.size = {side, side, side};
+    return grid;
+}
+
 /// A scene through both interfaces.
 struct BothInterfaces {
     cpu::Volume volume;

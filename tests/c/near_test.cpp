@@ -167,6 +167,35 @@ void compare(const BothInterfaces& both, const RandomScene& scene, Engines& engi
     }
 }
 
+TEST(CNear, ALabelIsMeasuredAtAnyOpacityWhereThatIsAskedFor) {
+    // A label that is not opaque anywhere: 3 mm beside the mesh, or infinitely far.
+    RandomScene scene;
+    scene.volume = makeBytes(millimetreGrid(16), [](auto...) { return 0.0; });
+    scene.points = {{100, 0}, {200, 1}};
+    scene.domain = {0, 255};
+    scene.mesh = makeCube(0, 2);
+    scene.poses = {identity()};
+    const VolumeData labels = makeBytes(millimetreGrid(16), [](auto x, auto...) { return x >= 6 ? 4.0 : 0.0; });
+    const BothInterfaces both(scene, labels);
+    BothInterfaces::CBatch c;
+    both.fill(c, scene);
+    const std::int32_t label = 4;
+    const auto distance = [&](std::uint32_t atAnyOpacity) {
+        vxt_host_clearance_desc desc = vxt_host_clearance_desc_init();
+        desc.labels_at_any_opacity = atAnyOpacity;
+        const auto meter = made<vxt_host_clearance_meter>(
+            vxt_host_clearance_meter_destroy, [&](auto out) { return vxt_host_clearance_meter_create(&desc, out); });
+        const Owned<vxt_clearances> clearances = newClearances();
+        need(vxt_host_clearance_meter_measure_labels(meter.get(), &c.batch, &label, 1, clearances.get()));
+        const vxt_clearance_view view = viewOf(*clearances);
+        EXPECT_EQ(view.label_count, 1U);
+        return view.labels[0].hi;
+    };
+    EXPECT_EQ(distance(0), std::numeric_limits<double>::infinity());
+    // Voxel 6 begins at 5.5, the cube ends at 2.
+    EXPECT_NEAR(distance(1), 3.5, 0.01);
+}
+
 /// Poses of a random scene may be of different scales, which no motion joins.
 void makeRigid(RandomScene& scene, std::mt19937_64& random) {
     for (Mat4& pose : scene.poses) {

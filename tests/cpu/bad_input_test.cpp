@@ -44,6 +44,27 @@ TEST_F(CpuBadInput, Viewports) {
     EXPECT_THAT(error.text, HasSubstr("kMaxViewport"));
 }
 
+TEST_F(CpuBadInput, MoreThreadsThanAnybodyHas) {
+    constexpr std::uint32_t kTooMany = cpu::kMostThreads + 1;
+    const auto expectRefused = [](const auto& made) {
+        ASSERT_FALSE(made.ok());
+        EXPECT_EQ(made.error().code, ErrorCode::LimitExceeded);
+        EXPECT_THAT(made.error().text, HasSubstr("4097 threads are asked for, the most is 4096"));
+    };
+    expectRefused(cpu::Detector::create({.threads = kTooMany}));
+    expectRefused(cpu::ClearanceMeter::create({.threads = kTooMany}));
+    expectRefused(cpu::MotionChecker::create({.threads = kTooMany}));
+    expectRefused(cpu::Planner::create({.threads = kTooMany}));
+}
+
+TEST_F(CpuBadInput, ATableOfMoreEntriesThanFloatsTellApart) {
+    const Result<cpu::TransferFunction> made =
+        cpu::TransferFunction::create({byteRamp(), {0, 255}, std::numeric_limits<std::uint32_t>::max()});
+    ASSERT_FALSE(made.ok());
+    EXPECT_EQ(made.error().code, ErrorCode::LimitExceeded);
+    EXPECT_THAT(made.error().text, HasSubstr("4294967295 entries, the most is 16777216"));
+}
+
 TEST_F(CpuBadInput, CamerasAndPoses) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THAT(refused([&](auto& batch, auto&) { batch.view.clip_from_world[5] = nan; }).text,

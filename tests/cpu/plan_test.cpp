@@ -279,11 +279,13 @@ TEST(Plan, TellsWhatALineCrosses) {
     const LabelData labels = take(makeLabels(makeBytes(grid, [](auto x, auto y, auto) {
                                                  return x < 3 ? 7 : x < 5 ? 0 : y == 9 ? 2 : 5;
                                              }).view()));
-    EXPECT_EQ(labelsAlong(labels, {-3, 4, 4}, {20, 4, 4}), (std::vector<std::int32_t>{7, 5}));
-    EXPECT_EQ(labelsAlong(labels, {20, 4, 4}, {-3, 4, 4}), (std::vector<std::int32_t>{5, 7}));
-    EXPECT_EQ(labelsAlong(labels, {7, 0, 4}, {7, 9.4, 4}), (std::vector<std::int32_t>{5, 2}));
-    EXPECT_TRUE(labelsAlong(labels, {20, 20, 20}, {30, 20, 20}).empty());
-    EXPECT_EQ(labelsAlong(labels, {1, 1, 1}, {1, 1, 1}), (std::vector<std::int32_t>{7}));
+    EXPECT_EQ(*labelsAlong(labels, {-3, 4, 4}, {20, 4, 4}), (std::vector<std::int32_t>{7, 5}));
+    EXPECT_EQ(*labelsAlong(labels, {20, 4, 4}, {-3, 4, 4}), (std::vector<std::int32_t>{5, 7}));
+    EXPECT_EQ(*labelsAlong(labels, {7, 0, 4}, {7, 9.4, 4}), (std::vector<std::int32_t>{5, 2}));
+    EXPECT_TRUE(labelsAlong(labels, {20, 20, 20}, {30, 20, 20})->empty());
+    EXPECT_EQ(*labelsAlong(labels, {1, 1, 1}, {1, 1, 1}), (std::vector<std::int32_t>{7}));
+    EXPECT_EQ(labelsAlong(labels, {0, std::nan(""), 0}, {1, 1, 1}).error().text, "an end of the line is not finite");
+    EXPECT_EQ(labelsAlong(labels, {0, 0, 0}, {1, HUGE_VAL, 1}).error().code, ErrorCode::InvalidArgument);
 }
 
 TEST(Plan, RefusesWhatItCannotUse) {

@@ -175,6 +175,55 @@ def test_threads(head, knife):
     assert not wrong
 
 
+def test_a_scene_that_other_threads_close_and_drop(head, knife):
+    """Threads that are in the middle of it get their answer, those that come later are told; nobody crashes or hangs."""
+    poses = random_poses(60, 7)
+    expected = vx.Scene(head, opacity=[(40, 0), (80, 1)]).detect(knife, poses).count
+    for _ in range(5):
+        shared = [vx.Scene(head, opacity=[(40, 0), (80, 1)])]
+        tracker, wrong, told = shared[0].tracker(knife), [], []
+
+        def ask(number):
+            try:
+                for _ in range(100):
+                    scene = shared[0]
+                    if number == 0:
+                        tracker.update(poses[0])
+                    elif number == 1:
+                        scene.clearance(knife, poses[:1], tolerance=0.1)
+                    elif not np.array_equal(scene.detect(knife, poses).count, expected):
+                        wrong.append(number)
+            except (vx.NotReadyError, IndexError):
+                told.append(number)
+            except BaseException as error:
+                wrong.append(error)
+
+        threads = [threading.Thread(target=ask, args=(number,)) for number in range(4)]
+        for thread in threads:
+            thread.start()
+        time.sleep(0.02)
+        shared[0].close()
+        shared.clear()
+        gc.collect()
+        for thread in threads:
+            thread.join(60)
+            assert not thread.is_alive()
+        assert not wrong and told
+
+
+def test_a_tracker_after_a_fork(head, knife):
+    tracker = vx.Scene(head, opacity=[(40, 0), (80, 1)]).tracker(knife)
+    near = tracker.update(placed((0, 0, 0))[0])
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            status = 0 if tracker.update(placed((0, 0, 0))[0])[:2] == near[:2] else 2
+        finally:
+            os._exit(status)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
 def test_work_does_not_hold_the_interpreters_lock(scene, knife):
     """Another thread counts on while this one measures."""
     counted, done = [], threading.Event()

@@ -9,9 +9,6 @@ namespace voxtact::app {
 
 namespace {
 
-/// The table is in memory, which has no limit that could be named; beyond this one it is a slip.
-constexpr std::uint32_t kMostTableEntries = 1U << 24U;
-
 /// Of volumes that are kept for a later job.
 constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{2} << 30U;
 
@@ -150,9 +147,9 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
 }
 
 Result<void> checkLimits(const DetectOptions& options) {
-    if (options.transferFunction.tableSize > kMostTableEntries) {
+    if (options.transferFunction.tableSize > kMostTableSize) {
         return badArgument("--tf-size: " + std::to_string(options.transferFunction.tableSize) +
-                           " is beyond what the counting method cpu can do, " + std::to_string(kMostTableEntries));
+                           " is beyond what the counting method cpu can do, " + std::to_string(kMostTableSize));
     }
     return !usesView(*options.method.projection)
                ? Result<void>()

@@ -36,7 +36,12 @@ std::string nearestText(const PlanInputs& inputs, const NearestObstacle& nearest
 
 std::string crossed(const PlanInputs& inputs, const PlannedPath& path) {
     std::string out;
-    for (const std::int32_t label : labelsAlong(inputs.labels->labels, path.position, inputs.task.target)) {
+    const Result<std::vector<std::int32_t>> labels =
+        labelsAlong(inputs.labels->labels, path.position, inputs.task.target);
+    if (!labels.ok()) {
+        throw std::bad_alloc(); // the plan has looked at all that can be refused
+    }
+    for (const std::int32_t label : *labels) {
         out += (out.empty() ? "" : ";") + labelText(*inputs.labels, label);
     }
     return out;

@@ -9,15 +9,24 @@
 
 namespace voxtact {
 
+/// Short enough for a std::string that needs no memory of its own: there may be none.
+[[nodiscard]] inline Error noHostMemory() noexcept {
+    return {ErrorCode::OutOfMemory, 0, "no host memory"};
+}
+
 /// Runs `body` (which returns a Result) and turns whatever it throws into an Error, so that nothing crosses the
 /// public boundary.
 template <class Body> std::invoke_result_t<Body> guard(Body&& body) noexcept {
     try {
         return body();
     } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::OutOfMemory, 0, "out of host memory"};
+        return noHostMemory();
     } catch (const std::exception& exception) {
-        return Error{ErrorCode::Internal, 0, exception.what()};
+        try {
+            return Error{ErrorCode::Internal, 0, exception.what()};
+        } catch (...) {
+            return noHostMemory();
+        }
     }
 }
 

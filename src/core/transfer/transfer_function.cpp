@@ -65,6 +65,11 @@ Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
             return refuse("the transfer function's table has " + std::to_string(desc.tableSize) +
                           " entries, it needs at least 2");
         }
+        if (desc.tableSize > kMostTableSize) {
+            return Error{ErrorCode::LimitExceeded, 0,
+                         "the transfer function's table has " + std::to_string(desc.tableSize) +
+                             " entries, the most is " + std::to_string(kMostTableSize) + " (kMostTableSize)"};
+        }
         std::vector<float> table(desc.tableSize);
         for (std::uint32_t i = 0; i < desc.tableSize; ++i) {
             const double s = (i + 0.5) / desc.tableSize;

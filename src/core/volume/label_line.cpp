@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/guard.h"
+#include "core/base/try.h"
 #include "core/volume/label_lookup.h"
 #include "voxtact/plan.h"
 
@@ -19,14 +21,13 @@ const char* toString(Safety safety) noexcept {
     return "unknown";
 }
 
-std::vector<std::int32_t> labelsAlong(const LabelData& labels, const Vec3& from, const Vec3& to) {
+namespace {
+
+std::vector<std::int32_t> labelsBetween(const LabelData& labels, const Mat4& texture_from_world, const Vec3& from,
+                                        const Vec3& to) {
     std::vector<std::int32_t> out;
-    const Result<Mat4> texture = textureFromWorld(labels.grid);
-    if (!texture.ok()) {
-        return out;
-    }
-    const Vec3 first = transformPoint(*texture, from);
-    const Vec3 last = transformPoint(*texture, to);
+    const Vec3 first = transformPoint(texture_from_world, from);
+    const Vec3 last = transformPoint(texture_from_world, to);
     // Where the line goes from one layer of voxels to another, as its part from 0 to 1.
     std::vector<double> steps{0, 1};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -51,6 +52,22 @@ std::vector<std::int32_t> labelsAlong(const LabelData& labels, const Vec3& from,
         }
     }
     return out;
+}
+
+} // namespace
+
+Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec3& from, const Vec3& to) {
+    return guard([&]() -> Result<std::vector<std::int32_t>> {
+        const auto isFinite = [](const Vec3& v) {
+            return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
+        };
+        if (!isFinite(from) || !isFinite(to)) {
+            return Error{ErrorCode::InvalidArgument, 0, "an end of the line is not finite"};
+        }
+        const Result<Mat4> texture = textureFromWorld(labels.grid);
+        VOXTACT_TRY(texture);
+        return labelsBetween(labels, *texture, from, to);
+    });
 }
 
 } // namespace voxtact

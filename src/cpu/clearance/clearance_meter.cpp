@@ -50,6 +50,7 @@ Error refuse(const std::string& text) {
 }
 
 Result<void> checkDesc(const ClearanceDesc& desc) {
+    VOXTACT_TRY(checkThreads(desc.threads));
     if (!(desc.tolerance >= kLeastTolerance && desc.tolerance < kInfinity)) {
         return refuse("the tolerance " + number(desc.tolerance) + " mm is not a number from " +
                       number(kLeastTolerance) + " mm on");
@@ -234,6 +235,7 @@ Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
     return guard([&]() -> Result<ClearanceAnswer> {
         const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         ClearanceAnswer answer;
         answer.pairs = numberedPairs<PairClearance>(batch);
         Workers& workers = impl_->workers;
@@ -253,6 +255,7 @@ Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
         if (!(margin >= 0 && margin < kInfinity)) {
             return refuse("the margin " + number(margin) + " mm is not a number from 0 on");
         }
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;
@@ -270,6 +273,7 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
         const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
         VOXTACT_TRY(checkMeasuredLabels(batch, labels));
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         const Parts parts = impl_->desc.labelsAtAnyOpacity ? impl_->workers.wholesOf(batch)
                                                            : impl_->workers.partsOf(batch, impl_->desc.resolution);
         std::vector<std::vector<std::uint32_t>> indices;

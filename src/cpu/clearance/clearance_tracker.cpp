@@ -90,14 +90,15 @@ TrackedClearance ClearanceTrackerImpl::track(const BatchItem& item, double thres
     const bool isSame = now == scene;
     const double moved = isSame ? movedBy(lookedAt, pose, box) : kInfinity;
     const double step = isSame ? movedBy(lastPose, pose, box) : kInfinity;
-    scene = now;
     lastPose = pose;
     if (isSame && known.lo > moved) {
         TrackedClearance out;
         out.bounds = {known.lo - moved, known.hi + moved};
         return out;
     }
+    scene = {}; // a look that fails leaves nothing that is known
     const TrackedClearance out = look(item, threshold, kAhead * step);
+    scene = now;
     lookedAt = pose;
     known = out.bounds;
     return out;

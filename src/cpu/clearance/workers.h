@@ -53,8 +53,8 @@ class Workers {
         return parts;
     }
 
-    /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. It must not throw. Refuses
-    /// what is cancelled meanwhile.
+    /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. What it throws comes out,
+    /// when all are at rest. Refuses what is cancelled meanwhile.
     template <class Answer, class Fill>
     [[nodiscard]] Result<void> forEach(std::vector<Answer>& answers, CancelFlag cancel, const Fill& fill) {
         if (answers.empty()) {

@@ -28,6 +28,7 @@ Error refuse(const std::string& text) {
 }
 
 Result<void> checkDesc(const MotionDesc& desc) {
+    VOXTACT_TRY(checkThreads(desc.threads));
     if (!(desc.resolution >= kLeastResolution && std::isfinite(desc.resolution))) {
         return refuse("the resolution " + number(desc.resolution) + " mm is not a number from " +
                       number(kLeastResolution) + " mm on");
@@ -114,6 +115,7 @@ Result<MotionAnswer> MotionChecker::check(const Batch& batch) {
         VOXTACT_TRY(checkMotionBatch(batch));
         const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl_->desc.interpolation);
         VOXTACT_TRY(motions);
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         const Parts parts = impl_->workers.partsOf(batch, impl_->desc.touchResolution);
         MotionAnswer answer;
         answer.segments = numberedSegments(batch);
@@ -133,6 +135,7 @@ Result<BatchAnswer> MotionChecker::around(const Batch& batch, const PoseToleranc
         const StopWatch watch;
         VOXTACT_TRY(checkMotionBatch(batch));
         VOXTACT_TRY(checkTolerance(tolerance));
+        VOXTACT_TRY(checkNotCancelled(batch.cancel));
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;

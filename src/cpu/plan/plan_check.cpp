@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/batch/output_pair.h"
+#include "cpu/batch_check.h"
 #include "cpu/clearance/label_part.h"
 
 #include <algorithm>
@@ -113,6 +114,7 @@ Result<void> checkInstrument(const PlanTask& task) {
 } // namespace
 
 Result<void> checkPlanner(const PlannerDesc& desc) {
+    VOXTACT_TRY(checkThreads(desc.threads));
     if (!(desc.tolerance >= kLeastTolerance && std::isfinite(desc.tolerance))) {
         return refuse("the tolerance " + number(desc.tolerance) + " mm is not a number from " +
                       number(kLeastTolerance) + " mm on");

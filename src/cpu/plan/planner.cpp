@@ -196,6 +196,7 @@ Result<PlanAnswer> Planner::plan(const PlanTask& task) {
     return guard([&]() -> Result<PlanAnswer> {
         const StopWatch watch;
         VOXTACT_TRY(checkTask(task));
+        VOXTACT_TRY(checkNotCancelled(task.cancel));
         Result<Mesh> axis = axisMesh();
         VOXTACT_TRY(axis);
         Workers& workers = impl_->workers;

@@ -64,7 +64,7 @@ class CountRun {
         return {view, desc_.boundary != Boundary::Clamp};
     }
 
-    void runTask(const Task& task, std::uint32_t thread) noexcept {
+    void runTask(const Task& task, std::uint32_t thread) {
         std::atomic<std::uint64_t>& count = counts_[task.pair];
         for (const Mat4& clip_from_world : cameras_.clip_from_world()) {
             if (items_[task.item].occupancy->nothingOpaque() ||
@@ -76,8 +76,7 @@ class CountRun {
     }
 
     /// A task, seen once.
-    [[nodiscard]] std::uint64_t countTask(const Task& task, const Mat4& clip_from_world,
-                                          std::uint32_t thread) noexcept {
+    [[nodiscard]] std::uint64_t countTask(const Task& task, const Mat4& clip_from_world, std::uint32_t thread) {
         const ItemFacts& facts = items_[task.item];
         const BatchItem& item = batch_.items[task.item];
         const MeshImpl& mesh = item.mesh->impl();

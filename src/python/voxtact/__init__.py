@@ -23,7 +23,7 @@ posterior, +z superior), in millimetres. Matrices are written row by row and mul
 
 Everything that is refused raises a `voxtact.Error`, which says what, why and what to do.
 """
-from ._answer import Answer, Clearance
+from ._answer import Answer, Clearance, Counters
 from ._core import __version__
 from ._common import LPS_FROM_RAS
 from ._device import Device, DeviceInfo, devices
@@ -46,12 +46,14 @@ from ._mesh import Mesh, read_mesh
 from ._motion import Motion, pose_between
 from ._plan import Plan
 from ._scene import Scene, View
+from ._track import Tracked, Tracker
 from ._volume import Volume, read_volume
 
 __all__ = [
     "LPS_FROM_RAS",
     "Answer",
     "Clearance",
+    "Counters",
     "Device",
     "DeviceInfo",
     "DeviceLostError",
@@ -68,6 +70,8 @@ __all__ = [
     "OutOfMemoryError",
     "Plan",
     "Scene",
+    "Tracked",
+    "Tracker",
     "UnsupportedError",
     "View",
     "Volume",

@@ -2,13 +2,13 @@
 """What scenes answer: numpy arrays, made when they are looked at."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NoReturn, Optional
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Optional
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import not_pickled
+from ._common import check_made, not_pickled
 from ._errors import NotReadyError
 
 if TYPE_CHECKING:
@@ -16,6 +16,60 @@ if TYPE_CHECKING:
 
 _OUTPUTS = ("triangles", "contacts", "bounds", "labels")
 _ENDS = np.array(["closed", "beyond", "rounding", "budget"])
+
+
+class Counters(NamedTuple):
+    """What the passes of the projection "conservative" did on a device for all poses: docs/engine.md.
+
+    Of each peak (`most_…`): in the round that had most.
+    """
+
+    #: of 64 triangles, once for each pair, that were looked at
+    clusters: int
+    #: of these, may touch
+    clusters_kept: int
+    #: of 16 triangles, may touch
+    runs_kept: int
+    #: shares of triangles with more than 27 cells
+    large_parts: int
+    #: of these triangles, looked at
+    bricks_seen: int
+    #: of all triangles in bricks that may be opaque, looked at
+    cells_seen: int
+    #: of these, need a decision
+    cells_listed: int
+    #: by a lane each; the others are of pairs that touch anyway, or had no room
+    cells_decided: int
+    #: dispatched for them
+    lanes: int
+    #: of these, left undecided by single precision
+    cells_open: int
+    #: what a queue had no room for: shares of work groups
+    left: int
+    #: looked at for these
+    bricks_left: int
+    #: looked at for these, and decided where they need it
+    cells_left: int
+    #: dispatches of each pass
+    rounds: int
+    #: clusters that a round can have
+    room: int
+    #: peak of clusters_kept
+    most_clusters: int
+    #: peak of runs_kept
+    most_runs: int
+    #: peak of large_parts, those without room among them
+    most_parts: int
+    #: peak of cells_listed, those without room among them
+    most_cells: int
+    #: peak of cells_open
+    most_open: int
+    #: peak of left
+    most_left: int
+    #: peak of bricks_seen and cells_seen together
+    most_looks: int
+    #: peak of bricks_left and cells_left together
+    most_looks_left: int
 
 
 class Answer:
@@ -27,6 +81,7 @@ class Answer:
     _later: Optional[dict[str, core.Answer]]
 
     def __init__(self, made_of: core.Answer, scene: Optional[Scene]) -> None:
+        check_made(made_of, core.Answer, "Scene.detect()")
         self._core = made_of
         self._scene = scene
         self._later = None
@@ -102,6 +157,14 @@ class Answer:
         return self._core.projection
 
     @property
+    def counters(self) -> Counters:
+        """What a device did, of ``detect(counters=True)``; others raise NotReadyError."""
+        numbers = self._core.counters
+        if numbers is None:
+            raise NotReadyError("nothing was counted: detect(counters=True) asks for it, of a scene on a device")
+        return Counters(*numbers)
+
+    @property
     def seconds(self) -> float:
         """What the engine took."""
         return self._core.milliseconds / 1000
@@ -147,6 +210,7 @@ class Clearance:
     _core: core.Clearances
 
     def __init__(self, made_of: core.Clearances) -> None:
+        check_made(made_of, core.Clearances, "Scene.clearance()")
         self._core = made_of
 
     @property

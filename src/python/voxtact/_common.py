@@ -2,7 +2,7 @@
 """What volumes and meshes have in common."""
 from __future__ import annotations
 
-from typing import Literal, NoReturn
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +17,8 @@ Space = Literal["ras", "lps"]
 LPS_FROM_RAS: npt.NDArray[np.float64] = np.diag([-1.0, -1.0, 1.0, 1.0])
 LPS_FROM_RAS.setflags(write=False)
 
+_FLOAT = np.dtype(np.float64)
+
 #: What names of volumes and meshes that need no file begin with.
 BUILTIN = "builtin:"
 
@@ -26,6 +28,33 @@ def not_pickled(of: object) -> NoReturn:
     name = type(of).__name__
     raise TypeError(f"a voxtact.{name} cannot be pickled or copied: it is made of memory of this process; "
                     "make another one from the same file or arrays")
+
+
+def check_made(made_of: object, kind: type, by: str) -> None:
+    """For the constructors of what scenes answer."""
+    if not isinstance(made_of, kind):
+        raise TypeError(f"{by} makes one; a {type(made_of).__name__} cannot")
+
+
+def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
+    """An array of numbers as float64, not copied where it is one. Complex numbers, texts and dates are none."""
+    if type(given) is np.ndarray and given.dtype == _FLOAT:
+        return given
+    array = np.asarray(given)
+    if array.dtype.kind not in "biufO":
+        raise TypeError(f"{what} has the type {array.dtype}; numbers are needed")
+    try:
+        return array.astype(np.float64, copy=False)
+    except OverflowError:
+        raise InvalidArgumentError(f"{what} has a number that is too large") from None
+
+
+def number(given: Any, what: str) -> float:
+    """A number as float."""
+    try:
+        return float(given)
+    except OverflowError:
+        raise InvalidArgumentError(f"{what} is too large a number") from None
 
 
 def check_space(space: str, argument: str) -> None:

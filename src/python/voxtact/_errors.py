@@ -11,6 +11,10 @@ class Error(Exception):
     #: The VkResult behind it; 0 where there is none.
     vk_result = 0
 
+    def __str__(self) -> str:
+        # What an argument looks like may have lines.
+        return " ".join(super().__str__().split("\n"))
+
 
 class InvalidArgumentError(Error, ValueError):
     """An argument that can never be right: a wrong shape, a NaN, a number out of its range."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import operator
 import os
 from typing import Any, NoReturn, Optional, Union
 
@@ -10,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import not_pickled
+from ._common import check_made, not_pickled
 from ._errors import InvalidArgumentError
 from ._volume import Volume, read_volume
 
@@ -26,6 +27,7 @@ class Labels:
     names: dict[int, str]
 
     def __init__(self, volume: Volume, names: Optional[dict[int, str]] = None) -> None:
+        check_made(volume, Volume, "read_labels()")
         self._core = core.Labels(volume._core)
         self.volume = volume
         self.names = dict(names or {})
@@ -42,7 +44,7 @@ class Labels:
     def number(self, label: Union[int, str]) -> int:
         """The number of a label that is given by its number or its name."""
         if not isinstance(label, str):
-            return int(label)
+            return operator.index(label)
         found = [number for number, name in self.names.items() if name == label]
         if len(found) != 1:
             near = difflib.get_close_matches(label, self.names.values(), 3)

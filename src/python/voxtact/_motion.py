@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import not_pickled
+from ._common import check_made, not_pickled, numbers
 from ._errors import InvalidArgumentError
 from ._mesh import Mesh
 
@@ -29,13 +29,15 @@ def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike,
 
     Refuses parameters outside of 0 to 1, and two poses that no rigid motion joins: another scale, a mirror image.
     """
-    parameters = np.asarray(at, dtype=np.float64)
+    parameters = numbers(at, "at")
     if parameters.ndim > 1:
         raise InvalidArgumentError(f"at has the shape {parameters.shape}; a number or (T,) is needed")
     if interpolation == "slerp" and not isinstance(mesh, Mesh):
         raise InvalidArgumentError("slerp needs mesh=, a voxtact.Mesh: the middle of its box goes straight")
+    if mesh is not None and not isinstance(mesh, Mesh):
+        raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
     centre = np.zeros(3) if mesh is None else np.mean(mesh.bounds, axis=0)
-    poses = core.poses_between(np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64),
+    poses = core.poses_between(numbers(first, "first"), numbers(second, "second"),
                                parameters.reshape(-1), interpolation, centre)
     if parameters.ndim:
         return poses
@@ -53,6 +55,7 @@ class Motion:
     _core: core.Motions
 
     def __init__(self, made_of: core.Motions) -> None:
+        check_made(made_of, core.Motions, "Scene.motion()")
         self._core = made_of
 
     @property

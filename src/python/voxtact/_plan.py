@@ -2,13 +2,14 @@
 """Straight paths to a target, and what is certain of them."""
 from __future__ import annotations
 
+import operator
 from typing import NoReturn, Optional
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import not_pickled
+from ._common import check_made, not_pickled
 from ._labels import Labels
 
 _UNSAFE, _SAFE, _POSSIBLE = range(3)
@@ -22,6 +23,7 @@ class Plan:
     _labels: Optional[Labels]
 
     def __init__(self, made_of: core.Plan, labels: Optional[Labels]) -> None:
+        check_made(made_of, core.Plan, "Scene.plan()")
         self._core = made_of
         self._labels = labels
 
@@ -101,7 +103,7 @@ class Plan:
 
     def nearest_name(self, row: int) -> str:
         """What a path comes nearest to: a label's name or number, "opaque", or "" where there is nothing."""
-        path = self.paths[row]
+        path = self.paths[range(len(self))[operator.index(row)]]
         if path["obstacle"] < 0:
             return ""
         if path["obstacle"] == 1:

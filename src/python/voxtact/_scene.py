@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._answer import Answer, Clearance
-from ._common import not_pickled
+from ._common import not_pickled, number, numbers
 from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
 from ._files import read_opacity
@@ -22,6 +22,7 @@ from ._labels import Labels, read_labels
 from ._mesh import Mesh
 from ._motion import Interpolation, Motion
 from ._plan import Plan
+from ._track import Tracker
 from ._volume import Volume, read_volume
 
 Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
@@ -82,13 +83,13 @@ def _asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
     if isinstance(mesh, Mesh):
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
-        return mesh._core, np.asarray(poses, dtype=np.float64)
+        return mesh._core, numbers(poses, "poses")
     if poses is None and isinstance(mesh, Sequence):
         pairs = []
         for one in mesh:
             if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
                 raise TypeError("a list of what is asked has pairs (mesh, poses)")
-            pairs.append((one[0]._core, np.asarray(one[1], dtype=np.float64)))
+            pairs.append((one[0]._core, numbers(one[1], "poses")))
         return pairs, None
     raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
 
@@ -111,14 +112,21 @@ def _points(opacity: Opacity) -> Optional[npt.NDArray[np.float64]]:
         return None
     if isinstance(opacity, (str, os.PathLike)):
         return read_opacity(opacity)
-    return np.asarray(opacity, dtype=np.float64)
+    return numbers(opacity, "opacity")
 
 
-def _whole(numbers: Any, count: int, what: str) -> list[int]:
-    array = np.asarray(numbers)
+def _whole(given: Any, count: int, what: str) -> list[int]:
+    array = np.asarray(given)
     if array.shape != (count,) or array.dtype.kind not in "iu" or (array < 0).any() or (array >= 2**32).any():
-        raise InvalidArgumentError(f"{what} is {numbers!r}; {count} whole numbers from 0 to {2**32 - 1} are needed")
-    return [int(number) for number in array]
+        raise InvalidArgumentError(f"{what} is {given!r}; {count} whole numbers from 0 to {2**32 - 1} are needed")
+    return [int(each) for each in array]
+
+
+def _pair(given: Any, what: str) -> tuple[float, float]:
+    array = numbers(given, what)
+    if array.shape != (2,):
+        raise InvalidArgumentError(f"{what} is {given!r}; two numbers are needed")
+    return float(array[0]), float(array[1])
 
 
 def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
@@ -171,10 +179,10 @@ class Scene:
         self._volume = read_volume(volume)
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = opened(device)
-        self._domain = None if domain is None else (float(domain[0]), float(domain[1]))
+        self._domain = None if domain is None else _pair(domain, "domain")
         self._table_size = _whole([table_size], 1, "table_size")[0]
         self._closed = False
-        self._core = core.Scene(self._volume._core, _points(opacity), self._domain, self._table_size, float(threshold),
+        self._core = core.Scene(self._volume._core, _points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
                                  _whole([threads], 1, "threads")[0])
@@ -217,7 +225,7 @@ class Scene:
 
     @threshold.setter
     def threshold(self, threshold: float) -> None:
-        self._core.set_threshold(float(threshold))
+        self._core.set_threshold(number(threshold, "threshold"))
 
     # Changes
 
@@ -240,13 +248,13 @@ class Scene:
         if (at is None) != (voxels is None) or (at is None) != (value is not None):
             raise InvalidArgumentError("ball= and box= come with value=, and at= comes with voxels=")
         if ball is not None:
-            numbers = np.asarray(ball, dtype=np.float64)
-            if numbers.shape != (4,):
+            place = numbers(ball, "ball")
+            if place.shape != (4,):
                 raise InvalidArgumentError(f"ball is {ball!r}; four numbers are needed: x, y, z and the radius, mm")
-            self._core.set_ball(numbers[:3], float(numbers[3]), float(value))  # type: ignore[arg-type]
+            self._core.set_ball(place[:3], float(place[3]), number(value, "value"))
         elif box is not None:
             corner = _whole(box, 6, "box")
-            self._core.set_box(corner[:3], corner[3:], float(value))  # type: ignore[arg-type]
+            self._core.set_box(corner[:3], corner[3:], number(value, "value"))
         else:
             given = np.asarray(voxels)
             if given.ndim != 3:
@@ -264,7 +272,8 @@ class Scene:
                filter: Optional[Literal["hardware", "exact"]] = None,
                boundary: Literal["auto", "range", "clamp"] = "auto", resolution: float = _RESOLUTION,
                samples_per_voxel: int = 1, max_depth: float = 10.0, most_contacts: int = _MOST_CONTACTS,
-               overestimate: bool = False, view: Optional[View] = None, progress: Progress = None) -> Answer:
+               overestimate: bool = False, counters: bool = False, view: Optional[View] = None,
+               progress: Progress = None) -> Answer:
         """Which poses touch, how much, and where: an `Answer` with a row for each pose, in order.
 
         mesh, poses
@@ -285,6 +294,8 @@ class Scene:
             mm, how far a contact's depth is followed
         most_contacts
             longer lists of contacts are cut, arbitrarily; `Answer.contacts_found` still has their number
+        counters
+            counts what a device did for the projection "conservative": `Answer.counters`
         progress
             a function of (done, all), a bar of tqdm, or tqdm itself
 
@@ -319,8 +330,12 @@ class Scene:
             options["most_contacts"] = most_contacts
         if overestimate:
             options["overestimate"] = True
+        if counters:
+            options["counters"] = True
         if view is not None:
-            options["view"] = tuple(view)
+            if not isinstance(view, tuple):
+                raise TypeError(f"view is a {type(view).__name__}; a voxtact.View is needed")
+            options["view"] = view
         meshes, matrices = _asked(mesh, poses)
         if progress is None:
             return Answer(self._core.detect(meshes, matrices, options, None), self)
@@ -329,7 +344,7 @@ class Scene:
 
     def clearance(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
                   tolerance: float = core.DEFAULT_TOLERANCE, maximum: float = _INFINITE,
-                  labels: Union[None, Literal[True], Sequence[int]] = None,
+                  labels: Union[None, Literal[True], Sequence[Union[int, str]]] = None, labels_at_any_opacity: bool = False,
                   most_steps: int = core.DEFAULT_MOST_STEPS, progress: Progress = None) -> Clearance:
         """How many mm are left between the mesh's surface and what is opaque: certified bounds for each pose.
 
@@ -338,8 +353,10 @@ class Scene:
         maximum
             mm: what is farther is not measured; `lo` is then the maximum, and `hi` infinite
         labels
-            measures to the opaque part of each of these labels instead (True: all but 0): a column for each. The
+            measures to the opaque part of each of these labels, by number or name, instead (True: all but 0): a column for each. The
             scene's label map must be on its volume's grid
+        labels_at_any_opacity
+            to all of each label, be it opaque or not
         most_steps
             a pose that takes more is left with the bounds that it has
 
@@ -350,11 +367,14 @@ class Scene:
             if self._labels is None:
                 raise InvalidArgumentError("clearances to labels need a scene with labels=")
             every = [int(label) for label in self._labels.values if label != 0]
-            wanted = every if labels is True else [int(label) for label in labels]
+            wanted = every if labels is True else [self._labels.number(label) for label in labels]
+        elif labels_at_any_opacity:
+            raise InvalidArgumentError("labels_at_any_opacity is about labels: give labels=, too")
         (steps,) = _whole([most_steps], 1, "most_steps")
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _pairs_in(meshes, matrices)) as tell:
-            return Clearance(self._core.clearance(meshes, matrices, float(tolerance), float(maximum), steps, wanted, tell))
+            return Clearance(self._core.clearance(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"), steps, wanted,
+                                                  bool(labels_at_any_opacity), tell))
 
     def within(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float,
                progress: Progress = None) -> Answer:
@@ -364,7 +384,7 @@ class Scene:
         """
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _pairs_in(meshes, matrices)) as tell:
-            return Answer(self._core.within(meshes, matrices, float(margin), tell), None)
+            return Answer(self._core.within(meshes, matrices, number(margin, "margin"), tell), None)
 
     def around(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, distance: float,
                angle: float, progress: Progress = None) -> Answer:
@@ -376,7 +396,25 @@ class Scene:
         """
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _pairs_in(meshes, matrices)) as tell:
-            return Answer(self._core.around(meshes, matrices, float(distance), float(angle), tell), None)
+            return Answer(self._core.around(meshes, matrices, number(distance, "distance"), number(angle, "angle"), tell), None)
+
+    def tracker(self, mesh: Mesh, *, maximum: float = _INFINITE, resolution: float = _RESOLUTION,
+                most_steps: int = core.DEFAULT_TRACKER_STEPS) -> Tracker:
+        """A `Tracker` of a mesh that moves by little from call to call, as under a hand.
+
+        maximum
+            mm: farther than this is never looked
+        resolution
+            of the touch, voxels, as in `detect`
+        most_steps
+            of one search: then the bounds are what they are
+
+        The host engine answers, also for scenes on a device.
+        """
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
+        (steps,) = _whole([most_steps], 1, "most_steps")
+        return Tracker(core.Tracker(self._core, mesh._core, number(maximum, "maximum"), number(resolution, "resolution"), steps), mesh)
 
     def motion(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
                interpolation: Interpolation = "screw", resolution: float = core.DEFAULT_MOTION_RESOLUTION,
@@ -402,7 +440,7 @@ class Scene:
         (steps,) = _whole([most_steps], 1, "most_steps")
         meshes, matrices = _asked(mesh, poses)
         with _told(progress, _segments_in(meshes, matrices)) as tell:
-            return Motion(self._core.motion(meshes, matrices, interpolation, float(resolution), steps, tell))
+            return Motion(self._core.motion(meshes, matrices, interpolation, number(resolution, "resolution"), steps, tell))
 
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,
@@ -453,21 +491,21 @@ class Scene:
             raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
         if mesh is not None and (needle is not None or tip is None or axis is None):
             raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-        numbers: dict[str, Any] = {"entries": _whole([entries], 1, "entries")[0], "margin": float(margin),
-                                   "tolerance": float(tolerance), "maximum": float(maximum),
+        wish: dict[str, Any] = {"entries": _whole([entries], 1, "entries")[0], "margin": number(margin, "margin"),
+                                   "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
                                    "most_steps": _whole([most_steps], 1, "most_steps")[0]}
         if self._labels is not None:
-            numbers["avoid"] = [self._labels.number(label) for label in avoid]
+            wish["avoid"] = [self._labels.number(label) for label in avoid]
         if entry_label is not None and self._labels is not None:
-            numbers["entry_label"] = self._labels.number(entry_label)
+            wish["entry_label"] = self._labels.number(entry_label)
         given = {"needle": needle, "entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
-        numbers.update({name: value for name, value in given.items() if value is not None})
-        if mesh is not None:
+        wish.update({name: value for name, value in given.items() if value is not None})
+        if mesh is not None and tip is not None and axis is not None:
             if not isinstance(mesh, Mesh):
                 raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-            numbers.update(mesh=mesh._core, tip=np.asarray(tip, np.float64), axis=np.asarray(axis, np.float64))
+            wish.update(mesh=mesh._core, tip=numbers(tip, "tip"), axis=numbers(axis, "axis"))
         avoided = None if avoid_volume is None else read_volume(avoid_volume)._core
-        return Plan(self._core.plan(np.asarray(target, dtype=np.float64), numbers, avoided, _points(avoid_opacity),
+        return Plan(self._core.plan(numbers(target, "target"), wish, avoided, _points(avoid_opacity),
                                     self.domain if avoided is None else None), self._labels)
 
     # Pictures
@@ -497,10 +535,10 @@ class Scene:
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
         width, height = _whole(size, 2, "size")
         device = self._device if self._device is not None or self._closed else best_device()
-        camera = view if isinstance(view, (str, tuple)) else np.asarray(view, dtype=np.float64)
-        matrices = np.asarray(np.eye(4) if pose is None else pose, dtype=np.float64)
+        camera = view if isinstance(view, (str, tuple)) else numbers(view, "view")
+        matrices = np.eye(4) if pose is None else numbers(pose, "pose")
         return self._core.picture(None if mesh is None else mesh._core, matrices, width, height, camera, preset,
-                                  [float(channel) for channel in background], show, float(through), None if device is None else device._core)
+                                  [number(channel, "background") for channel in background], show, number(through, "through"), None if device is None else device._core)
 
     def _repr_png_(self) -> Optional[bytes]:
         """For notebooks; nothing where no device can draw."""

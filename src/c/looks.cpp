@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// How pictures look, without a device.
+#include "voxtact/looks.h"
+#include "c/convert.h"
+#include "c/handles.h"
+#include "voxtact/render.h"
+#include "voxtact/voxtact_render.h"
+
+#include <cmath>
+#include <optional>
+
+using namespace voxtact;
+using namespace voxtact::c;
+
+struct vxt_look {
+    std::vector<vxt_control_point> opacity;
+    std::vector<vxt_colour_point> colours;
+};
+
+const char* vxt_look_name(size_t index) {
+    const std::span<const LookPreset> all = lookPresets();
+    return index < all.size() ? all[index].name : nullptr;
+}
+
+vxt_result vxt_look_create(const char* name, const vxt_range* values, vxt_look** look) {
+    return create(look, [&] {
+        const Look found = take(lookNamed(&need(name, "name"), toRange(need(values, "values"))));
+        vxt_look out;
+        for (const ControlPoint& point : found.opacity) {
+            out.opacity.push_back({point.value, point.opacity});
+        }
+        for (const ColourPoint& point : found.colours) {
+            out.colours.push_back({point.value, {point.colour[0], point.colour[1], point.colour[2]}});
+        }
+        return out;
+    });
+}
+
+const vxt_control_point* vxt_look_opacity(const vxt_look* look, size_t* count) {
+    return handOut(look == nullptr ? std::span<const vxt_control_point>() : look->opacity, count);
+}
+
+const vxt_colour_point* vxt_look_colours(const vxt_look* look, size_t* count) {
+    return handOut(look == nullptr ? std::span<const vxt_colour_point>() : look->colours, count);
+}
+
+void vxt_look_destroy(vxt_look* look) {
+    delete look;
+}
+
+vxt_result vxt_direction_named(const char* name, vxt_view_direction* direction) {
+    return call([&] {
+        const std::optional<ViewDirection> found = directionNamed(&need(name, "name"));
+        if (!found) {
+            refuse(ErrorCode::InvalidArgument, std::string("there is no direction '") + name +
+                                                   "'; there are front, back, left, right, top and bottom");
+        }
+        need(direction, "direction") = {found->azimuth, found->elevation};
+    });
+}
+
+vxt_result vxt_view_from(const vxt_view_direction* direction, const vxt_grid* grid, const vxt_box* also, uint32_t width,
+                         uint32_t height, vxt_view* view) {
+    return call([&] {
+        const vxt_view_direction& from = need(direction, "direction");
+        const Grid of = checkedGrid(grid);
+        vxt_view& out = need(view, "view");
+        checkPixels(width, height);
+        if (!std::isfinite(from.azimuth) || !std::isfinite(from.elevation)) {
+            refuse(ErrorCode::InvalidArgument, "direction: azimuth or elevation is not finite");
+        }
+        const std::optional<Box> more = also == nullptr ? std::nullopt : std::optional<Box>(toBox(*also));
+        writeMat4(out.clip_from_world, viewFrom({from.azimuth, from.elevation}, of, more, width, height), "view");
+        out.width = width;
+        out.height = height;
+    });
+}
+
+vxt_result vxt_split_at_creases(const vxt_mesh_view* mesh, double degrees, vxt_mesh_data** data) {
+    return create(data, [&] { return take(splitAtCreases(toMeshView(mesh), degrees)); });
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Pictures through the C interface as far as they need no device: looks, views, creases, and null for every argument.
+#include "support/c_calls.h"
+#include "support/scenes.h"
+#include "voxtact/looks.h"
+#include "voxtact/render.h"
+#include "voxtact/voxtact_render.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace voxtact::test {
+namespace {
+
+using testing::ElementsAreArray;
+using testing::HasSubstr;
+
+std::string text(vxt_result result) {
+    EXPECT_EQ(result, VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(std::string(vxt_last_error(nullptr)).find('\n'), std::string::npos);
+    return vxt_last_error(nullptr);
+}
+
+TEST(CLooks, AreTheCppInterfaces) {
+    const vxt_range values{-500, 1500};
+    for (std::size_t i = 0; i < lookPresets().size(); ++i) {
+        ASSERT_STREQ(vxt_look_name(i), lookPresets()[i].name);
+        const auto look =
+            made<vxt_look>(vxt_look_destroy, [&](auto out) { return vxt_look_create(vxt_look_name(i), &values, out); });
+        const Result<Look> cpp = lookNamed(vxt_look_name(i), {values.lo, values.hi});
+        ASSERT_TRUE(cpp.ok());
+        std::size_t count = 0;
+        const vxt_control_point* opacity = vxt_look_opacity(look.get(), &count);
+        ASSERT_EQ(count, cpp->opacity.size());
+        for (std::size_t point = 0; point < count; ++point) {
+            EXPECT_EQ(opacity[point].value, cpp->opacity[point].value);
+            EXPECT_EQ(opacity[point].opacity, cpp->opacity[point].opacity);
+        }
+        const vxt_colour_point* colours = vxt_look_colours(look.get(), &count);
+        ASSERT_EQ(count, cpp->colours.size());
+        for (std::size_t point = 0; point < count; ++point) {
+            EXPECT_EQ(colours[point].value, cpp->colours[point].value);
+            EXPECT_THAT(colours[point].colour, ElementsAreArray(cpp->colours[point].colour));
+        }
+    }
+    EXPECT_EQ(vxt_look_name(lookPresets().size()), nullptr);
+    vxt_look* none = nullptr;
+    EXPECT_THAT(text(vxt_look_create("nothing", &values, &none)), HasSubstr("nothing"));
+    EXPECT_EQ(text(vxt_look_create(nullptr, &values, &none)), "name is null");
+    EXPECT_EQ(text(vxt_look_create("mr", nullptr, &none)), "values is null");
+    const vxt_range nan{std::nan(""), 1};
+    EXPECT_THAT(text(vxt_look_create(vxt_look_name(0), &nan, &none)), HasSubstr("values"));
+    EXPECT_EQ(none, nullptr);
+    std::size_t count = 7;
+    EXPECT_EQ(vxt_look_opacity(nullptr, &count), nullptr);
+    EXPECT_EQ(count, 0U);
+    EXPECT_EQ(vxt_look_colours(nullptr, nullptr), nullptr);
+}
+
+TEST(CLooks, ViewsAreTheCppInterfaces) {
+    const Grid grid = unitGrid(4, 5, 6);
+    const vxt_grid cGridOf = cGrid(grid);
+    const vxt_box also{{-3, -2, -1}, {4, 5, 6}};
+    for (const char* name : {"front", "back", "left", "right", "top", "bottom"}) {
+        vxt_view_direction direction{};
+        need(vxt_direction_named(name, &direction));
+        EXPECT_EQ(direction.azimuth, directionNamed(name)->azimuth);
+        EXPECT_EQ(direction.elevation, directionNamed(name)->elevation);
+        vxt_view view{};
+        need(vxt_view_from(&direction, &cGridOf, nullptr, 30, 20, &view));
+        EXPECT_THAT(view.clip_from_world, ElementsAreArray(viewFrom(*directionNamed(name), grid, {}, 30, 20)));
+        EXPECT_EQ(view.width, 30U);
+        EXPECT_EQ(view.height, 20U);
+        need(vxt_view_from(&direction, &cGridOf, &also, 30, 20, &view));
+        EXPECT_THAT(view.clip_from_world,
+                    ElementsAreArray(viewFrom(*directionNamed(name), grid, Box{{-3, -2, -1}, {4, 5, 6}}, 30, 20)));
+    }
+    vxt_view_direction direction{};
+    vxt_view view{};
+    EXPECT_THAT(text(vxt_direction_named("above", &direction)), HasSubstr("'above'; there are front, back"));
+    EXPECT_EQ(text(vxt_direction_named(nullptr, &direction)), "name is null");
+    EXPECT_EQ(text(vxt_direction_named("left", nullptr)), "direction is null");
+    EXPECT_EQ(text(vxt_view_from(nullptr, &cGridOf, nullptr, 1, 1, &view)), "direction is null");
+    EXPECT_EQ(text(vxt_view_from(&direction, nullptr, nullptr, 1, 1, &view)), "grid is null");
+    EXPECT_EQ(text(vxt_view_from(&direction, &cGridOf, nullptr, 1, 1, nullptr)), "view is null");
+    EXPECT_THAT(text(vxt_view_from(&direction, &cGridOf, nullptr, 0, 1, &view)), HasSubstr("pixel"));
+    direction.azimuth = std::nan("");
+    EXPECT_THAT(text(vxt_view_from(&direction, &cGridOf, nullptr, 1, 1, &view)), HasSubstr("not finite"));
+}
+
+TEST(CLooks, CreasesAreTheCppInterfaces) {
+    // Two triangles at a right angle, which share an edge.
+    MeshData roof;
+    roof.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    roof.indices = {0, 1, 2, 0, 3, 1};
+    const vxt_mesh_view view = cMesh(roof);
+    const auto split =
+        made<vxt_mesh_data>(vxt_mesh_data_destroy, [&](auto out) { return vxt_split_at_creases(&view, 40, out); });
+    const MeshData expected = *splitAtCreases(roof.view(), 40);
+    const vxt_mesh_view found = vxt_mesh_data_view(split.get());
+    EXPECT_GT(found.vertex_count, view.vertex_count);
+    EXPECT_EQ(std::vector(found.positions, found.positions + 3 * found.vertex_count), expected.positions);
+    EXPECT_EQ(std::vector(found.indices, found.indices + 3 * found.triangle_count), expected.indices);
+    vxt_mesh_data* none = nullptr;
+    EXPECT_NE(text(vxt_split_at_creases(&view, std::nan(""), &none)), "");
+    EXPECT_EQ(text(vxt_split_at_creases(nullptr, 40, &none)), "mesh is null");
+    EXPECT_EQ(none, nullptr);
+}
+
+TEST(CLooks, NothingIsRefusedAndEnded) {
+    vxt_renderer* renderer = nullptr;
+    vxt_render_function* function = nullptr;
+    vxt_mesh_normals* normals = nullptr;
+    vxt_render_bricks* bricks = nullptr;
+    vxt_painted_triangles* painted = nullptr;
+    vxt_render_targets* targets = nullptr;
+    vxt_blocking_renderer* blocking = nullptr;
+    EXPECT_EQ(text(vxt_renderer_create(nullptr, VK_FORMAT_R8G8B8A8_UNORM, &renderer)), "context is null");
+    EXPECT_EQ(text(vxt_render_function_create(nullptr, nullptr, &function)), "renderer is null");
+    EXPECT_EQ(text(vxt_render_function_upload(nullptr, nullptr, nullptr, &function)), "renderer is null");
+    EXPECT_EQ(text(vxt_render_function_cmd_upload(nullptr, VK_NULL_HANDLE)), "function is null");
+    EXPECT_EQ(text(vxt_render_function_cmd_update(nullptr, VK_NULL_HANDLE, nullptr)), "function is null");
+    EXPECT_EQ(vxt_render_function_visible(nullptr), 0U);
+    EXPECT_EQ(text(vxt_mesh_normals_create(nullptr, nullptr, &normals)), "renderer is null");
+    EXPECT_EQ(text(vxt_mesh_normals_upload(nullptr, nullptr, nullptr, &normals)), "renderer is null");
+    EXPECT_EQ(text(vxt_mesh_normals_cmd_upload(nullptr, VK_NULL_HANDLE)), "normals is null");
+    EXPECT_EQ(text(vxt_render_bricks_create(nullptr, nullptr, &bricks)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_triangles_create(nullptr, 1, nullptr, 0, &painted)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_triangles_upload(nullptr, nullptr, 1, nullptr, 0, &painted)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_triangles_wrap(nullptr, nullptr, &painted)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_triangles_cmd_upload(nullptr, VK_NULL_HANDLE)), "painted is null");
+    EXPECT_EQ(text(vxt_render_targets_create(nullptr, 1, 1, &targets)), "renderer is null");
+    EXPECT_EQ(text(vxt_renderer_cmd_render(nullptr, VK_NULL_HANDLE, nullptr, nullptr)), "renderer is null");
+    EXPECT_EQ(text(vxt_blocking_renderer_create(nullptr, nullptr, &blocking)), "context is null");
+    EXPECT_EQ(text(vxt_blocking_renderer_render(nullptr, nullptr, 1, 1, nullptr, nullptr, nullptr)),
+              "renderer is null");
+    EXPECT_EQ(vxt_blocking_renderer_renderer(nullptr), nullptr);
+    EXPECT_EQ(text(vxt_picture_create(nullptr)), "the place for the new object is null");
+    EXPECT_EQ(text(vxt_picture_get(nullptr, nullptr)), "picture is null");
+    const auto picture = made<vxt_picture>(vxt_picture_destroy, [](auto out) { return vxt_picture_create(out); });
+    EXPECT_EQ(text(vxt_picture_get(picture.get(), nullptr)), "view is null");
+    vxt_look_destroy(nullptr);
+    vxt_renderer_destroy(nullptr);
+    vxt_render_function_destroy(nullptr);
+    vxt_mesh_normals_release_staging(nullptr);
+    vxt_mesh_normals_destroy(nullptr);
+    vxt_render_bricks_destroy(nullptr);
+    vxt_painted_triangles_release_staging(nullptr);
+    vxt_painted_triangles_destroy(nullptr);
+    vxt_render_targets_destroy(nullptr);
+    vxt_picture_destroy(nullptr);
+    vxt_blocking_renderer_destroy(nullptr);
+}
+
+} // namespace
+} // namespace voxtact::test

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Contexts of the C interface: errors, lifetimes, the caller's allocator and lock, and what is known of the methods.
+#include "c_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <malloc.h>
+#include <thread>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(CGpuTest, AContextHasErrorsOfItsOwn) {
+    const Owned<vxt_context> other = newContext();
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    EXPECT_STREQ(vxt_last_error(context_.get()), "");
+    std::thread elsewhere([&] {
+        vxt_detector_desc desc = vxt_detector_desc_init();
+        desc.method = VXT_METHOD_CPU;
+        vxt_detector* detector = nullptr;
+        EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &detector), VXT_ERROR_INVALID_ARGUMENT);
+    });
+    elsewhere.join();
+    EXPECT_THAT(vxt_last_error(context_.get()), HasSubstr("cpu"));
+    EXPECT_STREQ(vxt_last_error(other.get()), "");
+    // Of an object: its context's, which has ended here.
+    vxt_volume* volume = nullptr;
+    const vxt_volume_view empty = vxt_volume_view_init();
+    EXPECT_NE(vxt_volume_create(other.get(), &empty, nullptr, &volume), VXT_OK);
+    EXPECT_THAT(vxt_last_error(other.get()), HasSubstr("voxel"));
+    EXPECT_THAT(vxt_last_error(context_.get()), HasSubstr("cpu"));
+    const vxt_voxel_box outside{{3, 0, 0}, {4, 4, 4}};
+    EXPECT_EQ(vxt_volume_cmd_set_box(sides.volume.get(), VK_NULL_HANDLE, &outside, 0), VXT_ERROR_INVALID_ARGUMENT);
+    const std::string text = vxt_last_error(context_.get());
+    EXPECT_EQ(text, vxt_last_error(nullptr));
+    EXPECT_NE(text, "");
+}
+
+TEST_F(CGpuTest, ObjectsOutliveTheContextThatMadeThem) {
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem of(sides, scene);
+    const Owned<vxt_blocking_detector> detector = newBlocking(vxt_detector_desc_init());
+    context_.reset();
+    EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 128U);
+    vxt_batch none = of.batch;
+    none.threshold = 2;
+    const Owned<vxt_answer> answer = newAnswer();
+    EXPECT_EQ(vxt_blocking_detector_detect(detector.get(), &none, answer.get()), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("threshold"));
+}
+
+/// An allocator of the caller's that counts what it gave out and got back.
+struct CountingAllocator {
+    std::atomic<int> given = 0;
+    std::atomic<int> returned = 0;
+
+    static void* VKAPI_CALL allocate(void* user, std::size_t size, std::size_t alignment, VkSystemAllocationScope) {
+        ++static_cast<CountingAllocator*>(user)->given;
+        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    }
+    static void* VKAPI_CALL reallocate(void* user, void* old, std::size_t size, std::size_t alignment,
+                                       VkSystemAllocationScope scope) {
+        void* const fresh = allocate(user, size, alignment, scope);
+        if (old != nullptr && fresh != nullptr) {
+            std::memcpy(fresh, old, std::min(size, malloc_usable_size(old)));
+            release(user, old);
+        }
+        return fresh;
+    }
+    static void VKAPI_CALL release(void* user, void* memory) {
+        static_cast<CountingAllocator*>(user)->returned += memory == nullptr ? 0 : 1;
+        std::free(memory);
+    }
+};
+
+TEST_F(CGpuTest, AllocatesByTheCallersCallbacks) {
+    CountingAllocator counting;
+    VkAllocationCallbacks callbacks{};
+    callbacks.pUserData = &counting;
+    callbacks.pfnAllocation = CountingAllocator::allocate;
+    callbacks.pfnReallocation = CountingAllocator::reallocate;
+    callbacks.pfnFree = CountingAllocator::release;
+    const ContextDesc cpp = gpu().device.contextDesc();
+    vxt_context_desc desc = cDesc(cpp);
+    desc.allocator = &callbacks;
+    {
+        const auto own =
+            made<vxt_context>(vxt_context_destroy, [&](auto out) { return vxt_context_create(&desc, out); });
+        const CScene sides(own.get(), queue_, halfOpaque(), twoLabels());
+        EXPECT_GT(counting.given, 0);
+    }
+    EXPECT_EQ(counting.given, counting.returned);
+}
+
+TEST_F(CGpuTest, LocksTheCallersQueue) {
+    struct Calls {
+        int locked = 0;
+        int unlocked = 0;
+    } calls;
+    queue_.lock = [](void* user) { ++static_cast<Calls*>(user)->locked; };
+    queue_.unlock = [](void* user) { ++static_cast<Calls*>(user)->unlocked; };
+    queue_.user = &calls;
+    const CScene sides(context_.get(), queue_, halfOpaque(), twoLabels());
+    EXPECT_EQ(calls.locked, 4); // four uploads
+    EXPECT_EQ(calls.unlocked, 4);
+}
+
+TEST_F(CGpuTest, TestsAndMeasuresTheMethods) {
+    const auto tested =
+        made<vxt_report>(vxt_report_destroy, [&](auto out) { return vxt_self_test(context_.get(), &queue_, out); });
+    vxt_report_view view = vxt_report_view_init();
+    need(vxt_report_get(tested.get(), &view));
+    const std::vector<SelfTestVerdict> expected = take(selfTest(context(), queue()));
+    ASSERT_EQ(view.method_count, expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(view.methods[i].text, expected[i].text);
+        EXPECT_EQ(view.methods[i].trusted != 0, expected[i].trusted);
+        EXPECT_EQ(view.methods[i].available != 0, expected[i].available);
+    }
+    const auto measured = made<vxt_report>(vxt_report_destroy,
+                                           [&](auto out) { return vxt_measure_methods(context_.get(), &queue_, out); });
+    need(vxt_report_get(measured.get(), &view));
+    ASSERT_EQ(view.method_count, expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(view.methods[i].pairs_per_second > 0, expected[i].trusted);
+    }
+}
+
+} // namespace
+} // namespace voxtact::test

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/random_scene.h"
+#include "gpu_fixture.h"
+#include "support/c_calls.h"
+#include "support/scenes.h"
+#include "voxtact/voxtact_vulkan.h"
+
+/// The Vulkan half of the C interface as its tests want it.
+namespace voxtact::test {
+
+inline constexpr std::uint32_t kMany = 1U << 19U;
+
+inline vxt_context_desc cDesc(const ContextDesc& desc) {
+    vxt_context_desc out = vxt_context_desc_init();
+    out.get_instance_proc_addr = desc.getInstanceProcAddr;
+    out.instance = desc.instance;
+    out.physical_device = desc.physicalDevice;
+    out.device = desc.device;
+    out.api_version = desc.apiVersion;
+    out.enabled_features = desc.enabledFeatures;
+    out.enabled_instance_extensions = desc.enabledInstanceExtensions.data();
+    out.enabled_instance_extension_count = desc.enabledInstanceExtensions.size();
+    out.enabled_device_extensions = desc.enabledDeviceExtensions.data();
+    out.enabled_device_extension_count = desc.enabledDeviceExtensions.size();
+    out.pipeline_cache = desc.pipelineCache;
+    return out;
+}
+
+/// A scene on the device through the C interface, uploaded in one go.
+struct CScene {
+    Owned<vxt_volume> volume;
+    Owned<vxt_transfer_function> function;
+    Owned<vxt_mesh> mesh;
+    Owned<vxt_labels> labels;
+    Owned<vxt_label_map> labelMap;
+
+    CScene(const vxt_context* context, const vxt_queue& queue, const RandomScene& scene, const VolumeData& labelImage)
+        : volume(made<vxt_volume>(vxt_volume_destroy,
+                                  [&](auto out) {
+                                      vxt_volume_options options = vxt_volume_options_init();
+                                      options.bricks = 1;
+                                      options.editable = 1;
+                                      const vxt_volume_view view = cVolume(scene.volume);
+                                      return vxt_volume_upload(context, &queue, &view, &options, out);
+                                  })),
+          function(made<vxt_transfer_function>(vxt_transfer_function_destroy,
+                                               [&](auto out) {
+                                                   const auto points = cPoints(scene.points);
+                                                   const auto desc = cFunction(points, scene.domain, scene.tableSize);
+                                                   return vxt_transfer_function_upload(context, &queue, &desc, "table",
+                                                                                       out);
+                                               })),
+          mesh(made<vxt_mesh>(vxt_mesh_destroy,
+                              [&](auto out) {
+                                  vxt_mesh_options options = vxt_mesh_options_init();
+                                  options.clusters = 1;
+                                  const vxt_mesh_view view = cMesh(scene.mesh);
+                                  return vxt_mesh_upload(context, &queue, &view, &options, out);
+                              })),
+          labels(made<vxt_labels>(vxt_labels_destroy,
+                                  [&](auto out) {
+                                      const vxt_volume_view view = cVolume(labelImage);
+                                      return vxt_labels_create(&view, out);
+                                  })),
+          labelMap(made<vxt_label_map>(vxt_label_map_destroy, [&](auto out) {
+              return vxt_label_map_upload(context, &queue, labels.get(), nullptr, out);
+          })) {}
+};
+
+/// A batch of one item, with all that it looks at. Stays where it is.
+struct COneItem {
+    vxt_item item = vxt_item_init();
+    vxt_view view{};
+    vxt_batch batch = vxt_batch_init();
+
+    COneItem(const CScene& scene, const RandomScene& of) {
+        item.mesh = scene.mesh.get();
+        item.volume = scene.volume.get();
+        item.transfer_function = scene.function.get();
+        item.world_from_object = of.poses.data()->data();
+        item.pose_count = of.poses.size();
+        item.labels = scene.labelMap.get();
+        view = cView(of.view);
+        batch.items = &item;
+        batch.item_count = 1;
+        batch.view = &view;
+        batch.threshold = of.threshold;
+    }
+    COneItem(const COneItem&) = delete;
+    COneItem& operator=(const COneItem&) = delete;
+};
+
+class CGpuTest : public GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (IsSkipped() || HasFatalFailure()) {
+            return;
+        }
+        queue_ = vxt_queue_init();
+        queue_.queue = queue().queue;
+        queue_.family = queue().family;
+        queue_.lock = queue().lock;
+        queue_.unlock = queue().unlock;
+        queue_.user = queue().user;
+        context_ = newContext();
+    }
+    [[nodiscard]] Owned<vxt_context> newContext() const {
+        const ContextDesc cpp = gpu().device.contextDesc();
+        const vxt_context_desc desc = cDesc(cpp);
+        return made<vxt_context>(vxt_context_destroy, [&](auto out) { return vxt_context_create(&desc, out); });
+    }
+    [[nodiscard]] Owned<vxt_detector> newDetector(const vxt_detector_desc& desc) const {
+        return made<vxt_detector>(vxt_detector_destroy,
+                                  [&](auto out) { return vxt_detector_create(context_.get(), &desc, out); });
+    }
+    [[nodiscard]] Owned<vxt_results> newResults(const vxt_results_desc& desc) const {
+        return made<vxt_results>(vxt_results_destroy,
+                                 [&](auto out) { return vxt_results_create(context_.get(), &desc, out); });
+    }
+    [[nodiscard]] Owned<vxt_blocking_detector> newBlocking(const vxt_detector_desc& desc) const {
+        return made<vxt_blocking_detector>(vxt_blocking_detector_destroy, [&](auto out) {
+            return vxt_blocking_detector_create(context_.get(), &desc, &queue_, kMany, out);
+        });
+    }
+    [[nodiscard]] static BatchAnswer ask(vxt_blocking_detector& detector, const COneItem& of) {
+        const Owned<vxt_answer> answer = newAnswer();
+        need(vxt_blocking_detector_detect(&detector, &of.batch, answer.get()));
+        return answerOf(*answer);
+    }
+
+    /// 4x4x4 voxels over the unit cube, opaque where x < 0.5, and a square across it on 16x16 pixels.
+    [[nodiscard]] static RandomScene halfOpaque() {
+        RandomScene scene;
+        scene.volume = makeBytes(unitGrid(4), [](std::uint32_t x, auto, auto) { return x < 2 ? 255.0 : 0.0; });
+        scene.points = {{0, 0}, {255, 1}};
+        scene.domain = {0, 255};
+        scene.mesh = makeFlat(0, 1, 0, 1, 0.5);
+        scene.view = flatView(0, 1, 16, 16);
+        scene.poses = {identity()};
+        scene.threshold = 0.5;
+        return scene;
+    }
+    [[nodiscard]] static VolumeData twoLabels() {
+        return makeBytes(unitGrid(2), [](std::uint32_t x, auto, auto) { return x == 0 ? 0.0 : 3.0; });
+    }
+
+    vxt_queue queue_ = vxt_queue_init();
+    Owned<vxt_context> context_{nullptr, vxt_context_destroy};
+};
+
+} // namespace voxtact::test

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan half of the C interface, on the device: the C++ interface's answers by every method and projection, and
+// each function that records.
+#include "c_fixture.h"
+
+#include "raw_vulkan.h"
+#include "support/contact_scenes.h"
+#include "voxtact/cpu.h"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+#include <iostream>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .labels = true, .maxDepth = 3};
+
+TEST_F(CGpuTest, KnowsOfTheDeviceWhatTheCppInterfaceKnows) {
+    for (const CountingMethod method : countingMethods()) {
+        for (const Projection projection : projections()) {
+            EXPECT_EQ(vxt_context_supports(context_.get(), static_cast<vxt_method>(method),
+                                           static_cast<vxt_projection>(projection)) != 0,
+                      context().supports(method, projection))
+                << toString(method) << " " << toString(projection);
+        }
+    }
+    EXPECT_EQ(vxt_context_supports(context_.get(), static_cast<vxt_method>(99), VXT_PROJECTION_VIEW), 0U);
+    EXPECT_EQ(static_cast<CountingMethod>(vxt_context_default_method(context_.get())), context().defaultMethod());
+    EXPECT_EQ(vxt_context_max_viewport(context_.get()).width, context().maxViewport().width);
+    EXPECT_EQ(vxt_context_device_lost(context_.get()), 0U);
+
+    const ContextDesc cpp = gpu().device.contextDesc();
+    const vxt_context_desc desc = cDesc(cpp);
+    const auto report = made<vxt_report>(vxt_report_destroy, [&](auto out) { return vxt_check(&desc, out); });
+    vxt_report_view view = vxt_report_view_init();
+    need(vxt_report_get(report.get(), &view));
+    const CheckReport expected = check(cpp);
+    EXPECT_EQ(view.usable, 1U);
+    ASSERT_EQ(view.method_count, expected.methods.size());
+    for (std::size_t i = 0; i < view.method_count; ++i) {
+        EXPECT_EQ(view.methods[i].available != 0, expected.methods[i].available);
+        EXPECT_EQ(view.methods[i].text, expected.methods[i].reason);
+    }
+    ASSERT_EQ(view.missing_count, expected.missing.size());
+    for (std::size_t i = 0; i < view.missing_count; ++i) {
+        EXPECT_EQ(view.missing[i], expected.missing[i]);
+    }
+}
+
+/// A random scene in which something touches, and not too much.
+RandomScene sceneWithSomeSurvivors(std::mt19937_64& random, Projection projection) {
+    cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range, .projection = projection}));
+    for (int tries = 0; tries < 500; ++tries) {
+        RandomScene scene = makeRandomScene(random, 4);
+        scene.view.width = std::min(scene.view.width, 64U);
+        scene.view.height = std::min(scene.view.height, 64U);
+        const cpu::Mesh mesh = take(cpu::Mesh::create(scene.mesh.view()));
+        const cpu::Volume volume = take(cpu::Volume::create(scene.volume.view()));
+        const auto function = take(cpu::TransferFunction::create(scene.transferFunction()));
+        const cpu::BatchItem item{&mesh, &volume, &function, scene.poses};
+        std::uint64_t survivors = 0;
+        for (const PairAnswer& pair : take(host.detect({std::span(&item, 1), scene.view, scene.threshold})).pairs) {
+            survivors += pair.count;
+        }
+        if (survivors > 0 && survivors < 1000) {
+            return scene;
+        }
+    }
+    throw std::runtime_error("no scene with some survivors");
+}
+
+TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
+    std::mt19937_64 random(testSeed());
+    std::size_t ways = 0;
+    std::size_t contacts = 0;
+    for (const Projection projection : projections()) {
+        // lavapipe takes half a minute for a random scene in the projection conservative.
+        RandomScene scene = halfOpaque();
+        if (projection == Projection::Conservative) {
+            scene.poses.push_back(translation({0.3, 0.1, 0.2}));
+        } else {
+            scene = sceneWithSomeSurvivors(random, projection);
+        }
+        const VolumeData labelImage = makeLabelImage(random, scene.volume.grid);
+        const CScene sides(context_.get(), queue_, scene, labelImage);
+        const COneItem cItem(sides, scene);
+        const Volume volume = take(Volume::upload(context(), queue(), scene.volume.view(), {.bricks = true}));
+        const auto function = take(TransferFunction::upload(context(), queue(), scene.transferFunction()));
+        const Mesh mesh = take(Mesh::upload(context(), queue(), scene.mesh.view(), {.clusters = true}));
+        const LabelMap labels = take(LabelMap::upload(context(), queue(), take(makeLabels(labelImage.view()))));
+        const BatchItem item{&mesh, &volume, &function, scene.poses, &labels};
+        for (const CountingMethod method : countingMethods()) {
+            if (!context().supports(method, projection)) {
+                continue;
+            }
+            // Outputs by the cheapest method of each projection: pipelines with outputs take seconds on lavapipe.
+            const bool outputs = method == CountingMethod::Query || projection == Projection::Conservative;
+            const Outputs wanted = outputs ? kAll : Outputs{};
+            vxt_detector_desc desc = vxt_detector_desc_init();
+            desc.method = static_cast<vxt_method>(method);
+            desc.projection = static_cast<vxt_projection>(projection);
+            desc.filter = vxt_default_filter(desc.method);
+            desc.boundary = VXT_BOUNDARY_RANGE;
+            desc.outputs = cOutputs(wanted);
+            desc.max_depth = wanted.maxDepth;
+            desc.resolution = 1.0 / 8;
+            BlockingDetector cpp = take(BlockingDetector::create(context(),
+                                                                 {.method = method,
+                                                                  .projection = projection,
+                                                                  .filter = defaultFilter(method),
+                                                                  .boundary = Boundary::Range,
+                                                                  .outputs = wanted,
+                                                                  .resolution = 1.0 / 8},
+                                                                 queue(), kMany));
+            const BatchAnswer answer = ask(*newBlocking(desc), cItem);
+            EXPECT_EQ(wholeDifferenceOf(answer, take(cpp.detect({std::span(&item, 1), scene.view, scene.threshold}))),
+                      "")
+                << toString(method) << " " << toString(projection);
+            contacts += answer.contacts.size();
+            ++ways;
+        }
+    }
+    std::cout << ways << " ways, " << contacts << " contacts\n";
+    EXPECT_GE(ways, 8U);
+    EXPECT_GT(contacts, 0U);
+}
+
+TEST_F(CGpuTest, CountsWhatThePassesOfConservativeDo) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    RandomScene scene = halfOpaque();
+    scene.poses.push_back(translation({0.3, 0.1, 0.2}));
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    const Owned<vxt_answer> answer = newAnswer();
+    vxt_certified_counters counters = vxt_certified_counters_init();
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    EXPECT_EQ(vxt_answer_counters(answer.get(), &counters), VXT_ERROR_NOT_READY);
+    desc.counters = 1;
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    need(vxt_answer_counters(answer.get(), &counters));
+    EXPECT_EQ(counters.struct_size, sizeof counters);
+    EXPECT_EQ(counters.clusters, scene.poses.size()); // a mesh of one
+    EXPECT_EQ(counters.rounds, 1U);
+    EXPECT_EQ(counters.room, 4096U); // of 64 pairs, the fewest that it makes results for
+    EXPECT_GT(counters.cells_decided, 0U);
+    EXPECT_EQ(counters.lanes % 64, 0U);
+    EXPECT_EQ(counters.most_looks, counters.bricks_seen + counters.cells_seen);
+}
+
+TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    RawVulkan raw(gpu().device);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.counters = 1;
+    const Owned<vxt_detector> detector = newDetector(desc);
+    vxt_results_desc resultsDesc = vxt_results_desc_init();
+    vxt_results* none = nullptr;
+    resultsDesc.clusters_at_once = 15;
+    EXPECT_EQ(vxt_results_create(context_.get(), &resultsDesc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    resultsDesc.clusters_at_once = VXT_NO_CLUSTERS;
+    const Owned<vxt_results> without = newResults(resultsDesc);
+    resultsDesc.clusters_at_once = 32;
+    const Owned<vxt_results> with = newResults(resultsDesc);
+    const VkCommandBuffer commands = raw.begin();
+    EXPECT_EQ(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, without.get()), VXT_ERROR_LIMIT_EXCEEDED);
+    need(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, with.get()));
+    need(vxt_results_cmd_read_back(with.get(), commands));
+    raw.submitAndWait(commands);
+    const Owned<vxt_answer> answer = newAnswer();
+    need(vxt_results_read(with.get(), answer.get()));
+    vxt_certified_counters counters = vxt_certified_counters_init();
+    need(vxt_answer_counters(answer.get(), &counters));
+    EXPECT_EQ(counters.room, 32U);
+}
+
+TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
+    const RandomScene scene = halfOpaque();
+    RawVulkan raw(gpu().device);
+    // Made and uploaded in two steps.
+    const vxt_volume_view volumeView = cVolume(scene.volume);
+    const vxt_mesh_view meshView = cMesh(scene.mesh);
+    const auto points = cPoints(scene.points);
+    const vxt_transfer_function_desc functionDesc = cFunction(points, scene.domain, scene.tableSize);
+    const auto volume = made<vxt_volume>(
+        vxt_volume_destroy, [&](auto out) { return vxt_volume_create(context_.get(), &volumeView, nullptr, out); });
+    const auto function = made<vxt_transfer_function>(vxt_transfer_function_destroy, [&](auto out) {
+        return vxt_transfer_function_create(context_.get(), &functionDesc, nullptr, out);
+    });
+    const auto mesh = made<vxt_mesh>(
+        vxt_mesh_destroy, [&](auto out) { return vxt_mesh_create(context_.get(), &meshView, nullptr, out); });
+    const auto labels = made<vxt_labels>(vxt_labels_destroy, [&](auto out) {
+        const VolumeData image = twoLabels();
+        const vxt_volume_view view = cVolume(image);
+        return vxt_labels_create(&view, out);
+    });
+    const auto map = made<vxt_label_map>(vxt_label_map_destroy, [&](auto out) {
+        return vxt_label_map_create(context_.get(), labels.get(), "map", out);
+    });
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    desc.outputs = cOutputs(kAll);
+    const Owned<vxt_detector> detector = newDetector(desc);
+    vxt_results_desc resultsDesc = vxt_results_desc_init();
+    resultsDesc.outputs = desc.outputs;
+    resultsDesc.triangle_room = 2;
+    resultsDesc.label_room = 2;
+    resultsDesc.timestamps = 1;
+    resultsDesc.queue_family = queue_.family;
+    const Owned<vxt_results> results = newResults(resultsDesc);
+
+    const VkCommandBuffer commands = raw.begin();
+    need(vxt_volume_cmd_upload(volume.get(), commands));
+    need(vxt_transfer_function_cmd_upload(function.get(), commands));
+    need(vxt_mesh_cmd_upload(mesh.get(), commands));
+    need(vxt_label_map_cmd_upload(map.get(), commands));
+    vxt_item item = vxt_item_init();
+    item.mesh = mesh.get();
+    item.volume = volume.get();
+    item.transfer_function = function.get();
+    item.world_from_object = scene.poses[0].data();
+    item.pose_count = 1;
+    item.labels = map.get();
+    const vxt_view view = cView(scene.view);
+    vxt_batch batch = vxt_batch_init();
+    batch.items = &item;
+    batch.item_count = 1;
+    batch.view = &view;
+    batch.threshold = scene.threshold;
+    need(vxt_detector_cmd_detect(detector.get(), commands, &batch, results.get()));
+    need(vxt_results_cmd_read_back(results.get(), commands));
+    const Owned<vxt_answer> answer = newAnswer();
+    EXPECT_EQ(vxt_results_read(results.get(), answer.get()), VXT_ERROR_NOT_READY);
+    raw.submitAndWait(commands);
+    vxt_volume_release_staging(volume.get());
+    vxt_transfer_function_release_staging(function.get());
+    vxt_mesh_release_staging(mesh.get());
+    vxt_label_map_release_staging(map.get());
+    need(vxt_results_read(results.get(), answer.get()));
+    const BatchAnswer found = answerOf(*answer);
+    ASSERT_EQ(found.pairs.size(), 1U);
+    EXPECT_EQ(found.pairs[0].count, 128U); // half of 16x16 pixels
+    EXPECT_EQ(inconsistencyOf(found), "");
+    EXPECT_EQ(found.contacts.size(), 128U);
+    EXPECT_GT(found.gpuMilliseconds, 0);
+
+    // The next pass finds the same on the device.
+    vxt_buffer_range range{};
+    need(vxt_results_on_device(results.get(), VXT_DEVICE_PAIRS, &range));
+    EXPECT_EQ(range.size, sizeof(PairResult));
+    const std::vector<std::byte> bytes = raw.readBuffer(range.buffer, range.offset + range.size);
+    PairResult pair{};
+    std::memcpy(&pair, bytes.data() + range.offset, sizeof pair);
+    EXPECT_EQ(unpack(pair).count, 128U);
+    for (const vxt_device_part part : {VXT_DEVICE_TRIANGLE_COUNTS, VXT_DEVICE_TRIANGLE_MASK, VXT_DEVICE_CONTACTS,
+                                       VXT_DEVICE_BOUNDS, VXT_DEVICE_LABEL_COUNTS}) {
+        need(vxt_results_on_device(results.get(), part, &range));
+        EXPECT_NE(range.buffer, VK_NULL_HANDLE);
+        EXPECT_GT(range.size, 0U);
+        EXPECT_EQ(range.offset % 256, 0U);
+    }
+    need(vxt_results_on_device(results.get(), VXT_DEVICE_TRIANGLE_COUNTS, &range));
+    const std::vector<std::byte> counts = raw.readBuffer(range.buffer, range.offset + range.size);
+    std::uint32_t ofTriangles[2] = {};
+    std::memcpy(ofTriangles, counts.data() + range.offset, sizeof ofTriangles);
+    EXPECT_EQ(ofTriangles[0] + ofTriangles[1], 128U);
+    EXPECT_EQ(vxt_results_on_device(results.get(), static_cast<vxt_device_part>(6), &range),
+              VXT_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(CGpuTest, ARingHasASlotForEachFrame) {
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    COneItem of(sides, scene);
+    const Owned<vxt_detector> detector = newDetector(vxt_detector_desc_init());
+    const auto ring = made<vxt_result_ring>(
+        vxt_result_ring_destroy, [&](auto out) { return vxt_result_ring_create(context_.get(), 2, nullptr, out); });
+    RawVulkan raw(gpu().device);
+    const Owned<vxt_answer> answer = newAnswer();
+    EXPECT_EQ(vxt_result_ring_read(ring.get(), 0, answer.get()), VXT_ERROR_NOT_READY);
+    for (std::uint64_t frame = 0; frame < 3; ++frame) {
+        const Mat4 pose = translation({0.25 * static_cast<double>(frame), 0, 0});
+        of.item.world_from_object = pose.data();
+        vxt_results* slot = nullptr;
+        need(vxt_result_ring_begin(ring.get(), frame, &slot));
+        const VkCommandBuffer commands = raw.begin();
+        need(vxt_detector_cmd_detect(detector.get(), commands, &of.batch, slot));
+        need(vxt_results_cmd_read_back(slot, commands));
+        raw.submitAndWait(commands);
+        vxt_results_destroy(slot); // the ring's: nothing happens
+        need(vxt_result_ring_read(ring.get(), frame, answer.get()));
+        // Moved by a quarter of the cube: 4 of the 8 opaque columns, then none.
+        EXPECT_EQ(answerOf(*answer).pairs.at(0).count, 128U - 64U * frame);
+    }
+    EXPECT_EQ(vxt_result_ring_read(ring.get(), 0, answer.get()), VXT_ERROR_NOT_READY);
+    EXPECT_THAT(vxt_last_error(context_.get()), HasSubstr("taken by frame 2"));
+    need(vxt_result_ring_read(ring.get(), 1, answer.get()));
+    EXPECT_EQ(answerOf(*answer).pairs.at(0).count, 64U);
+}
+
+} // namespace
+} // namespace voxtact::test
