@@ -211,7 +211,7 @@ Outcome runPlan(const CLI::App& parser, PlanOptions options) {
         Result<std::string> painted = device.paint(options, inputs, *plans);
         VOXTACT_TRY(painted);
         png = std::move(*painted);
-        if (const Outcome invalid = device.close(); invalid.status != kExitDone) {
+        if (Outcome invalid = device.close(); invalid.status != kExitDone) {
             return invalid;
         }
     }
