@@ -6,8 +6,11 @@
 #include "voxtact/samples.h"
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -61,6 +64,21 @@ Mat4 poseAlong(const dvec3& direction, const dvec3& origin) {
     const dvec3 third = glm::cross(direction, beside);
     return {beside.x,    beside.y,    beside.z,    0, third.x,  third.y,  third.z,  0,
             direction.x, direction.y, direction.z, 0, origin.x, origin.y, origin.z, 1};
+}
+
+/// Half a turn about an axis of length 1.
+glm::dmat3 halfTurn(const dvec3& axis) {
+    return 2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);
+}
+
+/// That takes one direction to another, as a plan holds a mesh: half a turn about the first, then about what is
+/// half-way to the second, is one about both.
+Mat4 smallestTurn(const dvec3& from, const dvec3& to) {
+    dvec3 between = from + to;
+    if (glm::length(between) < 1e-6) {
+        between = glm::cross(from, std::abs(from.z) < 0.5 ? dvec3(0, 0, 1) : dvec3(1, 0, 0));
+    }
+    return fromGlm(glm::dmat4(halfTurn(glm::normalize(between)) * halfTurn(from)));
 }
 
 MeshData placed(MeshData mesh, const Mat4& world_from_object) {
@@ -154,20 +172,8 @@ Result<ColouredMesh> instrumentMesh(const PlanInputs& inputs, const TargetPlan& 
     const dvec3 direction = glm::normalize(toGlm(path.position) - target);
     if (inputs.shownMesh) {
         const cpu::PlanMesh& given = *inputs.task.mesh;
-        // By a turn about the bisector: the mesh is round enough for a picture.
-        const dvec3 held = glm::normalize(toGlm(given.axis));
-        dvec3 between = held + direction;
-        between = glm::length(between) > 1e-6
-                      ? glm::normalize(between)
-                      : glm::normalize(glm::cross(held, std::abs(held.z) < 0.5 ? dvec3(0, 0, 1) : dvec3(1, 0, 0)));
-        Mat4 turn{};
-        for (std::size_t column = 0; column < 3; ++column) {
-            for (std::size_t row = 0; row < 3; ++row) {
-                turn[4 * column + row] =
-                    2 * between[static_cast<int>(column)] * between[static_cast<int>(row)] - (column == row ? 1 : 0);
-            }
-        }
-        turn[15] = 1;
+        const dvec3 held = toGlm(given.axis) / std::hypot(given.axis[0], given.axis[1], given.axis[2]);
+        Mat4 turn = smallestTurn(held, direction);
         const Vec3 tip = transformPoint(turn, given.tip);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             turn[12 + axis] = plan.target.at[axis] - tip[axis];

@@ -5,8 +5,6 @@
 #include "io/text/text_lines.h"
 #include "voxtact/io.h"
 
-#include <cmath>
-
 namespace voxtact::io {
 
 Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path) {
@@ -31,9 +29,6 @@ Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path) {
             for (std::size_t axis = 0; axis < point.position.size(); ++axis) {
                 if (const auto reason = parseNumber(tokens[axis], point.position[axis])) {
                     return badLine(path, point.line, *reason);
-                }
-                if (!std::isfinite(point.position[axis])) {
-                    return badLine(path, point.line, inQuotes(tokens[axis]) + " is not finite");
                 }
             }
             point.name = tokens.size() == 4 ? tokens[3] : std::string_view();
