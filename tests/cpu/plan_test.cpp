@@ -74,6 +74,9 @@ TEST(DirectionGrid, ConesHoldTheirPatches) {
             patch.hi[axis] = patch.lo[axis] + 1 + static_cast<std::uint32_t>(random() % (n - patch.lo[axis]));
         }
         const cpu::DirectionCone cone = grid.cone(patch);
+        const auto isIn = [&](const dvec3& direction) {
+            return std::acos(std::min(glm::dot(direction, cone.axis), 1.0)) <= cone.angle + 1e-7;
+        };
         const auto i = patch.lo[0] + static_cast<std::uint32_t>(random() % patch.cells(0));
         const auto j = patch.lo[1] + static_cast<std::uint32_t>(random() % patch.cells(1));
         const auto triangle = grid.triangles(patch.rhombus, i, j)[random() % 2];
@@ -81,7 +84,16 @@ TEST(DirectionGrid, ConesHoldTheirPatches) {
         for (const std::uint32_t corner : triangle) {
             sum += uniform(random, 0, 1) * grid.direction(corner);
         }
-        EXPECT_LE(std::acos(std::min(glm::dot(glm::normalize(sum), cone.axis), 1.0)), cone.angle + 1e-7);
+        EXPECT_TRUE(isIn(glm::normalize(sum)));
+        // The farthest are on the edges: at the corners, or where the ridge meets them.
+        for (std::uint32_t at = patch.lo[0]; at <= patch.hi[0]; ++at) {
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, at, patch.lo[1]))));
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, at, patch.hi[1]))));
+        }
+        for (std::uint32_t at = patch.lo[1]; at <= patch.hi[1]; ++at) {
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, patch.lo[0], at))));
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, patch.hi[0], at))));
+        }
     }
 }
 
