@@ -148,7 +148,8 @@ TEXT
 # Which way in.
 plan=("$program" plan --volume "$volume" --transfer-function docs/demo/head.tf --labels "$labels" --target Thalamus_L
     --avoid Insula_L,Hippocampus_L,Caudate_L,Putamen_L --margin 2 --mesh builtin:needle:2:200 --summary
-    --surface build/demo/entries.ply --report build/demo/paths.html --output build/demo/paths.csv --format csv)
+    --surface build/demo/entries.ply --heat-map build/demo/entries.nii.gz --picture build/demo/path.png
+    --report build/demo/paths.html --output build/demo/paths.csv --format csv)
 "${plan[@]}" 2>"$out/summary" || {
     cat "$out/summary" >&2
     exit 1
@@ -157,8 +158,9 @@ printf '\n%s\n\n' "Which straight paths of a needle to the left thalamus keep 2 
 sed 's/^voxtact: note: /  /' "$out/summary"
 cat <<TEXT
 
-A page with maps and the safest paths: build/demo/paths.html; all paths: build/demo/paths.csv; the entries in colours:
-build/demo/entries.ply. The command:
+A page with maps and the safest paths: build/demo/paths.html; a picture of the best one: build/demo/path.png; all paths:
+build/demo/paths.csv; the entries in colours: build/demo/entries.ply; a map to lay over the head, of how many mm are kept
+from each: build/demo/entries.nii.gz. The command:
 
   ${plan[*]}
 TEXT

@@ -3,8 +3,9 @@
 """What people do to find straight paths that keep clear of labels, beside voxtact, in one run.
 
 voxtact    voxtact plan: one row for each entry
-distance   a Euclidean distance transform of the voxels with the labels (scipy), sampled trilinearly along each path every
-           STEP mm; safe is what stays farther than margin and radius
+distance   a Euclidean distance transform of the voxels with the labels (scipy), sampled trilinearly every STEP mm along
+           all that a needle's axis covers on its way, as far as it is in the image; safe is what stays farther than
+           margin and radius
 
 usage: plan_peer.py VOXTACT VOLUME LABELS TARGET(x,y,z, LPS) AVOID(1,2,...) MARGIN ENTRIES [STEP] [-- options of plan]
 
@@ -24,7 +25,8 @@ import numpy
 import scipy
 import scipy.ndimage
 
-RADIUS = 1.0  # mm: builtin:needle is 2 mm
+RADIUS = 1.0  # mm: builtin:needle is 2 mm thick
+LENGTH = 200.0  # mm: and as long
 
 
 def voxtact(program, volume, labels, target, avoid, margin, entries, more):
@@ -45,7 +47,7 @@ def voxtact(program, volume, labels, target, avoid, margin, entries, more):
 
 
 def distance(labels, target, avoid, rows, step):
-    """The least sampled distance of each path's axis, mm."""
+    """The least sampled distance of each path's axis, mm: from behind the tip at the target to the other end at the entry."""
     image = nibabel.load(labels)
     begin = time.process_time()
     wanted = numpy.isin(numpy.asanyarray(image.dataobj), [int(one) for one in avoid.split(",")])
@@ -53,14 +55,18 @@ def distance(labels, target, avoid, rows, step):
     built = time.process_time() - begin
     index = numpy.linalg.inv(numpy.diag([-1, -1, 1, 1]) @ image.affine)  # from LPS
     goal = numpy.array([float(one) for one in target.split(",")])
+    last = numpy.array(far.shape) - 1
     begin = time.process_time()
     least = numpy.empty(len(rows))
     for number, row in enumerate(rows):
         entry = numpy.array([float(row["x"]), float(row["y"]), float(row["z"])])
-        count = max(int(numpy.ceil(float(row["length"]) / step)), 1)
-        points = goal + numpy.linspace(0, 1, count + 1)[:, None] * (entry - goal)
+        length = float(row["length"])
+        end = length + LENGTH - RADIUS
+        count = max(int(numpy.ceil((end - RADIUS) / step)), 1)
+        points = goal + numpy.linspace(RADIUS, end, count + 1)[:, None] * ((entry - goal) / length)
         at = points @ index[:3, :3].T + index[:3, 3]
-        least[number] = scipy.ndimage.map_coordinates(far, at.T, order=1, mode="nearest").min()
+        at = at[numpy.all((at >= 0) & (at <= last), axis=1)]
+        least[number] = scipy.ndimage.map_coordinates(far, at.T, order=1).min() if len(at) else numpy.inf
     return least, built, time.process_time() - begin
 
 

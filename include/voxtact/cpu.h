@@ -311,6 +311,7 @@ struct PlanTask {
     double margin = 0;                         ///< mm, that is to be kept
     std::optional<double> longest{};           ///< mm, of paths
     std::optional<double> steepest{};          ///< degrees between a path and the normal of the surface, to 90
+    bool triangleClearances = false;           ///< of a needle: EntryTriangle::clearance, for about as long again
     const std::atomic<bool>* cancel = nullptr; ///< as Batch::cancel
 };
 

@@ -57,6 +57,8 @@ struct VolumeReadOptions {
 /// what checkVolume() refuses, and a grid that the format cannot hold to a hundredth of a voxel (NIfTI: directions that
 /// are not at right angles, fewer than 2 slices, sizes above 32767).
 VOXTACT_API Result<void> writeVolume(const std::filesystem::path& path, const VolumeView& volume);
+/// The same to a stream, which the caller looks at. The ending of `name` says the format, and messages have it.
+VOXTACT_API Result<void> writeVolume(std::ostream& out, const std::filesystem::path& name, const VolumeView& volume);
 
 /// What the coordinates of a mesh file mean.
 enum class MeshSpace { LPS, RAS };
@@ -142,10 +144,24 @@ struct LabelName {
 /// a label.
 [[nodiscard]] VOXTACT_API Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path);
 
+/// A point of a list.
+struct NamedPoint {
+    Vec3 position{};        ///< as it stands in the file
+    std::string name;       ///< empty: it has none
+    std::uint64_t line = 0; ///< of the file, from 1
+};
+
+/// One point a line: `x y z` or `x y z name`; `#` comments and empty lines. In the order of the file. Errors name the
+/// line. Refuses numbers that are not finite, lines of other lengths, and a file without a point.
+[[nodiscard]] VOXTACT_API Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path);
+
 /// A PNG file of 8 bits a channel: red, green, blue and alpha of each pixel, the uppermost row first. Written to a
 /// temporary name and renamed. Refuses an empty picture, one with another number of bytes, an ending other than .png,
 /// and more than 2^30 bytes.
 VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                                  std::span<const std::uint8_t> rgba);
+/// The same to a stream, which the caller looks at.
+VOXTACT_API Result<void> writePng(std::ostream& out, std::uint32_t width, std::uint32_t height,
                                   std::span<const std::uint8_t> rgba);
 
 /// A file that is there when it is complete: what is written to its stream (classic locale) goes to a temporary file

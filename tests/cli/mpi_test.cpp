@@ -126,6 +126,19 @@ TEST_F(MpiTest, TheFileIsTheSameForAnyNumberOfRanks) {
     EXPECT_THAT(again.err, AllOf(HasSubstr("rank 0: 0 chunks"), HasSubstr("28 chunks were there already")));
 }
 
+TEST_F(MpiTest, PlansAreDealtByTarget) {
+    Arguments plan{"plan",      "--volume", "builtin:head:24", "--avoid-opacity", "200:0,201:1",
+                   "--entries", "42",       "--target",        "20,0,30",         "--target",
+                   "0,0,20",    "--target", "-20,5,30",        "--format",        "csv",
+                   "--threads", "1"};
+    const std::string plain = output(plan);
+    plan.insert(plan.end(), {"--resume", path("run")});
+    const Ran ran = runRanks(2, plan);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.out, plain);
+    EXPECT_EQ(chunks(), 3U);
+}
+
 TEST_F(MpiTest, ARankThatDiesEndsTheJobAndTheRunGoesOn) {
     std::string many;
     for (int i = 0; i < 50; ++i) {
@@ -169,7 +182,7 @@ TEST_F(MpiTest, WhatIsWrongIsSaidOnce) {
     };
     refusal(detect(), "--resume is required");
     refusal(detect({"--resume", path("run"), "--shard", "1/2"}), "--shard: the first rank deals the chunks");
-    refusal({"info", "builtin:head:24"}, "the ranks of a job do detect or motion");
+    refusal({"info", "builtin:head:24"}, "the ranks of a job do detect, motion or plan");
     refusal(detect({"--resume", path("run"), "--timing"}), "--timing: not with --resume");
     refusal(detect({"--resume", path("run"), "--mesh", path("none.stl")}), "none.stl");
     refusal(detect({"--resume", path("run"), "--no-such"}), "unknown argument");

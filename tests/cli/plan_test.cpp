@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // voxtact plan.
-#include "cli_fixture.h"
+#include "plan_fixture.h"
 
 #include <cmath>
 #include <map>
@@ -10,43 +10,10 @@ namespace {
 
 using testing::HasSubstr;
 
-/// To a place beside the middle of the head; its voxels are its labels.
-class PlanTest : public CliTest {
-  protected:
-    [[nodiscard]] static Arguments plan(const Arguments& more) {
-        Arguments all{"plan", "--volume", "builtin:head:32", "--entries", "100", "--format", "csv"};
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }
-    [[nodiscard]] std::vector<std::map<std::string, std::string>> rows(const Arguments& more) const {
-        const std::vector<std::string> lines = linesOf(output(plan(more)));
-        const std::vector<std::string> names = fieldsOf(lines.at(0));
-        std::vector<std::map<std::string, std::string>> found;
-        for (std::size_t i = 1; i < lines.size(); ++i) {
-            const std::vector<std::string> fields = fieldsOf(lines[i]);
-            std::map<std::string, std::string> row;
-            for (std::size_t k = 0; k < fields.size(); ++k) {
-                row[names.at(k)] = fields[k];
-            }
-            found.push_back(std::move(row));
-        }
-        return found;
-    }
-    [[nodiscard]] Arguments labelled(const Arguments& more) const {
-        Arguments all{"--labels", path("labels.nii.gz"), "--target", "20,0,30"};
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }
-    void SetUp() override {
-        output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
-        writeText(path("labels.nii.txt"), "70 Cortex\n90 Skin\n120 Skull\n");
-    }
-};
-
 TEST_F(PlanTest, HasARowForEachPath) {
     const std::string text = output(plan({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1"}));
     EXPECT_EQ(linesOf(text).at(0), "entry,x,y,z,safe,clearance_lo,clearance_hi,nearest,nearest_x,nearest_y,nearest_z,"
-                                   "length,angle,crosses");
+                                   "length,angle,crosses,target");
     const auto found = rows({"--target", "20,0,30", "--avoid-opacity", "200:0,201:1", "--max-clearance", "15"});
     ASSERT_EQ(found.size(), 162U);
     std::map<std::string, int> verdicts;
@@ -104,7 +71,7 @@ TEST_F(PlanTest, WritesASurfaceAndFacts) {
     EXPECT_THAT(html, testing::Not(HasSubstr("http")));
     const std::string json = output({"plan", "--volume", "builtin:head:32", "--target", "20,0,30", "--avoid-opacity",
                                      "200:0,201:1", "--entries", "12", "--format", "json", "--timing"});
-    for (const char* name : {"\"safe_area_mm2\"", "\"area_mm2\"", "\"directions\": 12", "\"entries_per_s\""}) {
+    for (const char* name : {"\"margin\": 0.0", "\"targets\": 1", "\"target\":\"1\"", "\"entries_per_s\""}) {
         EXPECT_THAT(json, HasSubstr(name));
     }
 }

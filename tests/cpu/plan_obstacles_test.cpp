@@ -68,6 +68,46 @@ std::vector<PlannedPath> besideAWall(const Vec3& axis, const dvec3& along) {
     return take(take(cpu::Planner::create({.threads = 1, .tolerance = 1e-6, .maximum = 40})).plan(task)).paths;
 }
 
+/// Patches with entries near and far, and obstacles of which any may be the one that is near.
+TEST(PlanObstacles, PatchesAreSafeFromAllOfThemAndForTheLongestPath) {
+    std::mt19937_64 random(testSeed());
+    Grid grid;
+    grid.size = {60, 60, 60};
+    grid.origin = {-29.5, -29.5, -29.5};
+    const LabelData surface = take(makeLabels(
+        makeBytes(grid, [](auto x, auto y, auto z) { return x < 40 && y >= 15 && z >= 8 && z < 50 ? 1 : 0; }).view()));
+    std::size_t safe = 0;
+    for (std::size_t scenes = 0; scenes < randomCases(200, 25); ++scenes) {
+        BoxScene scene(random, 12);
+        std::vector<cpu::PlanObstacle> obstacles(2, scene.obstacle);
+        for (cpu::PlanObstacle& each : obstacles) {
+            each.avoid.clear();
+        }
+        for (const std::int32_t label : scene.obstacle.avoid) {
+            obstacles[random() % 2].avoid.push_back(label);
+        }
+        std::erase_if(obstacles, [](const cpu::PlanObstacle& each) { return each.avoid.empty(); });
+        scene.task.obstacles = obstacles;
+        scene.task.surface = {.entries = 642, .labels = &surface, .label = 1};
+        scene.task.needle = {2, 3};
+        scene.task.margin = uniform(random, 0, 2);
+        const PlanAnswer answer = take(take(cpu::Planner::create({.threads = 1})).plan(scene.task));
+        for (const EntryTriangle& triangle : answer.triangles) {
+            for (int sample = 0; triangle.safe && sample < 20; ++sample) {
+                const double a = uniform(random, 0, 1);
+                const double b = uniform(random, 0, 1 - a);
+                const dvec3 corner = toGlm(answer.paths[triangle.paths[0]].position);
+                const dvec3 entry = corner + a * (toGlm(answer.paths[triangle.paths[1]].position) - corner) +
+                                    b * (toGlm(answer.paths[triangle.paths[2]].position) - corner);
+                EXPECT_GT(scene.clearance(entry), scene.task.margin);
+            }
+            safe += triangle.safe ? 1 : 0;
+        }
+        ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GT(safe, 1000U);
+}
+
 TEST(PlanObstacles, AMeshIsTurnedToTheOppositeWithoutALossOfDigits) {
     for (const double tilt : {0.0, 1e-9, 1e-7, 1.2e-6, 1e-5, 1e-3}) {
         const dvec3 along(-tilt, 0, 1);

@@ -74,6 +74,9 @@ TEST(DirectionGrid, ConesHoldTheirPatches) {
             patch.hi[axis] = patch.lo[axis] + 1 + static_cast<std::uint32_t>(random() % (n - patch.lo[axis]));
         }
         const cpu::DirectionCone cone = grid.cone(patch);
+        const auto isIn = [&](const dvec3& direction) {
+            return std::acos(std::min(glm::dot(direction, cone.axis), 1.0)) <= cone.angle + 1e-7;
+        };
         const auto i = patch.lo[0] + static_cast<std::uint32_t>(random() % patch.cells(0));
         const auto j = patch.lo[1] + static_cast<std::uint32_t>(random() % patch.cells(1));
         const auto triangle = grid.triangles(patch.rhombus, i, j)[random() % 2];
@@ -81,7 +84,16 @@ TEST(DirectionGrid, ConesHoldTheirPatches) {
         for (const std::uint32_t corner : triangle) {
             sum += uniform(random, 0, 1) * grid.direction(corner);
         }
-        EXPECT_LE(std::acos(std::min(glm::dot(glm::normalize(sum), cone.axis), 1.0)), cone.angle + 1e-7);
+        EXPECT_TRUE(isIn(glm::normalize(sum)));
+        // The farthest are on the edges: at the corners, or where the ridge meets them.
+        for (std::uint32_t at = patch.lo[0]; at <= patch.hi[0]; ++at) {
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, at, patch.lo[1]))));
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, at, patch.hi[1]))));
+        }
+        for (std::uint32_t at = patch.lo[1]; at <= patch.hi[1]; ++at) {
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, patch.lo[0], at))));
+            EXPECT_TRUE(isIn(grid.direction(grid.number(patch.rhombus, patch.hi[0], at))));
+        }
     }
 }
 
@@ -163,6 +175,51 @@ TEST(Plan, CertifiesPatchesForAllTheirPaths) {
     std::cout << "certified: " << safeArea << " of " << cornersArea << " mm2 with safe corners\n";
     EXPECT_GT(safeArea, 0.75 * cornersArea);
     EXPECT_LE(safeArea, cornersArea);
+}
+
+/// A triangle's clearance is no more than that of any path from it, and not much less than that of the nearest.
+TEST(Plan, MeasuresTrianglesForAllTheirPaths) {
+    std::mt19937_64 random(testSeed());
+    cpu::Planner planner = take(cpu::Planner::create({.threads = 1, .tolerance = 0.01}));
+    double above = 0; // mm, of the nearest sampled path over the bound
+    std::size_t measured = 0;
+    for (std::size_t scenes = 0; scenes < randomCases(100, 20); ++scenes) {
+        BoxScene scene(random, 12);
+        scene.task.surface.entries = 642;
+        scene.task.margin = uniform(random, 0, 3);
+        const PlanAnswer without = take(planner.plan(scene.task));
+        scene.task.triangleClearances = true;
+        const PlanAnswer answer = take(planner.plan(scene.task));
+        for (std::size_t i = 0; i < answer.triangles.size(); ++i) {
+            const EntryTriangle& triangle = answer.triangles[i];
+            EXPECT_EQ(triangle.safe, without.triangles[i].safe);
+            EXPECT_EQ(without.triangles[i].clearance, 0);
+            EXPECT_LE(triangle.clearance, kDefaultPlanMaximum);
+            EXPECT_TRUE(!triangle.safe || triangle.clearance >= scene.task.margin);
+            std::array<dvec3, 3> corners{};
+            double nearest = kDefaultPlanMaximum;
+            for (std::size_t k = 0; k < 3; ++k) {
+                corners[k] = toGlm(answer.paths[triangle.paths[k]].position);
+                nearest = std::min(nearest, scene.clearance(corners[k]));
+            }
+            for (int sample = 0; sample < 5; ++sample) {
+                const double a = uniform(random, 0, 1);
+                const double b = uniform(random, 0, 1 - a);
+                nearest = std::min(nearest, scene.clearance(corners[0] + a * (corners[1] - corners[0]) +
+                                                            b * (corners[2] - corners[0])));
+            }
+            EXPECT_LE(triangle.clearance, nearest + 1e-6);
+            if (nearest > 0) {
+                above += nearest - triangle.clearance;
+                ++measured;
+            }
+        }
+        ASSERT_FALSE(HasFailure());
+    }
+    ASSERT_GT(measured, 1000U);
+    std::cout << "nearest of some paths above the bound: " << above / static_cast<double>(measured)
+              << " mm on average\n";
+    EXPECT_LT(above / static_cast<double>(measured), 2); // the entries are some 4 mm apart, the far ends 9
 }
 
 /// The needle as a mesh, with another tip and axis, moved by the same rule: no farther off than its corners.
@@ -260,6 +317,7 @@ TEST(Plan, DoesNotDependOnThreads) {
     BoxScene scene(random, 12);
     scene.task.surface.entries = 642;
     scene.task.margin = 1;
+    scene.task.triangleClearances = true;
     const PlanAnswer one = take(take(cpu::Planner::create({.threads = 1})).plan(scene.task));
     const PlanAnswer three = take(take(cpu::Planner::create({.threads = 3})).plan(scene.task));
     ASSERT_EQ(one.paths.size(), three.paths.size());
@@ -269,6 +327,7 @@ TEST(Plan, DoesNotDependOnThreads) {
     }
     for (std::size_t i = 0; i < one.triangles.size(); ++i) {
         EXPECT_EQ(one.triangles[i].safe, three.triangles[i].safe);
+        EXPECT_EQ(one.triangles[i].clearance, three.triangles[i].clearance);
     }
     EXPECT_EQ(one.safeArea, three.safeArea);
 }

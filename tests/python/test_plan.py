@@ -54,6 +54,26 @@ def test_plans_are_those_of_the_program(files, planned, ways):
     assert found.safe_area <= found.area * (1 + 1e-9)
 
 
+def test_a_heat_map_lies_over_the_image(files):
+    nibabel = pytest.importorskip("nibabel")
+    rows = program("plan", "--volume", "volume.nii.gz", "--opacity", "40:0,80:1", "--labels", "labels.nii.gz", "--avoid",
+                   "3,7", "--target", ",".join(map(str, TARGET)), "--entries", 2562, "--heat-map", "map.nii.gz", cwd=files)
+    image = nibabel.load(files / "volume.nii.gz")
+    heat = nibabel.load(files / "map.nii.gz")
+    assert heat.shape == image.shape
+    np.testing.assert_array_equal(heat.affine, image.affine)
+    assert heat.get_data_dtype() == np.float32
+    values = heat.get_fdata()
+    assert ((values == -1) | ((values >= 0) & (values <= 10))).all()
+    # No path keeps less than the voxel says that it enters through; LPS to RAS.
+    entries = np.array([[-float(row["x"]), -float(row["y"]), float(row["z"]), 1] for row in rows])
+    at = np.rint(entries @ np.linalg.inv(heat.affine).T)[:, :3].astype(int)
+    inside = ((at >= 0) & (at < heat.shape)).all(axis=1)
+    there = values[tuple(at[inside].T)]
+    assert inside.sum() > 2000 and (there >= 0).mean() > 0.95
+    assert (there <= np.array([float(row["clearance_hi"]) for row in rows])[inside]).all()
+
+
 def ball_beside():
     """A ball of 5 mm at x = 20, in voxels of 1 mm of which the one at the origin is the world's."""
     z, y, x = np.meshgrid(*[np.arange(-30, 31)] * 3, indexing="ij")

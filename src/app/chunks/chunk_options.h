@@ -25,10 +25,12 @@ constexpr std::uint32_t kDefaultChunk = 10000;
 struct ChunkOptions {
     std::filesystem::path folder; ///< empty: the run is not in chunks
     std::optional<Shard> shard;
-    std::optional<std::uint32_t> most; ///< rows a chunk
+    std::optional<std::uint32_t> most;      ///< rows a chunk
+    const char* rows = "rows";              ///< what these are, for --help
+    std::uint32_t standard = kDefaultChunk; ///< where `most` is not given
 
     [[nodiscard]] bool asked() const { return !folder.empty(); }
-    [[nodiscard]] std::uint32_t chunk() const { return most.value_or(kDefaultChunk); }
+    [[nodiscard]] std::uint32_t chunk() const { return most.value_or(standard); }
 };
 
 void addChunkOptions(CLI::App& parser, ChunkOptions& options);

@@ -159,7 +159,9 @@ void addChunkOptions(CLI::App& parser, ChunkOptions& options) {
         "I/N");
     addWholeNumber(
         parser, "--chunk", [&options](std::uint32_t rows) { options.most = rows; }, {.least = 1},
-        "with --resume: rows a chunk, at most; what is done again after an end is less than that", kDefaultChunk);
+        std::string("with --resume: ") + options.rows +
+            " a chunk, at most; what is done again after an end is less than that",
+        options.standard);
 }
 
 Result<void> checkChunkOptions(const ChunkOptions& options, const OutputOptions& output, std::vector<Unfit> unfit) {

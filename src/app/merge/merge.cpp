@@ -12,7 +12,7 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kFooter =
-    R"(DIR is the folder that detect or motion filled with --resume, by one process or by all shards. What is written is byte
+    R"(DIR is the folder that detect, motion or plan filled with --resume, by one process or by all shards. What is written is byte
 for byte what the same command writes without --resume. A file that is asked for beside the rows must be one that the
 run was asked for. Chunks that are missing or damaged are said, and nothing is written; DIR stays as it is.
 
@@ -27,6 +27,7 @@ struct MergeOptions {
     std::filesystem::path triangles;
     std::filesystem::path closest;
     std::filesystem::path labels;
+    std::filesystem::path byTarget;
 };
 
 /// The paths that were given, for outputs that the run has.
@@ -34,7 +35,7 @@ Result<MergePaths> pathsOf(const MergeOptions& options, const RunFolder& folder)
     MergePaths paths{{"--output", options.output}};
     for (const auto& [option, path] :
          {std::pair("--triangles", options.triangles), std::pair("--closest", options.closest),
-          std::pair("--label-clearance", options.labels)}) {
+          std::pair("--label-clearance", options.labels), std::pair("--by-target", options.byTarget)}) {
         if (path.empty()) {
             continue;
         }
@@ -59,7 +60,8 @@ Outcome runMerge(const MergeOptions& options) {
     VOXTACT_TRY(checkOutputs({{"--output", options.output},
                               {"--triangles", options.triangles},
                               {"--closest", options.closest},
-                              {"--label-clearance", options.labels}},
+                              {"--label-clearance", options.labels},
+                              {"--by-target", options.byTarget}},
                              {{"DIR", options.folder}}));
     const Result<RunFolder> folder = RunFolder::read(options.folder);
     VOXTACT_TRY(folder);
@@ -80,6 +82,7 @@ Command addMerge(CLI::App& program) {
     addPath(*parser, "--triangles", options->triangles, "a file for what detect --triangles writes");
     addPath(*parser, "--closest", options->closest, "a .csv file for what detect --closest writes");
     addPath(*parser, "--label-clearance", options->labels, "a file for what detect --label-clearance writes");
+    addPath(*parser, "--by-target", options->byTarget, "a file for what plan --by-target writes");
     return {parser, [options] { return runMerge(*options); }};
 }
 

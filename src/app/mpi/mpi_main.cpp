@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// voxtact-mpi: detect and motion over the ranks of an MPI job. The first rank makes the folder of the run, deals its
+// voxtact-mpi: detect, motion and plan over the ranks of an MPI job. The first rank makes the folder of the run, deals its
 // chunks, does some itself, and merges.
 #include "app/mpi/mpi_dealer.h"
 #include "app/output/outcome.h"
@@ -22,11 +22,12 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr const char* kUsage =
-    R"(voxtact-mpi: detect and motion over the ranks of an MPI job.
+    R"(voxtact-mpi: detect, motion and plan over the ranks of an MPI job.
 
 Usage:
   mpirun -n N voxtact-mpi detect ... --resume DIR [--output PATH]
   mpirun -n N voxtact-mpi motion ... --resume DIR [--output PATH]
+  mpirun -n N voxtact-mpi plan ... --resume DIR [--output PATH]
 
 The options are those of voxtact; DIR must be the same folder for all ranks. The first rank deals the chunks, shows the
 progress of the whole run, and writes its output once all is done; what each rank did is said at the end. A job that was
@@ -41,8 +42,8 @@ bool isGiven(const Words& words, const std::string& option) {
 
 /// What is wrong with the arguments beyond what the program itself would find; empty: nothing.
 std::string refusalOf(const Words& words) {
-    if (words.empty() || (words.front() != "detect" && words.front() != "motion")) {
-        return "the ranks of a job do detect or motion; for anything else there is voxtact; see voxtact-mpi --help";
+    if (words.empty() || (words.front() != "detect" && words.front() != "motion" && words.front() != "plan")) {
+        return "the ranks of a job do detect, motion or plan; for anything else there is voxtact; see voxtact-mpi --help";
     }
     if (isGiven(words, "--shard")) {
         return "--shard: the first rank deals the chunks; leave it out";

@@ -4,6 +4,9 @@
 #include "app/draw/viridis.h"
 #include "voxtact/plan.h"
 
+#include <cmath>
+#include <limits>
+
 namespace voxtact::app {
 
 /// Unsafe red, possible grey, safe by its clearance.
@@ -13,6 +16,12 @@ namespace voxtact::app {
     return path.safety == Safety::Unsafe     ? kUnsafe
            : path.safety == Safety::Possible ? kPossible
                                              : viridis(path.clearance.lo / maximum);
+}
+
+/// The largest float that is no larger.
+[[nodiscard]] inline float roundedDown(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
 }
 
 /// Of two that are safe: the larger clearance, else the shorter one.

@@ -6,10 +6,6 @@
 #include "voxtact/io.h"
 #include "voxtact/samples.h"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-
 namespace voxtact::app {
 
 namespace {
@@ -22,8 +18,10 @@ Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, Sca
     return cpu::TransferFunction::create({points->empty() ? defaultRamp(domain) : *points, domain, how.tableSize});
 }
 
-Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how) {
-    const Result<VolumeData> data = loadVolume(source);
+/// `kept`: where the image itself goes; null: it is not needed.
+Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how,
+                                std::optional<VolumeData>* kept = nullptr) {
+    Result<VolumeData> data = loadVolume(source);
     VOXTACT_TRY(data);
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
@@ -31,126 +29,11 @@ Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctio
     VOXTACT_TRY(volume);
     Result<cpu::TransferFunction> function = functionOf(how, data->type, *values, source);
     VOXTACT_TRY(function);
-    return PlanVolume{std::move(*volume), std::move(*function), data->type, *values};
-}
-
-std::string listOf(const std::vector<std::string>& names) {
-    constexpr std::size_t kMost = 8;
-    std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
-        out += (i > 0 ? ", " : "") + names[i];
+    const ScalarType type = data->type;
+    if (kept != nullptr) {
+        *kept = std::move(*data);
     }
-    return names.size() > kMost ? out + ", ..." : out;
-}
-
-/// The labels that voxels have, ascending: 0 may be known and nowhere.
-std::vector<std::int32_t> presentLabels(const LabelData& labels) {
-    std::vector<bool> seen(labels.values.size());
-    for (const std::uint16_t index : labels.indices) {
-        seen[index] = true;
-    }
-    std::vector<std::int32_t> present;
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-        if (seen[i]) {
-            present.push_back(labels.values[i]);
-        }
-    }
-    return present;
-}
-
-/// All that voxels have of a number or a name: several may be called the same. Never none.
-Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const std::string& word,
-                                           const std::string& option) {
-    std::int32_t number = 0;
-    const std::from_chars_result read = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool isNumber = !word.empty() && read.ec == std::errc() && read.ptr == word.data() + word.size();
-    std::vector<std::string> names;
-    std::vector<std::int32_t> found;
-    for (const std::int32_t value : presentLabels(labels.labels)) {
-        const auto name = labels.names.find(value);
-        if (isNumber ? value == number : name != labels.names.end() && name->second == word) {
-            found.push_back(value);
-        }
-        names.push_back(isNumber || name == labels.names.end() ? std::to_string(value) : name->second);
-    }
-    if (!found.empty()) {
-        return found;
-    }
-    const std::string meant = nearestName(word, names);
-    return badArgument(option + ": no voxel of the label map has the label " + forMessage(word) +
-                       (meant.empty() ? "; it has " + listOf(names) : ", did you mean " + meant + "?"));
-}
-
-/// The only one.
-Result<std::int32_t> labelOf(const NamedLabels& labels, const std::string& word, const std::string& option) {
-    const Result<std::vector<std::int32_t>> found = labelsOf(labels, word, option);
-    VOXTACT_TRY(found);
-    if (found->size() > 1) {
-        return badArgument(option + ": " + std::to_string(found->size()) + " labels are called " + forMessage(word) +
-                           ", " + std::to_string((*found)[0]) + " and " + std::to_string((*found)[1]) +
-                           " among them; give the number of one");
-    }
-    return found->front();
-}
-
-/// The centre of the voxel with the label that is nearest to the mean of all of them, so that it is in the label.
-Vec3 centreOf(const LabelData& labels, std::int32_t label) {
-    const auto& size = labels.grid.size;
-    std::vector<Vec3> voxels;
-    Vec3 sum{};
-    std::size_t at = 0;
-    for (std::uint32_t z = 0; z < size[2]; ++z) {
-        for (std::uint32_t y = 0; y < size[1]; ++y) {
-            for (std::uint32_t x = 0; x < size[0]; ++x, ++at) {
-                if (labels.values[labels.indices[at]] == label) {
-                    voxels.push_back(
-                        transformPoint(worldFromIndex(labels.grid),
-                                       {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}));
-                    for (std::size_t axis = 0; axis < 3; ++axis) {
-                        sum[axis] += voxels.back()[axis];
-                    }
-                }
-            }
-        }
-    }
-    for (double& component : sum) {
-        component /= static_cast<double>(voxels.size());
-    }
-    const auto far = [&](const Vec3& voxel) {
-        return std::hypot(voxel[0] - sum[0], voxel[1] - sum[1], voxel[2] - sum[2]);
-    };
-    return *std::min_element(voxels.begin(), voxels.end(),
-                             [&](const Vec3& a, const Vec3& b) { return far(a) < far(b); });
-}
-
-bool isInside(const Grid& grid, const Vec3& world) {
-    const Result<Mat4> texture = textureFromWorld(grid);
-    const Vec3 at = texture.ok() ? transformPoint(*texture, world) : Vec3{-1, -1, -1};
-    return std::all_of(at.begin(), at.end(), [](double one) { return one >= 0 && one <= 1; });
-}
-
-Result<Vec3> targetOf(const PlanOptions& options, const PlanInputs& inputs) {
-    Vec3 target{};
-    if (const std::optional<Vec3> given = parsePoint(options.target)) {
-        target = *given;
-    } else if (!inputs.labels) {
-        return badArgument("--target: " + forMessage(options.target) +
-                           " is not a point x,y,z, and there are no --labels that could have one of this name");
-    } else {
-        const Result<std::int32_t> label = labelOf(*inputs.labels, options.target, "--target");
-        VOXTACT_TRY(label);
-        target = centreOf(inputs.labels->labels, *label);
-    }
-    if (!isInside(inputs.head->volume.grid(), target)) {
-        const Mat4 box = worldFromTexture(inputs.head->volume.grid());
-        const Vec3 lo = transformPoint(box, {0, 0, 0});
-        const Vec3 hi = transformPoint(box, {1, 1, 1});
-        return badArgument("--target: (" + number(target[0]) + ", " + number(target[1]) + ", " + number(target[2]) +
-                           ") is outside of the volume, whose opposite corners are (" + number(lo[0]) + ", " +
-                           number(lo[1]) + ", " + number(lo[2]) + ") and (" + number(hi[0]) + ", " + number(hi[1]) +
-                           ", " + number(hi[2]) + ")");
-    }
-    return target;
+    return PlanVolume{std::move(*volume), std::move(*function), type, *values};
 }
 
 constexpr std::string_view kNeedle = "builtin:needle";
@@ -158,7 +41,7 @@ constexpr std::string_view kNeedle = "builtin:needle";
 /// The sizes of a builtin needle, which is round here; any other is a mesh.
 Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
     const std::string& source = options.meshes.sources.front();
-    const Result<MeshData> data = loadMesh(source, options.meshes);
+    Result<MeshData> data = loadMesh(source, options.meshes);
     VOXTACT_TRY(data);
     if (source.starts_with(kNeedle)) {
         if (options.tip || options.axis) {
@@ -181,6 +64,9 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
     Result<cpu::Mesh> mesh = cpu::Mesh::create(data->view());
     VOXTACT_TRY(mesh);
     inputs.mesh = std::move(*mesh);
+    if (!options.picture.empty()) {
+        inputs.shownMesh = std::move(*data);
+    }
     inputs.task.mesh = cpu::PlanMesh{&*inputs.mesh, *options.tip, *options.axis};
     return {};
 }
@@ -262,35 +148,13 @@ Result<void> chooseSurface(const PlanOptions& options, PlanInputs& inputs) {
 
 } // namespace
 
-std::optional<Vec3> parsePoint(const std::string& text) {
-    Vec3 out{};
-    std::size_t from = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t comma = text.find(',', from);
-        if ((comma == std::string::npos) != (axis == 2)) {
-            return {};
-        }
-        const std::optional<double> read = parseFinite(std::string_view(text).substr(from, comma - from));
-        if (!read) {
-            return {};
-        }
-        out[axis] = *read;
-        from = comma + 1;
-    }
-    return out;
-}
-
-std::string labelText(const NamedLabels& labels, std::int32_t label) {
-    const auto name = labels.names.find(label);
-    return name == labels.names.end() ? std::to_string(label) : name->second;
-}
-
 Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     auto inputs = std::make_unique<PlanInputs>();
     if (options.labels.empty() && !options.labelNames.empty()) {
         return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
     }
-    Result<PlanVolume> head = readVolumeOf(options.volumes.front(), options.transferFunction);
+    Result<PlanVolume> head = readVolumeOf(options.volumes.front(), options.transferFunction,
+                                           options.picture.empty() ? nullptr : &inputs->shown);
     VOXTACT_TRY(head);
     inputs->head = std::move(*head);
     if (!options.labels.empty()) {
@@ -301,12 +165,12 @@ Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     VOXTACT_TRY(readInstrument(options, *inputs));
     VOXTACT_TRY(readObstacles(options, *inputs));
     VOXTACT_TRY(chooseSurface(options, *inputs));
-    const Result<Vec3> target = targetOf(options, *inputs);
-    VOXTACT_TRY(target);
-    inputs->task.target = *target;
+    VOXTACT_TRY(readTargets(options, *inputs));
+    inputs->task.target = inputs->targets.front().at;
     inputs->task.margin = options.margin;
     inputs->task.longest = options.longest;
     inputs->task.steepest = options.steepest;
+    inputs->task.triangleClearances = !options.heatMap.empty();
     return inputs;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <numeric>
 #include <ostream>
 #include <sstream>
 
@@ -51,9 +52,10 @@ std::string colourText(const Rgb& colour) {
 }
 
 /// A half of the directions, seen along z from outside: as far from the disc's middle as the angle to z is large.
-void writeHalf(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& answer, double maximum, bool upper) {
+void writeHalf(std::ostream& out, const TargetPlan& plan, double maximum, bool upper) {
+    const PlanAnswer& answer = plan.answer;
     const std::size_t step = answer.paths.size() / kMostDots + 1;
-    const Vec3& target = inputs.task.target;
+    const Vec3& target = plan.target.at;
     const double size = std::max(
         2.0, 0.9 * kDisc * std::sqrt(8.0 / static_cast<double>(std::min(answer.directions / step, kMostDots) + 1)));
     const double middle = kDisc + 10;
@@ -78,47 +80,35 @@ void writeHalf(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& an
         << "</figcaption></figure>\n";
 }
 
-std::vector<const PlannedPath*> ranked(const PlanAnswer& answer) {
-    std::vector<const PlannedPath*> safe;
-    for (const PlannedPath& path : answer.paths) {
-        if (path.safety == Safety::Safe) {
-            safe.push_back(&path);
-        }
-    }
-    const std::size_t kept = std::min(safe.size(), kRanked);
-    std::partial_sort(safe.begin(), safe.begin() + static_cast<std::ptrdiff_t>(kept), safe.end(),
-                      [](const PlannedPath* a, const PlannedPath* b) { return isBetter(*a, *b); });
-    safe.resize(kept);
-    return safe;
-}
-
 Rounding roundingOf(const std::string& column) {
     return column == "clearance_lo"   ? Rounding{std::floor}
            : column == "clearance_hi" ? Rounding{std::ceil}
                                       : Rounding{std::round};
 }
 
-void writeRanking(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& answer) {
-    const io::Table table = planTable(inputs, answer, false);
-    out << "<h2>The safest paths</h2>\n<table><tr>";
+void writeCell(std::ostream& out, const io::Cell& cell, Rounding round) {
+    if (const auto* text = std::get_if<std::string>(&cell)) {
+        out << htmlText(*text);
+    } else if (const auto* real = std::get_if<double>(&cell)) {
+        out << (std::isfinite(*real) ? fixed(*real, 2, round) : number(*real));
+    } else if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
+        out << *whole;
+    } else if (const auto* word = std::get_if<io::NumberWord>(&cell)) {
+        out << word->word;
+    }
+}
+
+void writeRows(std::ostream& out, const io::Table& table, std::span<const std::size_t> rows) {
+    out << "<table><tr>";
     for (const std::string& column : table.columns) {
         out << "<th>" << column << "</th>";
     }
     out << "</tr>\n";
-    for (const PlannedPath* path : ranked(answer)) {
+    for (const std::size_t row : rows) {
         out << "<tr>";
         for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            const io::Cell cell = table.cell(static_cast<std::size_t>(path - answer.paths.data()), column);
             out << "<td>";
-            if (const auto* text = std::get_if<std::string>(&cell)) {
-                out << htmlText(*text);
-            } else if (const auto* real = std::get_if<double>(&cell)) {
-                out << (std::isfinite(*real) ? fixed(*real, 2, roundingOf(table.columns[column])) : number(*real));
-            } else if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
-                out << *whole;
-            } else if (const auto* word = std::get_if<io::NumberWord>(&cell)) {
-                out << word->word;
-            }
+            writeCell(out, table.cell(row, column), roundingOf(table.columns[column]));
             out << "</td>";
         }
         out << "</tr>\n";
@@ -126,25 +116,37 @@ void writeRanking(std::ostream& out, const PlanInputs& inputs, const PlanAnswer&
     out << "</table>\n";
 }
 
-} // namespace
+/// Of one target or of all.
+void writeRanking(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans) {
+    std::vector<std::size_t> rows;
+    for (const ChosenPath& best : rankedPaths(plans, kRanked)) {
+        auto row = static_cast<std::size_t>(best.path - best.plan->answer.paths.data());
+        for (const TargetPlan* plan = plans.data(); plan != best.plan; ++plan) {
+            row += plan->answer.paths.size();
+        }
+        rows.push_back(row);
+    }
+    writeRows(out, planTable(inputs, plans, false), rows);
+}
 
-void writePlanReport(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& answer,
-                     const std::vector<std::string>& notes, double maximum) {
-    out << "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Paths to a target</title>\n<style>"
-           "body{font:15px/1.4 sans-serif;margin:2em;max-width:80em}table{border-collapse:collapse;font-size:13px}"
-           "td,th{border:1px solid #ccc;padding:2px 6px;text-align:right}figure{display:inline-block;margin:0 1em 1em "
-           "0}"
-           "figcaption{text-align:center}</style></head><body>\n<h1>Paths to ("
-        << fixed(inputs.task.target[0], 2) << ", " << fixed(inputs.task.target[1], 2) << ", "
-        << fixed(inputs.task.target[2], 2)
-        << ")</h1>\n<p>World millimetres, LPS. A safe path certainly keeps more than " << number(inputs.task.margin)
-        << " mm.</p>\n<ul>\n";
+void writeList(std::ostream& out, const std::vector<std::string>& notes) {
+    out << "<ul>\n";
     for (const std::string& note : notes) {
         out << "<li>" << htmlText(note) << "</li>\n";
     }
-    out << "</ul>\n<h2>Where they begin</h2>\n";
-    writeHalf(out, inputs, answer, maximum, true);
-    writeHalf(out, inputs, answer, maximum, false);
+    out << "</ul>\n";
+}
+
+std::string placeText(const PlanTarget& target) {
+    return "(" + fixed(target.at[0], 2) + ", " + fixed(target.at[1], 2) + ", " + fixed(target.at[2], 2) + ")";
+}
+
+void writeMaps(std::ostream& out, const TargetPlan& plan, double maximum) {
+    writeHalf(out, plan, maximum, true);
+    writeHalf(out, plan, maximum, false);
+}
+
+void writeKey(std::ostream& out, double maximum) {
     out << "<p>Red: unsafe. Grey: possible. Safe by clearance: ";
     constexpr int kSteps = 5;
     for (int i = 0; i <= kSteps; ++i) {
@@ -153,7 +155,76 @@ void writePlanReport(std::ostream& out, const PlanInputs& inputs, const PlanAnsw
             << number(std::round(100 * share * maximum) / 100) << (i == kSteps ? " mm and more" : " mm") << "</span>";
     }
     out << "</p>\n";
-    writeRanking(out, inputs, answer);
+}
+
+/// RFC 4648, for what is in a page itself.
+std::string base64(std::string_view bytes) {
+    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr unsigned kBits = 6;
+    constexpr std::uint32_t kMask = 63;
+    std::string out;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            out += k > bytes.size() - i ? '=' : kDigits[group >> (kBits * (3 - k)) & kMask];
+        }
+    }
+    return out;
+}
+
+/// All targets together, then each for itself.
+void writeTargets(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans, double maximum) {
+    const io::Table table = targetTable(inputs, plans);
+    std::vector<std::size_t> rows(plans.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    out << "<h2>Targets</h2>\n";
+    writeRows(out, table, rows);
+    out << "<h2>The safest paths of all</h2>\n";
+    writeRanking(out, inputs, plans);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const std::span<const TargetPlan> one = plans.subspan(i, 1);
+        out << "<h2 id=\"target-" << i + 1 << "\">Target " << htmlText(one[0].target.name) << ", "
+            << placeText(one[0].target) << "</h2>\n";
+        writeList(out, planNotes(inputs, one));
+        writeMaps(out, one[0], maximum);
+        writeKey(out, maximum);
+        writeRanking(out, inputs, one);
+    }
+}
+
+} // namespace
+
+void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans, double maximum,
+                     std::string_view png) {
+    const bool several = plans.size() > 1;
+    out << "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Paths to "
+        << (several ? "targets" : "a target")
+        << "</title>\n<style>"
+           "body{font:15px/1.4 sans-serif;margin:2em;max-width:80em}table{border-collapse:collapse;font-size:13px}"
+           "td,th{border:1px solid #ccc;padding:2px 6px;text-align:right}figure{display:inline-block;margin:0 1em 1em "
+           "0}"
+           "figcaption{text-align:center}</style></head><body>\n<h1>Paths to "
+        << (several ? std::to_string(plans.size()) + " targets" : placeText(plans.front().target))
+        << "</h1>\n<p>World millimetres, LPS. A safe path certainly keeps more than " << number(inputs.task.margin)
+        << " mm.</p>\n";
+    writeList(out, planNotes(inputs, plans));
+    if (!png.empty()) {
+        out << "<p><img alt=\"the best path, from outside and cut open\" style=\"max-width:100%\" "
+               "src=\"data:image/png;base64,"
+            << base64(png) << "\"></p>\n";
+    }
+    if (several) {
+        writeTargets(out, inputs, plans, maximum);
+    } else {
+        out << "<h2>Where they begin</h2>\n";
+        writeMaps(out, plans.front(), maximum);
+        writeKey(out, maximum);
+        out << "<h2>The safest paths</h2>\n";
+        writeRanking(out, inputs, plans);
+    }
     out << "<p>voxtact " << htmlText(std::string(programVersion())) << "</p>\n</body></html>\n";
 }
 

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/chunks/chunk_options.h"
 #include "app/options/inputs.h"
+#include "app/options/output_paths.h"
 #include "app/options/shared_options.h"
 #include "voxtact/cpu.h"
 
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What the parts of `voxtact plan` share.
+namespace CLI {
+class App;
+} // namespace CLI
+
 namespace voxtact::app {
 
 /// A label by its number, or by its name.
@@ -26,7 +34,9 @@ struct PlanOptions {
     std::vector<LabelWord> avoid;
     std::string avoidVolume;                 ///< empty: the volume itself
     std::optional<std::string> avoidOpacity; ///< nothing: what is opaque is not avoided
-    std::string target;                      ///< x,y,z or a label
+    std::vector<std::string> targets;        ///< x,y,z or a label each
+    std::vector<LabelWord> targetLabels;     ///< after them: labels
+    std::filesystem::path targetFile;        ///< after these: a line each; empty: none
     std::optional<Vec3> tip;
     std::optional<Vec3> axis;
     std::uint32_t entries = 10000;
@@ -40,8 +50,15 @@ struct PlanOptions {
     std::uint32_t threads = 0;
     bool summary = false;
     bool timing = false;
-    std::filesystem::path surface; ///< a .ply file to write; empty: none
-    std::filesystem::path report;  ///< an .html file to write; empty: none
+    std::filesystem::path byTarget; ///< a CSV file to write; empty: none
+    std::filesystem::path surface;  ///< a .ply file to write; empty: none
+    std::filesystem::path heatMap;  ///< a volume to write; empty: none
+    std::filesystem::path picture;  ///< a .png file to write; empty: none
+    VkExtent2D half{512, 512};      ///< of the picture, which has two of them beside each other
+    bool sizeGiven = false;
+    DeviceChoice device;
+    std::filesystem::path report; ///< an .html file to write; empty: none
+    ChunkOptions chunks;
     OutputOptions output;
 };
 
@@ -53,6 +70,24 @@ struct PlanVolume {
     ValueRange values; ///< of its voxels
 };
 
+/// Where a tip goes.
+struct PlanTarget {
+    std::string name; ///< a label's, or a line's of a file; else its number among all, from 1
+    Vec3 at{};        ///< world mm
+};
+
+/// A target's plan.
+struct TargetPlan {
+    PlanTarget target;
+    PlanAnswer answer;
+};
+
+/// A path of one of several plans.
+struct ChosenPath {
+    const TargetPlan* plan = nullptr; ///< null: there is none
+    const PlannedPath* path = nullptr;
+};
+
 /// What is read, and what of it is planned with.
 struct PlanInputs {
     std::optional<PlanVolume> head;
@@ -60,25 +95,62 @@ struct PlanInputs {
     std::optional<cpu::TransferFunction> avoidedInHead; ///< the same of `head`
     std::optional<NamedLabels> labels;
     std::optional<cpu::Mesh> mesh;
+    std::optional<VolumeData> shown;          ///< for a picture: what `head` is made of
+    std::optional<MeshData> shownMesh;        ///< for a picture: what `mesh` is made of
     std::vector<cpu::PlanObstacle> obstacles; ///< refer to what is above
-    cpu::PlanTask task;                       ///< refers to all of these
+    std::vector<PlanTarget> targets;          ///< of different names; never none
+    cpu::PlanTask task;                       ///< refers to all of these; its target is the first
 };
+
+void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options);
 
 /// x,y,z; nothing where a text is not three finite numbers.
 [[nodiscard]] std::optional<Vec3> parsePoint(const std::string& text);
 
+/// What a plan reads, for who must not write over it.
+[[nodiscard]] std::vector<NamedPath> planReads(const PlanOptions& options);
 /// Reads all of it. What comes out must not be moved: it refers to itself.
 [[nodiscard]] Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options);
+/// Sets where tips go; volume and labels are read.
+[[nodiscard]] Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs);
 
+/// All labels that voxels have of a number or a name: several may be called the same. Never none. `option` is for
+/// messages.
+[[nodiscard]] Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const LabelWord& word,
+                                                         const std::string& option);
+/// The only one.
+[[nodiscard]] Result<std::int32_t> labelOf(const NamedLabels& labels, const LabelWord& word, const std::string& option);
 /// The name of a label, or its number where it has none.
 [[nodiscard]] std::string labelText(const NamedLabels& labels, std::int32_t label);
 
+/// Plans for one of the targets.
+[[nodiscard]] Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::Planner& planner);
+
+/// Refuses what a run in chunks cannot have, and options about chunks without one.
+[[nodiscard]] Result<void> checkPlanChunks(const PlanOptions& options);
+/// A chunk has some of the targets.
+[[nodiscard]] Outcome runPlanChunks(const CLI::App& parser, const PlanOptions& options, const PlanInputs& inputs,
+                                    cpu::Planner& planner);
+
+/// Of safe paths of all plans the best ones first, no more than so many.
+[[nodiscard]] std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size_t most);
+/// What is said of plans: how many paths are safe, the area, the best path.
+[[nodiscard]] std::vector<std::string> planNotes(const PlanInputs& inputs, std::span<const TargetPlan> plans);
+
 /// The rows, and what they are about. Refers to both.
-[[nodiscard]] io::Table planTable(const PlanInputs& inputs, const PlanAnswer& answer, bool timing);
+[[nodiscard]] io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans, bool timing);
+/// A row for each plan. Refers to both.
+[[nodiscard]] io::Table targetTable(const PlanInputs& inputs, std::span<const TargetPlan> plans);
 /// The triangles between the entries in colours, as PLY.
 void writePlanSurface(std::ostream& out, const PlanAnswer& answer, bool certified, double maximum);
-/// A page with the notes, the entries in colours, and the best paths.
-void writePlanReport(std::ostream& out, const PlanInputs& inputs, const PlanAnswer& answer,
-                     const std::vector<std::string>& notes, double maximum);
+/// The entries on a grid, as float: mm that every path which enters through a voxel certainly keeps; -1 where none
+/// does. Not `certified`: of a mesh's paths, each in the voxel of its entry.
+[[nodiscard]] VolumeData planHeatMap(const Grid& grid, const PlanAnswer& answer, bool certified);
+/// Refuses an ending that is no volume's, and a grid that the file cannot hold.
+[[nodiscard]] Result<void> checkHeatMap(const PlanOptions& options, const Grid& grid);
+/// A page with the notes, the best paths, and for each target the entries in colours.
+/// `png`: the content of a picture that is in it; empty: there is none.
+void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans, double maximum,
+                     std::string_view png);
 
 } // namespace voxtact::app

@@ -4,9 +4,7 @@
 #include "core/base/text.h"
 
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <ostream>
 
 namespace voxtact::app {
@@ -19,12 +17,6 @@ template <class Number> void append(std::string& bytes, Number number) {
     char raw[sizeof number];
     std::memcpy(raw, &number, sizeof raw);
     bytes.append(raw, sizeof raw);
-}
-
-/// The largest float that is no larger.
-float roundedDown(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
 }
 
 } // namespace

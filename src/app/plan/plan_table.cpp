@@ -12,7 +12,11 @@ namespace {
 
 constexpr std::array kColumns{"entry",        "x",       "y",         "z",         "safe",      "clearance_lo",
                               "clearance_hi", "nearest", "nearest_x", "nearest_y", "nearest_z", "length",
-                              "angle",        "crosses"};
+                              "angle",        "crosses", "target"};
+constexpr std::array kTargetColumns{
+    "target",     "x",          "y",        "z",           "paths",    "safe",          "unsafe", "possible",
+    "directions", "no_surface", "too_long", "too_oblique", "area_mm2", "safe_area_mm2", "best",   "best_clearance_lo",
+    "best_length"};
 
 /// A nanometre: more digits say nothing.
 io::Cell millimetres(double value) {
@@ -34,10 +38,10 @@ std::string nearestText(const PlanInputs& inputs, const NearestObstacle& nearest
     return inputs.obstacles[nearest.obstacle].labels != nullptr ? labelText(*inputs.labels, nearest.label) : "opaque";
 }
 
-std::string crossed(const PlanInputs& inputs, const PlannedPath& path) {
+std::string crossed(const PlanInputs& inputs, const PlanTarget& target, const PlannedPath& path) {
     std::string out;
     const Result<std::vector<std::int32_t>> labels =
-        labelsAlong(inputs.labels->labels, path.position, inputs.task.target);
+        labelsAlong(inputs.labels->labels, path.position, target.at);
     if (!labels.ok()) {
         throw std::bad_alloc(); // the plan has looked at all that can be refused
     }
@@ -47,7 +51,7 @@ std::string crossed(const PlanInputs& inputs, const PlannedPath& path) {
     return out;
 }
 
-io::Cell cellOf(const PlanInputs& inputs, const PlannedPath& path, std::size_t column) {
+io::Cell cellOf(const PlanInputs& inputs, const PlanTarget& target, const PlannedPath& path, std::size_t column) {
     switch (column) {
     case 0:
         return std::uint64_t{path.entry};
@@ -71,35 +75,101 @@ io::Cell cellOf(const PlanInputs& inputs, const PlannedPath& path, std::size_t c
         return millimetres(path.length);
     case 12:
         return path.angle ? millimetres(*path.angle) : io::Cell();
+    case 13:
+        return inputs.labels ? io::Cell(crossed(inputs, target, path)) : io::Cell();
     default:
-        return inputs.labels ? io::Cell(crossed(inputs, path)) : io::Cell();
+        return target.name;
+    }
+}
+
+io::Cell countCell(const PlanAnswer& answer, Safety safety) {
+    return static_cast<std::uint64_t>(std::ranges::count(answer.paths, safety, &PlannedPath::safety));
+}
+
+/// mm2 to a hundredth, rounded down: an area that is certain.
+io::Cell areaCell(double area) {
+    constexpr double kParts = 100;
+    return std::floor(area * kParts) / kParts;
+}
+
+io::Cell bestCell(const TargetPlan& plan, std::size_t which) {
+    const std::vector<ChosenPath> best = rankedPaths(std::span(&plan, 1), 1);
+    if (best.empty()) {
+        return {};
+    }
+    const PlannedPath& path = *best.front().path;
+    return which == 0   ? io::Cell(std::uint64_t{path.entry})
+           : which == 1 ? io::Cell(roundedTo(path.clearance.lo, std::floor))
+                        : millimetres(path.length);
+}
+
+io::Cell targetCell(const PlanInputs& inputs, const TargetPlan& plan, std::size_t column) {
+    const PlanAnswer& answer = plan.answer;
+    switch (column) {
+    case 0:
+        return plan.target.name;
+    case 1:
+    case 2:
+    case 3:
+        return millimetres(plan.target.at[column - 1]);
+    case 4:
+        return std::uint64_t{answer.paths.size()};
+    case 5:
+        return countCell(answer, Safety::Safe);
+    case 6:
+        return countCell(answer, Safety::Unsafe);
+    case 7:
+        return countCell(answer, Safety::Possible);
+    case 8:
+        return std::uint64_t{answer.directions};
+    case 9:
+        return std::uint64_t{answer.noSurface};
+    case 10:
+        return std::uint64_t{answer.tooLong};
+    case 11:
+        return std::uint64_t{answer.tooOblique};
+    case 12:
+        return areaCell(answer.area);
+    case 13:
+        return inputs.task.mesh ? io::Cell() : areaCell(answer.safeArea);
+    default:
+        return bestCell(plan, column - 14);
     }
 }
 
 } // namespace
 
-io::Table planTable(const PlanInputs& inputs, const PlanAnswer& answer, bool timing) {
+io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans, bool timing) {
     io::Table out;
     out.columns = {kColumns.begin(), kColumns.end()};
-    out.rows = answer.paths.size();
-    out.cell = [&](std::size_t row, std::size_t column) { return cellOf(inputs, answer.paths[row], column); };
-    const Vec3& target = inputs.task.target;
-    out.facts = {{"voxtact", std::string(programVersion())},
-                 {"target_x", target[0]},
-                 {"target_y", target[1]},
-                 {"target_z", target[2]},
-                 {"margin", inputs.task.margin},
-                 {"directions", std::uint64_t{answer.directions}},
-                 {"no_surface", std::uint64_t{answer.noSurface}},
-                 {"too_long", std::uint64_t{answer.tooLong}},
-                 {"too_oblique", std::uint64_t{answer.tooOblique}},
-                 {"area_mm2", answer.area},
-                 {"safe_area_mm2", inputs.task.mesh ? io::Cell() : io::Cell(answer.safeArea)}};
-    if (timing) {
-        out.timing = {{"entries", std::uint64_t{answer.paths.size()}},
-                      {"wall_ms", answer.wallMilliseconds},
-                      {"entries_per_s", 1000 * static_cast<double>(answer.paths.size()) / answer.wallMilliseconds}};
+    std::vector<std::size_t> firsts; // rows of plans
+    double milliseconds = 0;
+    for (const TargetPlan& plan : plans) {
+        firsts.push_back(out.rows);
+        out.rows += plan.answer.paths.size();
+        milliseconds += plan.answer.wallMilliseconds;
     }
+    out.cell = [&inputs, plans, firsts](std::size_t row, std::size_t column) {
+        const auto number = static_cast<std::size_t>(std::ranges::upper_bound(firsts, row) - firsts.begin()) - 1;
+        const TargetPlan& plan = plans[number];
+        return cellOf(inputs, plan.target, plan.answer.paths[row - firsts[number]], column);
+    };
+    out.facts = {{"voxtact", std::string(programVersion())},
+                 {"margin", inputs.task.margin},
+                 {"targets", std::uint64_t{inputs.targets.size()}}};
+    if (timing) {
+        out.timing = {{"entries", std::uint64_t{out.rows}},
+                      {"wall_ms", milliseconds},
+                      {"entries_per_s", 1000 * static_cast<double>(out.rows) / milliseconds}};
+    }
+    return out;
+}
+
+io::Table targetTable(const PlanInputs& inputs, std::span<const TargetPlan> plans) {
+    io::Table out;
+    out.columns = {kTargetColumns.begin(), kTargetColumns.end()};
+    out.rows = plans.size();
+    out.cell = [&inputs, plans](std::size_t row, std::size_t column) { return targetCell(inputs, plans[row], column); };
     return out;
 }
 

@@ -44,6 +44,14 @@ PatchCertificate::Contents PatchCertificate::contentsOf(const DirectionPatch& pa
     return out;
 }
 
+Sweep PatchCertificate::sweepOf(const DirectionCone& cone) const {
+    Sweep sweep;
+    sweep.turn = cone.angle;
+    sweep.centre = glm::dvec3(scene_.task.target[0], scene_.task.target[1], scene_.task.target[2]);
+    sweep.slack = scene_.slack;
+    return sweep;
+}
+
 /// Whether all paths in the patch, from entries no farther than the longest, keep clear. What an earlier look at a
 /// patch around this one has left open is looked at, and `open` is what this one leaves.
 bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open& open) {
@@ -53,10 +61,7 @@ bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open
     }
     const bool last = patch.cells(0) == 1 && patch.cells(1) == 1;
     const double end = scene_.axisEnd(longest);
-    Sweep sweep;
-    sweep.turn = cone.angle;
-    sweep.centre = glm::dvec3(scene_.task.target[0], scene_.task.target[1], scene_.task.target[2]);
-    sweep.slack = scene_.slack;
+    const Sweep sweep = sweepOf(cone);
     const double wanted = scene_.margin + scene_.radius;
     const SearchGoal goal{.tolerance = 0,
                           .maximum = wanted + 2 * scene_.slack,
@@ -98,8 +103,69 @@ void PatchCertificate::look(const DirectionPatch& patch, Open open, std::vector<
     look(second, std::move(open), triangles);
 }
 
+/// The search's upper bound is only about right for what is turned, and serves to end it: what it closes by that, its
+/// lower bound counts in.
+double PatchCertificate::clearanceOf(const DirectionPatch& cell, double longest, double most) {
+    const DirectionCone cone = scene_.grid.cone(cell);
+    if (!(cone.angle < kRightAngle)) {
+        return 0;
+    }
+    const Sweep sweep = sweepOf(cone);
+    const double off = scene_.radius + 2 * scene_.slack;
+    const double fine = std::max(scene_.desc.tolerance, kFinest * cone.angle * scene_.axisEnd(longest));
+    double clearance = most;
+    for (std::size_t i = 0; i < scene_.obstacles.size() && clearance > 0; ++i) {
+        const Obstacle& of = scene_.obstacles[i];
+        const SearchGoal goal{.tolerance = fine,
+                              .maximum = clearance + off,
+                              .enough = scene_.radius,
+                              .finest = fine,
+                              .mostSteps = kMost,
+                              .measures = true,
+                              .coarsely = true};
+        const BatchItem item{&scene_.axis, of.given->volume, nullptr, {}};
+        const Found found = PairAt{item, *of.part, scene_.axisPose(cone.axis, longest), scene_.task.cancel}.search(
+            memory_, of.searched(), goal, sweep);
+        clearance = std::min(clearance, found.lo - off);
+    }
+    return std::max(clearance, 0.0);
+}
+
+void PatchCertificate::measure(const DirectionPatch& cell, std::vector<EntryTriangle>& triangles) {
+    double longest = 0;
+    double most = 0; // no path of a triangle keeps more than those from its corners
+    forTriangles(cell, [&](const std::array<std::uint32_t, 3>& corners, std::uint32_t /*place*/) {
+        double least = scene_.desc.maximum;
+        for (const std::uint32_t corner : corners) {
+            longest = std::max(longest, paths_[corner]->length);
+            least = std::min(least, paths_[corner]->clearance.hi);
+        }
+        most = std::max(most, least);
+    });
+    if (most == 0 || scene_.givenUp()) {
+        return;
+    }
+    const double all = clearanceOf(cell, longest, most);
+    forTriangles(cell, [&](const std::array<std::uint32_t, 3>& corners, std::uint32_t place) {
+        double hi = all;
+        for (const std::uint32_t corner : corners) {
+            hi = std::min(hi, paths_[corner]->clearance.hi);
+        }
+        EntryTriangle& triangle = triangles[place];
+        triangle.clearance = triangle.safe ? std::max(hi, std::min(scene_.task.margin, scene_.desc.maximum)) : hi;
+    });
+}
+
 void PatchCertificate::run(const DirectionPatch& patch, std::vector<EntryTriangle>& triangles) {
     look(patch, Open(scene_.obstacles.size()), triangles);
+    if (!scene_.task.triangleClearances) {
+        return;
+    }
+    for (std::uint32_t i = patch.lo[0]; i < patch.hi[0]; ++i) {
+        for (std::uint32_t j = patch.lo[1]; j < patch.hi[1]; ++j) {
+            measure({patch.rhombus, {i, j}, {i + 1, j + 1}}, triangles);
+        }
+    }
 }
 
 } // namespace voxtact::cpu

@@ -39,7 +39,7 @@ class PatchCertificate {
                      ThreadMemory& memory)
         : scene_(scene), paths_(paths), places_(places), memory_(memory) {}
 
-    /// Marks the triangles that are safe.
+    /// Marks the triangles that are safe, and measures them where the task asks for that.
     void run(const DirectionPatch& patch, std::vector<EntryTriangle>& triangles);
 
   private:
@@ -55,6 +55,11 @@ class PatchCertificate {
     template <class Visit> void forTriangles(const DirectionPatch& patch, const Visit& visit) const;
     [[nodiscard]] bool isApart(const DirectionPatch& patch, double longest, Open& open);
     void look(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles);
+    /// All of the axis's ways in a cone, from entries no farther than the longest.
+    [[nodiscard]] Sweep sweepOf(const DirectionCone& cone) const;
+    /// mm that all paths in a cell certainly keep; looked for up to `most`.
+    [[nodiscard]] double clearanceOf(const DirectionPatch& cell, double longest, double most);
+    void measure(const DirectionPatch& cell, std::vector<EntryTriangle>& triangles);
 
     const PlanScene& scene_;
     std::span<const PlannedPath* const> paths_;

@@ -168,30 +168,47 @@ Result<std::string> headOf(const fs::path& path, VolumeFormat format, const Volu
     return metaHead(volume);
 }
 
+/// A volume that can be written under a name: its head.
+Result<std::string> checkedHead(const fs::path& name, const VolumeView& volume) {
+    const std::string ending = lowerEnding(name);
+    if (ending != ".nii" && ending != ".nii.gz" && ending != ".nrrd" && ending != ".mha") {
+        return cannotWrite(name, "the ending of a volume is .nii, .nii.gz, .nrrd or .mha", ErrorCode::InvalidArgument);
+    }
+    if (const Result<ValueRange> range = checkVolume(volume); !range.ok()) {
+        return cannotWrite(name, range.error().text, range.error().code);
+    }
+    return headOf(name, volumeFormat(name).value_or(VolumeFormat::Nrrd), volume);
+}
+
+void writeParts(std::ostream& out, const fs::path& name, const std::string& head, const VolumeView& volume) {
+    const std::string_view voxels(reinterpret_cast<const char*>(volume.voxels.data()), volume.voxels.size());
+    if (lowerEnding(name).ends_with(".gz")) {
+        GzipWriter packed(out);
+        packed.write(head, false);
+        packed.write(voxels, true);
+    } else {
+        out.write(head.data(), static_cast<std::streamsize>(head.size()));
+        out.write(voxels.data(), static_cast<std::streamsize>(voxels.size()));
+    }
+}
+
 } // namespace
+
+Result<void> writeVolume(std::ostream& out, const fs::path& name, const VolumeView& volume) {
+    return guard([&]() -> Result<void> {
+        const Result<std::string> head = checkedHead(name, volume);
+        VOXTACT_TRY(head);
+        writeParts(out, name, *head, volume);
+        return {};
+    });
+}
 
 Result<void> writeVolume(const fs::path& path, const VolumeView& volume) {
     return guard([&]() -> Result<void> {
-        const std::string ending = lowerEnding(path);
-        if (ending != ".nii" && ending != ".nii.gz" && ending != ".nrrd" && ending != ".mha") {
-            return cannotWrite(path, "the ending of a volume is .nii, .nii.gz, .nrrd or .mha",
-                               ErrorCode::InvalidArgument);
-        }
-        if (const Result<ValueRange> range = checkVolume(volume); !range.ok()) {
-            return cannotWrite(path, range.error().text, range.error().code);
-        }
-        const Result<std::string> head = headOf(path, volumeFormat(path).value_or(VolumeFormat::Nrrd), volume);
+        const Result<std::string> head = checkedHead(path, volume);
         VOXTACT_TRY(head);
-        const std::string_view voxels(reinterpret_cast<const char*>(volume.voxels.data()), volume.voxels.size());
         return writeFile(path, [&](std::ostream& out) -> Result<void> {
-            if (ending.ends_with(".gz")) {
-                GzipWriter packed(out);
-                packed.write(*head, false);
-                packed.write(voxels, true);
-            } else {
-                out.write(head->data(), static_cast<std::streamsize>(head->size()));
-                out.write(voxels.data(), static_cast<std::streamsize>(voxels.size()));
-            }
+            writeParts(out, path, *head, volume);
             return {}; // the file's close() says whether all was written
         });
     });
