@@ -77,7 +77,7 @@ TEST(PlanObstacles, PatchesAreSafeFromAllOfThemAndForTheLongestPath) {
     const LabelData surface = take(makeLabels(
         makeBytes(grid, [](auto x, auto y, auto z) { return x < 40 && y >= 15 && z >= 8 && z < 50 ? 1 : 0; }).view()));
     std::size_t safe = 0;
-    for (std::size_t scenes = 0; scenes < randomCases(200, 25); ++scenes) {
+    for (std::size_t scenes = 0; scenes < randomCases(2000, 25); ++scenes) {
         BoxScene scene(random, 12);
         std::vector<cpu::PlanObstacle> obstacles(2, scene.obstacle);
         for (cpu::PlanObstacle& each : obstacles) {
@@ -88,9 +88,9 @@ TEST(PlanObstacles, PatchesAreSafeFromAllOfThemAndForTheLongestPath) {
         }
         std::erase_if(obstacles, [](const cpu::PlanObstacle& each) { return each.avoid.empty(); });
         scene.task.obstacles = obstacles;
-        scene.task.surface = {.entries = 642, .labels = &surface, .label = 1};
-        scene.task.needle = {2, 3};
-        scene.task.margin = uniform(random, 0, 2);
+        scene.task.surface = {.entries = 42, .labels = &surface, .label = 1};
+        scene.task.needle = {0.2, 3}; // what is between the entries is not near to them
+        scene.task.margin = uniform(random, 0, 0.2);
         const PlanAnswer answer = take(take(cpu::Planner::create({.threads = 1})).plan(scene.task));
         for (const EntryTriangle& triangle : answer.triangles) {
             for (int sample = 0; triangle.safe && sample < 20; ++sample) {
@@ -105,7 +105,7 @@ TEST(PlanObstacles, PatchesAreSafeFromAllOfThemAndForTheLongestPath) {
         }
         ASSERT_FALSE(HasFailure());
     }
-    EXPECT_GT(safe, 1000U);
+    EXPECT_GT(safe, 300U);
 }
 
 TEST(PlanObstacles, AMeshIsTurnedToTheOppositeWithoutALossOfDigits) {

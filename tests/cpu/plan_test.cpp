@@ -127,8 +127,8 @@ TEST(Plan, SaysHowNearEachPathComes) {
         }
         ASSERT_FALSE(HasFailure());
     }
-    EXPECT_GT(verdicts[0], 500U);
-    EXPECT_GT(verdicts[1], 500U);
+    EXPECT_GT(verdicts[0], 200U);
+    EXPECT_GT(verdicts[1], 200U);
     EXPECT_LT(verdicts[2], verdicts[0] / 20);
 }
 
@@ -226,7 +226,7 @@ TEST(Plan, MeasuresTrianglesForAllTheirPaths) {
 TEST(Plan, AMeshIsMeasuredOnItsWayIn) {
     std::mt19937_64 random(testSeed());
     cpu::Planner planner = take(cpu::Planner::create({.threads = 1, .tolerance = 0.01}));
-    const MeshData round = take(makeNeedle(2, 40));
+    const MeshData round = take(makeNeedle(2, 6)); // all of its way is among the boxes
     MeshData turned = round;
     for (std::size_t i = 0; i < round.positions.size(); i += 3) {
         turned.positions[i] = 5 - round.positions[i + 2]; // the shaft along -x from (5, 6, 7)
@@ -237,6 +237,8 @@ TEST(Plan, AMeshIsMeasuredOnItsWayIn) {
     for (std::size_t scenes = 0; scenes < randomCases(40, 20); ++scenes) {
         BoxScene scene(random, 10);
         scene.task.surface.entries = 42;
+        scene.task.surface.radius = 18;
+        scene.task.needle.length = 6;
         scene.task.margin = scenes % 2 == 0 ? 0 : uniform(random, 0, 3);
         const PlanAnswer exact = take(planner.plan(scene.task));
         scene.task.mesh = cpu::PlanMesh{&mesh, {5, 6, 7}, {-3, 0, 0}};
