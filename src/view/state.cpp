@@ -24,8 +24,8 @@ Vec3 middleOf(const Grid& grid) {
 } // namespace
 
 State::State(Given opened)
-    : volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), values(opened.values),
-      deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
+    : volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), labels(std::move(opened.labels)),
+      values(opened.values), deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
       document(std::move(opened.document)), window(opened.values) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();

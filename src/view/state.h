@@ -3,6 +3,7 @@
 
 #include "view/model/document.h"
 #include "view/model/history.h"
+#include "view/model/labels.h"
 #include "view/model/live_answer.h"
 #include "view/model/slice.h"
 
@@ -20,6 +21,7 @@ namespace voxtact::view {
 struct Given {
     VolumeData volume;
     MeshData mesh;
+    std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
     std::string deviceOption; ///< as --device was given; for copied commands
@@ -68,12 +70,15 @@ struct State {
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
+    /// Null where there is no label map.
+    [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
     /// The document with what the window has of its own: camera, method and cursor.
     [[nodiscard]] Document saved() const;
 
     // What it was opened with.
     VolumeData volume;
     MeshData mesh;
+    std::optional<Labels> labels;
     ValueRange values;
     std::string deviceOption;
     std::string deviceName;

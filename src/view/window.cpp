@@ -93,6 +93,7 @@ class Reporter {
         report.answer = &*state.answer;
         report.times = &state.times;
         report.document = &state.document;
+        report.labels = state.labelsOrNull();
         report.device = state.answeredBy;
         report.command = commandOf(state);
         report.frame = state.frame;

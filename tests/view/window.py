@@ -5,6 +5,7 @@
   window.py PROGRAM keys      the instrument is moved into the head, back and through a list; each answer is compared
                               with that of the command that the window copies; the window is resized and closed
   window.py PROGRAM methods   the device's ways to answer, each compared in the same way
+  window.py PROGRAM labels    what is touched by its labels, on the host and on the device
   window.py PROGRAM refusals  no display, and what cannot be shown
 
 Nothing sleeps for a fixed time: each step is waited for, at most so long as a slow machine may need.
@@ -111,6 +112,12 @@ def compare(program, state):
     for name in ("hit", "count", "exact", "method", "projection"):
         if row[name] != str(state[name]):
             fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
+    if "labels" in state and labels_text(state) != row["labels"]:
+        fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
+
+
+def labels_text(state):
+    return ";".join(f"{one['name'] or one['label']}:{one['count']}" for one in state["labels"])
 
 
 def poses(folder, *heights):
@@ -175,6 +182,31 @@ def methods(program, folder):
                 window.end()
 
 
+def labels(program, folder):
+    # Any image of whole numbers is a label map; its values are the labels.
+    subprocess.run([program, "make", "volume", "builtin:head:32", f"{folder}/atlas.nii"], check=True,
+                   capture_output=True, timeout=PATIENCE)
+    with Server() as server:
+        for device in (["--device", "cpu"], ["--count", "compute"]):
+            with Window(program, server, folder, [*SCENE, *device, "--poses", poses(folder, 60), "--labels",
+                                                  f"{folder}/atlas.nii"]) as window:
+                state = window.until("the answer with labels", lambda s: s["settled"])
+                assert len(state["labels"]) > 1, state
+                compare(program, state)
+                touched = state["labels"][0]["label"]
+                window.press("ctrl+q")
+                window.end()
+        names = pathlib.Path(folder) / "names.txt"
+        names.write_text(f"{touched} hard_thing\n")
+        with Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses", poses(folder, 60), "--labels",
+                                              f"{folder}/atlas.nii", "--label-names", str(names)]) as window:
+            state = window.until("the answer with names", lambda s: s["settled"])
+            assert state["labels"][0]["name"] == "hard_thing", state
+            compare(program, state)
+            window.press("ctrl+q")
+            window.end()
+
+
 def refused(program, status, text, arguments, environment):
     ran = subprocess.run([program, "view", *arguments], env=environment, capture_output=True, text=True,
                          timeout=PATIENCE)
@@ -192,6 +224,8 @@ def refusals(program, folder):
     refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
     refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"], without)
     refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
+    refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
+    refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
     refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
     with Server() as server:
         no_driver = {**server.environment, "VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
@@ -199,7 +233,7 @@ def refusals(program, folder):
 
 
 def main(arguments):
-    checks = {"keys": keys, "methods": methods, "refusals": refusals}
+    checks = {"keys": keys, "methods": methods, "labels": labels, "refusals": refusals}
     if len(arguments) != 2 or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

@@ -55,6 +55,11 @@ Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& 
     Result<RenderBricks> bricks = RenderBricks::create(scene->renderer(), *scene->volume_);
     VOXTACT_TRY(bricks);
     scene->bricks_ = std::move(*bricks);
+    if (state.labels) {
+        Result<LabelMap> labels = LabelMap::upload(session.context, queue, state.labels->map);
+        VOXTACT_TRY(labels);
+        scene->labels_ = std::move(*labels);
+    }
     VOXTACT_TRY(scene->uploadFunctions(session, state));
     VOXTACT_TRY(scene->uploadMesh(session, state));
     return scene;
@@ -152,7 +157,7 @@ const Scene& DeviceScene::scene(const State& state, std::uint32_t slot, bool fin
 
 Batch DeviceScene::batch(const State& state) {
     pose_ = state.document.edit.world_from_object;
-    item_ = {&*mesh_, &*volume_, &*function_, {&pose_, 1}};
+    item_ = {&*mesh_, &*volume_, &*function_, {&pose_, 1}, labels()};
     Batch batch;
     batch.items = {&item_, 1};
     batch.view = {framingCamera(state.volume.grid, kAnswerSide, kAnswerSide), kAnswerSide, kAnswerSide};

@@ -32,6 +32,8 @@ class DeviceScene {
     [[nodiscard]] const Volume& volume() const { return *volume_; }
     [[nodiscard]] const Renderer& renderer() const { return blocking_->renderer(); }
     [[nodiscard]] BlockingRenderer& blocking() { return *blocking_; }
+    /// Null where there is no label map.
+    [[nodiscard]] const LabelMap* labels() const { return labels_ ? &*labels_ : nullptr; }
     [[nodiscard]] std::uint32_t triangles() const { return mesh_->triangles(); }
 
   private:
@@ -46,6 +48,7 @@ class DeviceScene {
     std::optional<TransferFunction> function_;
     std::optional<RenderTransferFunction> fine_;
     std::optional<RenderTransferFunction> coarse_;
+    std::optional<LabelMap> labels_;
     std::optional<Mesh> mesh_;
     std::optional<MeshNormals> normals_;
     HostBuffer masks_;

@@ -21,7 +21,8 @@ Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std
 }
 
 HostAnswers::HostAnswers(cpu::Volume volume, cpu::Mesh mesh, const State& state, std::function<void()> wake)
-    : volume_(std::move(volume)), mesh_(std::move(mesh)), domain_(state.document.domain),
+    : volume_(std::move(volume)), mesh_(std::move(mesh)),
+      labels_(state.labels ? std::optional(state.labels->map) : std::nullopt), domain_(state.document.domain),
       tableSize_(state.document.tableSize), view_{framingCamera(state.volume.grid, kAnswerSide, kAnswerSide),
                                                   kAnswerSide, kAnswerSide},
       wake_(std::move(wake)), thread_([this] { work(); }) {}
@@ -71,7 +72,7 @@ Result<LiveAnswer> HostAnswers::answer(const Question& question) {
     if (detector == detectors_.end()) {
         cpu::DetectorDesc desc;
         desc.projection = question.projection;
-        desc.outputs = {.triangles = true, .contacts = true};
+        desc.outputs = {.triangles = true, .contacts = true, .labels = labels_.has_value()};
         Result<cpu::Detector> made = cpu::Detector::create(desc);
         VOXTACT_TRY(made);
         detector = detectors_.emplace(question.projection, std::move(*made)).first;
@@ -80,7 +81,8 @@ Result<LiveAnswer> HostAnswers::answer(const Question& question) {
     const Result<cpu::TransferFunction> function =
         cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
     VOXTACT_TRY(function);
-    const cpu::BatchItem item{&mesh_, &volume_, &*function, {&question.edit.world_from_object, 1}};
+    const cpu::BatchItem item{
+        &mesh_, &volume_, &*function, {&question.edit.world_from_object, 1}, labels_ ? &*labels_ : nullptr};
     cpu::Batch batch;
     batch.items = {&item, 1};
     batch.view = view_;

@@ -37,6 +37,7 @@ class HostAnswers {
 
     cpu::Volume volume_;
     cpu::Mesh mesh_;
+    std::optional<LabelData> labels_;
     ValueRange domain_;
     std::uint32_t tableSize_;
     View view_;

@@ -57,6 +57,12 @@ std::string copyAsCommand(const Document& document, const MethodChoice& method, 
     if (sources.meshScale != 1) {
         text += " --mesh-scale " + number(sources.meshScale);
     }
+    if (!sources.labels.empty()) {
+        text += " --labels " + sourceWord(sources.labels);
+    }
+    if (!sources.labelNames.empty()) {
+        text += " --label-names " + sourceWord(sources.labelNames);
+    }
     // With '=': a value may begin with a minus sign.
     text += " --poses - --opacity=" + curve + " --tf-domain=" + number(document.domain.lo) + ":" +
             number(document.domain.hi) + " --tf-size " + std::to_string(document.tableSize) + " --threshold " +

@@ -19,6 +19,8 @@ struct Sources {
     std::string mesh;
     std::string meshSpace = "lps";
     double meshScale = 1;
+    std::string labels;     ///< a label map; empty: none
+    std::string labelNames; ///< what its labels are called; empty: the file beside it, where it is there
 };
 
 /// What commands change, and undo gives back.

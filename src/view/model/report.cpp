@@ -19,6 +19,13 @@ std::string reportText(const StateReport& report) {
     }
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
+    if (report.labels != nullptr) {
+        json["labels"] = nlohmann::ordered_json::array();
+        for (const LabelCount& touched : answer.labels) {
+            json["labels"].push_back(
+                {{"label", touched.label}, {"name", nameOf(*report.labels, touched.label)}, {"count", touched.count}});
+        }
+    }
     json["device"] = report.device;
     json["milliseconds"] = answer.milliseconds;
     json["p50_ms"] = report.times->percentile(0.5);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "view/model/labels.h"
 #include "view/model/live_answer.h"
 
 #include <string>
@@ -12,6 +13,7 @@ struct StateReport {
     const LiveAnswer* answer = nullptr; ///< must be given
     const Times* times = nullptr;       ///< must be given
     const Document* document = nullptr; ///< must be given
+    const Labels* labels = nullptr;     ///< null where there is no label map
     std::string device;                 ///< that answered; "host" for cpu
     std::string command;                ///< copyAsCommand() of what was answered
     std::uint64_t frame = 0;            ///< frames shown until then

@@ -35,6 +35,31 @@ void drawTimes(const State& state) {
                        state.times.percentile(0.5), state.times.percentile(0.99));
 }
 
+/// What is touched, as much of it as a line has room for; all of it under the mouse.
+void drawLabels(const State& state) {
+    if (!state.labels) {
+        return;
+    }
+    const auto text = [&state](const LabelCount& touched) {
+        return labelText(*state.labels, touched.label) + ": " + std::to_string(touched.count);
+    };
+    std::string line;
+    std::string all;
+    for (const LabelCount& touched : state.answer->labels) {
+        line += (line.empty() ? "" : "   ") + text(touched);
+        all += (all.empty() ? "" : "\n") + text(touched);
+    }
+    ImGui::PushClipRect(ImGui::GetCursorScreenPos(),
+                        {ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x,
+                         ImGui::GetCursorScreenPos().y + ImGui::GetTextLineHeight()},
+                        true);
+    ImGui::TextUnformatted(line.empty() ? "no label touched" : line.c_str());
+    ImGui::PopClipRect();
+    if (!all.empty() && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", all.c_str());
+    }
+}
+
 } // namespace
 
 void drawAnswer(State& state) {
@@ -67,6 +92,7 @@ void drawAnswer(State& state) {
                            deepest, more);
     }
     ImGui::EndGroup();
+    drawLabels(state);
     drawMethods(state);
     drawTimes(state);
 }

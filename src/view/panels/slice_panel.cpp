@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/histogram.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
@@ -38,18 +37,6 @@ void takeMouse(State& state, std::size_t slice, const SlicePlace& place, const P
         const auto own = static_cast<Maximised>(static_cast<int>(Maximised::Slice0) + static_cast<int>(slice));
         state.maximised = state.maximised == Maximised::None ? own : Maximised::None;
     }
-}
-
-/// What is under the pointer goes to the status line.
-void tellPlace(State& state, const Vec3& world) {
-    const std::optional<double> value = valueAt(state.volume.view(), state.texture_from_world, world);
-    char text[128];
-    if (value) {
-        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: %g", world[0], world[1], world[2], *value);
-    } else {
-        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: outside of the volume", world[0], world[1], world[2]);
-    }
-    state.say(text);
 }
 
 struct Rect {
@@ -101,7 +88,8 @@ void drawSlice(State& state, std::size_t slice) {
     const Point2 mouse = mouseIn(corner, size);
     takeMouse(state, slice, place, mouse);
     if (ImGui::IsItemHovered()) {
-        tellPlace(state, worldAt(place, mouse));
+        state.say(
+            placeText(state.volume.view(), state.texture_from_world, state.labelsOrNull(), worldAt(place, mouse)));
     }
     place = slicePlace(kind, state.volume.grid, state.cursor, pane.extent);
     const Rect rect{corner, size};
