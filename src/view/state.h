@@ -5,6 +5,7 @@
 #include "view/model/history.h"
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
+#include "view/model/live_clearance.h"
 #include "view/model/slice.h"
 
 #include <array>
@@ -98,6 +99,7 @@ struct State {
     std::uint64_t revision = 1;        ///< of what an answer depends on
     std::uint64_t pictureRevision = 1; ///< of what the large picture depends on
     std::optional<LiveAnswer> answer;
+    std::optional<LiveClearance> clearance; ///< of this question or one before
     Times times;
     std::string answeredBy;
     Pane picture;

@@ -84,15 +84,19 @@ class Reporter {
 
     [[nodiscard]] Result<void> write(const State& state) {
         const bool settled = state.settled();
-        if (path_.empty() || !state.answer || (state.answer->revision == revision_ && settled == settled_)) {
+        const std::uint64_t measured = state.clearance ? state.clearance->revision : 0;
+        if (path_.empty() || !state.answer ||
+            (state.answer->revision == revision_ && settled == settled_ && measured == measured_)) {
             return {};
         }
         revision_ = state.answer->revision;
         settled_ = settled;
+        measured_ = measured;
         StateReport report;
         report.answer = &*state.answer;
         report.times = &state.times;
         report.document = &state.document;
+        report.clearance = state.clearance ? &*state.clearance : nullptr;
         report.labels = state.labelsOrNull();
         report.device = state.answeredBy;
         report.command = commandOf(state);
@@ -108,6 +112,7 @@ class Reporter {
   private:
     std::filesystem::path path_;
     std::uint64_t revision_ = 0;
+    std::uint64_t measured_ = 0; ///< the clearance's revision
     bool settled_ = false;
 };
 

@@ -102,9 +102,9 @@ class Window:
 
 
 def compare(program, state):
-    """The state's answer is that of its command."""
+    """The state's answer is that of its command; where it has a clearance, that too."""
     environment = {**os.environ, "PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
-    ran = subprocess.run(["sh", "-c", state["command"] + " --format csv"], env=environment, capture_output=True,
+    ran = subprocess.run(["sh", "-c", state["command"] + " --clearance --format csv"], env=environment, capture_output=True,
                          text=True, timeout=PATIENCE)
     if ran.returncode != 0:
         fail(f"{state['command']}: {ran.stderr}")
@@ -112,6 +112,10 @@ def compare(program, state):
     for name in ("hit", "count", "exact", "method", "projection"):
         if row[name] != str(state[name]):
             fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
+    for name in ("lo", "hi") if state["clearance"] else ():
+        said, is_so = float(state["clearance"][name]), float(row["clearance_" + name])
+        if said != is_so and abs(said - is_so) > 1e-6 * is_so:
+            fail(f"clearance {name}: the window says {said}, its command {is_so}: {state['command']}")
     if "labels" in state and labels_text(state) != row["labels"]:
         fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
 
@@ -135,6 +139,9 @@ def keys(program, folder):
                                                              poses(folder, 130, 40)]) as window:
         state = window.until("the first answer", lambda s: s["settled"])
         assert (state["hit"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
+        compare(program, state)
+        state = window.until("the first clearance", lambda s: s["clearance"])
+        assert state["clearance"]["lo"] > 0 and len(state["clearance"]["volume"]) == 3, state
         compare(program, state)
         height = 130
         while state["hit"] == 0 and height > 0:

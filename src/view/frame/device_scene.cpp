@@ -33,12 +33,6 @@ double diagonalOf(const Grid& grid) {
     return std::sqrt(sum);
 }
 
-bool same(const Curve& a, const Curve& b) {
-    return std::ranges::equal(a, b, [](const ControlPoint& one, const ControlPoint& other) {
-        return one.value == other.value && one.opacity == other.opacity;
-    });
-}
-
 } // namespace
 
 Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& session, const State& state,
@@ -111,7 +105,7 @@ Result<void> DeviceScene::uploadMesh(const device::Session& session, const State
 
 Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state) {
     const Curve& curve = state.document.edit.curve;
-    if (same(curve, curve_)) {
+    if (sameCurve(curve, curve_)) {
         return {};
     }
     VOXTACT_TRY(function_->cmdUpdate(commands, renderDesc(state, true).opacity));

@@ -143,6 +143,13 @@ Result<void> Frames::collect(State& state) {
     if (std::optional<Result<LiveAnswer>> answer = host_->take()) {
         take(state, std::move(*answer));
     }
+    if (std::optional<Result<LiveClearance>> clearance = host_->takeClearance()) {
+        if (clearance->ok()) {
+            state.clearance = std::move(**clearance);
+        } else if (clearance->error().code != ErrorCode::Cancelled) {
+            state.complain(clearance->error().text);
+        }
+    }
     return {};
 }
 
@@ -201,11 +208,9 @@ Result<void> Frames::ask(State& state) {
         return {};
     }
     asked_ = state.revision;
-    if (rowOf(state.method.count).host) {
-        host_->ask({state.revision, state.document.edit, state.method.projection});
-        return {};
-    }
-    return device_->record(slot().commands, *scene_, state, slot_);
+    const bool host = rowOf(state.method.count).host;
+    host_->ask({state.revision, state.document.edit, state.method.projection, host});
+    return host ? Result<void>() : device_->record(slot().commands, *scene_, state, slot_);
 }
 
 Result<void> Frames::begin() {

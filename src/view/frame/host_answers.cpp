@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::uint32_t kAnswerSide = 512; // as voxtact detect has it
 
+double since(State::Clock::time_point begun) {
+    return std::chrono::duration<double, std::milli>(State::Clock::now() - begun).count();
+}
+
 } // namespace
 
 Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std::function<void()> wake) {
@@ -31,6 +35,7 @@ HostAnswers::~HostAnswers() {
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
+        newer_ = true;
     }
     asked_.notify_one();
     thread_.join();
@@ -40,6 +45,7 @@ void HostAnswers::ask(Question question) {
     {
         const std::lock_guard lock(mutex_);
         question_ = std::move(question);
+        newer_ = true;
     }
     asked_.notify_one();
 }
@@ -49,22 +55,53 @@ std::optional<Result<LiveAnswer>> HostAnswers::take() {
     return std::exchange(answer_, std::nullopt);
 }
 
-void HostAnswers::work() {
-    std::unique_lock lock(mutex_);
-    while (true) {
-        asked_.wait(lock, [this] { return stop_ || question_; });
-        if (stop_) {
-            return;
-        }
-        const Question question = *std::exchange(question_, std::nullopt);
-        lock.unlock();
-        Result<LiveAnswer> found = guard([&] { return answer(question); });
-        lock.lock();
-        answer_ = std::move(found);
-        if (!stop_) {
-            wake_();
-        }
+std::optional<Result<LiveClearance>> HostAnswers::takeClearance() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(clearance_, std::nullopt);
+}
+
+template <class Found> void HostAnswers::give(std::optional<Result<Found>>& to, Result<Found> found) {
+    const std::lock_guard lock(mutex_);
+    to = std::move(found);
+    if (!stop_) {
+        wake_();
     }
+}
+
+void HostAnswers::work() {
+    while (true) {
+        Question question;
+        {
+            std::unique_lock lock(mutex_);
+            asked_.wait(lock, [this] { return stop_ || question_; });
+            if (stop_) {
+                return;
+            }
+            question = *std::exchange(question_, std::nullopt);
+            newer_ = false;
+        }
+        if (question.answer) {
+            give(answer_, guard([&] { return answer(question); }));
+        }
+        give(clearance_, guard([&] { return measure(question); }));
+    }
+}
+
+Result<cpu::Batch> HostAnswers::batchOf(const Question& question, const std::atomic<bool>& cancel) {
+    if (!function_ || !sameCurve(functionOf_, question.edit.curve)) {
+        Result<cpu::TransferFunction> made = cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
+        VOXTACT_TRY(made);
+        function_ = std::move(*made);
+        functionOf_ = question.edit.curve;
+    }
+    pose_ = question.edit.world_from_object;
+    item_ = {&mesh_, &volume_, &*function_, {&pose_, 1}, labels_ ? &*labels_ : nullptr};
+    cpu::Batch batch;
+    batch.items = {&item_, 1};
+    batch.view = view_;
+    batch.threshold = question.edit.threshold;
+    batch.cancel = &cancel;
+    return batch;
 }
 
 Result<LiveAnswer> HostAnswers::answer(const Question& question) {
@@ -78,20 +115,25 @@ Result<LiveAnswer> HostAnswers::answer(const Question& question) {
         detector = detectors_.emplace(question.projection, std::move(*made)).first;
     }
     const auto begun = State::Clock::now();
-    const Result<cpu::TransferFunction> function =
-        cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
-    VOXTACT_TRY(function);
-    const cpu::BatchItem item{
-        &mesh_, &volume_, &*function, {&question.edit.world_from_object, 1}, labels_ ? &*labels_ : nullptr};
-    cpu::Batch batch;
-    batch.items = {&item, 1};
-    batch.view = view_;
-    batch.threshold = question.edit.threshold;
-    batch.cancel = &stop_;
-    Result<BatchAnswer> found = detector->second.detect(batch);
+    const Result<cpu::Batch> batch = batchOf(question, stop_);
+    VOXTACT_TRY(batch);
+    Result<BatchAnswer> found = detector->second.detect(*batch);
     VOXTACT_TRY(found);
-    const double milliseconds = std::chrono::duration<double, std::milli>(State::Clock::now() - begun).count();
-    return liveAnswer(std::move(*found), question.revision, question.edit.world_from_object, milliseconds);
+    return liveAnswer(std::move(*found), question.revision, question.edit.world_from_object, since(begun));
+}
+
+Result<LiveClearance> HostAnswers::measure(const Question& question) {
+    if (!meter_) {
+        Result<cpu::ClearanceMeter> made = cpu::ClearanceMeter::create();
+        VOXTACT_TRY(made);
+        meter_ = std::move(*made);
+    }
+    const auto begun = State::Clock::now();
+    const Result<cpu::Batch> batch = batchOf(question, newer_);
+    VOXTACT_TRY(batch);
+    const Result<ClearanceAnswer> found = meter_->measure(*batch);
+    VOXTACT_TRY(found);
+    return LiveClearance{question.revision, found->pairs.front(), since(begun)};
 }
 
 } // namespace voxtact::view

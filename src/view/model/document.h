@@ -5,7 +5,6 @@
 #include "view/model/curve.h"
 #include "voxtact/methods.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,11 +29,8 @@ struct Edit {
     Mat4 world_from_object = identity();
 
     [[nodiscard]] bool operator==(const Edit& other) const {
-        const auto same = [](const ControlPoint& a, const ControlPoint& b) {
-            return a.value == b.value && a.opacity == b.opacity;
-        };
         return threshold == other.threshold && world_from_object == other.world_from_object &&
-               curve.size() == other.curve.size() && std::equal(curve.begin(), curve.end(), other.curve.begin(), same);
+               sameCurve(curve, other.curve);
     }
 };
 

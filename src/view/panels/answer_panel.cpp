@@ -60,6 +60,22 @@ void drawLabels(const State& state) {
     }
 }
 
+void drawClearance(const State& state) {
+    if (!state.clearance) {
+        ImGui::TextColored(quietColour(), "measuring ...");
+        return;
+    }
+    ImVec4 colour = ImGui::GetStyle().Colors[ImGuiCol_Text];
+    colour.w = state.clearance->revision == state.revision ? 1.0F : 0.5F;
+    const std::string text = clearanceText(state.clearance->pair);
+    ImGui::TextColored(colour, "%s", text.c_str());
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("The clearance, certified: between these bounds lies the least distance between\n"
+                          "the mesh and what is opaque. By the host, in %.1f ms.",
+                          state.clearance->milliseconds);
+    }
+}
+
 } // namespace
 
 void drawAnswer(State& state) {
@@ -92,6 +108,7 @@ void drawAnswer(State& state) {
                            deepest, more);
     }
     ImGui::EndGroup();
+    drawClearance(state);
     drawLabels(state);
     drawMethods(state);
     drawTimes(state);

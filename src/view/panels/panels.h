@@ -19,6 +19,8 @@ enum class Theme { Dark, Light };
 void setColours(Theme theme);
 /// Red, green or yellow for a verdict, and gray.
 [[nodiscard]] ImVec4 verdictColour(const PairAnswer& answer);
+/// Of the closest points, and the line between them.
+[[nodiscard]] ImU32 closestColour(float alpha);
 /// Of what is secondary.
 [[nodiscard]] ImVec4 quietColour();
 inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);

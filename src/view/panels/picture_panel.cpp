@@ -65,6 +65,25 @@ void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
     }
 }
 
+void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
+    const auto segment = state.clearance ? closestSegment(state.clearance->pair) : std::nullopt;
+    if (!segment) {
+        return;
+    }
+    const bool current = state.clearance->revision == state.revision;
+    const ImU32 colour = closestColour(current ? 1.0F : 0.4F);
+    const ImVec2 from = onto.at((*segment)[0]);
+    const ImVec2 to = onto.at((*segment)[1]);
+    list.AddLine(from, to, colour, 2);
+    list.AddCircleFilled(from, 3.5F, colour);
+    list.AddCircleFilled(to, 3.5F, colour);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f mm", state.clearance->pair.bounds.hi);
+    const ImVec2 at{(from.x + to.x) / 2 + 8, (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
+    list.AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text);
+    list.AddText(at, colour, text);
+}
+
 /// Three of the patient's sides, as they lie in the picture.
 void drawSides(const Onto& onto, const State& state, ImDrawList& list) {
     const float length = ImGui::GetFontSize() * 2;
@@ -134,6 +153,7 @@ void drawPicture(State& state) {
     if (state.showContacts && state.answer) {
         drawContactPoints(state, onto, list);
     }
+    drawClosest(state, onto, list);
     drawSides(onto, state, list);
     drawBar(state, onto, list);
     drawVerdict(state, onto, list);

@@ -61,6 +61,23 @@ void drawMesh(const State& state, std::size_t slice, const SlicePlace& place, co
     }
 }
 
+/// Where it does not go through the slice it is faint.
+void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
+    const auto segment = state.clearance ? closestSegment(state.clearance->pair) : std::nullopt;
+    if (!segment) {
+        return;
+    }
+    const std::size_t axis = kSlices[slice].axis;
+    const bool here = distanceOfPlane(*segment, axis, state.cursor[axis]) <= stepOf(state);
+    const bool current = state.clearance->revision == state.revision;
+    const ImU32 colour = closestColour((here ? 1.0F : 0.45F) * (current ? 1.0F : 0.5F));
+    const ImVec2 from = rect.at(pictureAt(place, (*segment)[0]));
+    const ImVec2 to = rect.at(pictureAt(place, (*segment)[1]));
+    list.AddLine(from, to, colour, here ? 2.0F : 1.0F);
+    list.AddCircleFilled(from, 2.5F, colour);
+    list.AddCircleFilled(to, 2.5F, colour);
+}
+
 void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
     const ImU32 colour = IM_COL32(225, 229, 235, 200);
     const float size = ImGui::GetFontSize();
@@ -104,6 +121,7 @@ void drawSlice(State& state, std::size_t slice) {
     list.AddLine({corner.x, cross.y}, {end.x, cross.y}, line);
     list.AddLine({cross.x, corner.y}, {cross.x, end.y}, line);
     drawMesh(state, slice, place, rect, list);
+    drawClosest(state, slice, place, rect, list);
     drawLetters(kind, rect, list);
     char text[64];
     std::snprintf(text, sizeof text, "%s %.1f mm", kind.name, state.cursor[kind.axis]);
