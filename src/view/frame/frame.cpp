@@ -35,13 +35,13 @@ Result<std::unique_ptr<Frames>> Frames::create(const device::Session& session, V
     Result<std::unique_ptr<HostAnswers>> host = HostAnswers::create(state, wake);
     VOXTACT_TRY(host);
     frames->host_ = std::move(*host);
-    Result<Gui> gui = Gui::create(session.device, frames->swapchain_->format());
+    Result<Gui> gui = Gui::create(session, frames->swapchain_->format());
     VOXTACT_TRY(gui);
     frames->gui_ = std::move(*gui);
-    Result<Pictures> pictures = Pictures::create(session.device, frames->scene_->renderer());
+    Result<Pictures> pictures = Pictures::create(session, frames->scene_->renderer());
     VOXTACT_TRY(pictures);
     frames->pictures_.emplace(std::move(*pictures));
-    Result<SlicePass> slices = SlicePass::create(session.device, frames->scene_->volume());
+    Result<SlicePass> slices = SlicePass::create(session, frames->scene_->volume());
     VOXTACT_TRY(slices);
     frames->slices_ = std::move(*slices);
     VOXTACT_TRY(frames->makeSlots());
