@@ -2,6 +2,7 @@
 #pragma once
 
 #include "view/model/document.h"
+#include "view/model/gizmo.h"
 #include "view/model/history.h"
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
@@ -33,6 +34,8 @@ struct Given {
 struct Pane {
     Extent extent;
     void* texture = nullptr; ///< of the picture that is there
+    Point2 corner{0, 0};     ///< upper left, points of the window
+    Point2 size{0, 0};       ///< points of the window
     Point2 used{1, 1};       ///< the part of the texture that it takes up
 };
 
@@ -50,6 +53,14 @@ struct KeyPress {
     int key = 0;
     bool shift = false;
     bool control = false;
+};
+
+/// A handle that is held, and what was there when it was taken.
+struct GizmoDrag {
+    Handle handle;
+    Gizmo gizmo;
+    Mat4 world_from_object{};
+    Ray from;
 };
 
 struct State {
@@ -115,6 +126,10 @@ struct State {
     Maximised maximised = Maximised::None;
     bool playing = false;
     bool showContacts = true;
+    bool showGizmo = true;
+    GizmoAxes gizmoAxes = GizmoAxes::World;
+    Handle gizmoHandle; ///< under the pointer, or held
+    std::optional<GizmoDrag> gizmoDrag;
     bool helpOpen = false;
     bool quit = false;
     double stepMillimetres = 1;

@@ -100,6 +100,8 @@ class Reporter {
         report.labels = state.labelsOrNull();
         report.device = state.answeredBy;
         report.command = commandOf(state);
+        const Pane& pane = state.picture;
+        report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
         report.frame = state.frame;
         report.frameMilliseconds = state.frameTimes.percentile(0.5);
         report.settled = settled;

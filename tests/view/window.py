@@ -4,11 +4,13 @@
 
   window.py PROGRAM keys      the instrument is moved into the head, back and through a list; each answer is compared
                               with that of the command that the window copies; the window is resized and closed
+  window.py PROGRAM handles   the instrument is dragged by its handles
   window.py PROGRAM methods   the device's ways to answer, each compared in the same way
   window.py PROGRAM labels    what is touched by its labels, on the host and on the device
   window.py PROGRAM refusals  no display, and what cannot be shown
 
-Nothing sleeps for a fixed time: each step is waited for, at most so long as a slow machine may need.
+Nothing sleeps for a fixed time but the hand that drags, which tries again: each step is waited for, at most so long as
+a slow machine may need.
 Exit status: 0 passed, 1 failed.
 """
 import csv
@@ -174,6 +176,34 @@ def keys(program, folder):
         window.end()
 
 
+def drag(window, x, y, right, down):
+    for step in (("mousemove", str(x), str(y)), ("mousedown", "1"), ("mousemove", str(x + right), str(y + down)),
+                 ("mouseup", "1")):
+        window.tool(*step)
+        time.sleep(0.4)
+
+
+def handles(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 0)]) as window:
+        first = window.until("the first answer", lambda s: s["settled"])
+        # From the middle outward: a drag beside the handles turns the picture round the middle, where the instrument
+        # nearly is.
+        x, y, width, height = (int(number) for number in first["picture"])
+        state, offset = first, 16
+        while state["pose"] == first["pose"] and offset < min(width, height) / 2:
+            drag(window, x + width // 2 + offset, y + height // 2, 3, 12)
+            state = window.state()
+            offset += 5
+        assert state["pose"] != first["pose"], f"no handle up to {offset} points from the middle"
+        state = window.until("the answer there", lambda s: s["settled"])
+        compare(program, state)
+        window.press("ctrl+z")
+        window.until("the pose before the drag", lambda s: s["pose"] == first["pose"])
+        window.press("ctrl+q")
+        window.end()
+
+
 def methods(program, folder):
     with Server() as server:
         for method, projection in (("compute", "conservative"), ("query", "view"), ("atomic", "dominant-axis")):
@@ -240,7 +270,7 @@ def refusals(program, folder):
 
 
 def main(arguments):
-    checks = {"keys": keys, "methods": methods, "labels": labels, "refusals": refusals}
+    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "refusals": refusals}
     if len(arguments) != 2 or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

@@ -5,6 +5,7 @@
 #include "view/model/live_answer.h"
 #include "view/model/live_clearance.h"
 
+#include <array>
 #include <string>
 
 namespace voxtact::view {
@@ -16,6 +17,7 @@ struct StateReport {
     const Document* document = nullptr;       ///< must be given
     const LiveClearance* clearance = nullptr; ///< null where there is none yet
     const Labels* labels = nullptr;           ///< null where there is no label map
+    std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
     std::string device;                       ///< that answered; "host" for cpu
     std::string command;                      ///< copyAsCommand() of what was answered
     std::uint64_t frame = 0;                  ///< frames shown until then

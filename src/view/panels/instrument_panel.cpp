@@ -123,6 +123,7 @@ void drawInstrument(State& state) {
     drawPlace(state);
     drawNudges(state);
     drawSteps(state);
+    drawGizmoChoice(state);
     if (ImGui::Button("tip to the cursor")) {
         state.command([&](Edit& edit) { edit.world_from_object = placedAt(edit.world_from_object, state.cursor); });
     }

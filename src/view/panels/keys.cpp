@@ -177,6 +177,7 @@ void drawHelp(State& state) {
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
         row("control Q", "quit");
+        row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
         row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
         row("curve", "left: add or drag a point; right: remove it");

@@ -106,7 +106,7 @@ void drawColumn(State& state) {
     };
     card("answer", rows(state.labels ? 6.8F : 6), [&] { drawAnswer(state); });
     card("curve", rows(3) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
-    card("instrument", rows(state.document.poses.empty() ? 7.9F : 8.9F), [&] { drawInstrument(state); });
+    card("instrument", rows(state.document.poses.empty() ? 8.9F : 9.9F), [&] { drawInstrument(state); });
     card("contacts", 0, [&] { drawContacts(state); });
 }
 

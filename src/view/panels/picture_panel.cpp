@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/pose.h"
+#include "view/panels/onto.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
@@ -9,19 +10,6 @@
 namespace voxtact::view {
 
 namespace {
-
-/// From the world to points of the window.
-struct Onto {
-    Mat4 clip_from_world;
-    ImVec2 corner;
-    ImVec2 size;
-
-    [[nodiscard]] ImVec2 at(const Vec3& world) const {
-        const Vec3 clip = transformPoint(clip_from_world, world);
-        return {corner.x + static_cast<float>(clip[0] + 1) / 2 * size.x,
-                corner.y + static_cast<float>(clip[1] + 1) / 2 * size.y};
-    }
-};
 
 void takeMouse(State& state, const ImVec2& corner) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -136,10 +124,14 @@ void drawPicture(State& state) {
     size = {std::max(size.x, 8.0F), std::max(size.y, 8.0F)};
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
     state.picture.extent = {static_cast<std::uint32_t>(size.x * scale.x), static_cast<std::uint32_t>(size.y * scale.y)};
+    state.picture.corner = {static_cast<double>(corner.x), static_cast<double>(corner.y)};
+    state.picture.size = {static_cast<double>(size.x), static_cast<double>(size.y)};
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    takeMouse(state, corner);
+    if (!takeGizmo(state, corner, size)) {
+        takeMouse(state, corner);
+    }
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + size.x, corner.y + size.y};
     if (state.picture.texture != nullptr) {
@@ -154,6 +146,7 @@ void drawPicture(State& state) {
         drawContactPoints(state, onto, list);
     }
     drawClosest(state, onto, list);
+    drawGizmo(state, onto, list);
     drawSides(onto, state, list);
     drawBar(state, onto, list);
     drawVerdict(state, onto, list);
