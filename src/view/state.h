@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "view/model/carving.h"
 #include "view/model/document.h"
 #include "view/model/gizmo.h"
 #include "view/model/history.h"
@@ -74,6 +75,8 @@ struct State {
     void command(const std::function<void(Edit&)>& change, const std::string& merge = {});
     void undo();
     void redo();
+    /// Drills a hole of drillRadius, with the image's smallest value. A command; what cannot be is complained of.
+    void drill(const Vec3& centre);
     /// Takes a pose of the list.
     void takePose(std::size_t number);
     /// Nothing was changed for a moment.
@@ -106,6 +109,8 @@ struct State {
     Vec3 cursor{};
     ValueRange window; ///< of the slices: black and white
 
+    std::vector<HoleWrite> writes; ///< to the volume, all since it was read, for those who have copies of it
+
     // What is shown.
     std::uint64_t revision = 1;        ///< of what an answer depends on
     std::uint64_t pictureRevision = 1; ///< of what the large picture depends on
@@ -134,6 +139,7 @@ struct State {
     bool quit = false;
     double stepMillimetres = 1;
     double stepDegrees = 5;
+    double drillRadius = 5;                ///< mm
     std::optional<std::size_t> curvePoint; ///< that is dragged or typed
     bool logHistogram = true;
     std::string screenshot; ///< a path, while one is asked for
@@ -146,6 +152,9 @@ struct State {
         Extent extent;
         std::uint64_t answer = 0;
     };
+    void drillAndFill();
+
+    Holes holes_;
     Seen seen_;
     Clock::time_point changed_ = Clock::now();
 };

@@ -7,6 +7,7 @@
   window.py PROGRAM handles   the instrument is dragged by its handles
   window.py PROGRAM methods   the device's ways to answer, each compared in the same way
   window.py PROGRAM labels    what is touched by its labels, on the host and on the device
+  window.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
   window.py PROGRAM refusals  no display, and what cannot be shown
 
 Nothing sleeps for a fixed time but the hand that drags, which tries again: each step is waited for, at most so long as
@@ -17,6 +18,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -103,23 +105,33 @@ class Window:
             fail(f"the window ended with {self.process.returncode}: {out}{err}")
 
 
-def compare(program, state):
-    """The state's answer is that of its command; where it has a clearance, that too."""
+def answer_of(program, command):
+    """The row of a command."""
     environment = {**os.environ, "PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
-    ran = subprocess.run(["sh", "-c", state["command"] + " --clearance --format csv"], env=environment, capture_output=True,
-                         text=True, timeout=PATIENCE)
+    ran = subprocess.run(["sh", "-c", command + " --format csv"], env=environment, capture_output=True, text=True,
+                         timeout=PATIENCE)
     if ran.returncode != 0:
-        fail(f"{state['command']}: {ran.stderr}")
+        fail(f"{command}: {ran.stderr}")
     row, = csv.DictReader(ran.stdout.splitlines())
+    return row
+
+
+def compare(program, state):
+    """The state's answer is that of its command; where it has a clearance, that is the host's."""
+    row = answer_of(program, state["command"])
     for name in ("hit", "count", "exact", "method", "projection"):
         if row[name] != str(state[name]):
             fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
-    for name in ("lo", "hi") if state["clearance"] else ():
-        said, is_so = float(state["clearance"][name]), float(row["clearance_" + name])
-        if said != is_so and abs(said - is_so) > 1e-6 * is_so:
-            fail(f"clearance {name}: the window says {said}, its command {is_so}: {state['command']}")
     if "labels" in state and labels_text(state) != row["labels"]:
         fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
+    if not state["clearance"]:
+        return
+    command = re.sub("--projection .*", "--projection conservative --count cpu --clearance", state["command"])
+    row = answer_of(program, command)
+    for name in ("lo", "hi"):
+        said, is_so = float(state["clearance"][name]), float(row["clearance_" + name])
+        if said != is_so and abs(said - is_so) > 1e-6 * is_so:
+            fail(f"clearance {name}: the window says {said}, its command {is_so}: {command}")
 
 
 def labels_text(state):
@@ -244,6 +256,37 @@ def labels(program, folder):
             window.end()
 
 
+def drill(program, folder):
+    # Of voxels that are small beside the holes.
+    scene = ["--volume", "builtin:head:96", *SCENE[2:]]
+    counts = []
+    with Server() as server:
+        for device in (["--device", "cpu"], ["--count", "compute"]):
+            with Window(program, server, folder, [*scene, *device, "--poses", poses(folder, 60)]) as window:
+                state = window.until("the answer before", lambda s: s["settled"])
+                whole = state["count"]
+                window.press("x")
+                state = window.until("a hole at the tip", lambda s: s["holes"] == 1 and s["settled"])
+                assert 0 < state["count"] < whole, (whole, state)
+                assert state["command"].startswith("# of the volume as it was read, without the hole"), state
+                counts.append((whole, state["count"]))
+                window.press("shift+Next")
+                window.until("another pose", lambda s: s["pose"][HEIGHT] == 50)
+                window.press("x")
+                state = window.until("a second hole", lambda s: s["holes"] == 2 and s["settled"])
+                counts[-1] += (state["count"],)
+                window.press("ctrl+z", "ctrl+z", "ctrl+z")
+                state = window.until("the volume as it was", lambda s: s["holes"] == 0 and s["settled"])
+                assert state["count"] == whole and state["pose"][HEIGHT] == 60, state
+                compare(program, state)
+                window.press("ctrl+y")
+                state = window.until("the first hole again", lambda s: s["holes"] == 1 and s["settled"])
+                assert state["count"] == counts[-1][1], (counts, state)
+                window.press("ctrl+q")
+                window.end()
+    assert counts[0] == counts[1], f"host and device differ: {counts}"
+
+
 def refused(program, status, text, arguments, environment):
     ran = subprocess.run([program, "view", *arguments], env=environment, capture_output=True, text=True,
                          timeout=PATIENCE)
@@ -270,7 +313,8 @@ def refusals(program, folder):
 
 
 def main(arguments):
-    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "refusals": refusals}
+    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "refusals":
+              refusals}
     if len(arguments) != 2 or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

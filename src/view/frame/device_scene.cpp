@@ -43,7 +43,8 @@ Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& 
     Result<BlockingRenderer> blocking = BlockingRenderer::create(session.context, queue);
     VOXTACT_TRY(blocking);
     scene->blocking_ = std::move(*blocking);
-    Result<Volume> volume = Volume::upload(session.context, queue, state.volume.view(), {.bricks = true});
+    Result<Volume> volume =
+        Volume::upload(session.context, queue, state.volume.view(), {.bricks = true, .editable = true});
     VOXTACT_TRY(volume);
     scene->volume_ = std::move(*volume);
     Result<RenderBricks> bricks = RenderBricks::create(scene->renderer(), *scene->volume_);
@@ -104,6 +105,11 @@ Result<void> DeviceScene::uploadMesh(const device::Session& session, const State
 }
 
 Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state) {
+    writtenBefore_ = written_;
+    for (; written_ < state.writes.size(); ++written_) {
+        const HoleWrite& write = state.writes[written_];
+        VOXTACT_TRY(volume_->cmdWrite(commands, write.hole->box, write.voxels()));
+    }
     const Curve& curve = state.document.edit.curve;
     if (sameCurve(curve, curve_)) {
         return {};

@@ -209,7 +209,7 @@ Result<void> Frames::ask(State& state) {
     }
     asked_ = state.revision;
     const bool host = rowOf(state.method.count).host;
-    host_->ask({state.revision, state.document.edit, state.method.projection, host});
+    host_->ask({state.revision, state.document.edit, state.method.projection, host}, state.writes);
     return host ? Result<void>() : device_->record(slot().commands, *scene_, state, slot_);
 }
 

@@ -41,9 +41,11 @@ HostAnswers::~HostAnswers() {
     thread_.join();
 }
 
-void HostAnswers::ask(Question question) {
+void HostAnswers::ask(Question question, std::span<const HoleWrite> writes) {
     {
         const std::lock_guard lock(mutex_);
+        writes_.insert(writes_.end(), writes.begin() + static_cast<std::ptrdiff_t>(written_), writes.end());
+        written_ = writes.size();
         question_ = std::move(question);
         newer_ = true;
     }
@@ -71,6 +73,7 @@ template <class Found> void HostAnswers::give(std::optional<Result<Found>>& to, 
 void HostAnswers::work() {
     while (true) {
         Question question;
+        std::vector<HoleWrite> writes;
         {
             std::unique_lock lock(mutex_);
             asked_.wait(lock, [this] { return stop_ || question_; });
@@ -78,7 +81,12 @@ void HostAnswers::work() {
                 return;
             }
             question = *std::exchange(question_, std::nullopt);
+            writes = std::exchange(writes_, {});
             newer_ = false;
+        }
+        for (const HoleWrite& write : writes) {
+            // The voxels come from this volume, or from a hole that was checked.
+            (void)volume_.write(write.hole->box, write.voxels());
         }
         if (question.answer) {
             give(answer_, guard([&] { return answer(question); }));

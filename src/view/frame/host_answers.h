@@ -28,7 +28,8 @@ class HostAnswers {
     [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
     ~HostAnswers();
 
-    void ask(Question question);
+    /// `writes`: all to the volume since it was read.
+    void ask(Question question, std::span<const HoleWrite> writes);
     /// The newest answer, once; nothing where there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
     /// The same of clearances.
@@ -60,6 +61,8 @@ class HostAnswers {
     std::mutex mutex_;
     std::condition_variable asked_;
     std::optional<Question> question_;
+    std::vector<HoleWrite> writes_; ///< that are to be done before it
+    std::size_t written_ = 0;       ///< that were taken over, of all
     std::optional<Result<LiveAnswer>> answer_;
     std::optional<Result<LiveClearance>> clearance_;
     std::atomic<bool> stop_ = false;

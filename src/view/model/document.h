@@ -27,9 +27,10 @@ struct Edit {
     Curve curve;
     double threshold = kDefaultThreshold;
     Mat4 world_from_object = identity();
+    std::size_t holes = 0; ///< that are drilled; a session file does not hold them
 
     [[nodiscard]] bool operator==(const Edit& other) const {
-        return threshold == other.threshold && world_from_object == other.world_from_object &&
+        return threshold == other.threshold && holes == other.holes && world_from_object == other.world_from_object &&
                sameCurve(curve, other.curve);
     }
 };

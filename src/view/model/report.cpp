@@ -60,6 +60,7 @@ std::string reportText(const StateReport& report) {
     json["p50_ms"] = report.times->percentile(0.5);
     json["p99_ms"] = report.times->percentile(0.99);
     json["answers"] = answer.revision;
+    json["holes"] = report.document->edit.holes;
     json["threshold"] = report.document->edit.threshold;
     json["points"] = nlohmann::ordered_json::array();
     for (const ControlPoint& point : report.document->edit.curve) {

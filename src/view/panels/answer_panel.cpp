@@ -120,7 +120,9 @@ std::string commandOf(const State& state) {
 
 void copyCommand(State& state) {
     ImGui::SetClipboardText(commandOf(state).c_str());
-    state.say("copied: voxtact detect with the pose, curve and method that are shown");
+    state.say(state.document.edit.holes == 0
+                  ? "copied: voxtact detect with the pose, curve and method that are shown"
+                  : "copied: voxtact detect with what is shown, but without the holes, which are in no file");
 }
 
 void drawContacts(State& state) {

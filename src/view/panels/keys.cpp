@@ -99,6 +99,12 @@ void takePlainKey(State& state, const KeyPress& press) {
     case GLFW_KEY_G:
         state.cursor = originOf(state.document.edit.world_from_object);
         break;
+    case GLFW_KEY_X:
+        state.drill(originOf(state.document.edit.world_from_object));
+        break;
+    case GLFW_KEY_C:
+        state.drill(state.cursor);
+        break;
     case GLFW_KEY_ESCAPE:
         state.maximised = Maximised::None;
         break;
@@ -174,6 +180,7 @@ void drawHelp(State& state) {
         }
         row("F", "frame the volume");
         row("G", "slices through the tip");
+        row("X, C", "drill a hole at the tip, at the cursor of the slices");
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
         row("control Q", "quit");
