@@ -4,6 +4,7 @@
 #include "view/model/histogram.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace voxtact::view {
@@ -24,8 +25,8 @@ Vec3 middleOf(const Grid& grid) {
 } // namespace
 
 State::State(Given opened)
-    : volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), values(opened.values),
-      deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
+    : volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), labels(std::move(opened.labels)),
+      values(opened.values), deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
       document(std::move(opened.document)), window(opened.values) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
@@ -42,6 +43,7 @@ State::State(Given opened)
 }
 
 void State::update() {
+    drillAndFill();
     const bool other = !(document.edit == seen_.edit) || !(method == seen_.method);
     const std::uint64_t answered = answer ? answer->revision : 0;
     const bool moved = parts(camera) != parts(seen_.camera) || picture.extent.width != seen_.extent.width ||
@@ -64,6 +66,26 @@ void State::command(const std::function<void(Edit&)>& change, const std::string&
     const Edit before = document.edit;
     change(document.edit);
     history.add(before, document.edit, merge);
+}
+
+/// The volume becomes that of the edit.
+void State::drillAndFill() {
+    std::ranges::move(holes_.bring(volume, document.edit.holes), std::back_inserter(writes));
+}
+
+void State::drill(const Vec3& centre) {
+    drillAndFill();
+    Result<Hole> hole = holeOf(volume.view(), {centre, drillRadius}, values.lo);
+    if (!hole.ok()) {
+        complain(hole.error().text);
+        return;
+    }
+    if (hole->before == hole->after) {
+        say("nothing to drill there: no voxel changes");
+        return;
+    }
+    holes_.add(std::move(*hole));
+    command([](Edit& edit) { ++edit.holes; });
 }
 
 void State::undo() {

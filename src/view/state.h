@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "view/model/carving.h"
 #include "view/model/document.h"
+#include "view/model/gizmo.h"
 #include "view/model/history.h"
+#include "view/model/labels.h"
 #include "view/model/live_answer.h"
+#include "view/model/live_clearance.h"
 #include "view/model/slice.h"
 
 #include <array>
@@ -20,6 +24,7 @@ namespace voxtact::view {
 struct Given {
     VolumeData volume;
     MeshData mesh;
+    std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
     std::string deviceOption; ///< as --device was given; for copied commands
@@ -30,6 +35,8 @@ struct Given {
 struct Pane {
     Extent extent;
     void* texture = nullptr; ///< of the picture that is there
+    Point2 corner{0, 0};     ///< upper left, points of the window
+    Point2 size{0, 0};       ///< points of the window
     Point2 used{1, 1};       ///< the part of the texture that it takes up
 };
 
@@ -49,6 +56,14 @@ struct KeyPress {
     bool control = false;
 };
 
+/// A handle that is held, and what was there when it was taken.
+struct GizmoDrag {
+    Handle handle;
+    Gizmo gizmo;
+    Mat4 world_from_object{};
+    Ray from;
+};
+
 struct State {
     using Clock = std::chrono::steady_clock;
 
@@ -60,6 +75,8 @@ struct State {
     void command(const std::function<void(Edit&)>& change, const std::string& merge = {});
     void undo();
     void redo();
+    /// Drills a hole of drillRadius, with the image's smallest value. A command; what cannot be is complained of.
+    void drill(const Vec3& centre);
     /// Takes a pose of the list.
     void takePose(std::size_t number);
     /// Nothing was changed for a moment.
@@ -68,12 +85,15 @@ struct State {
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
+    /// Null where there is no label map.
+    [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
     /// The document with what the window has of its own: camera, method and cursor.
     [[nodiscard]] Document saved() const;
 
     // What it was opened with.
     VolumeData volume;
     MeshData mesh;
+    std::optional<Labels> labels;
     ValueRange values;
     std::string deviceOption;
     std::string deviceName;
@@ -89,10 +109,13 @@ struct State {
     Vec3 cursor{};
     ValueRange window; ///< of the slices: black and white
 
+    std::vector<HoleWrite> writes; ///< to the volume, all since it was read, for those who have copies of it
+
     // What is shown.
     std::uint64_t revision = 1;        ///< of what an answer depends on
     std::uint64_t pictureRevision = 1; ///< of what the large picture depends on
     std::optional<LiveAnswer> answer;
+    std::optional<LiveClearance> clearance; ///< of this question or one before
     Times times;
     std::string answeredBy;
     Pane picture;
@@ -108,10 +131,15 @@ struct State {
     Maximised maximised = Maximised::None;
     bool playing = false;
     bool showContacts = true;
+    bool showGizmo = true;
+    GizmoAxes gizmoAxes = GizmoAxes::World;
+    Handle gizmoHandle; ///< under the pointer, or held
+    std::optional<GizmoDrag> gizmoDrag;
     bool helpOpen = false;
     bool quit = false;
     double stepMillimetres = 1;
     double stepDegrees = 5;
+    double drillRadius = 5;                ///< mm
     std::optional<std::size_t> curvePoint; ///< that is dragged or typed
     bool logHistogram = true;
     std::string screenshot; ///< a path, while one is asked for
@@ -124,6 +152,9 @@ struct State {
         Extent extent;
         std::uint64_t answer = 0;
     };
+    void drillAndFill();
+
+    Holes holes_;
     Seen seen_;
     Clock::time_point changed_ = Clock::now();
 };

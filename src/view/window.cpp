@@ -84,17 +84,24 @@ class Reporter {
 
     [[nodiscard]] Result<void> write(const State& state) {
         const bool settled = state.settled();
-        if (path_.empty() || !state.answer || (state.answer->revision == revision_ && settled == settled_)) {
+        const std::uint64_t measured = state.clearance ? state.clearance->revision : 0;
+        if (path_.empty() || !state.answer ||
+            (state.answer->revision == revision_ && settled == settled_ && measured == measured_)) {
             return {};
         }
         revision_ = state.answer->revision;
         settled_ = settled;
+        measured_ = measured;
         StateReport report;
         report.answer = &*state.answer;
         report.times = &state.times;
         report.document = &state.document;
+        report.clearance = state.clearance ? &*state.clearance : nullptr;
+        report.labels = state.labelsOrNull();
         report.device = state.answeredBy;
         report.command = commandOf(state);
+        const Pane& pane = state.picture;
+        report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
         report.frame = state.frame;
         report.frameMilliseconds = state.frameTimes.percentile(0.5);
         report.settled = settled;
@@ -107,6 +114,7 @@ class Reporter {
   private:
     std::filesystem::path path_;
     std::uint64_t revision_ = 0;
+    std::uint64_t measured_ = 0; ///< the clearance's revision
     bool settled_ = false;
 };
 

@@ -19,7 +19,8 @@ namespace {
 
 Document document() {
     Document out;
-    out.sources = {"builtin:head:64", "builtin:scalpel:300"};
+    out.sources.volume = "builtin:head:64";
+    out.sources.mesh = "builtin:scalpel:300";
     out.edit.curve = {{-40.5, 0}, {80, 0.1}};
     out.edit.threshold = 0.25;
     out.edit.world_from_object = translation({1.5, -2, 1.0 / 3});
@@ -44,11 +45,20 @@ TEST(ViewCommand, NamesTheDeviceWhereOneAnswers) {
 
 TEST(ViewCommand, FilesHaveAbsolutePathsInOneWord) {
     Document files = document();
-    files.sources = {"a head.nii", "tool's.stl", "ras", 0.5};
+    files.sources = {"a head.nii", "tool's.stl", "ras", 0.5, "", ""};
     const std::string text = copyAsCommand(files, {}, "");
     const std::string here = std::filesystem::current_path().string();
     EXPECT_THAT(text, HasSubstr("--volume '" + here + "/a head.nii'"));
     EXPECT_THAT(text, HasSubstr("/tool'\\''s.stl' --mesh-space ras --mesh-scale 0.5"));
+}
+
+TEST(ViewCommand, HasTheLabelMapAndItsNames) {
+    Document labelled = document();
+    EXPECT_THAT(copyAsCommand(labelled, {}, ""), Not(HasSubstr("--label")));
+    labelled.sources.labels = "/data/an atlas.nii";
+    labelled.sources.labelNames = "/data/names.txt";
+    EXPECT_THAT(copyAsCommand(labelled, {}, ""),
+                HasSubstr(" --labels '/data/an atlas.nii' --label-names /data/names.txt"));
 }
 
 TEST(ViewCommand, ShellWords) {

@@ -21,7 +21,7 @@ namespace {
 
 Document document() {
     Document out;
-    out.sources = {"head.nii.gz", "tool.stl", "ras", 0.001};
+    out.sources = {"head.nii.gz", "tool.stl", "ras", 0.001, "atlas.nii.gz", "atlas names.txt"};
     out.edit.curve = {{-40.5, 0}, {1.0 / 3, 0.1}, {80, 1}};
     out.edit.threshold = 0.25;
     out.edit.world_from_object = translation({1.5, -2, 1.0 / 3});
@@ -56,6 +56,8 @@ TEST(ViewSession, ComesBackAsItWas) {
     EXPECT_EQ(after->method, before.method);
     EXPECT_EQ(after->cursor, before.cursor);
     EXPECT_EQ(after->sources.meshSpace, "ras");
+    EXPECT_EQ(after->sources.labels, "atlas.nii.gz");
+    EXPECT_EQ(after->sources.labelNames, "atlas names.txt");
     EXPECT_EQ(after->camera->halfHeight, 77);
 }
 
@@ -99,6 +101,8 @@ TEST(ViewSession, WhatIsWrongIsNamed) {
         {"/volume", Json(), "volume: is missing"},
         {"/mesh", 3, "mesh: is not a text"},
         {"/mesh_space", "xyz", "mesh_space: is neither"},
+        {"/labels", 3, "labels: is not a text"},
+        {"/labels", Json(), "label_names: names the labels"},
         {"/mesh_scale", -1, "mesh_scale: is not a positive number"},
         {"/transfer_function", 3, "transfer_function: is not an object"},
         {"/transfer_function/points", Json::array(), "transfer_function: "},

@@ -4,16 +4,21 @@
 
   window.py PROGRAM keys      the instrument is moved into the head, back and through a list; each answer is compared
                               with that of the command that the window copies; the window is resized and closed
+  window.py PROGRAM handles   the instrument is dragged by its handles
   window.py PROGRAM methods   the device's ways to answer, each compared in the same way
+  window.py PROGRAM labels    what is touched by its labels, on the host and on the device
+  window.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
   window.py PROGRAM refusals  no display, and what cannot be shown
 
-Nothing sleeps for a fixed time: each step is waited for, at most so long as a slow machine may need.
+Nothing sleeps for a fixed time but the hand that drags, which tries again: each step is waited for, at most so long as
+a slow machine may need.
 Exit status: 0 passed, 1 failed.
 """
 import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -100,17 +105,37 @@ class Window:
             fail(f"the window ended with {self.process.returncode}: {out}{err}")
 
 
-def compare(program, state):
-    """The state's answer is that of its command."""
+def answer_of(program, command):
+    """The row of a command."""
     environment = {**os.environ, "PATH": f"{pathlib.Path(program).parent}:{os.environ['PATH']}"}
-    ran = subprocess.run(["sh", "-c", state["command"] + " --format csv"], env=environment, capture_output=True,
-                         text=True, timeout=PATIENCE)
+    ran = subprocess.run(["sh", "-c", command + " --format csv"], env=environment, capture_output=True, text=True,
+                         timeout=PATIENCE)
     if ran.returncode != 0:
-        fail(f"{state['command']}: {ran.stderr}")
+        fail(f"{command}: {ran.stderr}")
     row, = csv.DictReader(ran.stdout.splitlines())
+    return row
+
+
+def compare(program, state):
+    """The state's answer is that of its command; where it has a clearance, that is the host's."""
+    row = answer_of(program, state["command"])
     for name in ("hit", "count", "exact", "method", "projection"):
         if row[name] != str(state[name]):
             fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
+    if "labels" in state and labels_text(state) != row["labels"]:
+        fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
+    if not state["clearance"]:
+        return
+    command = re.sub("--projection .*", "--projection conservative --count cpu --clearance", state["command"])
+    row = answer_of(program, command)
+    for name in ("lo", "hi"):
+        said, is_so = float(state["clearance"][name]), float(row["clearance_" + name])
+        if said != is_so and abs(said - is_so) > 1e-6 * is_so:
+            fail(f"clearance {name}: the window says {said}, its command {is_so}: {command}")
+
+
+def labels_text(state):
+    return ";".join(f"{one['name'] or one['label']}:{one['count']}" for one in state["labels"])
 
 
 def poses(folder, *heights):
@@ -128,6 +153,9 @@ def keys(program, folder):
                                                              poses(folder, 130, 40)]) as window:
         state = window.until("the first answer", lambda s: s["settled"])
         assert (state["hit"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
+        compare(program, state)
+        state = window.until("the first clearance", lambda s: s["clearance"])
+        assert state["clearance"]["lo"] > 0 and len(state["clearance"]["volume"]) == 3, state
         compare(program, state)
         height = 130
         while state["hit"] == 0 and height > 0:
@@ -160,6 +188,34 @@ def keys(program, folder):
         window.end()
 
 
+def drag(window, x, y, right, down):
+    for step in (("mousemove", str(x), str(y)), ("mousedown", "1"), ("mousemove", str(x + right), str(y + down)),
+                 ("mouseup", "1")):
+        window.tool(*step)
+        time.sleep(0.4)
+
+
+def handles(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 0)]) as window:
+        first = window.until("the first answer", lambda s: s["settled"])
+        # From the middle outward: a drag beside the handles turns the picture round the middle, where the instrument
+        # nearly is.
+        x, y, width, height = (int(number) for number in first["picture"])
+        state, offset = first, 16
+        while state["pose"] == first["pose"] and offset < min(width, height) / 2:
+            drag(window, x + width // 2 + offset, y + height // 2, 3, 12)
+            state = window.state()
+            offset += 5
+        assert state["pose"] != first["pose"], f"no handle up to {offset} points from the middle"
+        state = window.until("the answer there", lambda s: s["settled"])
+        compare(program, state)
+        window.press("ctrl+z")
+        window.until("the pose before the drag", lambda s: s["pose"] == first["pose"])
+        window.press("ctrl+q")
+        window.end()
+
+
 def methods(program, folder):
     with Server() as server:
         for method, projection in (("compute", "conservative"), ("query", "view"), ("atomic", "dominant-axis")):
@@ -173,6 +229,62 @@ def methods(program, folder):
                 compare(program, state)
                 window.press("ctrl+q")
                 window.end()
+
+
+def labels(program, folder):
+    # Any image of whole numbers is a label map; its values are the labels.
+    subprocess.run([program, "make", "volume", "builtin:head:32", f"{folder}/atlas.nii"], check=True,
+                   capture_output=True, timeout=PATIENCE)
+    with Server() as server:
+        for device in (["--device", "cpu"], ["--count", "compute"]):
+            with Window(program, server, folder, [*SCENE, *device, "--poses", poses(folder, 60), "--labels",
+                                                  f"{folder}/atlas.nii"]) as window:
+                state = window.until("the answer with labels", lambda s: s["settled"])
+                assert len(state["labels"]) > 1, state
+                compare(program, state)
+                touched = state["labels"][0]["label"]
+                window.press("ctrl+q")
+                window.end()
+        names = pathlib.Path(folder) / "names.txt"
+        names.write_text(f"{touched} hard_thing\n")
+        with Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses", poses(folder, 60), "--labels",
+                                              f"{folder}/atlas.nii", "--label-names", str(names)]) as window:
+            state = window.until("the answer with names", lambda s: s["settled"])
+            assert state["labels"][0]["name"] == "hard_thing", state
+            compare(program, state)
+            window.press("ctrl+q")
+            window.end()
+
+
+def drill(program, folder):
+    # Of voxels that are small beside the holes.
+    scene = ["--volume", "builtin:head:96", *SCENE[2:]]
+    counts = []
+    with Server() as server:
+        for device in (["--device", "cpu"], ["--count", "compute"]):
+            with Window(program, server, folder, [*scene, *device, "--poses", poses(folder, 60)]) as window:
+                state = window.until("the answer before", lambda s: s["settled"])
+                whole = state["count"]
+                window.press("x")
+                state = window.until("a hole at the tip", lambda s: s["holes"] == 1 and s["settled"])
+                assert 0 < state["count"] < whole, (whole, state)
+                assert state["command"].startswith("# of the volume as it was read, without the hole"), state
+                counts.append((whole, state["count"]))
+                window.press("shift+Next")
+                window.until("another pose", lambda s: s["pose"][HEIGHT] == 50)
+                window.press("x")
+                state = window.until("a second hole", lambda s: s["holes"] == 2 and s["settled"])
+                counts[-1] += (state["count"],)
+                window.press("ctrl+z", "ctrl+z", "ctrl+z")
+                state = window.until("the volume as it was", lambda s: s["holes"] == 0 and s["settled"])
+                assert state["count"] == whole and state["pose"][HEIGHT] == 60, state
+                compare(program, state)
+                window.press("ctrl+y")
+                state = window.until("the first hole again", lambda s: s["holes"] == 1 and s["settled"])
+                assert state["count"] == counts[-1][1], (counts, state)
+                window.press("ctrl+q")
+                window.end()
+    assert counts[0] == counts[1], f"host and device differ: {counts}"
 
 
 def refused(program, status, text, arguments, environment):
@@ -192,6 +304,8 @@ def refusals(program, folder):
     refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
     refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"], without)
     refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
+    refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
+    refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
     refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
     with Server() as server:
         no_driver = {**server.environment, "VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
@@ -199,7 +313,8 @@ def refusals(program, folder):
 
 
 def main(arguments):
-    checks = {"keys": keys, "methods": methods, "refusals": refusals}
+    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "refusals":
+              refusals}
     if len(arguments) != 2 or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

@@ -41,8 +41,8 @@ Result<void> show(const ViewerOptions& options, Opened opened, Outcome& invalid)
         if (!opened.document.method) {
             opened.document.method = view::MethodChoice{conservativeMethod(*session, {}), Projection::Conservative};
         }
-        view::State state({std::move(opened.volume), std::move(opened.mesh), opened.values, opened.document,
-                           choice.wanted, session->device.physical().name});
+        view::State state({std::move(opened.volume), std::move(opened.mesh), std::move(opened.labels), opened.values,
+                           opened.document, choice.wanted, session->device.physical().name});
         return view::runWindow(**display, *session, state, windowDesc(options, state.volume.grid));
     }();
     if (shown.ok()) {

@@ -24,7 +24,7 @@ scalpel. Needs a display (X11) and a Vulkan driver that can show pictures on it.
 host. --count and --projection choose another way, and so does the list under the answer.
 
 --report-state PATH: a JSON file, written anew after each answer: hit (0, 1, or 2 for possible), count, method,
-projection, pose (16 numbers, row by row), command (a line for a shell that gives the same answer) and more.
+projection, pose (16 numbers, row by row), labels, command (a line for a shell that gives the same answer) and more.
 
 Examples:
   voxtact view
@@ -92,14 +92,18 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
     addTransferFunctionOptions(parser, options.transferFunction, true);
     addName(parser, "--preset", options.preset, presetNames(),
             "colours, and the opacity where none is given, as of voxtact render");
+    addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
+    addPath(parser, "--label-names", options.labelNames,
+            "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
     addMethodOptions(parser, options.method);
     for (const char* fixed : {"--samples-per-voxel", "--resolution", "--filter", "--boundary"}) {
         parser.remove_option(parser.get_option(fixed));
     }
     addDeviceOptions(parser, options.device);
     addPath(parser, "--session", options.session, "opens what File, Save session has written");
-    for (const char* other : {"--volume", "--mesh", "--mesh-space", "--mesh-scale", "--poses", "--transfer-function",
-                              "--opacity", "--tf-domain", "--tf-size", "--threshold", "--preset"}) {
+    for (const char* other :
+         {"--volume", "--mesh", "--mesh-space", "--mesh-scale", "--poses", "--transfer-function", "--opacity",
+          "--tf-domain", "--tf-size", "--threshold", "--preset", "--labels", "--label-names"}) {
         parser.get_option("--session")->excludes(parser.get_option(other));
     }
     addPath(parser, "--report-state", options.reportState, "a JSON file to write anew after each answer");
@@ -129,10 +133,17 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
                                std::to_string(options.size.height) + ": a window has 320 to 16384 points a side");
         }
     }
+    if (options.labels.empty() && !options.labelNames.empty()) {
+        return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
+    }
     ViewOptions inputs;
     inputs.poses = options.poses;
-    return checkOutputs({{"--report-state", options.reportState}},
-                        inputPaths(options.volumes, options.meshes, options.transferFunction, inputs));
+    auto paths = inputPaths(options.volumes, options.meshes, options.transferFunction, inputs);
+    if (!options.labels.empty()) {
+        paths.push_back({"--labels", options.labels});
+        paths.push_back({"--label-names", labelNamesPath(options.labelNames, options.labels)});
+    }
+    return checkOutputs({{"--report-state", options.reportState}}, paths);
 }
 
 Result<Opened> openDocument(const ViewerOptions& options) {
@@ -151,6 +162,8 @@ Result<Opened> openDocument(const ViewerOptions& options) {
         sources.mesh = options.meshes.sources.empty() ? "builtin:scalpel" : options.meshes.sources.front();
         sources.meshSpace = options.meshes.space;
         sources.meshScale = options.meshes.scale;
+        sources.labels = options.labels.string();
+        sources.labelNames = options.labelNames.string();
     }
     Result<VolumeData> volume = loadVolume(sources.volume);
     VOXTACT_TRY(volume);
@@ -159,6 +172,11 @@ Result<Opened> openDocument(const ViewerOptions& options) {
     Result<MeshData> mesh =
         loadMesh(sources.mesh, {.sources = {}, .space = sources.meshSpace, .scale = sources.meshScale});
     VOXTACT_TRY(mesh);
+    if (!sources.labels.empty()) {
+        Result<NamedLabels> named = loadNamedLabels(sources.labels, sources.labelNames);
+        VOXTACT_TRY(named);
+        opened.labels = view::Labels{std::move(named->labels), std::move(named->names)};
+    }
     if (options.session.empty()) {
         Result<view::Document> document = documentOf(options, volume->type, *values);
         VOXTACT_TRY(document);

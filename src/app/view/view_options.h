@@ -3,6 +3,7 @@
 
 #include "app/options/shared_options.h"
 #include "view/model/document.h"
+#include "view/model/labels.h"
 
 namespace voxtact::app {
 
@@ -12,6 +13,8 @@ struct ViewerOptions {
     MeshOptions meshes;
     TransferFunctionOptions transferFunction;
     std::filesystem::path poses;
+    std::filesystem::path labels;
+    std::filesystem::path labelNames;
     std::string preset;
     MethodOptions method;
     DeviceChoice device;
@@ -30,6 +33,7 @@ struct Opened {
     view::Document document;
     VolumeData volume;
     MeshData mesh;
+    std::optional<view::Labels> labels;
     ValueRange values;
 };
 [[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options);

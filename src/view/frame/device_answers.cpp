@@ -11,7 +11,8 @@ Result<DeviceAnswers> DeviceAnswers::create(const device::Session& session, cons
     ResultsDesc desc;
     desc.timestamps = session.device.hasTimestamps();
     desc.queueFamily = session.device.queueAccess().family;
-    desc.room = OutputRoom{.triangles = scene.triangles()};
+    desc.room = OutputRoom{.triangles = scene.triangles(),
+                           .labels = scene.labels() == nullptr ? 0 : scene.labels()->values().size()};
     for (std::uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
         Result<Results> results = Results::create(session.context, desc);
         VOXTACT_TRY(results);
@@ -43,7 +44,7 @@ Result<void> DeviceAnswers::record(VkCommandBuffer commands, DeviceScene& scene,
         desc.method = method.count;
         desc.projection = method.projection;
         desc.filter = defaultFilter(method.count);
-        desc.outputs = {.triangles = true, .contacts = true};
+        desc.outputs = {.triangles = true, .contacts = true, .labels = scene.labels() != nullptr};
         Result<Detector> made = Detector::create(session_->context, desc);
         VOXTACT_TRY(made);
         detector = detectors_.emplace(key, std::move(*made)).first;

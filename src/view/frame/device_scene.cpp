@@ -33,12 +33,6 @@ double diagonalOf(const Grid& grid) {
     return std::sqrt(sum);
 }
 
-bool same(const Curve& a, const Curve& b) {
-    return std::ranges::equal(a, b, [](const ControlPoint& one, const ControlPoint& other) {
-        return one.value == other.value && one.opacity == other.opacity;
-    });
-}
-
 } // namespace
 
 Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& session, const State& state,
@@ -49,12 +43,18 @@ Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& 
     Result<BlockingRenderer> blocking = BlockingRenderer::create(session.context, queue);
     VOXTACT_TRY(blocking);
     scene->blocking_ = std::move(*blocking);
-    Result<Volume> volume = Volume::upload(session.context, queue, state.volume.view(), {.bricks = true});
+    Result<Volume> volume =
+        Volume::upload(session.context, queue, state.volume.view(), {.bricks = true, .editable = true});
     VOXTACT_TRY(volume);
     scene->volume_ = std::move(*volume);
     Result<RenderBricks> bricks = RenderBricks::create(scene->renderer(), *scene->volume_);
     VOXTACT_TRY(bricks);
     scene->bricks_ = std::move(*bricks);
+    if (state.labels) {
+        Result<LabelMap> labels = LabelMap::upload(session.context, queue, state.labels->map);
+        VOXTACT_TRY(labels);
+        scene->labels_ = std::move(*labels);
+    }
     VOXTACT_TRY(scene->uploadFunctions(session, state));
     VOXTACT_TRY(scene->uploadMesh(session, state));
     return scene;
@@ -105,8 +105,13 @@ Result<void> DeviceScene::uploadMesh(const device::Session& session, const State
 }
 
 Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state) {
+    writtenBefore_ = written_;
+    for (; written_ < state.writes.size(); ++written_) {
+        const HoleWrite& write = state.writes[written_];
+        VOXTACT_TRY(volume_->cmdWrite(commands, write.hole->box, write.voxels()));
+    }
     const Curve& curve = state.document.edit.curve;
-    if (same(curve, curve_)) {
+    if (sameCurve(curve, curve_)) {
         return {};
     }
     VOXTACT_TRY(function_->cmdUpdate(commands, renderDesc(state, true).opacity));
@@ -152,7 +157,7 @@ const Scene& DeviceScene::scene(const State& state, std::uint32_t slot, bool fin
 
 Batch DeviceScene::batch(const State& state) {
     pose_ = state.document.edit.world_from_object;
-    item_ = {&*mesh_, &*volume_, &*function_, {&pose_, 1}};
+    item_ = {&*mesh_, &*volume_, &*function_, {&pose_, 1}, labels()};
     Batch batch;
     batch.items = {&item_, 1};
     batch.view = {framingCamera(state.volume.grid, kAnswerSide, kAnswerSide), kAnswerSide, kAnswerSide};

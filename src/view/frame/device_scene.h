@@ -18,10 +18,13 @@ class DeviceScene {
     [[nodiscard]] static Result<std::unique_ptr<DeviceScene>> create(const device::Session& session, const State& state,
                                                                      const Lighting& light);
 
-    /// Records the tables of a new transfer function, where it is another than before.
+    /// Records holes, and the tables of a new transfer function, where there are others than before.
     [[nodiscard]] Result<void> cmdUpdate(VkCommandBuffer commands, const State& state);
     /// The commands of the last cmdUpdate() will not be executed.
-    void forgetUpdate() { curve_.clear(); }
+    void forgetUpdate() {
+        curve_.clear();
+        written_ = writtenBefore_;
+    }
     /// Paints the triangles of the last answer, in the pictures of a slot whose last use is done.
     void paint(const State& state, std::uint32_t slot);
     /// What a picture shows. Valid until the next call.
@@ -32,6 +35,8 @@ class DeviceScene {
     [[nodiscard]] const Volume& volume() const { return *volume_; }
     [[nodiscard]] const Renderer& renderer() const { return blocking_->renderer(); }
     [[nodiscard]] BlockingRenderer& blocking() { return *blocking_; }
+    /// Null where there is no label map.
+    [[nodiscard]] const LabelMap* labels() const { return labels_ ? &*labels_ : nullptr; }
     [[nodiscard]] std::uint32_t triangles() const { return mesh_->triangles(); }
 
   private:
@@ -46,13 +51,16 @@ class DeviceScene {
     std::optional<TransferFunction> function_;
     std::optional<RenderTransferFunction> fine_;
     std::optional<RenderTransferFunction> coarse_;
+    std::optional<LabelMap> labels_;
     std::optional<Mesh> mesh_;
     std::optional<MeshNormals> normals_;
     HostBuffer masks_;
     std::size_t maskBytes_ = 0; ///< of a slot
     std::array<std::optional<PaintedTriangles>, kFramesInFlight> painted_;
 
-    Curve curve_; ///< that the tables are of
+    std::size_t written_ = 0;       ///< of State::writes
+    std::size_t writtenBefore_ = 0; ///< the last cmdUpdate()
+    Curve curve_;                   ///< that the tables are of
     Lighting light_;
     Scene scene_;
     BatchItem item_;

@@ -35,13 +35,13 @@ Result<std::unique_ptr<Frames>> Frames::create(const device::Session& session, V
     Result<std::unique_ptr<HostAnswers>> host = HostAnswers::create(state, wake);
     VOXTACT_TRY(host);
     frames->host_ = std::move(*host);
-    Result<Gui> gui = Gui::create(session.device, frames->swapchain_->format());
+    Result<Gui> gui = Gui::create(session, frames->swapchain_->format());
     VOXTACT_TRY(gui);
     frames->gui_ = std::move(*gui);
-    Result<Pictures> pictures = Pictures::create(session.device, frames->scene_->renderer());
+    Result<Pictures> pictures = Pictures::create(session, frames->scene_->renderer());
     VOXTACT_TRY(pictures);
     frames->pictures_.emplace(std::move(*pictures));
-    Result<SlicePass> slices = SlicePass::create(session.device, frames->scene_->volume());
+    Result<SlicePass> slices = SlicePass::create(session, frames->scene_->volume());
     VOXTACT_TRY(slices);
     frames->slices_ = std::move(*slices);
     VOXTACT_TRY(frames->makeSlots());
@@ -143,6 +143,13 @@ Result<void> Frames::collect(State& state) {
     if (std::optional<Result<LiveAnswer>> answer = host_->take()) {
         take(state, std::move(*answer));
     }
+    if (std::optional<Result<LiveClearance>> clearance = host_->takeClearance()) {
+        if (clearance->ok()) {
+            state.clearance = std::move(**clearance);
+        } else if (clearance->error().code != ErrorCode::Cancelled) {
+            state.complain(clearance->error().text);
+        }
+    }
     return {};
 }
 
@@ -201,11 +208,9 @@ Result<void> Frames::ask(State& state) {
         return {};
     }
     asked_ = state.revision;
-    if (rowOf(state.method.count).host) {
-        host_->ask({state.revision, state.document.edit, state.method.projection});
-        return {};
-    }
-    return device_->record(slot().commands, *scene_, state, slot_);
+    const bool host = rowOf(state.method.count).host;
+    host_->ask({state.revision, state.document.edit, state.method.projection, host}, state.writes);
+    return host ? Result<void>() : device_->record(slot().commands, *scene_, state, slot_);
 }
 
 Result<void> Frames::begin() {

@@ -2,7 +2,6 @@
 #include "view/frame/gui.h"
 
 #include "core/base/try.h"
-#include "device/created.h"
 #include "voxtact_shaders/gui_frag.h"
 #include "voxtact_shaders/gui_vert.h"
 
@@ -50,45 +49,8 @@ VkRect2D scissorOf(const ImVec4& clip, const ImDrawData& data) {
 
 } // namespace
 
-Result<void> submitAndWait(const device::VulkanDevice& device, const std::function<void(VkCommandBuffer)>& record) {
-    const VolkDeviceTable& table = device.table();
-    VkCommandPoolCreateInfo poolInfo{};
-    poolInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-    poolInfo.queueFamilyIndex = device.queueAccess().family;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkResult result =
-        device::createdOrNull(table.vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool), pool);
-    VkCommandBufferAllocateInfo allocate{};
-    allocate.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    allocate.commandPool = pool;
-    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocate.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    result = result == VK_SUCCESS ? table.vkAllocateCommandBuffers(device.handle(), &allocate, &commands) : result;
-    VkCommandBufferBeginInfo begin{};
-    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    result = result == VK_SUCCESS ? table.vkBeginCommandBuffer(commands, &begin) : result;
-    if (result == VK_SUCCESS) {
-        record(commands);
-        result = table.vkEndCommandBuffer(commands);
-    }
-    VkCommandBufferSubmitInfo buffer{};
-    buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
-    buffer.commandBuffer = commands;
-    VkSubmitInfo2 submit{};
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-    submit.commandBufferInfoCount = 1;
-    submit.pCommandBufferInfos = &buffer;
-    const VkQueue queue = device.queueAccess().queue;
-    result = result == VK_SUCCESS ? table.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE) : result;
-    result = result == VK_SUCCESS ? table.vkQueueWaitIdle(queue) : result;
-    table.vkDestroyCommandPool(device.handle(), pool, nullptr);
-    return result == VK_SUCCESS ? Result<void>() : device::vulkanError(result, "uploading the window's pictures");
-}
-
-Result<Gui> Gui::create(const device::VulkanDevice& device, VkFormat format) {
-    Gui gui(device);
+Result<Gui> Gui::create(const device::Session& session, VkFormat format) {
+    Gui gui(session.device);
     DrawPipelineDesc desc;
     desc.vertexShader = spirv::gui_vert;
     desc.fragmentShader = spirv::gui_frag;
@@ -97,17 +59,14 @@ Result<Gui> Gui::create(const device::VulkanDevice& device, VkFormat format) {
     desc.pushBytes = sizeof(Placement);
     desc.blended = true;
     desc.guiVertices = true;
-    Result<DrawPipeline> pipeline = DrawPipeline::create(device, desc);
-    VOXTACT_TRY(pipeline);
-    gui.pipeline_ = std::move(*pipeline);
-    Result<Textures> textures = Textures::create(device, kMostTextures, VK_FILTER_LINEAR);
-    VOXTACT_TRY(textures);
-    gui.textures_ = std::move(*textures);
-    VOXTACT_TRY(gui.uploadFont());
+    Result<Drawing> drawing = Drawing::create(session.device, desc, kMostTextures, VK_FILTER_LINEAR);
+    VOXTACT_TRY(drawing);
+    gui.drawing_ = std::move(*drawing);
+    VOXTACT_TRY(gui.uploadFont(session));
     return gui;
 }
 
-Result<void> Gui::uploadFont() {
+Result<void> Gui::uploadFont(const device::Session& session) {
     unsigned char* pixels = nullptr;
     int width = 0;
     int height = 0;
@@ -122,7 +81,7 @@ Result<void> Gui::uploadFont() {
     const Result<HostBuffer> staging = HostBuffer::create(*device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     VOXTACT_TRY(staging);
     std::memcpy(staging->bytes().data(), pixels, bytes);
-    VOXTACT_TRY(submitAndWait(*device_, [&](VkCommandBuffer commands) {
+    VOXTACT_TRY(submitAndWait(session, [&](VkCommandBuffer commands) {
         const BarrierSide copy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
         layoutBarrier(*device_, commands,
                       {font_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL}, {}, copy);
@@ -148,7 +107,7 @@ Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::
     VOXTACT_TRY(grow(*device_, vertices_[slot], vertexBytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
     VOXTACT_TRY(grow(*device_, indices_[slot], indexBytes, VK_BUFFER_USAGE_INDEX_BUFFER_BIT));
     const VolkDeviceTable& table = device_->table();
-    table.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.handle());
+    table.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, drawing_.pipeline.handle());
     const VkDeviceSize none = 0;
     const VkBuffer vertices = vertices_[slot].handle();
     table.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &none);
@@ -157,7 +116,8 @@ Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::
     const Placement placement{
         {2 / data.DisplaySize.x, 2 / data.DisplaySize.y},
         {-1 - 2 * data.DisplayPos.x / data.DisplaySize.x, -1 - 2 * data.DisplayPos.y / data.DisplaySize.y}};
-    table.vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof placement, &placement);
+    table.vkCmdPushConstants(commands, drawing_.pipeline.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof placement,
+                             &placement);
     std::size_t firstVertex = 0;
     std::size_t firstIndex = 0;
     for (int list = 0; list < data.CmdListsCount; ++list) {
@@ -173,8 +133,8 @@ Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::
             }
             auto* const texture = static_cast<VkDescriptorSet>(draw.GetTexID());
             table.vkCmdSetScissor(commands, 0, 1, &scissor);
-            table.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.layout(), 0, 1, &texture,
-                                          0, nullptr);
+            table.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, drawing_.pipeline.layout(), 0, 1,
+                                          &texture, 0, nullptr);
             table.vkCmdDrawIndexed(commands, draw.ElemCount, 1, static_cast<std::uint32_t>(firstIndex) + draw.IdxOffset,
                                    static_cast<std::int32_t>(firstVertex + draw.VtxOffset), 0);
         }

@@ -13,31 +13,26 @@ namespace voxtact::view {
 class Gui {
   public:
     /// Of the current ImGui context, whose font is uploaded: submits, and waits.
-    [[nodiscard]] static Result<Gui> create(const device::VulkanDevice& device, VkFormat format);
+    [[nodiscard]] static Result<Gui> create(const device::Session& session, VkFormat format);
 
     /// A texture for ImGui::Image(); what it shows is set later. At most 8 of them.
-    [[nodiscard]] Result<VkDescriptorSet> addTexture() { return textures_.add(pipeline_.setLayout()); }
+    [[nodiscard]] Result<VkDescriptorSet> addTexture() { return drawing_.addTexture(); }
     /// No frame with it may be in flight.
     void setTexture(VkDescriptorSet texture, VkImageView view, VkImageLayout layout) const {
-        textures_.set(texture, view, layout);
+        drawing_.textures.set(texture, view, layout);
     }
     /// Inside a rendering of the window's image. `slot`: of the frame; its last use is done.
     [[nodiscard]] Result<void> record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot);
 
   private:
     explicit Gui(const device::VulkanDevice& device) : device_(&device) {}
-    [[nodiscard]] Result<void> uploadFont();
+    [[nodiscard]] Result<void> uploadFont(const device::Session& session);
 
     const device::VulkanDevice* device_;
-    DrawPipeline pipeline_;
-    Textures textures_;
+    Drawing drawing_;
     Image font_;
     std::array<HostBuffer, kFramesInFlight> vertices_;
     std::array<HostBuffer, kFramesInFlight> indices_;
 };
-
-/// Records by `record`, submits on the device's queue, and waits.
-[[nodiscard]] Result<void> submitAndWait(const device::VulkanDevice& device,
-                                         const std::function<void(VkCommandBuffer)>& record);
 
 } // namespace voxtact::view

@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::uint32_t kAnswerSide = 512; // as voxtact detect has it
 
+double since(State::Clock::time_point begun) {
+    return std::chrono::duration<double, std::milli>(State::Clock::now() - begun).count();
+}
+
 } // namespace
 
 Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std::function<void()> wake) {
@@ -21,7 +25,8 @@ Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std
 }
 
 HostAnswers::HostAnswers(cpu::Volume volume, cpu::Mesh mesh, const State& state, std::function<void()> wake)
-    : volume_(std::move(volume)), mesh_(std::move(mesh)), domain_(state.document.domain),
+    : volume_(std::move(volume)), mesh_(std::move(mesh)),
+      labels_(state.labels ? std::optional(state.labels->map) : std::nullopt), domain_(state.document.domain),
       tableSize_(state.document.tableSize), view_{framingCamera(state.volume.grid, kAnswerSide, kAnswerSide),
                                                   kAnswerSide, kAnswerSide},
       wake_(std::move(wake)), thread_([this] { work(); }) {}
@@ -30,15 +35,19 @@ HostAnswers::~HostAnswers() {
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;
+        newer_ = true;
     }
     asked_.notify_one();
     thread_.join();
 }
 
-void HostAnswers::ask(Question question) {
+void HostAnswers::ask(Question question, std::span<const HoleWrite> writes) {
     {
         const std::lock_guard lock(mutex_);
+        writes_.insert(writes_.end(), writes.begin() + static_cast<std::ptrdiff_t>(written_), writes.end());
+        written_ = writes.size();
         question_ = std::move(question);
+        newer_ = true;
     }
     asked_.notify_one();
 }
@@ -48,22 +57,59 @@ std::optional<Result<LiveAnswer>> HostAnswers::take() {
     return std::exchange(answer_, std::nullopt);
 }
 
-void HostAnswers::work() {
-    std::unique_lock lock(mutex_);
-    while (true) {
-        asked_.wait(lock, [this] { return stop_ || question_; });
-        if (stop_) {
-            return;
-        }
-        const Question question = *std::exchange(question_, std::nullopt);
-        lock.unlock();
-        Result<LiveAnswer> found = guard([&] { return answer(question); });
-        lock.lock();
-        answer_ = std::move(found);
-        if (!stop_) {
-            wake_();
-        }
+std::optional<Result<LiveClearance>> HostAnswers::takeClearance() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(clearance_, std::nullopt);
+}
+
+template <class Found> void HostAnswers::give(std::optional<Result<Found>>& to, Result<Found> found) {
+    const std::lock_guard lock(mutex_);
+    to = std::move(found);
+    if (!stop_) {
+        wake_();
     }
+}
+
+void HostAnswers::work() {
+    while (true) {
+        Question question;
+        std::vector<HoleWrite> writes;
+        {
+            std::unique_lock lock(mutex_);
+            asked_.wait(lock, [this] { return stop_ || question_; });
+            if (stop_) {
+                return;
+            }
+            question = *std::exchange(question_, std::nullopt);
+            writes = std::exchange(writes_, {});
+            newer_ = false;
+        }
+        for (const HoleWrite& write : writes) {
+            // The voxels come from this volume, or from a hole that was checked.
+            (void)volume_.write(write.hole->box, write.voxels());
+        }
+        if (question.answer) {
+            give(answer_, guard([&] { return answer(question); }));
+        }
+        give(clearance_, guard([&] { return measure(question); }));
+    }
+}
+
+Result<cpu::Batch> HostAnswers::batchOf(const Question& question, const std::atomic<bool>& cancel) {
+    if (!function_ || !sameCurve(functionOf_, question.edit.curve)) {
+        Result<cpu::TransferFunction> made = cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
+        VOXTACT_TRY(made);
+        function_ = std::move(*made);
+        functionOf_ = question.edit.curve;
+    }
+    pose_ = question.edit.world_from_object;
+    item_ = {&mesh_, &volume_, &*function_, {&pose_, 1}, labels_ ? &*labels_ : nullptr};
+    cpu::Batch batch;
+    batch.items = {&item_, 1};
+    batch.view = view_;
+    batch.threshold = question.edit.threshold;
+    batch.cancel = &cancel;
+    return batch;
 }
 
 Result<LiveAnswer> HostAnswers::answer(const Question& question) {
@@ -71,25 +117,31 @@ Result<LiveAnswer> HostAnswers::answer(const Question& question) {
     if (detector == detectors_.end()) {
         cpu::DetectorDesc desc;
         desc.projection = question.projection;
-        desc.outputs = {.triangles = true, .contacts = true};
+        desc.outputs = {.triangles = true, .contacts = true, .labels = labels_.has_value()};
         Result<cpu::Detector> made = cpu::Detector::create(desc);
         VOXTACT_TRY(made);
         detector = detectors_.emplace(question.projection, std::move(*made)).first;
     }
     const auto begun = State::Clock::now();
-    const Result<cpu::TransferFunction> function =
-        cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
-    VOXTACT_TRY(function);
-    const cpu::BatchItem item{&mesh_, &volume_, &*function, {&question.edit.world_from_object, 1}};
-    cpu::Batch batch;
-    batch.items = {&item, 1};
-    batch.view = view_;
-    batch.threshold = question.edit.threshold;
-    batch.cancel = &stop_;
-    Result<BatchAnswer> found = detector->second.detect(batch);
+    const Result<cpu::Batch> batch = batchOf(question, stop_);
+    VOXTACT_TRY(batch);
+    Result<BatchAnswer> found = detector->second.detect(*batch);
     VOXTACT_TRY(found);
-    const double milliseconds = std::chrono::duration<double, std::milli>(State::Clock::now() - begun).count();
-    return liveAnswer(std::move(*found), question.revision, question.edit.world_from_object, milliseconds);
+    return liveAnswer(std::move(*found), question.revision, question.edit.world_from_object, since(begun));
+}
+
+Result<LiveClearance> HostAnswers::measure(const Question& question) {
+    if (!meter_) {
+        Result<cpu::ClearanceMeter> made = cpu::ClearanceMeter::create();
+        VOXTACT_TRY(made);
+        meter_ = std::move(*made);
+    }
+    const auto begun = State::Clock::now();
+    const Result<cpu::Batch> batch = batchOf(question, newer_);
+    VOXTACT_TRY(batch);
+    const Result<ClearanceAnswer> found = meter_->measure(*batch);
+    VOXTACT_TRY(found);
+    return LiveClearance{question.revision, found->pairs.front(), since(begun)};
 }
 
 } // namespace voxtact::view

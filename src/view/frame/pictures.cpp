@@ -3,7 +3,6 @@
 
 #include "core/base/try.h"
 #include "device/created.h"
-#include "view/frame/gui.h"
 
 #include <utility>
 
@@ -25,8 +24,9 @@ double tickOf(const device::VulkanDevice& device) {
 
 } // namespace
 
-Result<Pictures> Pictures::create(const device::VulkanDevice& device, const Renderer& renderer) {
-    Pictures out(device);
+Result<Pictures> Pictures::create(const device::Session& session, const Renderer& renderer) {
+    Pictures out(session);
+    const device::VulkanDevice& device = session.device;
     if (device.hasTimestamps()) {
         VkQueryPoolCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
@@ -44,13 +44,13 @@ Result<Pictures> Pictures::create(const device::VulkanDevice& device, const Rend
 }
 
 Pictures::Pictures(Pictures&& other) noexcept
-    : device_(other.device_), timestamps_(std::exchange(other.timestamps_, VK_NULL_HANDLE)), tick_(other.tick_),
+    : session_(other.session_), timestamps_(std::exchange(other.timestamps_, VK_NULL_HANDLE)), tick_(other.tick_),
       targets_(std::move(other.targets_)), coarse_(std::move(other.coarse_)), fine_(std::move(other.fine_)),
       full_(other.full_), shown_(other.shown_), coarseOf_(other.coarseOf_), fineOf_(other.fineOf_),
       fineRows_(other.fineRows_), pace_(other.pace_), made_(other.made_) {}
 
 Pictures::~Pictures() {
-    device_->table().vkDestroyQueryPool(device_->handle(), timestamps_, nullptr);
+    session_->device.table().vkDestroyQueryPool(session_->device.handle(), timestamps_, nullptr);
 }
 
 bool Pictures::fits(const Extent& extent) const {
@@ -60,15 +60,16 @@ bool Pictures::fits(const Extent& extent) const {
 Result<void> Pictures::resize(const Renderer& renderer, const Extent& extent) {
     const VkExtent2D size{extent.width, extent.height};
     constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    Result<Image> coarse = Image::create(*device_, size, VK_FORMAT_R8G8B8A8_UNORM, kUsage);
+    Result<Image> coarse = Image::create(session_->device, size, VK_FORMAT_R8G8B8A8_UNORM, kUsage);
     VOXTACT_TRY(coarse);
-    Result<Image> fine = Image::create(*device_, size, VK_FORMAT_R8G8B8A8_UNORM, kUsage);
+    Result<Image> fine = Image::create(session_->device, size, VK_FORMAT_R8G8B8A8_UNORM, kUsage);
     VOXTACT_TRY(fine);
     Result<RenderTargets> targets = RenderTargets::create(renderer, size);
     VOXTACT_TRY(targets);
-    VOXTACT_TRY(submitAndWait(*device_, [&](VkCommandBuffer commands) {
+    VOXTACT_TRY(submitAndWait(*session_, [&](VkCommandBuffer commands) {
         for (VkImage image : {coarse->handle(), fine->handle()}) {
-            layoutBarrier(*device_, commands, {image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL}, {}, {});
+            layoutBarrier(session_->device, commands, {image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL}, {},
+                          {});
         }
     }));
     coarse_ = std::move(*coarse);
@@ -108,7 +109,7 @@ Result<void> Pictures::record(VkCommandBuffer commands, DeviceScene& scene, Stat
         state.fineShare = static_cast<double>(fineRows_) / full_.height;
         made_[slot].fine = static_cast<double>(full_.width) * rows;
     }
-    const VolkDeviceTable& table = device_->table();
+    const VolkDeviceTable& table = session_->device.table();
     const std::uint32_t stamp = slot * kStamps;
     if (timestamps_ != VK_NULL_HANDLE) {
         table.vkCmdResetQueryPool(commands, timestamps_, stamp, kStamps);
@@ -116,7 +117,7 @@ Result<void> Pictures::record(VkCommandBuffer commands, DeviceScene& scene, Stat
         made_[slot].timed = true;
     }
     // The frame before may show it still, and may still write the rows above.
-    memoryBarrier(*device_, commands,
+    memoryBarrier(session_->device, commands,
                   {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
                   {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -133,9 +134,9 @@ void Pictures::collect(std::uint32_t slot, double wallMilliseconds) {
     Made& made = made_[slot];
     double milliseconds = wallMilliseconds;
     std::array<std::uint64_t, kStamps> stamps{};
-    if (made.timed && device_->table().vkGetQueryPoolResults(device_->handle(), timestamps_, slot * kStamps, kStamps,
-                                                             sizeof stamps, stamps.data(), sizeof(std::uint64_t),
-                                                             VK_QUERY_RESULT_64_BIT) == VK_SUCCESS) {
+    if (made.timed && session_->device.table().vkGetQueryPoolResults(
+                          session_->device.handle(), timestamps_, slot * kStamps, kStamps, sizeof stamps, stamps.data(),
+                          sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT) == VK_SUCCESS) {
         milliseconds = static_cast<double>(stamps[1] - stamps[0]) * tick_;
     }
     if (made.coarse > 0) {

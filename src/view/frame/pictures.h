@@ -10,7 +10,7 @@ namespace voxtact::view {
 /// rows a frame. Its images are in the layout GENERAL.
 class Pictures {
   public:
-    [[nodiscard]] static Result<Pictures> create(const device::VulkanDevice& device, const Renderer& renderer);
+    [[nodiscard]] static Result<Pictures> create(const device::Session& session, const Renderer& renderer);
     Pictures(Pictures&& other) noexcept;
     Pictures& operator=(Pictures&&) = delete;
     ~Pictures();
@@ -30,7 +30,7 @@ class Pictures {
     [[nodiscard]] Extent coarseExtent() const { return shown_; }
 
   private:
-    explicit Pictures(const device::VulkanDevice& device) : device_(&device) {}
+    explicit Pictures(const device::Session& session) : session_(&session) {}
 
     /// What a slot's frame made.
     struct Made {
@@ -39,7 +39,7 @@ class Pictures {
         bool timed = false; ///< timestamps were written
     };
 
-    const device::VulkanDevice* device_;
+    const device::Session* session_;
     VkQueryPool timestamps_ = VK_NULL_HANDLE;
     double tick_ = 0; ///< ms
     std::optional<RenderTargets> targets_;

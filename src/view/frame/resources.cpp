@@ -3,6 +3,7 @@
 
 #include "core/base/try.h"
 #include "device/created.h"
+#include "device/timed_submission.h"
 
 #include <imgui.h>
 
@@ -151,6 +152,21 @@ struct PipelineStates {
     VkFormat format;
     VkPipelineRenderingCreateInfo rendering{};
 };
+
+template <class Barrier> Barrier between(VkStructureType type, const BarrierSide& before, const BarrierSide& after) {
+    Barrier barrier{};
+    barrier.sType = type;
+    barrier.srcStageMask = before.stage;
+    barrier.srcAccessMask = before.access;
+    barrier.dstStageMask = after.stage;
+    barrier.dstAccessMask = after.access;
+    return barrier;
+}
+
+void wait(const device::VulkanDevice& device, VkCommandBuffer commands, VkDependencyInfo info) {
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    device.table().vkCmdPipelineBarrier2(commands, &info);
+}
 
 } // namespace
 
@@ -383,38 +399,47 @@ void Textures::set(VkDescriptorSet set, VkImageView view, VkImageLayout layout) 
 
 void memoryBarrier(const device::VulkanDevice& device, VkCommandBuffer commands, const BarrierSide& before,
                    const BarrierSide& after) {
-    VkMemoryBarrier2 barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    barrier.srcStageMask = before.stage;
-    barrier.srcAccessMask = before.access;
-    barrier.dstStageMask = after.stage;
-    barrier.dstAccessMask = after.access;
+    const VkMemoryBarrier2 barrier = between<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, before, after);
     VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.memoryBarrierCount = 1;
     info.pMemoryBarriers = &barrier;
-    device.table().vkCmdPipelineBarrier2(commands, &info);
+    wait(device, commands, info);
 }
 
 void layoutBarrier(const device::VulkanDevice& device, VkCommandBuffer commands, const LayoutChange& change,
                    const BarrierSide& before, const BarrierSide& after) {
-    VkImageMemoryBarrier2 barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-    barrier.srcStageMask = before.stage;
-    barrier.srcAccessMask = before.access;
-    barrier.dstStageMask = after.stage;
-    barrier.dstAccessMask = after.access;
+    auto barrier = between<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, before, after);
     barrier.oldLayout = change.from;
     barrier.newLayout = change.to;
-    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = change.image;
     barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     VkDependencyInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.imageMemoryBarrierCount = 1;
     info.pImageMemoryBarriers = &barrier;
-    device.table().vkCmdPipelineBarrier2(commands, &info);
+    wait(device, commands, info);
+}
+
+Result<void> submitAndWait(const device::Session& session, const std::function<void(VkCommandBuffer)>& record) {
+    Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);
+    VOXTACT_TRY(submission);
+    VOXTACT_TRY(submission->run([&record](VkCommandBuffer commands) -> Result<void> {
+        record(commands);
+        return {};
+    }));
+    return {};
+}
+
+Result<Drawing> Drawing::create(const device::VulkanDevice& device, const DrawPipelineDesc& desc,
+                                std::uint32_t mostTextures, VkFilter filter) {
+    Drawing out;
+    Result<DrawPipeline> pipeline = DrawPipeline::create(device, desc);
+    VOXTACT_TRY(pipeline);
+    out.pipeline = std::move(*pipeline);
+    Result<Textures> textures = Textures::create(device, mostTextures, filter);
+    VOXTACT_TRY(textures);
+    out.textures = std::move(*textures);
+    return out;
 }
 
 void beginRendering(const device::VulkanDevice& device, VkCommandBuffer commands, VkImageView view,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/vulkan_device.h"
+#include "device/session.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 /// The window's own Vulkan objects, beside those of voxtact: what an embedder has in its engine.
@@ -105,6 +106,16 @@ class Textures {
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
 };
 
+/// Both.
+struct Drawing {
+    [[nodiscard]] static Result<Drawing> create(const device::VulkanDevice& device, const DrawPipelineDesc& desc,
+                                                std::uint32_t mostTextures, VkFilter filter);
+    [[nodiscard]] Result<VkDescriptorSet> addTexture() { return textures.add(pipeline.setLayout()); }
+
+    DrawPipeline pipeline;
+    Textures textures;
+};
+
 /// What a memory barrier waits for and lets go on.
 struct BarrierSide {
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
@@ -119,6 +130,10 @@ struct LayoutChange {
 };
 void layoutBarrier(const device::VulkanDevice& device, VkCommandBuffer commands, const LayoutChange& change,
                    const BarrierSide& before, const BarrierSide& after);
+
+/// Records by `record`, submits on the session's queue, and waits.
+[[nodiscard]] Result<void> submitAndWait(const device::Session& session,
+                                         const std::function<void(VkCommandBuffer)>& record);
 
 /// One colour target, all of it.
 void beginRendering(const device::VulkanDevice& device, VkCommandBuffer commands, VkImageView view,

@@ -2,7 +2,6 @@
 #include "view/frame/slice_pass.h"
 
 #include "core/base/try.h"
-#include "view/frame/gui.h"
 #include "voxtact_shaders/slice_frag.h"
 #include "voxtact_shaders/slice_vert.h"
 
@@ -38,25 +37,23 @@ bool filtersLinearly(const device::VulkanDevice& device, VkFormat format) {
 
 } // namespace
 
-Result<SlicePass> SlicePass::create(const device::VulkanDevice& device, const Volume& volume) {
-    SlicePass out(device);
+Result<SlicePass> SlicePass::create(const device::Session& session, const Volume& volume) {
+    SlicePass out(session);
+    const device::VulkanDevice& device = session.device;
     DrawPipelineDesc desc;
     desc.vertexShader = spirv::slice_vert;
     desc.fragmentShader = spirv::slice_frag;
     desc.format = VK_FORMAT_R8G8B8A8_UNORM;
     desc.pushStages = VK_SHADER_STAGE_FRAGMENT_BIT;
     desc.pushBytes = sizeof(Push);
-    Result<DrawPipeline> pipeline = DrawPipeline::create(device, desc);
-    VOXTACT_TRY(pipeline);
-    out.pipeline_ = std::move(*pipeline);
     const VkFilter filter = filtersLinearly(device, volume.format()) ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-    Result<Textures> textures = Textures::create(device, 1, filter);
-    VOXTACT_TRY(textures);
-    out.textures_ = std::move(*textures);
-    const Result<VkDescriptorSet> set = out.textures_.add(out.pipeline_.setLayout());
+    Result<Drawing> drawing = Drawing::create(device, desc, 1, filter);
+    VOXTACT_TRY(drawing);
+    out.drawing_ = std::move(*drawing);
+    const Result<VkDescriptorSet> set = out.drawing_.addTexture();
     VOXTACT_TRY(set);
     out.volume_ = *set;
-    out.textures_.set(out.volume_, volume.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    out.drawing_.textures.set(out.volume_, volume.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     VOXTACT_TRY(out.resize({}));
     return out;
 }
@@ -70,16 +67,16 @@ bool SlicePass::fits(const std::array<Extent, 3>& extents) const {
 Result<void> SlicePass::resize(const std::array<Extent, 3>& extents) {
     for (std::size_t slice = 0; slice < extents.size(); ++slice) {
         const VkExtent2D extent{extents[slice].width, extents[slice].height};
-        Result<Image> image = Image::create(*device_, extent, VK_FORMAT_R8G8B8A8_UNORM,
+        Result<Image> image = Image::create(session_->device, extent, VK_FORMAT_R8G8B8A8_UNORM,
                                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
         VOXTACT_TRY(image);
         images_[slice] = std::move(*image);
         drawn_[slice].reset();
     }
-    return submitAndWait(*device_, [this](VkCommandBuffer commands) {
+    return submitAndWait(*session_, [this](VkCommandBuffer commands) {
         for (const Image& image : images_) {
-            layoutBarrier(*device_, commands, {image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL}, {},
-                          {});
+            layoutBarrier(session_->device, commands,
+                          {image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL}, {}, {});
         }
     });
 }
@@ -109,7 +106,11 @@ SlicePass::Push SlicePass::pushOf(const State& state, std::size_t slice) const {
 }
 
 void SlicePass::record(VkCommandBuffer commands, const State& state) {
-    const VolkDeviceTable& table = device_->table();
+    const VolkDeviceTable& table = session_->device.table();
+    if (written_ != state.writes.size()) {
+        written_ = state.writes.size();
+        drawn_ = {};
+    }
     for (std::size_t slice = 0; slice < images_.size(); ++slice) {
         const Push push = pushOf(state, slice);
         if (drawn_[slice] == push) {
@@ -117,15 +118,16 @@ void SlicePass::record(VkCommandBuffer commands, const State& state) {
         }
         drawn_[slice] = push;
         const Image& image = images_[slice];
-        memoryBarrier(*device_, commands,
+        memoryBarrier(session_->device, commands,
                       {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
                       {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT});
-        beginRendering(*device_, commands, image.view(), VK_IMAGE_LAYOUT_GENERAL, image.extent());
-        table.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.handle());
-        table.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.layout(), 0, 1, &volume_, 0,
-                                      nullptr);
-        table.vkCmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+        beginRendering(session_->device, commands, image.view(), VK_IMAGE_LAYOUT_GENERAL, image.extent());
+        table.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, drawing_.pipeline.handle());
+        table.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, drawing_.pipeline.layout(), 0, 1,
+                                      &volume_, 0, nullptr);
+        table.vkCmdPushConstants(commands, drawing_.pipeline.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push,
+                                 &push);
         table.vkCmdDraw(commands, 3, 1, 0, 0);
         table.vkCmdEndRendering(commands);
     }

@@ -12,7 +12,7 @@ namespace voxtact::view {
 /// The gray slices, drawn from the volume's own image on the device by a shader of ours. Images in GENERAL.
 class SlicePass {
   public:
-    [[nodiscard]] static Result<SlicePass> create(const device::VulkanDevice& device, const Volume& volume);
+    [[nodiscard]] static Result<SlicePass> create(const device::Session& session, const Volume& volume);
 
     /// Images of those sizes. Where one is another than before nothing may be in flight.
     [[nodiscard]] Result<void> resize(const std::array<Extent, 3>& extents);
@@ -23,7 +23,7 @@ class SlicePass {
     [[nodiscard]] VkImageView view(std::size_t slice) const { return images_[slice].view(); }
 
   private:
-    explicit SlicePass(const device::VulkanDevice& device) : device_(&device) {}
+    explicit SlicePass(const device::Session& session) : session_(&session) {}
 
     /// The push constants of slice.frag.
     struct Push {
@@ -36,12 +36,12 @@ class SlicePass {
     };
     [[nodiscard]] Push pushOf(const State& state, std::size_t slice) const;
 
-    const device::VulkanDevice* device_;
-    DrawPipeline pipeline_;
-    Textures textures_;
+    const device::Session* session_;
+    Drawing drawing_;
     VkDescriptorSet volume_ = VK_NULL_HANDLE;
     std::array<Image, 3> images_;
     std::array<std::optional<Push>, 3> drawn_;
+    std::size_t written_ = 0; ///< State::writes that they show
 };
 
 } // namespace voxtact::view

@@ -49,13 +49,24 @@ std::string copyAsCommand(const Document& document, const MethodChoice& method, 
     for (const ControlPoint& point : document.edit.curve) {
         curve += (curve.empty() ? "" : ",") + number(point.value) + ":" + number(point.opacity);
     }
-    std::string text = "echo '" + poseText(document.edit.world_from_object) + "' | voxtact detect --volume " +
+    const std::size_t holes = document.edit.holes;
+    const std::string without = holes == 0   ? ""
+                                : holes == 1 ? "# of the volume as it was read, without the hole that was drilled\n"
+                                             : "# of the volume as it was read, without the " + std::to_string(holes) +
+                                                   " holes that were drilled\n";
+    std::string text = without + "echo '" + poseText(document.edit.world_from_object) + "' | voxtact detect --volume " +
                        sourceWord(sources.volume) + " --mesh " + sourceWord(sources.mesh);
     if (sources.meshSpace != "lps") {
         text += " --mesh-space " + sources.meshSpace;
     }
     if (sources.meshScale != 1) {
         text += " --mesh-scale " + number(sources.meshScale);
+    }
+    if (!sources.labels.empty()) {
+        text += " --labels " + sourceWord(sources.labels);
+    }
+    if (!sources.labelNames.empty()) {
+        text += " --label-names " + sourceWord(sources.labelNames);
     }
     // With '=': a value may begin with a minus sign.
     text += " --poses - --opacity=" + curve + " --tf-domain=" + number(document.domain.lo) + ":" +

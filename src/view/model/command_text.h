@@ -8,7 +8,8 @@
 namespace voxtact::view {
 
 /// The line for a shell that gives the same answer: `voxtact detect` with everything that an answer depends on, and
-/// the pose on its standard input. Files by their absolute paths. `device`: as --device takes it; empty: the default.
+/// the pose on its standard input. Files by their absolute paths. Holes are in no file: a
+/// comment before the line says that they are missing. `device`: as --device takes it; empty: the default.
 [[nodiscard]] std::string copyAsCommand(const Document& document, const MethodChoice& method,
                                         const std::string& device);
 

@@ -40,6 +40,12 @@ void appendPiece(std::vector<ValueRange>& ranges, const ControlPoint& a, const C
 
 } // namespace
 
+bool sameCurve(const Curve& a, const Curve& b) noexcept {
+    return std::ranges::equal(a, b, [](const ControlPoint& one, const ControlPoint& other) {
+        return one.value == other.value && one.opacity == other.opacity;
+    });
+}
+
 double opacityAt(const Curve& curve, double value) noexcept {
     const auto next = std::ranges::find_if(curve, [value](const ControlPoint& point) { return point.value > value; });
     if (next == curve.begin()) {

@@ -11,6 +11,9 @@ namespace voxtact::view {
 
 using Curve = std::vector<ControlPoint>;
 
+/// The same points.
+[[nodiscard]] bool sameCurve(const Curve& a, const Curve& b) noexcept;
+
 /// Opacity of a value: linear between the points, constant outside. At a step that of its right side.
 [[nodiscard]] double opacityAt(const Curve& curve, double value) noexcept;
 

@@ -5,7 +5,6 @@
 #include "view/model/curve.h"
 #include "voxtact/methods.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +18,8 @@ struct Sources {
     std::string mesh;
     std::string meshSpace = "lps";
     double meshScale = 1;
+    std::string labels;     ///< a label map; empty: none
+    std::string labelNames; ///< what its labels are called; empty: the file beside it, where it is there
 };
 
 /// What commands change, and undo gives back.
@@ -26,13 +27,11 @@ struct Edit {
     Curve curve;
     double threshold = kDefaultThreshold;
     Mat4 world_from_object = identity();
+    std::size_t holes = 0; ///< that are drilled; a session file does not hold them
 
     [[nodiscard]] bool operator==(const Edit& other) const {
-        const auto same = [](const ControlPoint& a, const ControlPoint& b) {
-            return a.value == b.value && a.opacity == b.opacity;
-        };
-        return threshold == other.threshold && world_from_object == other.world_from_object &&
-               curve.size() == other.curve.size() && std::equal(curve.begin(), curve.end(), other.curve.begin(), same);
+        return threshold == other.threshold && holes == other.holes && world_from_object == other.world_from_object &&
+               sameCurve(curve, other.curve);
     }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/live_answer.h"
 
+#include "view/model/labels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,7 @@ LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, const Mat4& wor
     std::ranges::stable_sort(batch.contacts, [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
     batch.contacts.resize(std::min(batch.contacts.size(), kShownContacts));
     out.contacts = std::move(batch.contacts);
+    out.labels = touchedLabels(std::move(batch.labels));
     return out;
 }
 

@@ -21,7 +21,8 @@ struct LiveAnswer {
     std::vector<std::uint32_t> triangles; ///< with survivors
     std::vector<Contact> contacts;        ///< the deepest first, at most kShownContacts
     std::uint64_t contactsFound = 0;
-    double milliseconds = 0; ///< the host: wall clock; a device: its own clock, where it has one
+    std::vector<LabelCount> labels; ///< that are touched, those with the most survivors first
+    double milliseconds = 0;        ///< the host: wall clock; a device: its own clock, where it has one
 };
 
 /// Of a batch with one pair.

@@ -3,7 +3,35 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace voxtact::view {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity: it is a word there.
+Json millimetres(double value) {
+    return std::isinf(value) ? Json("inf") : Json(value);
+}
+
+/// Null where it is of another question than the answer.
+Json clearanceJson(const LiveClearance* live, std::uint64_t revision) {
+    if (live == nullptr || live->revision != revision) {
+        return nullptr;
+    }
+    const PairClearance& pair = live->pair;
+    Json json{{"lo", millimetres(pair.bounds.lo)}, {"hi", millimetres(pair.bounds.hi)}, {"end", toString(pair.end)}};
+    if (pair.closest) {
+        json["triangle"] = pair.closest->triangle;
+        json["mesh"] = pair.closest->mesh;
+        json["volume"] = pair.closest->volume;
+    }
+    return json;
+}
+
+} // namespace
 
 std::string reportText(const StateReport& report) {
     const LiveAnswer& answer = *report.answer;
@@ -19,11 +47,20 @@ std::string reportText(const StateReport& report) {
     }
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
+    json["clearance"] = clearanceJson(report.clearance, answer.revision);
+    if (report.labels != nullptr) {
+        json["labels"] = nlohmann::ordered_json::array();
+        for (const LabelCount& touched : answer.labels) {
+            json["labels"].push_back(
+                {{"label", touched.label}, {"name", nameOf(*report.labels, touched.label)}, {"count", touched.count}});
+        }
+    }
     json["device"] = report.device;
     json["milliseconds"] = answer.milliseconds;
     json["p50_ms"] = report.times->percentile(0.5);
     json["p99_ms"] = report.times->percentile(0.99);
     json["answers"] = answer.revision;
+    json["holes"] = report.document->edit.holes;
     json["threshold"] = report.document->edit.threshold;
     json["points"] = nlohmann::ordered_json::array();
     for (const ControlPoint& point : report.document->edit.curve) {
@@ -31,6 +68,7 @@ std::string reportText(const StateReport& report) {
     }
     json["frame"] = report.frame;
     json["frame_ms"] = report.frameMilliseconds;
+    json["picture"] = report.picture;
     json["settled"] = report.settled;
     json["command"] = report.command;
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

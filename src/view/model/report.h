@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "view/model/labels.h"
 #include "view/model/live_answer.h"
+#include "view/model/live_clearance.h"
 
+#include <array>
 #include <string>
 
 namespace voxtact::view {
 
 /// What --report-state writes.
 struct StateReport {
-    const LiveAnswer* answer = nullptr; ///< must be given
-    const Times* times = nullptr;       ///< must be given
-    const Document* document = nullptr; ///< must be given
-    std::string device;                 ///< that answered; "host" for cpu
-    std::string command;                ///< copyAsCommand() of what was answered
-    std::uint64_t frame = 0;            ///< frames shown until then
-    double frameMilliseconds = 0;       ///< from one frame to the next, the median of the last ones
-    bool settled = false;               ///< the answer is of what is shown, and the fine picture is there
+    const LiveAnswer* answer = nullptr;       ///< must be given
+    const Times* times = nullptr;             ///< must be given
+    const Document* document = nullptr;       ///< must be given
+    const LiveClearance* clearance = nullptr; ///< null where there is none yet
+    const Labels* labels = nullptr;           ///< null where there is no label map
+    std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
+    std::string device;                       ///< that answered; "host" for cpu
+    std::string command;                      ///< copyAsCommand() of what was answered
+    std::uint64_t frame = 0;                  ///< frames shown until then
+    double frameMilliseconds = 0;             ///< from one frame to the next, the median of the last ones
+    bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there
 };
 
 /// One JSON object.

@@ -124,6 +124,11 @@ void readSources(Reader& reader, Sources& sources) {
     sources.mesh = reader.text("mesh", "");
     sources.meshSpace = reader.text("mesh_space", "lps");
     sources.meshScale = reader.number("mesh_scale", 1.0);
+    sources.labels = reader.text("labels", "");
+    sources.labelNames = reader.text("label_names", "");
+    if (sources.labels.empty() && !sources.labelNames.empty()) {
+        reader.refuse("label_names", "names the labels of a label map, and labels is missing");
+    }
     for (const auto& [name, source] : {std::pair("volume", &sources.volume), std::pair("mesh", &sources.mesh)}) {
         if (source->empty()) {
             reader.refuse(name, "is missing");
@@ -261,6 +266,12 @@ std::string sessionText(const Document& document) {
     json["mesh"] = document.sources.mesh;
     json["mesh_space"] = document.sources.meshSpace;
     json["mesh_scale"] = document.sources.meshScale;
+    if (!document.sources.labels.empty()) {
+        json["labels"] = document.sources.labels;
+    }
+    if (!document.sources.labelNames.empty()) {
+        json["label_names"] = document.sources.labelNames;
+    }
     Json& function = json["transfer_function"];
     function["points"] = Json::array();
     for (const ControlPoint& point : document.edit.curve) {

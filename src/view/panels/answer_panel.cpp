@@ -35,6 +35,47 @@ void drawTimes(const State& state) {
                        state.times.percentile(0.5), state.times.percentile(0.99));
 }
 
+/// What is touched, as much of it as a line has room for; all of it under the mouse.
+void drawLabels(const State& state) {
+    if (!state.labels) {
+        return;
+    }
+    const auto text = [&state](const LabelCount& touched) {
+        return labelText(*state.labels, touched.label) + ": " + std::to_string(touched.count);
+    };
+    std::string line;
+    std::string all;
+    for (const LabelCount& touched : state.answer->labels) {
+        line += (line.empty() ? "" : "   ") + text(touched);
+        all += (all.empty() ? "" : "\n") + text(touched);
+    }
+    ImGui::PushClipRect(ImGui::GetCursorScreenPos(),
+                        {ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x,
+                         ImGui::GetCursorScreenPos().y + ImGui::GetTextLineHeight()},
+                        true);
+    ImGui::TextUnformatted(line.empty() ? "no label touched" : line.c_str());
+    ImGui::PopClipRect();
+    if (!all.empty() && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", all.c_str());
+    }
+}
+
+void drawClearance(const State& state) {
+    if (!state.clearance) {
+        ImGui::TextColored(quietColour(), "measuring ...");
+        return;
+    }
+    ImVec4 colour = ImGui::GetStyle().Colors[ImGuiCol_Text];
+    colour.w = state.clearance->revision == state.revision ? 1.0F : 0.5F;
+    const std::string text = clearanceText(state.clearance->pair);
+    ImGui::TextColored(colour, "%s", text.c_str());
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("The clearance, certified: between these bounds lies the least distance between\n"
+                          "the mesh and what is opaque. By the host, in %.1f ms.",
+                          state.clearance->milliseconds);
+    }
+}
+
 } // namespace
 
 void drawAnswer(State& state) {
@@ -67,6 +108,8 @@ void drawAnswer(State& state) {
                            deepest, more);
     }
     ImGui::EndGroup();
+    drawClearance(state);
+    drawLabels(state);
     drawMethods(state);
     drawTimes(state);
 }
@@ -77,7 +120,9 @@ std::string commandOf(const State& state) {
 
 void copyCommand(State& state) {
     ImGui::SetClipboardText(commandOf(state).c_str());
-    state.say("copied: voxtact detect with the pose, curve and method that are shown");
+    state.say(state.document.edit.holes == 0
+                  ? "copied: voxtact detect with the pose, curve and method that are shown"
+                  : "copied: voxtact detect with what is shown, but without the holes, which are in no file");
 }
 
 void drawContacts(State& state) {

@@ -60,7 +60,14 @@ struct PathDialog {
 std::array<PathDialog, 6>& dialogs() {
     static std::array<PathDialog, 6> all{{
         {"Save session", "save", "session.json",
-         [](const std::filesystem::path& path, State& state) { return writeSession(path, state.saved()); }},
+         [](const std::filesystem::path& path, State& state) -> Result<void> {
+             if (const Result<void> written = writeSession(path, state.saved()); !written.ok()) {
+                 return written.error();
+             }
+             state.say("the session is in " + path.string() +
+                       (state.document.edit.holes == 0 ? "" : ", without the holes that were drilled"));
+             return {};
+         }},
         {"Save transfer function", "save", "curve.json",
          [](const std::filesystem::path& path, State& state) { return writeTransferFunction(path, state.document); }},
         {"Save pose", "save", "pose.txt",
@@ -92,8 +99,10 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         ImGui::CloseCurrentPopup();
     } else if (done && !dialog.path.empty()) {
         ImGui::CloseCurrentPopup();
-        const Result<void> acted = dialog.act(dialog.path, state);
-        acted.ok() ? state.say(std::string(dialog.title) + ": " + dialog.path) : state.complain(acted.error().text);
+        state.say(std::string(dialog.title) + ": " + dialog.path);
+        if (const Result<void> acted = dialog.act(dialog.path, state); !acted.ok()) {
+            state.complain(acted.error().text);
+        }
     }
     ImGui::EndPopup();
 }

@@ -96,6 +96,24 @@ void drawSteps(State& state) {
     state.stepDegrees = std::clamp(state.stepDegrees, 1e-6, 180.0);
 }
 
+void drawDrill(State& state) {
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 4);
+    ImGui::InputDouble("mm", &state.drillRadius, 0, 0, "%.3g");
+    constexpr double kMost = 1000;
+    state.drillRadius = std::clamp(state.drillRadius, 1e-3, kMost);
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("radius of the holes; their voxels get the image's smallest value");
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("drill at the tip")) {
+        state.drill(originOf(state.document.edit.world_from_object));
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("at the cursor")) {
+        state.drill(state.cursor);
+    }
+}
+
 void drawPoses(State& state) {
     const std::size_t count = state.document.poses.size();
     if (count == 0) {
@@ -123,6 +141,7 @@ void drawInstrument(State& state) {
     drawPlace(state);
     drawNudges(state);
     drawSteps(state);
+    drawGizmoChoice(state);
     if (ImGui::Button("tip to the cursor")) {
         state.command([&](Edit& edit) { edit.world_from_object = placedAt(edit.world_from_object, state.cursor); });
     }
@@ -131,6 +150,9 @@ void drawInstrument(State& state) {
         state.document.poses.push_back(state.document.edit.world_from_object);
         state.document.pose = state.document.poses.size() - 1;
     }
+    ImGui::PushID("drill"); // it has a 'mm' of its own
+    drawDrill(state);
+    ImGui::PopID();
     drawPoses(state);
 }
 

@@ -99,6 +99,12 @@ void takePlainKey(State& state, const KeyPress& press) {
     case GLFW_KEY_G:
         state.cursor = originOf(state.document.edit.world_from_object);
         break;
+    case GLFW_KEY_X:
+        state.drill(originOf(state.document.edit.world_from_object));
+        break;
+    case GLFW_KEY_C:
+        state.drill(state.cursor);
+        break;
     case GLFW_KEY_ESCAPE:
         state.maximised = Maximised::None;
         break;
@@ -174,9 +180,11 @@ void drawHelp(State& state) {
         }
         row("F", "frame the volume");
         row("G", "slices through the tip");
+        row("X, C", "drill a hole at the tip, at the cursor of the slices");
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
         row("control Q", "quit");
+        row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
         row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
         row("curve", "left: add or drag a point; right: remove it");

@@ -104,9 +104,9 @@ void drawColumn(State& state) {
     const auto rows = [&style](float number) {
         return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
     };
-    card("answer", rows(5.2F), [&] { drawAnswer(state); });
-    card("curve", rows(3) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
-    card("instrument", rows(state.document.poses.empty() ? 7.9F : 8.9F), [&] { drawInstrument(state); });
+    card("answer", rows(state.labels ? 6 : 5.2F), [&] { drawAnswer(state); });
+    card("curve", rows(2.4F) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
+    card("instrument", rows(state.document.poses.empty() ? 9.1F : 10), [&] { drawInstrument(state); });
     card("contacts", 0, [&] { drawContacts(state); });
 }
 

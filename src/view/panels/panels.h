@@ -10,6 +10,8 @@
 /// The window's panels: they read and write a State, and know no Vulkan.
 namespace voxtact::view {
 
+struct Onto;
+
 /// All of them, of the window's whole size. Between ImGui::NewFrame() and ImGui::Render().
 void drawPanels(State& state);
 
@@ -19,6 +21,8 @@ enum class Theme { Dark, Light };
 void setColours(Theme theme);
 /// Red, green or yellow for a verdict, and gray.
 [[nodiscard]] ImVec4 verdictColour(const PairAnswer& answer);
+/// Of the closest points, and the line between them.
+[[nodiscard]] ImU32 closestColour(float alpha);
 /// Of what is secondary.
 [[nodiscard]] ImVec4 quietColour();
 inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
@@ -28,6 +32,11 @@ void drawAnswer(State& state);
 void drawInstrument(State& state);
 void drawCurve(State& state);
 void drawPicture(State& state);
+/// Handles in the picture: whether they have the mouse. After the picture's item.
+[[nodiscard]] bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size);
+void drawGizmo(const State& state, const Onto& onto, ImDrawList& list);
+/// Whether there are handles, and along whose axes.
+void drawGizmoChoice(State& state);
 void drawSlice(State& state, std::size_t slice);
 void drawContacts(State& state);
 /// Dialogs of files, and their menu.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/pose.h"
+#include "view/panels/onto.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
@@ -9,19 +10,6 @@
 namespace voxtact::view {
 
 namespace {
-
-/// From the world to points of the window.
-struct Onto {
-    Mat4 clip_from_world;
-    ImVec2 corner;
-    ImVec2 size;
-
-    [[nodiscard]] ImVec2 at(const Vec3& world) const {
-        const Vec3 clip = transformPoint(clip_from_world, world);
-        return {corner.x + static_cast<float>(clip[0] + 1) / 2 * size.x,
-                corner.y + static_cast<float>(clip[1] + 1) / 2 * size.y};
-    }
-};
 
 void takeMouse(State& state, const ImVec2& corner) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -63,6 +51,25 @@ void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
     for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
         list.AddLine(onto.at(originOf(poses[i])), onto.at(originOf(poses[i + 1])), IM_COL32(120, 190, 255, 110));
     }
+}
+
+void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
+    const auto segment = state.clearance ? closestSegment(state.clearance->pair) : std::nullopt;
+    if (!segment) {
+        return;
+    }
+    const bool current = state.clearance->revision == state.revision;
+    const ImU32 colour = closestColour(current ? 1.0F : 0.4F);
+    const ImVec2 from = onto.at((*segment)[0]);
+    const ImVec2 to = onto.at((*segment)[1]);
+    list.AddLine(from, to, colour, 2);
+    list.AddCircleFilled(from, 3.5F, colour);
+    list.AddCircleFilled(to, 3.5F, colour);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f mm", state.clearance->pair.bounds.hi);
+    const ImVec2 at{(from.x + to.x) / 2 + 8, (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
+    list.AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text);
+    list.AddText(at, colour, text);
 }
 
 /// Three of the patient's sides, as they lie in the picture.
@@ -117,10 +124,14 @@ void drawPicture(State& state) {
     size = {std::max(size.x, 8.0F), std::max(size.y, 8.0F)};
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
     state.picture.extent = {static_cast<std::uint32_t>(size.x * scale.x), static_cast<std::uint32_t>(size.y * scale.y)};
+    state.picture.corner = {static_cast<double>(corner.x), static_cast<double>(corner.y)};
+    state.picture.size = {static_cast<double>(size.x), static_cast<double>(size.y)};
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    takeMouse(state, corner);
+    if (!takeGizmo(state, corner, size)) {
+        takeMouse(state, corner);
+    }
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + size.x, corner.y + size.y};
     if (state.picture.texture != nullptr) {
@@ -134,6 +145,8 @@ void drawPicture(State& state) {
     if (state.showContacts && state.answer) {
         drawContactPoints(state, onto, list);
     }
+    drawClosest(state, onto, list);
+    drawGizmo(state, onto, list);
     drawSides(onto, state, list);
     drawBar(state, onto, list);
     drawVerdict(state, onto, list);

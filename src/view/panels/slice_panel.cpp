@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/histogram.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
@@ -40,18 +39,6 @@ void takeMouse(State& state, std::size_t slice, const SlicePlace& place, const P
     }
 }
 
-/// What is under the pointer goes to the status line.
-void tellPlace(State& state, const Vec3& world) {
-    const std::optional<double> value = valueAt(state.volume.view(), state.texture_from_world, world);
-    char text[128];
-    if (value) {
-        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: %g", world[0], world[1], world[2], *value);
-    } else {
-        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: outside of the volume", world[0], world[1], world[2]);
-    }
-    state.say(text);
-}
-
 struct Rect {
     ImVec2 corner;
     ImVec2 size;
@@ -72,6 +59,23 @@ void drawMesh(const State& state, std::size_t slice, const SlicePlace& place, co
         list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : IM_COL32(120, 200, 255, 255),
                      1.6F);
     }
+}
+
+/// Where it does not go through the slice it is faint.
+void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
+    const auto segment = state.clearance ? closestSegment(state.clearance->pair) : std::nullopt;
+    if (!segment) {
+        return;
+    }
+    const std::size_t axis = kSlices[slice].axis;
+    const bool here = distanceOfPlane(*segment, axis, state.cursor[axis]) <= stepOf(state);
+    const bool current = state.clearance->revision == state.revision;
+    const ImU32 colour = closestColour((here ? 1.0F : 0.45F) * (current ? 1.0F : 0.5F));
+    const ImVec2 from = rect.at(pictureAt(place, (*segment)[0]));
+    const ImVec2 to = rect.at(pictureAt(place, (*segment)[1]));
+    list.AddLine(from, to, colour, here ? 2.0F : 1.0F);
+    list.AddCircleFilled(from, 2.5F, colour);
+    list.AddCircleFilled(to, 2.5F, colour);
 }
 
 void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
@@ -101,7 +105,8 @@ void drawSlice(State& state, std::size_t slice) {
     const Point2 mouse = mouseIn(corner, size);
     takeMouse(state, slice, place, mouse);
     if (ImGui::IsItemHovered()) {
-        tellPlace(state, worldAt(place, mouse));
+        state.say(
+            placeText(state.volume.view(), state.texture_from_world, state.labelsOrNull(), worldAt(place, mouse)));
     }
     place = slicePlace(kind, state.volume.grid, state.cursor, pane.extent);
     const Rect rect{corner, size};
@@ -116,6 +121,7 @@ void drawSlice(State& state, std::size_t slice) {
     list.AddLine({corner.x, cross.y}, {end.x, cross.y}, line);
     list.AddLine({cross.x, corner.y}, {cross.x, end.y}, line);
     drawMesh(state, slice, place, rect, list);
+    drawClosest(state, slice, place, rect, list);
     drawLetters(kind, rect, list);
     char text[64];
     std::snprintf(text, sizeof text, "%s %.1f mm", kind.name, state.cursor[kind.axis]);

@@ -81,6 +81,10 @@ ImVec4 verdictColour(const PairAnswer& answer) {
     return answer.hit ? rgb(255, 104, 74) : answer.possible ? rgb(245, 196, 66) : rgb(92, 200, 130);
 }
 
+ImU32 closestColour(float alpha) {
+    return ImGui::GetColorU32(rgb(130, 235, 165, alpha));
+}
+
 ImVec4 quietColour() {
     return ImGui::GetStyle().Colors[ImGuiCol_TextDisabled];
 }

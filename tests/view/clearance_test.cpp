@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/live_clearance.h"
+#include "view/model/report.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+PairClearance clearance(double lo, double hi) {
+    PairClearance out;
+    out.bounds = {lo, hi};
+    if (hi < kInfinity) {
+        out.closest = ClosestPoints{.triangle = 4, .mesh = {1, 2, 3}, .volume = {1, 2, 3 + hi}};
+    }
+    return out;
+}
+
+nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
+    LiveAnswer answer;
+    answer.revision = answered;
+    const Times times;
+    const Document document;
+    StateReport report;
+    report.answer = &answer;
+    report.times = &times;
+    report.document = &document;
+    report.clearance = &live;
+    return nlohmann::json::parse(reportText(report))["clearance"];
+}
+
+} // namespace
+
+TEST(ViewClearance, IsSaidInWords) {
+    EXPECT_EQ(clearanceText(clearance(12.341, 12.349)), "12.34 to 12.35 mm away");
+    EXPECT_EQ(clearanceText(clearance(0, 0)), "touches");
+    EXPECT_EQ(clearanceText(clearance(0, 0.004)), "0.00 to 0.00 mm away");
+    EXPECT_EQ(clearanceText(clearance(kInfinity, kInfinity)), "nothing is opaque");
+    EXPECT_EQ(clearanceText(clearance(5, kInfinity)), "at least 5 mm away");
+}
+
+TEST(ViewClearance, HasASegmentOnlyWhereThereIsAGap) {
+    const auto segment = closestSegment(clearance(7, 7.5));
+    ASSERT_TRUE(segment.has_value());
+    EXPECT_EQ((*segment)[0], (Vec3{1, 2, 3}));
+    EXPECT_EQ((*segment)[1], (Vec3{1, 2, 10.5}));
+    EXPECT_FALSE(closestSegment(clearance(0, 0)).has_value());
+    EXPECT_FALSE(closestSegment(clearance(kInfinity, kInfinity)).has_value());
+}
+
+TEST(ViewClearance, APlaneIsAsFarAsTheNearerEnd) {
+    const std::array<Vec3, 2> segment{{{0, 5, 0}, {0, 2, 0}}};
+    EXPECT_EQ(distanceOfPlane(segment, 1, 3), 0);
+    EXPECT_EQ(distanceOfPlane(segment, 1, 7), 2);
+    EXPECT_EQ(distanceOfPlane(segment, 1, -1), 3);
+    EXPECT_EQ(distanceOfPlane(segment, 0, -1), 1);
+}
+
+TEST(ViewClearance, IsReportedWithItsPointsAndOnlyForTheSameQuestion) {
+    const LiveClearance live{3, clearance(7, 7.5), 1};
+    const nlohmann::json json = reported(live, 3);
+    EXPECT_EQ(json["lo"], 7);
+    EXPECT_EQ(json["hi"], 7.5);
+    EXPECT_EQ(json["end"], "closed");
+    EXPECT_EQ(json["triangle"], 4);
+    EXPECT_EQ(json["mesh"], (nlohmann::json{1, 2, 3}));
+    EXPECT_EQ(json["volume"], (nlohmann::json{1, 2, 10.5}));
+    EXPECT_TRUE(reported(live, 4).is_null());
+    EXPECT_TRUE(reported(live, 2).is_null());
+}
+
+TEST(ViewClearance, WhatJsonHasNoNumberForIsAWord) {
+    const nlohmann::json json = reported({1, clearance(kInfinity, kInfinity), 1}, 1);
+    EXPECT_EQ(json["lo"], "inf");
+    EXPECT_EQ(json["hi"], "inf");
+    EXPECT_FALSE(json.contains("mesh"));
+}
+
+} // namespace voxtact::test
