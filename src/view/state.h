@@ -3,6 +3,7 @@
 
 #include "view/model/carving.h"
 #include "view/model/document.h"
+#include "view/model/gizmo.h"
 #include "view/model/history.h"
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
@@ -28,6 +29,15 @@ struct Given {
     Document document;
     std::string deviceOption; ///< as --device was given; for copied commands
     std::string deviceName;   ///< that draws
+};
+
+/// What a file can be to the window.
+enum class FileKind { Volume, Mesh, Poses, Function, Session };
+
+/// A document that is to be shown instead, whose files are not read yet.
+struct Wanted {
+    FileKind kind = FileKind::Session; ///< Volume: the transfer function is that which the volume has by itself
+    Document document;
 };
 
 /// A part of the window that shows a picture, in pixels.
@@ -120,6 +130,9 @@ struct State {
     Maximised maximised = Maximised::None;
     bool playing = false;
     bool showContacts = true;
+    bool showGizmo = true;
+    bool gizmoOwnAxes = false;          ///< else the world's
+    std::optional<GizmoDrag> gizmoDrag; ///< while the mouse drags a handle
     bool helpOpen = false;
     bool quit = false;
     double stepMillimetres = 1;
@@ -127,7 +140,9 @@ struct State {
     double drillRadius = 5;                ///< mm
     std::optional<std::size_t> curvePoint; ///< that is dragged or typed
     bool logHistogram = true;
-    std::string screenshot; ///< a path, while one is asked for
+    std::optional<Wanted> wanted;     ///< until the window has looked at it
+    std::vector<std::string> dropped; ///< paths, since the last frame
+    std::string screenshot;           ///< a path, while one is asked for
 
   private:
     struct Seen {

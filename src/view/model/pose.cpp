@@ -82,8 +82,11 @@ Mat4 turned(const Mat4& world_from_object, std::size_t axis, double degrees, Axe
     if (axes == Axes::Own) {
         about = axisOf(world_from_object, axis);
     }
-    const Mat4 turnedAway = multiply(rotation(about, degrees), world_from_object);
-    return placedAt(turnedAway, originOf(world_from_object));
+    return turnedAbout(world_from_object, about, degrees);
+}
+
+Mat4 turnedAbout(const Mat4& world_from_object, const Vec3& axis, double degrees) noexcept {
+    return placedAt(multiply(rotation(axis, degrees), world_from_object), originOf(world_from_object));
 }
 
 Vec3 anglesOf(const Mat4& world_from_object) noexcept {

@@ -18,6 +18,9 @@ enum class Axes { World, Own };
 /// is the tip of the builtin instruments, stays where it is.
 [[nodiscard]] Mat4 turned(const Mat4& world_from_object, std::size_t axis, double degrees, Axes axes) noexcept;
 
+/// The same about any axis of the world, of unit length.
+[[nodiscard]] Mat4 turnedAbout(const Mat4& world_from_object, const Vec3& axis, double degrees) noexcept;
+
 /// The same pose with the object's origin at a point of the world.
 [[nodiscard]] Mat4 placedAt(const Mat4& world_from_object, const Vec3& world) noexcept;
 

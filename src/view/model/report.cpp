@@ -69,6 +69,7 @@ std::string reportText(const StateReport& report) {
     json["frame"] = report.frame;
     json["frame_ms"] = report.frameMilliseconds;
     json["settled"] = report.settled;
+    json["error"] = report.error;
     json["command"] = report.command;
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

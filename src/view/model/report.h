@@ -18,6 +18,7 @@ struct StateReport {
     const Labels* labels = nullptr;           ///< null where there is no label map
     std::string device;                       ///< that answered; "host" for cpu
     std::string command;                      ///< copyAsCommand() of what was answered
+    std::string error;                        ///< of the dialog that is open; empty: none
     std::uint64_t frame = 0;                  ///< frames shown until then
     double frameMilliseconds = 0;             ///< from one frame to the next, the median of the last ones
     bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there

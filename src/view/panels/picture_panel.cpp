@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/pose.h"
+#include "view/panels/onto.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
@@ -10,24 +11,11 @@ namespace voxtact::view {
 
 namespace {
 
-/// From the world to points of the window.
-struct Onto {
-    Mat4 clip_from_world;
-    ImVec2 corner;
-    ImVec2 size;
-
-    [[nodiscard]] ImVec2 at(const Vec3& world) const {
-        const Vec3 clip = transformPoint(clip_from_world, world);
-        return {corner.x + static_cast<float>(clip[0] + 1) / 2 * size.x,
-                corner.y + static_cast<float>(clip[1] + 1) / 2 * size.y};
-    }
-};
-
-void takeMouse(State& state, const ImVec2& corner) {
+void takeMouse(State& state, const ImVec2& corner, bool dragging) {
     const ImGuiIO& io = ImGui::GetIO();
     const Extent& extent = state.picture.extent;
     const ImVec2 scale = io.DisplayFramebufferScale;
-    if (ImGui::IsItemActive()) {
+    if (ImGui::IsItemActive() && !dragging) {
         const double right = static_cast<double>(io.MouseDelta.x * scale.x);
         const double down = static_cast<double>(io.MouseDelta.y * scale.y);
         const bool panning = ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle);
@@ -139,7 +127,10 @@ void drawPicture(State& state) {
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    takeMouse(state, corner);
+    // Depth does not matter here.
+    const Onto before{clipFromWorld(state.camera, state.picture.extent, 1), corner, size};
+    takeMouse(state, corner, takeGizmo(state, before));
+    const bool hovered = ImGui::IsItemHovered();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + size.x, corner.y + size.y};
     if (state.picture.texture != nullptr) {
@@ -147,13 +138,13 @@ void drawPicture(State& state) {
                       {static_cast<float>(state.picture.used[0]), static_cast<float>(state.picture.used[1])});
     }
     list.PushClipRect(corner, end, true);
-    // Depth does not matter here.
     const Onto onto{clipFromWorld(state.camera, state.picture.extent, 1), corner, size};
     drawPath(state, onto, list);
     if (state.showContacts && state.answer) {
         drawContactPoints(state, onto, list);
     }
     drawClosest(state, onto, list);
+    drawGizmo(state, onto, hovered, list);
     drawSides(onto, state, list);
     drawBar(state, onto, list);
     drawVerdict(state, onto, list);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/state.h"
+
+#include <imgui.h>
+
+namespace voxtact::view {
+
+/// From the world to points of the window, in the large picture.
+struct Onto {
+    Mat4 clip_from_world;
+    ImVec2 corner;
+    ImVec2 size;
+
+    [[nodiscard]] ImVec2 at(const Vec3& world) const {
+        const Vec3 clip = transformPoint(clip_from_world, world);
+        return {corner.x + static_cast<float>(clip[0] + 1) / 2 * size.x,
+                corner.y + static_cast<float>(clip[1] + 1) / 2 * size.y};
+    }
+};
+
+/// The handles at the tip. Takes the mouse for the item before it; true while it drags one.
+bool takeGizmo(State& state, const Onto& onto);
+void drawGizmo(const State& state, const Onto& onto, bool hovered, ImDrawList& list);
+
+} // namespace voxtact::view
