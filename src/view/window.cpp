@@ -183,6 +183,7 @@ std::optional<Given> opened(State& state, const WindowDesc& desc) {
     }
     Result<Given> given = desc.open(*std::exchange(state.wanted, std::nullopt));
     if (!given.ok()) {
+        state.say({}); // that it is opened
         state.complain(given.error().text);
         return std::nullopt;
     }

@@ -82,6 +82,7 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         ImGui::CloseCurrentPopup();
         state.say(std::string(dialog.title) + ": " + dialog.path);
         if (const Result<void> acted = dialog.act(dialog.path, state); !acted.ok()) {
+            state.say({});
             state.complain(acted.error().text);
         }
     }
@@ -115,6 +116,7 @@ void takeDropped(State& state) {
     for (const std::string& path : std::exchange(state.dropped, {})) {
         state.say("opened: " + path);
         if (const Result<void> opened = openFile(path, state); !opened.ok()) {
+            state.say({});
             state.complain(opened.error().text);
         }
     }
