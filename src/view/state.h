@@ -31,6 +31,15 @@ struct Given {
     std::string deviceName;   ///< that draws
 };
 
+/// What a file can be to the window.
+enum class FileKind { Volume, Mesh, Poses, Function, Session };
+
+/// A document that is to be shown instead, whose files are not read yet.
+struct Wanted {
+    FileKind kind = FileKind::Session; ///< Volume: the transfer function is that which the volume has by itself
+    Document document;
+};
+
 /// A part of the window that shows a picture, in pixels.
 struct Pane {
     Extent extent;
@@ -142,7 +151,9 @@ struct State {
     double drillRadius = 5;                ///< mm
     std::optional<std::size_t> curvePoint; ///< that is dragged or typed
     bool logHistogram = true;
-    std::string screenshot; ///< a path, while one is asked for
+    std::optional<Wanted> wanted;     ///< until the window has looked at it
+    std::vector<std::string> dropped; ///< paths, since the last frame
+    std::string screenshot;           ///< a path, while one is asked for
 
   private:
     struct Seen {

@@ -43,6 +43,11 @@ void onKey(GLFWwindow* window, int key, int, int action, int modifiers) {
     }
 }
 
+void onDrop(GLFWwindow* window, int count, const char** paths) {
+    auto& dropped = static_cast<State*>(glfwGetWindowUserPointer(window))->dropped;
+    dropped.insert(dropped.end(), paths, paths + count);
+}
+
 /// Dear ImGui's context and what it gets of the window's input.
 class Panels {
   public:
@@ -56,6 +61,7 @@ class Panels {
         // Dear ImGui calls it too. What it knows of keys is which are down at a frame, and a slow one sees none of
         // those that came and went.
         glfwSetKeyCallback(window, onKey);
+        glfwSetDropCallback(window, onDrop);
         ImGui_ImplGlfw_InitForVulkan(window, true);
         ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     }
@@ -86,12 +92,14 @@ class Reporter {
         const bool settled = state.settled();
         const std::uint64_t measured = state.clearance ? state.clearance->revision : 0;
         if (path_.empty() || !state.answer ||
-            (state.answer->revision == revision_ && settled == settled_ && measured == measured_)) {
+            (state.answer->revision == revision_ && settled == settled_ && measured == measured_ &&
+             state.error == error_)) {
             return {};
         }
         revision_ = state.answer->revision;
         settled_ = settled;
         measured_ = measured;
+        error_ = state.error;
         StateReport report;
         report.answer = &*state.answer;
         report.times = &state.times;
@@ -102,6 +110,7 @@ class Reporter {
         report.command = commandOf(state);
         const Pane& pane = state.picture;
         report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
+        report.error = state.error;
         report.frame = state.frame;
         report.frameMilliseconds = state.frameTimes.percentile(0.5);
         report.settled = settled;
@@ -115,6 +124,7 @@ class Reporter {
     std::filesystem::path path_;
     std::uint64_t revision_ = 0;
     std::uint64_t measured_ = 0; ///< the clearance's revision
+    std::string error_;
     bool settled_ = false;
 };
 
@@ -161,8 +171,30 @@ Result<VkSurfaceKHR> makeSurface(const device::Session& session, GLFWwindow* win
     return surface;
 }
 
-/// One turn of the loop after another, until the window is to close.
-Result<void> loop(GLFWwindow* window, Frames& frames, State& state, const WindowDesc& desc) {
+Result<std::unique_ptr<Frames>> makeFrames(const device::Session& session, GLFWwindow* window, State& state,
+                                           const WindowDesc& desc) {
+    const Result<VkSurfaceKHR> surface = makeSurface(session, window);
+    VOXTACT_TRY(surface);
+    return Frames::create(session, *surface, state, desc.light, [] { glfwPostEmptyEvent(); });
+}
+
+/// What is wanted instead of what is shown; nothing where it cannot be read.
+std::optional<Given> opened(State& state, const WindowDesc& desc) {
+    if (!state.wanted) {
+        return std::nullopt;
+    }
+    Result<Given> given = desc.open(*std::exchange(state.wanted, std::nullopt));
+    if (!given.ok()) {
+        state.say({}); // that it is opened
+        state.complain(given.error().text);
+        return std::nullopt;
+    }
+    return std::move(*given);
+}
+
+/// One turn of the loop after another, until the window is to close, or to show what is then in `next`.
+Result<void> loop(GLFWwindow* window, Frames& frames, State& state, const WindowDesc& desc,
+                  std::optional<Given>& next) {
     Reporter reporter(desc.reportState);
     Clock::time_point played = Clock::now();
     Clock::time_point shown = Clock::now();
@@ -192,6 +224,9 @@ Result<void> loop(GLFWwindow* window, Frames& frames, State& state, const Window
         shown = Clock::now();
         takeScreenshot(frames, state);
         VOXTACT_TRY(reporter.write(state));
+        if (next = opened(state, desc); next) {
+            return {};
+        }
     }
     return {};
 }
@@ -237,12 +272,26 @@ Result<void> runWindow(const Display&, const device::Session& session, State& st
     }
     glfwSetWindowUserPointer(window.get(), &state);
     const Panels panels(window.get(), desc.font);
-    const Result<VkSurfaceKHR> surface = makeSurface(session, window.get());
-    VOXTACT_TRY(surface);
-    const Result<std::unique_ptr<Frames>> frames =
-        Frames::create(session, *surface, state, desc.light, [] { glfwPostEmptyEvent(); });
-    VOXTACT_TRY(frames);
-    return loop(window.get(), **frames, state, desc);
+    std::optional<State> before; // until what is shown instead of it is there
+    while (true) {
+        Result<std::unique_ptr<Frames>> frames = makeFrames(session, window.get(), state, desc);
+        if (!frames.ok() && before && frames.error().code != ErrorCode::DeviceLost) {
+            state = std::move(*std::exchange(before, std::nullopt));
+            state.complain(frames.error().text);
+            continue;
+        }
+        VOXTACT_TRY(frames);
+        std::optional<Given> next;
+        VOXTACT_TRY(loop(window.get(), **frames, state, desc, next));
+        if (!next) {
+            return {};
+        }
+        frames->reset(); // with the surface, of which a window has one at a time
+        const std::uint64_t frame = state.frame;
+        before = std::move(state);
+        state = State(std::move(*next));
+        state.frame = frame;
+    }
 }
 
 } // namespace voxtact::view

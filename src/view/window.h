@@ -6,6 +6,7 @@
 #include "voxtact/render.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,6 +38,8 @@ struct WindowDesc {
     Lighting light{};                    ///< of the fine picture
     std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
     std::optional<std::uint64_t> frames; ///< to show before it ends by itself; nothing: until it is closed
+    /// Reads the files of a document that is wanted while the window is there.
+    std::function<Result<Given>(const Wanted&)> open;
 };
 
 /// Shows the window until it is closed. The session was made with the display's extensions.

@@ -8,6 +8,7 @@
   window.py PROGRAM methods   the device's ways to answer, each compared in the same way
   window.py PROGRAM labels    what is touched by its labels, on the host and on the device
   window.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
+  window.py PROGRAM files     other files are opened while the window is there, good ones and bad ones
   window.py PROGRAM refusals  no display, and what cannot be shown
 
 Nothing sleeps for a fixed time but the hand that drags, which tries again: each step is waited for, at most so long as
@@ -97,6 +98,16 @@ class Window:
             self.id = self.tool("search", "--sync", "--onlyvisible", "--name", "^voxtact$").split()[0]
             self.tool("windowfocus", "--sync", self.id)
         self.tool("key", *keys)
+
+    def open(self, path):
+        self.press("ctrl+o")
+        time.sleep(1)  # until the dialog has the keyboard, which nothing tells
+        self.tool("type", "--delay", "30", str(path))
+        time.sleep(1)
+        # Long enough for a slow frame to see it.
+        self.tool("keydown", "Return")
+        time.sleep(0.4)
+        self.tool("keyup", "Return")
 
     def end(self):
         """The exit status is 0 only where validation had nothing to say."""
@@ -287,6 +298,39 @@ def drill(program, folder):
     assert counts[0] == counts[1], f"host and device differ: {counts}"
 
 
+def files(program, folder):
+    for kind, source, name in (("mesh", "builtin:scalpel:600", "tool.stl"), ("volume", "builtin:ct:32", "ct.nii")):
+        subprocess.run([program, "make", kind, source, f"{folder}/{name}"], check=True, capture_output=True,
+                       timeout=PATIENCE)
+    pathlib.Path(folder, "curve.json").write_text('{"points": [[10, 0], [100, 1]]}')
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 130, 60)]) as window:
+        window.until("the first answer", lambda s: s["settled"])
+        pathlib.Path(folder, "other.txt").write_text("1 0 0 3 0 1 0 -8 0 0 1 55 0 0 0 1\n")
+        window.open(f"{folder}/other.txt")
+        state = window.until("the opened pose", lambda s: s["pose"][HEIGHT] == 55 and s["hit"] == 1)
+        window.open(f"{folder}/curve.json")
+        state = window.until("the opened curve", lambda s: s["points"] == [[10, 0], [100, 1]])
+        compare(program, state)
+        window.open(f"{folder}/tool.stl")
+        state = window.until("the opened mesh", lambda s: "/tool.stl" in s["command"] and s["settled"])
+        assert state["points"] == [[10, 0], [100, 1]] and state["pose"][HEIGHT] == 55, state
+        compare(program, state)
+        window.open(f"{folder}/nowhere.nii")
+        state = window.until("an error", lambda s: "nowhere.nii" in s["error"])
+        window.press("Return")
+        window.until("the window going on", lambda s: s["error"] == "")
+        window.press("Next")
+        state = window.until("an answer after the error", lambda s: s["pose"][HEIGHT] == 54 and s["settled"])
+        compare(program, state)
+        window.open(f"{folder}/ct.nii")
+        state = window.until("the opened volume", lambda s: "/ct.nii" in s["command"] and s["settled"])
+        assert "/tool.stl" in state["command"] and state["pose"][HEIGHT] == 54, state
+        compare(program, state)
+        window.press("ctrl+q")
+        window.end()
+
+
 def refused(program, status, text, arguments, environment):
     ran = subprocess.run([program, "view", *arguments], env=environment, capture_output=True, text=True,
                          timeout=PATIENCE)
@@ -302,7 +346,8 @@ def refusals(program, folder):
     session.write_text('{"voxtact_session": 1, "volume": "builtin:head:16", "mesh": "builtin:scalpel:300"}')
     refused(program, 1, "transfer_function: ", ["--session", str(session)], without)
     refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
-    refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"], without)
+    refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"],
+            without)
     refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
@@ -313,8 +358,8 @@ def refusals(program, folder):
 
 
 def main(arguments):
-    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "refusals":
-              refusals}
+    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "files": files,
+              "refusals": refusals}
     if len(arguments) != 2 or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

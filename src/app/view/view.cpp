@@ -38,12 +38,21 @@ Result<void> show(const ViewerOptions& options, Opened opened, Outcome& invalid)
             openSession(choice, {(*display)->instanceExtensions(), (*display)->deviceExtensions()});
         VOXTACT_TRY(session);
         messages = session->instance.messages();
-        if (!opened.document.method) {
-            opened.document.method = view::MethodChoice{conservativeMethod(*session, {}), Projection::Conservative};
-        }
-        view::State state({std::move(opened.volume), std::move(opened.mesh), std::move(opened.labels), opened.values,
-                           opened.document, choice.wanted, session->device.physical().name});
-        return view::runWindow(**display, *session, state, windowDesc(options, state.volume.grid));
+        const view::MethodChoice standard{conservativeMethod(*session, {}), Projection::Conservative};
+        opened.document.method = opened.document.method.value_or(standard);
+        const auto given = [&](Opened files) -> view::Given {
+            return {std::move(files.volume), std::move(files.mesh), std::move(files.labels),        files.values,
+                    files.document,          choice.wanted,         session->device.physical().name};
+        };
+        view::State state(given(std::move(opened)));
+        view::WindowDesc desc = windowDesc(options, state.volume.grid);
+        desc.open = [&](const view::Wanted& wanted) -> Result<view::Given> {
+            Result<Opened> files = openWanted(wanted);
+            VOXTACT_TRY(files);
+            files->document.method = files->document.method.value_or(standard);
+            return given(std::move(*files));
+        };
+        return view::runWindow(**display, *session, state, desc);
     }();
     if (shown.ok()) {
         invalid = validationOutcome(*messages);

@@ -80,6 +80,26 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
     return document;
 }
 
+/// The files of a document.
+Result<void> load(const view::Sources& sources, Opened& opened) {
+    Result<VolumeData> volume = loadVolume(sources.volume);
+    VOXTACT_TRY(volume);
+    const Result<ValueRange> values = checkVolume(volume->view());
+    VOXTACT_TRY(values);
+    Result<MeshData> mesh =
+        loadMesh(sources.mesh, {.sources = {}, .space = sources.meshSpace, .scale = sources.meshScale});
+    VOXTACT_TRY(mesh);
+    if (!sources.labels.empty()) {
+        Result<NamedLabels> named = loadNamedLabels(sources.labels, sources.labelNames);
+        VOXTACT_TRY(named);
+        opened.labels = view::Labels{std::move(named->labels), std::move(named->names)};
+    }
+    opened.volume = std::move(*volume);
+    opened.mesh = std::move(*mesh);
+    opened.values = *values;
+    return {};
+}
+
 } // namespace
 
 void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
@@ -165,27 +185,25 @@ Result<Opened> openDocument(const ViewerOptions& options) {
         sources.labels = options.labels.string();
         sources.labelNames = options.labelNames.string();
     }
-    Result<VolumeData> volume = loadVolume(sources.volume);
-    VOXTACT_TRY(volume);
-    const Result<ValueRange> values = checkVolume(volume->view());
-    VOXTACT_TRY(values);
-    Result<MeshData> mesh =
-        loadMesh(sources.mesh, {.sources = {}, .space = sources.meshSpace, .scale = sources.meshScale});
-    VOXTACT_TRY(mesh);
-    if (!sources.labels.empty()) {
-        Result<NamedLabels> named = loadNamedLabels(sources.labels, sources.labelNames);
-        VOXTACT_TRY(named);
-        opened.labels = view::Labels{std::move(named->labels), std::move(named->names)};
-    }
+    VOXTACT_TRY(load(sources, opened));
     if (options.session.empty()) {
-        Result<view::Document> document = documentOf(options, volume->type, *values);
+        Result<view::Document> document = documentOf(options, opened.volume.type, opened.values);
         VOXTACT_TRY(document);
         opened.document = std::move(*document);
         opened.document.sources = sources;
     }
-    opened.volume = std::move(*volume);
-    opened.mesh = std::move(*mesh);
-    opened.values = *values;
+    return opened;
+}
+
+Result<Opened> openWanted(const view::Wanted& wanted) {
+    Opened opened;
+    opened.document = wanted.document;
+    VOXTACT_TRY(load(wanted.document.sources, opened));
+    if (wanted.kind == view::FileKind::Volume) {
+        opened.document.domain = tableDomain({}, opened.volume.type, opened.values);
+        opened.document.edit.curve = defaultRamp(opened.document.domain);
+        opened.document.colours = plainColours();
+    }
     return opened;
 }
 

@@ -4,6 +4,7 @@
 #include "app/options/shared_options.h"
 #include "view/model/document.h"
 #include "view/model/labels.h"
+#include "view/state.h"
 
 namespace voxtact::app {
 
@@ -37,5 +38,7 @@ struct Opened {
     ValueRange values;
 };
 [[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options);
+/// The same of what is wanted while the window is there.
+[[nodiscard]] Result<Opened> openWanted(const view::Wanted& wanted);
 
 } // namespace voxtact::app

@@ -85,8 +85,9 @@ void HostAnswers::work() {
             newer_ = false;
         }
         for (const HoleWrite& write : writes) {
-            // The voxels come from this volume, or from a hole that was checked.
-            (void)volume_.write(write.hole->box, write.voxels());
+            if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {
+                give(clearance_, Result<LiveClearance>(written.error()));
+            }
         }
         if (question.answer) {
             give(answer_, guard([&] { return answer(question); }));

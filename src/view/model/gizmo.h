@@ -19,6 +19,10 @@ struct Ray {
 
 /// Whose axes the handles are along.
 enum class GizmoAxes { World, View, Own };
+/// The one after it; after the last the first.
+[[nodiscard]] constexpr GizmoAxes nextOf(GizmoAxes axes) noexcept {
+    return axes == GizmoAxes::Own ? GizmoAxes::World : static_cast<GizmoAxes>(static_cast<int>(axes) + 1);
+}
 
 struct Gizmo {
     Vec3 at{};                  ///< the object's origin

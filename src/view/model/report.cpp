@@ -70,6 +70,7 @@ std::string reportText(const StateReport& report) {
     json["frame_ms"] = report.frameMilliseconds;
     json["picture"] = report.picture;
     json["settled"] = report.settled;
+    json["error"] = report.error;
     json["command"] = report.command;
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

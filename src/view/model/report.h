@@ -20,6 +20,7 @@ struct StateReport {
     std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
     std::string device;                       ///< that answered; "host" for cpu
     std::string command;                      ///< copyAsCommand() of what was answered
+    std::string error;                        ///< of the dialog that is open; empty: none
     std::uint64_t frame = 0;                  ///< frames shown until then
     double frameMilliseconds = 0;             ///< from one frame to the next, the median of the last ones
     bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there

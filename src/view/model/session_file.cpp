@@ -308,10 +308,12 @@ std::string sessionText(const Document& document) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Result<Document> readSession(const std::filesystem::path& path) {
+namespace {
+
+Result<std::string> textOf(const std::filesystem::path& path, const std::string& what) {
     std::error_code failed;
-    const auto refuse = [&path](const std::string& why) {
-        return Error{ErrorCode::File, 0, "cannot read the session '" + path.string() + "': " + why};
+    const auto refuse = [&path, &what](const std::string& why) {
+        return Error{ErrorCode::File, 0, "cannot read " + what + " '" + path.string() + "': " + why};
     };
     if (!std::filesystem::is_regular_file(path, failed)) {
         return refuse(failed ? failed.message() : "it is not a file");
@@ -320,11 +322,26 @@ Result<Document> readSession(const std::filesystem::path& path) {
         return refuse(failed ? failed.message() : "it is longer than 64 MiB");
     }
     std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     if (!file.good() && !file.eof()) {
         return refuse("reading failed");
     }
-    return parseSession(text, path.string());
+    return text;
+}
+
+} // namespace
+
+Result<bool> isSession(const std::filesystem::path& path) {
+    const Result<std::string> text = textOf(path, "the file");
+    VOXTACT_TRY(text);
+    const Json json = Json::parse(*text, nullptr, false);
+    return json.is_object() && json.contains(kMark);
+}
+
+Result<Document> readSession(const std::filesystem::path& path) {
+    const Result<std::string> text = textOf(path, "the session");
+    VOXTACT_TRY(text);
+    return parseSession(*text, path.string());
 }
 
 Result<void> writeSession(const std::filesystem::path& path, const Document& document) {

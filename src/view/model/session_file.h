@@ -13,6 +13,8 @@ namespace voxtact::view {
 [[nodiscard]] Result<Document> parseSession(std::string_view text, const std::string& name);
 [[nodiscard]] std::string sessionText(const Document& document);
 
+/// Whether a file is JSON with the mark of a session, whatever else is in it. Errors: it cannot be read.
+[[nodiscard]] Result<bool> isSession(const std::filesystem::path& path);
 [[nodiscard]] Result<Document> readSession(const std::filesystem::path& path);
 /// To a temporary name, and renamed.
 [[nodiscard]] Result<void> writeSession(const std::filesystem::path& path, const Document& document);

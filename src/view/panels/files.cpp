@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "view/model/open_file.h"
 #include "view/model/session_file.h"
 #include "view/panels/panels.h"
 
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <ostream>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -21,33 +23,7 @@ Result<void> savePose(const std::filesystem::path& path, const State& state) {
     });
 }
 
-Result<void> loadFunction(const std::filesystem::path& path, State& state) {
-    Result<std::vector<ControlPoint>> points = io::readTransferFunction(path);
-    if (!points.ok()) {
-        return points.error();
-    }
-    Result<std::vector<ColourPoint>> colours = io::readColours(path);
-    if (!colours.ok()) {
-        return colours.error();
-    }
-    if (!colours->empty()) {
-        state.document.colours = *colours;
-    }
-    state.command([&](Edit& edit) { edit.curve = *points; });
-    state.curvePoint.reset();
-    return {};
-}
-
-Result<void> loadPoses(const std::filesystem::path& path, State& state) {
-    Result<std::vector<Mat4>> poses = io::readPoses(path);
-    if (!poses.ok()) {
-        return poses.error();
-    }
-    state.document.poses = std::move(*poses);
-    state.takePose(0);
-    state.history.end();
-    return {};
-}
+constexpr const char* kOpen = "Open";
 
 /// A dialog that asks for one path.
 struct PathDialog {
@@ -57,8 +33,8 @@ struct PathDialog {
     Result<void> (*act)(const std::filesystem::path& path, State& state);
 };
 
-std::array<PathDialog, 6>& dialogs() {
-    static std::array<PathDialog, 6> all{{
+std::array<PathDialog, 5>& dialogs() {
+    static std::array<PathDialog, 5> all{{
         {"Save session", "save", "session.json",
          [](const std::filesystem::path& path, State& state) -> Result<void> {
              if (const Result<void> written = writeSession(path, state.saved()); !written.ok()) {
@@ -77,8 +53,7 @@ std::array<PathDialog, 6>& dialogs() {
              state.screenshot = path.string();
              return {};
          }},
-        {"Open transfer function", "open", "", loadFunction},
-        {"Open poses", "open", "", loadPoses},
+        {kOpen, "open", "", openFile},
     }};
     return all;
 }
@@ -88,8 +63,14 @@ void drawPathDialog(PathDialog& dialog, State& state) {
     if (!ImGui::BeginPopupModal(dialog.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         return;
     }
+    if (dialog.title == kOpen) {
+        ImGui::TextColored(quietColour(), "a volume, a mesh, poses (.txt), a transfer function or a session (.json)");
+    }
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) {
+        if (dialog.title == kOpen) {
+            dialog.path.clear();
+        }
         ImGui::SetKeyboardFocusHere();
     }
     bool done = ImGui::InputText("##path", &dialog.path, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -101,6 +82,7 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         ImGui::CloseCurrentPopup();
         state.say(std::string(dialog.title) + ": " + dialog.path);
         if (const Result<void> acted = dialog.act(dialog.path, state); !acted.ok()) {
+            state.say({});
             state.complain(acted.error().text);
         }
     }
@@ -116,13 +98,27 @@ const char*& asked() {
 
 void drawFileMenu(State& state) {
     for (const PathDialog& dialog : dialogs()) {
-        if (ImGui::MenuItem((std::string(dialog.title) + " ...").c_str())) {
+        if (ImGui::MenuItem((std::string(dialog.title) + " ...").c_str(), dialog.title == kOpen ? "Ctrl+O" : nullptr)) {
             asked() = dialog.title; // opened outside of the menu, which has an ID of its own
         }
     }
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) {
         state.quit = true;
+    }
+}
+
+void askForFile() {
+    asked() = kOpen;
+}
+
+void takeDropped(State& state) {
+    for (const std::string& path : std::exchange(state.dropped, {})) {
+        state.say("opened: " + path);
+        if (const Result<void> opened = openFile(path, state); !opened.ok()) {
+            state.say({});
+            state.complain(opened.error().text);
+        }
     }
 }
 
@@ -140,7 +136,7 @@ void drawDialogs(State& state) {
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 34, 0});
     if (ImGui::BeginPopupModal("That did not work", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::TextWrapped("%s", state.error.c_str());
-        if (ImGui::Button("go on")) {
+        if (ImGui::Button("go on") || state.error.empty()) {
             state.error.clear();
             ImGui::CloseCurrentPopup();
         }

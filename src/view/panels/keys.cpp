@@ -82,6 +82,9 @@ void takeControlKey(State& state, const KeyPress& press) {
     case GLFW_KEY_C:
         copyCommand(state);
         break;
+    case GLFW_KEY_O:
+        askForFile();
+        break;
     case GLFW_KEY_Q:
         state.quit = true;
         break;
@@ -104,6 +107,12 @@ void takePlainKey(State& state, const KeyPress& press) {
         break;
     case GLFW_KEY_C:
         state.drill(state.cursor);
+        break;
+    case GLFW_KEY_H:
+        state.showGizmo = !state.showGizmo;
+        break;
+    case GLFW_KEY_T:
+        state.gizmoAxes = nextOf(state.gizmoAxes);
         break;
     case GLFW_KEY_ESCAPE:
         state.maximised = Maximised::None;
@@ -152,6 +161,12 @@ void row(const char* key, const char* does) {
 
 void takeKeys(State& state) {
     const std::vector<KeyPress> keys = std::exchange(state.keys, {});
+    if (!state.error.empty()) {
+        const bool read = std::ranges::any_of(
+            keys, [](const KeyPress& press) { return press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_ESCAPE; });
+        state.error = read ? std::string() : state.error;
+        return;
+    }
     if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
         return; // they are written into a field
     }
@@ -180,9 +195,11 @@ void drawHelp(State& state) {
         }
         row("F", "frame the volume");
         row("G", "slices through the tip");
+        row("H, T", "handles at the tip: shown or not; along the axes of the world, of the view, its own");
         row("X, C", "drill a hole at the tip, at the cursor of the slices");
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
+        row("control O", "open a file, as does dropping it on the window");
         row("control Q", "quit");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");

@@ -38,6 +38,10 @@ void drawMenu(State& state) {
         if (ImGui::MenuItem("Frame the volume", "F")) {
             state.camera = framing(state.volume.grid, state.camera.direction);
         }
+        ImGui::MenuItem("Handles at the tip", "H", &state.showGizmo);
+        if (ImGui::MenuItem("Handles along other axes", "T")) {
+            state.gizmoAxes = nextOf(state.gizmoAxes);
+        }
         ImGui::Separator();
         if (ImGui::MenuItem("Dark")) {
             setColours(Theme::Dark);
@@ -104,9 +108,9 @@ void drawColumn(State& state) {
     const auto rows = [&style](float number) {
         return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
     };
-    card("answer", rows(state.labels ? 6 : 5.2F), [&] { drawAnswer(state); });
-    card("curve", rows(2.4F) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
-    card("instrument", rows(state.document.poses.empty() ? 9.1F : 10), [&] { drawInstrument(state); });
+    card("answer", rows(state.labels ? 6.25F : 5.45F), [&] { drawAnswer(state); });
+    card("curve", rows(2.7F) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
+    card("instrument", rows(state.document.poses.empty() ? 9.45F : 10.4F), [&] { drawInstrument(state); });
     card("contacts", 0, [&] { drawContacts(state); });
 }
 
@@ -124,6 +128,7 @@ void drawStatus(const State& state) {
 
 void drawPanels(State& state) {
     takeKeys(state);
+    takeDropped(state);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(size);

@@ -42,6 +42,10 @@ void drawContacts(State& state);
 /// Dialogs of files, and their menu.
 void drawFileMenu(State& state);
 void drawDialogs(State& state);
+/// Opens the dialog for a file to open.
+void askForFile();
+/// Opens what was dropped on the window.
+void takeDropped(State& state);
 /// What is pressed.
 void takeKeys(State& state);
 void drawHelp(State& state);

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/open_file.h"
+
+#include "core/base/try.h"
+#include "view/model/session_file.h"
+#include "voxtact/io.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace voxtact::view {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kMeshEndings{".stl", ".obj", ".ply", ".off", ".gltf", ".glb"};
+
+std::string endingOf(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](char letter) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    });
+    return ending;
+}
+
+Result<void> openFunction(const std::filesystem::path& path, State& state) {
+    const Result<std::vector<ControlPoint>> points = io::readTransferFunction(path);
+    VOXTACT_TRY(points);
+    const Result<std::vector<ColourPoint>> colours = io::readColours(path);
+    VOXTACT_TRY(colours);
+    if (!colours->empty()) {
+        state.document.colours = *colours;
+    }
+    state.command([&](Edit& edit) { edit.curve = *points; });
+    state.curvePoint.reset();
+    return {};
+}
+
+Result<void> openPoses(const std::filesystem::path& path, State& state) {
+    Result<std::vector<Mat4>> poses = io::readPoses(path);
+    VOXTACT_TRY(poses);
+    state.document.poses = std::move(*poses);
+    state.takePose(0);
+    state.history.end();
+    return {};
+}
+
+/// The document with another volume or mesh.
+Document withFile(Document document, FileKind kind, const std::string& path) {
+    Sources& sources = document.sources;
+    if (kind == FileKind::Mesh) {
+        sources.mesh = path;
+        sources.meshSpace = Sources{}.meshSpace;
+        sources.meshScale = Sources{}.meshScale;
+    } else {
+        // Labels, curve and camera were those of the volume before.
+        sources.volume = path;
+        sources.labels.clear();
+        sources.labelNames.clear();
+        document.camera.reset();
+        document.cursor.reset();
+    }
+    document.edit.holes = 0;
+    return document;
+}
+
+} // namespace
+
+Result<FileKind> kindOfFile(const std::filesystem::path& path) {
+    const std::string ending = endingOf(path);
+    if (std::ranges::find(kMeshEndings, ending) != kMeshEndings.end()) {
+        return FileKind::Mesh;
+    }
+    if (ending == ".json") {
+        const Result<bool> session = isSession(path);
+        VOXTACT_TRY(session);
+        return *session ? FileKind::Session : FileKind::Function;
+    }
+    return ending == ".txt" ? FileKind::Poses : FileKind::Volume;
+}
+
+Result<void> openFile(const std::filesystem::path& path, State& state) {
+    const Result<FileKind> kind = kindOfFile(path);
+    VOXTACT_TRY(kind);
+    if (*kind == FileKind::Function) {
+        return openFunction(path, state);
+    }
+    if (*kind == FileKind::Poses) {
+        return openPoses(path, state);
+    }
+    if (*kind == FileKind::Session) {
+        Result<Document> session = readSession(path);
+        VOXTACT_TRY(session);
+        state.wanted = Wanted{*kind, std::move(*session)};
+    } else {
+        state.wanted = Wanted{*kind, withFile(state.saved(), *kind, path.string())};
+    }
+    return {};
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "view/model/open_file.h"
+#include "view/model/session_file.h"
+
+#include "voxtact/samples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include <unistd.h>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+using testing::HasSubstr;
+
+namespace {
+
+class ViewOpen : public testing::Test {
+  protected:
+    ViewOpen()
+        : folder_(std::filesystem::path(testing::TempDir()) / ("voxtact_open_" + std::to_string(getpid()))),
+          state_(given()) {
+        std::filesystem::create_directories(folder_);
+    }
+    ~ViewOpen() override { std::filesystem::remove_all(folder_); }
+
+    static Given given() {
+        Given out;
+        out.volume = makeBuiltinVolume("head:16").value();
+        out.mesh = makeBuiltinMesh("scalpel:300").value();
+        out.values = checkVolume(out.volume.view()).value();
+        out.document.sources = {"builtin:head:16", "builtin:scalpel:300", "ras", 2, "atlas.nii", "names.txt"};
+        out.document.edit.curve = {{40, 0}, {80, 1}};
+        return out;
+    }
+    std::filesystem::path file(const std::string& name, const std::string& text) {
+        std::ofstream(folder_ / name) << text;
+        return folder_ / name;
+    }
+
+    std::filesystem::path folder_;
+    State state_;
+};
+
+} // namespace
+
+TEST_F(ViewOpen, TheEndingSaysWhatItIs) {
+    EXPECT_EQ(kindOfFile("a.STL").value(), FileKind::Mesh);
+    EXPECT_EQ(kindOfFile("a.glb").value(), FileKind::Mesh);
+    EXPECT_EQ(kindOfFile("a.txt").value(), FileKind::Poses);
+    EXPECT_EQ(kindOfFile("a.nii.gz").value(), FileKind::Volume);
+    EXPECT_EQ(kindOfFile(folder_).value(), FileKind::Volume);
+    EXPECT_EQ(kindOfFile(file("f.json", "{\"points\": [[0, 0], [1, 1]]}")).value(), FileKind::Function);
+    EXPECT_EQ(kindOfFile(file("s.json", "{\"voxtact_session\": 1}")).value(), FileKind::Session);
+    EXPECT_EQ(kindOfFile(file("bad.json", "{")).value(), FileKind::Function); // whose reader says what is wrong
+    const Result<FileKind> none = kindOfFile(folder_ / "nowhere.json");
+    ASSERT_FALSE(none.ok());
+    EXPECT_THAT(none.error().text, HasSubstr("nowhere.json"));
+}
+
+TEST_F(ViewOpen, PosesAndFunctionsAreCommands) {
+    ASSERT_TRUE(openFile(file("p.txt", "1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1\n"), state_).ok());
+    EXPECT_EQ(state_.document.edit.world_from_object, translation({5, 6, 7}));
+    ASSERT_TRUE(openFile(file("f.json", "{\"points\": [[10, 0], [20, 0.5], [30, 1]]}"), state_).ok());
+    EXPECT_EQ(state_.document.edit.curve.size(), 3U);
+    EXPECT_FALSE(state_.wanted.has_value());
+    state_.undo();
+    EXPECT_EQ(state_.document.edit.curve.size(), 2U);
+}
+
+TEST_F(ViewOpen, AnotherMeshKeepsTheRest) {
+    state_.document.edit.holes = 0;
+    ASSERT_TRUE(openFile("/data/tool.stl", state_).ok());
+    ASSERT_TRUE(state_.wanted.has_value());
+    EXPECT_EQ(state_.wanted->kind, FileKind::Mesh);
+    const Sources& sources = state_.wanted->document.sources;
+    EXPECT_EQ(sources.mesh, "/data/tool.stl");
+    EXPECT_EQ(sources.meshSpace, "lps");
+    EXPECT_EQ(sources.meshScale, 1);
+    EXPECT_EQ(sources.volume, "builtin:head:16");
+    EXPECT_EQ(sources.labels, "atlas.nii");
+    EXPECT_TRUE(state_.wanted->document.camera.has_value());
+}
+
+TEST_F(ViewOpen, AnotherVolumeHasNotTheLabelsAndHolesOfTheOneBefore) {
+    state_.document.edit.holes = 3;
+    ASSERT_TRUE(openFile("/data/other.nrrd", state_).ok());
+    ASSERT_TRUE(state_.wanted.has_value());
+    EXPECT_EQ(state_.wanted->document.sources.volume, "/data/other.nrrd");
+    EXPECT_EQ(state_.wanted->document.sources.labels, "");
+    EXPECT_EQ(state_.wanted->document.sources.labelNames, "");
+    EXPECT_EQ(state_.wanted->document.edit.holes, 0U);
+    EXPECT_FALSE(state_.wanted->document.camera.has_value());
+}
+
+TEST_F(ViewOpen, ASessionIsReadWhole) {
+    Document other = state_.saved();
+    other.sources.volume = "builtin:ct:16";
+    ASSERT_TRUE(writeSession(folder_ / "s.json", other).ok());
+    ASSERT_TRUE(openFile(folder_ / "s.json", state_).ok());
+    ASSERT_TRUE(state_.wanted.has_value());
+    EXPECT_EQ(state_.wanted->document.sources.volume, "builtin:ct:16");
+}
+
+TEST_F(ViewOpen, WhatIsWrongChangesNothing) {
+    const Edit before = state_.document.edit;
+    EXPECT_FALSE(openFile(file("p.txt", "1 2 3\n"), state_).ok());
+    EXPECT_FALSE(openFile(file("f.json", "{"), state_).ok());
+    EXPECT_FALSE(openFile(file("s.json", "{\"voxtact_session\": 1}"), state_).ok());
+    EXPECT_EQ(state_.document.edit, before);
+    EXPECT_FALSE(state_.wanted.has_value());
+}
+
+} // namespace voxtact::test
