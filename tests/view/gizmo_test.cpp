@@ -101,6 +101,9 @@ TEST(ViewGizmo, AxesAreTheWorldsTheViewsOrItsOwn) {
     EXPECT_NEAR(own.axes[1][0], -1, 1e-12);
     EXPECT_EQ(own.at, (Vec3{1, 2, 3}));
     EXPECT_EQ(gizmoOf(pose, camera, GizmoAxes::View, 1).axes[2], rayThrough(camera, kExtent, 0, 0).direction);
+    EXPECT_EQ(nextOf(GizmoAxes::World), GizmoAxes::View);
+    EXPECT_EQ(nextOf(GizmoAxes::View), GizmoAxes::Own);
+    EXPECT_EQ(nextOf(GizmoAxes::Own), GizmoAxes::World);
 }
 
 } // namespace voxtact::test
