@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// voxtact-mpi: detect, motion and plan over the ranks of an MPI job. The first rank makes the folder of the run, deals its
-// chunks, does some itself, and merges.
+// voxtact-mpi: detect, motion and plan over the ranks of an MPI job. The first rank makes the folder of the run, deals
+// its chunks, does some itself, and merges.
 #include "app/mpi/mpi_dealer.h"
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
@@ -43,7 +43,8 @@ bool isGiven(const Words& words, const std::string& option) {
 /// What is wrong with the arguments beyond what the program itself would find; empty: nothing.
 std::string refusalOf(const Words& words) {
     if (words.empty() || (words.front() != "detect" && words.front() != "motion" && words.front() != "plan")) {
-        return "the ranks of a job do detect, motion or plan; for anything else there is voxtact; see voxtact-mpi --help";
+        return "the ranks of a job do detect, motion or plan; for anything else there is voxtact; see voxtact-mpi "
+               "--help";
     }
     if (isGiven(words, "--shard")) {
         return "--shard: the first rank deals the chunks; leave it out";

@@ -40,8 +40,7 @@ std::string nearestText(const PlanInputs& inputs, const NearestObstacle& nearest
 
 std::string crossed(const PlanInputs& inputs, const PlanTarget& target, const PlannedPath& path) {
     std::string out;
-    const Result<std::vector<std::int32_t>> labels =
-        labelsAlong(inputs.labels->labels, path.position, target.at);
+    const Result<std::vector<std::int32_t>> labels = labelsAlong(inputs.labels->labels, path.position, target.at);
     if (!labels.ok()) {
         throw std::bad_alloc(); // the plan has looked at all that can be refused
     }
