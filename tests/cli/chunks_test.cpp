@@ -405,8 +405,9 @@ TEST_F(ChunksTest, OptionsThatDoNotFitAreRefused) {
     EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:head:24", "--mesh", "builtin:scalpel:200", "--poses", "-",
                             "--resume", path("run")}),
                 HasSubstr("--poses -: not with --resume"));
-    EXPECT_THAT(refused(2, {"plan", "--volume", "builtin:head:24", "--target", "0,0,0", "--resume", path("run")}),
-                HasSubstr("--resume"));
+    EXPECT_THAT(refused(2, {"plan", "--volume", "builtin:head:24", "--target", "0,0,0", "--avoid-opacity",
+                            "100:0,160:1", "--shard", "1/2"}),
+                HasSubstr("--shard: it is about a run in chunks"));
     EXPECT_FALSE(fs::exists(path("run")));
 }
 

@@ -205,21 +205,6 @@ TEST(CancelBefore, ACallThatWouldHaveNothingToLookAtIsCancelledToo) {
     EXPECT_TRUE(isCancelled(checker.around(nothing, {1, 1})));
 }
 
-TEST_F(Cancel, NothingIsPreparedForACallThatIsCancelledBefore) {
-    // What is prepared of a volume that no call has seen takes far longer than a refusal.
-    const cpu::Volume fresh = take(cpu::Volume::create(speckles().view()));
-    item_.volume = &fresh;
-    const std::atomic<bool> cancel{true};
-    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-    const Clock::time_point start = Clock::now();
-    EXPECT_FALSE(meter.measure(batch(&cancel)).ok());
-    const double refused = secondsSince(start);
-    const Clock::time_point again = Clock::now();
-    item_.world_from_object = {};
-    EXPECT_TRUE(meter.measure(batch(nullptr)).ok());
-    EXPECT_LT(10 * refused, secondsSince(again));
-}
-
 TEST(CancelNot, AFlagThatStaysFalseChangesNothingAndNeitherDoesACancelledCallBefore) {
     const cpu::Volume volume = take(cpu::Volume::create(speckles().view()));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}, 256}));
