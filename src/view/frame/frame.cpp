@@ -145,7 +145,7 @@ Result<void> Frames::collect(State& state) {
     }
     if (std::optional<Result<LiveClearance>> clearance = host_->takeClearance()) {
         if (clearance->ok()) {
-            state.clearance = std::move(**clearance);
+            state.clearance = **clearance;
         } else if (clearance->error().code != ErrorCode::Cancelled) {
             state.complain(clearance->error().text);
         }
