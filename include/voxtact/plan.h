@@ -64,8 +64,8 @@ struct EntryTriangle {
     /// Every path from any point of this triangle to the target certainly keeps more than the margin, not only those
     /// from its corners.
     bool safe = false;
-    /// mm, where PlanTask::triangleClearances asks for it: every path from any point of this triangle certainly keeps at
-    /// least so much; no more than PlannerDesc::maximum.
+    /// mm, where PlanTask::triangleClearances asks for it: every path from any point of this triangle certainly keeps
+    /// at least so much; no more than PlannerDesc::maximum.
     double clearance = 0;
 };
 

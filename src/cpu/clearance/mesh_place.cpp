@@ -27,9 +27,10 @@ constexpr double kGreatest = 1e100;
 void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object,
                       const std::optional<Sweep>& sweep) {
     // Another mesh may be where one was before; after 2^32 pairs nothing is in place.
-    const bool fits = clusters_.size() == mesh.clusters.size() && vertices_.size() == mesh.x.size() &&
+    const bool fits = whole_ && clusters_.size() == mesh.clusters.size() && vertices_.size() == mesh.x.size() &&
                       boxes_.size() == mesh.tree.levels() && boxes_[0].size() == mesh.tree.boxes(0).size();
     if (!fits || ++pair_ == 0) {
+        whole_ = false;
         boxes_.assign(mesh.tree.levels(), {});
         for (std::uint32_t level = 0; level < mesh.tree.levels(); ++level) {
             boxes_[level].resize(mesh.tree.boxes(level).size());
@@ -38,6 +39,7 @@ void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4
         vertices_.resize(mesh.x.size());
         triangles_.resize(kClusterTriangles * clusters_.size());
         pair_ = 1;
+        whole_ = true;
     }
     mesh_ = &mesh;
     space_ = &space;
@@ -132,8 +134,8 @@ const PlacedTriangle* MeshPlace::run(std::uint32_t run) {
 
 const PlacedTriangle* MeshPlace::cluster(std::uint32_t cluster) {
     if (clusters_[cluster] != pair_) {
-        clusters_[cluster] = pair_;
         placeCluster(cluster);
+        clusters_[cluster] = pair_;
     }
     return &triangles_[std::size_t{cluster} * kClusterTriangles];
 }

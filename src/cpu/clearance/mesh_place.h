@@ -78,6 +78,7 @@ class MeshPlace {
     glm::dvec3 origin_{};
     double error_ = 0;
     std::uint32_t pair_ = 0; ///< what was placed for another is not in place
+    bool whole_ = false;     ///< there was memory for all that follows
     std::vector<std::vector<Slot<PlacedBox>>> boxes_;
     std::vector<std::uint32_t> clusters_; ///< the pair that they are placed for
     /// A vertex, and where it may be.
