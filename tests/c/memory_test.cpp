@@ -217,6 +217,27 @@ TEST_F(Memory, OfClearances) {
     }
 }
 
+TEST_F(Memory, AMeterThatNeverHadItsMemoryGetsItInTheNextCall) {
+    vxt_host_clearance_desc desc = vxt_host_clearance_desc_init();
+    desc.threads = 1;
+    const Owned<vxt_clearances> out =
+        made<vxt_clearances>(vxt_clearances_destroy, [](auto o) { return vxt_clearances_create(o); });
+    std::uint64_t failures = 1;
+    for (std::int64_t number = 0; failures > 0; ++number) {
+        const Owned<vxt_host_clearance_meter> meter = made<vxt_host_clearance_meter>(
+            vxt_host_clearance_meter_destroy, [&](auto o) { return vxt_host_clearance_meter_create(&desc, o); });
+        FailingMemory memory(number, false);
+        const vxt_result first = vxt_host_clearance_meter_measure(meter.get(), &c_.batch, out.get());
+        memory.end();
+        failures = memory.failures();
+        EXPECT_TRUE(first == VXT_OK || failures > 0) << first;
+        need(vxt_host_clearance_meter_measure(meter.get(), &c_.batch, out.get()));
+        vxt_clearance_view view = vxt_clearance_view_init();
+        need(vxt_clearances_get(out.get(), &view));
+        EXPECT_GT(view.pairs[1].hi, 0) << "allocation " << number;
+    }
+}
+
 TEST_F(Memory, OfMotionsAndTrackers) {
     vxt_host_motion_desc desc = vxt_host_motion_desc_init();
     desc.threads = 2;
