@@ -74,7 +74,7 @@ struct PreintegrateConstants {
 #define PICTURE_SET_TARGETS 2
 #define PICTURE_SET_BRICKS 3
 // Those of a mesh that is painted, beside VOXTACT_SET_VOLUME, VOXTACT_SET_TRANSFER_FUNCTION and PICTURE_SET_TARGETS.
-#define PICTURE_SET_TRIANGLES 3
+#define PICTURE_SET_PAINT 3
 // Bindings of PICTURE_SET_FUNCTION: the table, and the extremes of the opacity.
 #define PICTURE_BINDING_TABLE 0
 #define PICTURE_BINDING_OPACITY 1

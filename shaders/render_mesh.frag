@@ -34,12 +34,18 @@ vec4 paint() {
     return vec4(survivor ? vec3(mix(DARKEST, 1.0, share)) : meshes[which].discardedColour.rgb, meshes[which].contactColour.a);
 }
 #elif defined(PAINT_TRIANGLES)
-layout(set = PICTURE_SET_TRIANGLES, binding = 0, std430) readonly buffer Triangles { uint painted[]; };
+layout(set = PICTURE_SET_PAINT, binding = 0, std430) readonly buffer Triangles { uint painted[]; };
 
 vec4 paint() {
     const uint triangle = uint(gl_PrimitiveID);
     const bool chosen = (painted[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
     return chosen ? meshes[which].contactColour : meshes[which].colour;
+}
+#elif defined(PAINT_VERTICES)
+layout(location = 2) in vec3 vertexColour;
+
+vec4 paint() {
+    return vec4(vertexColour, meshes[which].contactColour.a);
 }
 #else
 vec4 paint() {

@@ -13,8 +13,11 @@ layout(location = 1) out vec3 worldNormal;
 #endif
 layout(location = 0) out vec3 world;
 layout(push_constant) uniform Which { uint which; };
-#ifdef PAINT_FRAGMENTS
+#if defined(PAINT_FRAGMENTS)
 layout(location = 2) out vec3 textureCoordinate;
+#elif defined(PAINT_VERTICES)
+layout(location = 2) out vec3 vertexColour;
+layout(set = PICTURE_SET_PAINT, binding = 0, std430) readonly buffer Vertices { uint painted[]; };
 #endif
 
 void main() {
@@ -25,8 +28,10 @@ void main() {
 #ifdef SMOOTH
     worldNormal = ROWS3(meshes[which].normal_from_object, vec4(normal, 0.0));
 #endif
-#ifdef PAINT_FRAGMENTS
+#if defined(PAINT_FRAGMENTS)
     textureCoordinate = vec3(corner.tx, corner.ty, corner.tz);
+#elif defined(PAINT_VERTICES)
+    vertexColour = unpackUnorm4x8(painted[gl_VertexIndex]).rgb;
 #endif
     gl_Position = vec4(corner.x, corner.y, corner.z, corner.w);
 }

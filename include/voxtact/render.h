@@ -39,6 +39,7 @@ struct RenderTargetsImpl;
 struct MeshNormalsImpl;
 struct RenderBricksImpl;
 struct PaintedTrianglesImpl;
+struct PaintedVerticesImpl;
 
 /// Scalar -> opacity and colour.
 struct RenderTransferFunctionDesc {
@@ -89,14 +90,16 @@ class RenderTargets;
 class MeshNormals;
 class RenderBricks;
 class PaintedTriangles;
+class PaintedVertices;
 
-/// What a mesh shows of what is decided about it.
+/// What a mesh shows of what is known about it.
 enum class Paint : std::uint32_t {
     Plain,     ///< nothing: all of it has Scene::meshColour
     Contacts,  ///< its survivors
     Discarded, ///< its discarded fragments, and its survivors by their opacity: from dark gray at the threshold to
                ///< white
     Triangles, ///< chosen triangles
+    Vertices,  ///< a colour of its own for each vertex, and in between what lies between
 };
 
 /// How a mesh is painted. Light falls on the paint as on the mesh. Where the mesh hides itself, the nearest fragment is
@@ -110,10 +113,11 @@ struct MeshPaint {
     const TransferFunction* transferFunction = nullptr; ///< the detector's; for Contacts and Discarded
     double threshold = kDefaultThreshold;               ///< the same; 0..1
     const PaintedTriangles* triangles = nullptr;        ///< for Triangles; of Scene::mesh
+    const PaintedVertices* vertices = nullptr;          ///< for Vertices; of Scene::mesh
     Colour contactColour{1, 0.23, 0.08};                ///< of survivors and chosen triangles; the rest: meshColour
     Colour discardedColour{0.16, 0.36, 0.88};           ///< for Discarded, of what does not survive
     /// 0..1: how much of what is painted is seen through the volume before it: survivors and chosen triangles; with
-    /// Discarded all of the mesh. 0: it is as deep in the volume as the rest. 1: nothing of the volume is before it.
+    /// Discarded and Vertices all of the mesh. 0: it is as deep in the volume as the rest. 1: nothing of the volume is before it.
     double through = 0;
 };
 
@@ -364,6 +368,38 @@ class PaintedTriangles {
   private:
     explicit PaintedTriangles(std::unique_ptr<PaintedTrianglesImpl> impl) noexcept;
     std::unique_ptr<PaintedTrianglesImpl> impl_;
+};
+
+/// Colours of a mesh's vertices: a measure of a surface, say, as how far each place of it is from something. Within a
+/// triangle they are mixed linearly, in the picture's perspective. Between far vertices a mixture of colours says
+/// little: give long triangles more vertices.
+class PaintedVertices {
+  public:
+    /// A colour for each vertex, in the order of MeshView::positions; 0..1, kept in 8 bits a channel. Refuses no
+    /// colours at all, components outside [0, 1], and more than the device's maxStorageBufferRange holds, 4 bytes each.
+    [[nodiscard]] VOXTACT_API static Result<PaintedVertices> create(const Renderer& renderer,
+                                                                    std::span<const Colour> colours);
+    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
+    [[nodiscard]] VOXTACT_API static Result<PaintedVertices> upload(const Renderer& renderer, const QueueAccess& queue,
+                                                                    std::span<const Colour> colours);
+    /// Colours that are on the device already: a uint for each vertex, red in its lowest 8 bits, then green and blue,
+    /// each from 0 to 255 (packUnorm4x8 of GLSL). Nothing is copied: every picture shows what the buffer holds then.
+    /// It must outlive this; usage STORAGE_BUFFER. Refuses a null buffer, an offset that is no multiple of 256, fewer
+    /// bytes than a uint, and what create() refuses.
+    [[nodiscard]] VOXTACT_API static Result<PaintedVertices> wrap(const Renderer& renderer, const BufferRange& colours);
+    VOXTACT_API PaintedVertices(PaintedVertices&&) noexcept;
+    VOXTACT_API PaintedVertices& operator=(PaintedVertices&&) noexcept;
+    VOXTACT_API ~PaintedVertices();
+
+    /// As Mesh::cmdUpload(). Wrapped colours are refused.
+    VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
+    /// As Mesh::releaseStaging().
+    VOXTACT_API void releaseStaging() noexcept;
+    [[nodiscard]] PaintedVerticesImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit PaintedVertices(std::unique_ptr<PaintedVerticesImpl> impl) noexcept;
+    std::unique_ptr<PaintedVerticesImpl> impl_;
 };
 
 } // namespace voxtact

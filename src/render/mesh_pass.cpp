@@ -45,6 +45,11 @@ void bindMeshSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, c
         bindSets(renderer, commandBuffer, painted, PICTURE_SET_TARGETS, sets);
         return;
     }
+    case PaintBy::Vertices: {
+        const VkDescriptorSet sets[] = {targets, paint.vertices->impl().descriptors.set};
+        bindSets(renderer, commandBuffer, painted, PICTURE_SET_TARGETS, sets);
+        return;
+    }
     }
 }
 

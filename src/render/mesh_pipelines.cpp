@@ -11,8 +11,12 @@
 #include "voxtact_shaders/render_mesh_smooth_fragments_vert.h"
 #include "voxtact_shaders/render_mesh_smooth_triangles_frag.h"
 #include "voxtact_shaders/render_mesh_smooth_vert.h"
+#include "voxtact_shaders/render_mesh_smooth_vertices_frag.h"
+#include "voxtact_shaders/render_mesh_smooth_vertices_vert.h"
 #include "voxtact_shaders/render_mesh_triangles_frag.h"
 #include "voxtact_shaders/render_mesh_vert.h"
+#include "voxtact_shaders/render_mesh_vertices_frag.h"
+#include "voxtact_shaders/render_mesh_vertices_vert.h"
 
 namespace voxtact {
 
@@ -57,6 +61,10 @@ Result<void> makeMeshPipelines(RendererImpl& renderer) {
          "mesh painted by triangle"},
         {PaintBy::Triangles, true, spirv::render_mesh_smooth_vert, spirv::render_mesh_smooth_triangles_frag,
          "smooth mesh painted by triangle"},
+        {PaintBy::Vertices, false, spirv::render_mesh_vertices_vert, spirv::render_mesh_vertices_frag,
+         "mesh painted by vertex"},
+        {PaintBy::Vertices, true, spirv::render_mesh_smooth_vertices_vert, spirv::render_mesh_smooth_vertices_frag,
+         "smooth mesh painted by vertex"},
     };
     for (const MeshShaders& shaders : all) {
         if (shaders.by == PaintBy::Triangles && !renderer.context.features.geometryShader) {

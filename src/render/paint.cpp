@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/text.h"
+#include "core/base/try.h"
 #include "core/geometry/pair_transform.h"
 #include "render/render_impl.h"
 
@@ -47,6 +48,37 @@ Result<void> checkTriangles(const ContextImpl& context, const SceneMesh& mesh) {
     return {};
 }
 
+Result<void> checkVertices(const ContextImpl& context, const SceneMesh& mesh) {
+    const PaintedVertices* vertices = mesh.paint.vertices;
+    if (vertices == nullptr) {
+        return refuse("Scene::paint has no colours of vertices");
+    }
+    if (&vertices->impl().context != &context) {
+        return refuse("Scene::paint has colours of vertices of another Context");
+    }
+    const std::optional<MeshFacts>& facts = mesh.mesh->impl().facts;
+    const std::uint64_t needed = facts ? facts->vertices : 0;
+    if (vertices->impl().room < needed) {
+        return refuse("Scene::paint has colours for " + std::to_string(vertices->impl().room) +
+                      " vertices, the mesh has " + std::to_string(needed));
+    }
+    return {};
+}
+
+Result<void> checkParts(const ContextImpl& context, const SceneMesh& mesh) {
+    switch (paintedBy(mesh.paint.what)) {
+    case PaintBy::Fragments:
+        return checkFunction(context, mesh.paint);
+    case PaintBy::Triangles:
+        return checkTriangles(context, mesh);
+    case PaintBy::Vertices:
+        return checkVertices(context, mesh);
+    case PaintBy::Nobody:
+        break;
+    }
+    return {};
+}
+
 } // namespace
 
 PaintBy paintedBy(Paint what) noexcept {
@@ -56,6 +88,8 @@ PaintBy paintedBy(Paint what) noexcept {
         return PaintBy::Fragments;
     case Paint::Triangles:
         return PaintBy::Triangles;
+    case Paint::Vertices:
+        return PaintBy::Vertices;
     case Paint::Plain:
         break;
     }
@@ -67,18 +101,14 @@ Result<void> checkPaint(const ContextImpl& context, const SceneMesh& mesh) {
     if (paint.what == Paint::Plain) {
         return {};
     }
-    if (paint.what > Paint::Triangles) {
+    if (paint.what > Paint::Vertices) {
         return refuse("Scene::paint: there is no paint number " +
                       std::to_string(static_cast<std::uint32_t>(paint.what)));
     }
     if (mesh.mesh == nullptr) {
         return refuse("Scene::paint is given without a mesh");
     }
-    if (Result<void> parts =
-            paint.what == Paint::Triangles ? checkTriangles(context, mesh) : checkFunction(context, paint);
-        !parts.ok()) {
-        return parts;
-    }
+    VOXTACT_TRY(checkParts(context, mesh));
     for (const Result<void>& checked : {checkFraction(paint.through, "part seen through the volume"),
                                         checkColour(paint.contactColour, "the colour of contacts"),
                                         checkColour(paint.discardedColour, "the colour of discarded fragments")}) {

@@ -55,6 +55,7 @@ Result<void> checkMeshUploaded(const SceneMesh& mesh) {
         {{mesh.mesh->impl().uploaded, "Scene::mesh"},
          {mesh.normals == nullptr || mesh.normals->impl().uploaded, "Scene::normals"},
          {by != PaintBy::Triangles || paint.triangles->impl().uploaded, "Scene::paint.triangles"},
+         {by != PaintBy::Vertices || paint.vertices->impl().uploaded, "Scene::paint.vertices"},
          {by != PaintBy::Fragments || paint.transferFunction->impl().uploaded, "Scene::paint.transferFunction"}});
 }
 

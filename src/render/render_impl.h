@@ -18,8 +18,8 @@ inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkShaderStageFlags kMeshStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Who says which part of a mesh is painted: a pipeline each.
-enum class PaintBy : std::uint32_t { Nobody, Fragments, Triangles };
-inline constexpr std::size_t kPaintBys = 3;
+enum class PaintBy : std::uint32_t { Nobody, Fragments, Triangles, Vertices };
+inline constexpr std::size_t kPaintBys = 4;
 
 struct RendererImpl : SharedImpl<RendererImpl> {
     RendererImpl(ContextImpl& c, const RendererDesc& d) : context(c), desc(d) {}
@@ -30,7 +30,7 @@ struct RendererImpl : SharedImpl<RendererImpl> {
     Owned<VkDescriptorSetLayout> makingLayout{};   ///< of the table's pass
     Owned<VkDescriptorSetLayout> functionLayout{}; ///< PICTURE_SET_FUNCTION
     Owned<VkDescriptorSetLayout> targetsLayout{};  ///< PICTURE_SET_TARGETS
-    Owned<VkDescriptorSetLayout> bricksLayout{};   ///< PICTURE_SET_BRICKS, PICTURE_SET_TRIANGLES
+    Owned<VkDescriptorSetLayout> bricksLayout{};   ///< PICTURE_SET_BRICKS, PICTURE_SET_PAINT
     Owned<VkPipelineLayout> makingPipelineLayout{};
     Owned<VkPipelineLayout> pictureLayout{};
     Owned<VkPipelineLayout> paintLayout{}; ///< of a mesh that is painted
@@ -83,15 +83,37 @@ struct RenderBricksImpl {
     DescriptorSet descriptors{};
 };
 
-struct PaintedTrianglesImpl {
+/// Uints that the shaders of a painted mesh read: PICTURE_SET_PAINT.
+struct PaintWords {
+    explicit PaintWords(ContextImpl& c) : context(c) {}
+
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
-    std::uint64_t room = 0; ///< triangles that there are bits for
+    std::uint64_t room = 0; ///< triangles or vertices that there is something for
     Buffer buffer{};        ///< empty when wrapped
     Buffer staging{};
     bool uploaded = false; ///< recorded, or the caller's own
     DescriptorSet descriptors{};
 };
+struct PaintedTrianglesImpl : PaintWords {
+    using PaintWords::PaintWords;
+};
+struct PaintedVerticesImpl : PaintWords {
+    using PaintWords::PaintWords;
+};
+
+/// What is there of such words, for messages.
+struct PaintName {
+    const char* words = ""; ///< "the bits of the painted triangles": plural
+    const char* whole = ""; ///< "painted triangles"
+};
+/// `perWord`: triangles or vertices in a word.
+[[nodiscard]] Result<void> makePaintWords(PaintWords& paint, const RendererImpl& renderer,
+                                          std::span<const std::uint32_t> words, std::uint64_t perWord,
+                                          const PaintName& name);
+[[nodiscard]] Result<void> wrapPaintWords(PaintWords& paint, const RendererImpl& renderer, const BufferRange& words,
+                                          std::uint64_t perWord, const PaintName& name);
+[[nodiscard]] Result<void> cmdUploadPaintWords(PaintWords& paint, VkCommandBuffer commandBuffer, const PaintName& name);
 
 /// What a picture is recorded with.
 struct PictureSetup {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kBoundSets = 4;
 static_assert(VOXTACT_SET_VOLUME == 0 && PICTURE_SET_BRICKS + 1 == kBoundSets);
-static_assert(VOXTACT_SET_TRANSFER_FUNCTION == VOXTACT_SET_VOLUME + 1 && PICTURE_SET_TRIANGLES + 1 == kBoundSets);
+static_assert(VOXTACT_SET_TRANSFER_FUNCTION == VOXTACT_SET_VOLUME + 1 && PICTURE_SET_PAINT + 1 == kBoundSets);
 static_assert(PICTURE_SET_TARGETS == VOXTACT_SET_TRANSFER_FUNCTION + 1);
 
 Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
@@ -70,7 +70,7 @@ Result<void> makeSetLayouts(RendererImpl& renderer) {
         {PICTURE_BINDING_MESH_COLOUR, kSampled, 1, kFragment, nullptr},
         {PICTURE_BINDING_MESH_DISTANCE, kSampled, 1, kFragment, nullptr},
     };
-    constexpr VkDescriptorSetLayoutBinding kBricks[] = {{0, kBuffer, 1, kFragment, nullptr}};
+    constexpr VkDescriptorSetLayoutBinding kBricks[] = {{0, kBuffer, 1, kMeshStages, nullptr}};
     struct Wanted {
         Owned<VkDescriptorSetLayout>& layout;
         std::span<const VkDescriptorSetLayoutBinding> bindings;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/plan/plan_picture.h"
-#include "app/draw/viridis.h"
 #include "app/plan/plan_colours.h"
 #include "app/render/device_picture.h"
+#include "app/render/mesh_clearance.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/glm_bridge.h"
@@ -208,24 +208,11 @@ class PlanPainter {
         std::erase_if(swatches, [](const Swatch& swatch) { return swatch.text.empty(); });
         Annotation annotation{title, std::move(swatches), {}, scene_.clip_from_world};
         if (withLegend || shown_.best == nullptr) {
-            annotation.legend = legend();
+            annotation.legend = clearanceLegend(options_.maximum);
         }
         VOXTACT_TRY(annotate(*picture, annotation, *scene_.room));
         return picture;
     }
-    [[nodiscard]] Legend legend() const {
-        constexpr int kSteps = 8;
-        Legend out;
-        out.unit = "mm";
-        out.range = {0, options_.maximum};
-        for (int i = 0; i <= kSteps; ++i) {
-            const double share = static_cast<double>(i) / kSteps;
-            out.opacity.push_back({share * options_.maximum, 1});
-            out.colours.push_back({share * options_.maximum, toColour(viridis(share))});
-        }
-        return out;
-    }
-
     const PlanOptions& options_;
     const PlanInputs& inputs_;
     const Shown& shown_;

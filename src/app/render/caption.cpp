@@ -62,6 +62,11 @@ std::string title(const RenderOptions& options, const RenderInputs& inputs) {
     return text;
 }
 
+/// What the last colour of clearances means.
+std::string farText(const RenderOptions& options) {
+    return number(options.show.maximum.value_or(kDefaultShownClearance)) + " mm or more away";
+}
+
 std::vector<Swatch> swatches(const RenderOptions& options) {
     std::vector<Swatch> all;
     const std::string& shown = options.show.what;
@@ -75,6 +80,8 @@ std::vector<Swatch> swatches(const RenderOptions& options) {
         all.push_back(options.slice ? Swatch{paint.contactColour, "contact"} : Swatch{kByOpacity, "contact"});
         all.push_back({paint.discardedColour, "no contact"});
         return all;
+    } else if (options.show.isClearance()) {
+        return {{paint.contactColour, "touches"}, {clearanceLegend(1).colours.back().colour, farText(options)}};
     }
     for (std::size_t mesh = 0; mesh < options.meshes.sources.size(); ++mesh) {
         all.push_back({meshColour(options, mesh), nameOf(options.meshes.sources[mesh])});
@@ -94,7 +101,9 @@ Annotation annotationOf(const RenderOptions& options, const RenderInputs& inputs
     const bool hounsfield = preset != nullptr && preset->hounsfield;
     Legend legend;
     legend.unit = hounsfield ? "HU" : "value";
-    if (window) {
+    if (inputs.clearance) {
+        legend = clearanceLegend(inputs.clearance->maximum);
+    } else if (window) {
         legend.opacity = {{window->lo, 1}};
         legend.colours = {{window->lo, {0, 0, 0}}, {window->hi, {1, 1, 1}}};
         legend.range = *window;

@@ -15,6 +15,10 @@ namespace voxtact::app {
 
 namespace {
 
+double shownMaximum(const RenderOptions& options) {
+    return options.show.maximum.value_or(kDefaultShownClearance);
+}
+
 Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
     if (options.meshes.sources.empty()) {
         return {};
@@ -35,7 +39,9 @@ Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
         Result<MeshData> creased = splitAtCreases(mesh->view());
         VOXTACT_TRY(creased);
         inputs.bounds.push_back(facts->bounds);
-        inputs.meshes.push_back(std::move(*creased));
+        inputs.meshes.push_back(options.show.isClearance()
+                                    ? meshForClearance(std::move(*creased), inputs.poses, shownMaximum(options))
+                                    : std::move(*creased));
     }
     return {};
 }
@@ -147,11 +153,26 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
+Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
+    if (!options.show.isClearance()) {
+        return {};
+    }
+    const TransferFunctionDesc function = inputs.transferFunction(options);
+    const double threshold = options.transferFunction.threshold;
+    VOXTACT_TRY(noteWhereNothingIsOpaque(function, threshold));
+    Result<MeshClearance> measured =
+        measureMeshes({inputs.volume, inputs.meshes, inputs.poses, function, threshold}, shownMaximum(options),
+                      options.progress);
+    VOXTACT_TRY(measured);
+    inputs.clearance = std::move(*measured);
+    return {};
+}
+
 } // namespace
 
 Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
     RenderInputs inputs;
-    for (const auto read : {readMeshes, readVolume, setCuts, setLook}) {
+    for (const auto read : {readMeshes, readVolume, setCuts, setLook, setClearance}) {
         VOXTACT_TRY(read(options, inputs));
     }
     return inputs;

@@ -14,7 +14,7 @@ namespace voxtact::app {
 struct RenderInputs {
     VolumeData volume;
     ValueRange values;
-    std::vector<MeshData> meshes;
+    std::vector<MeshData> meshes;       ///< as they are drawn
     std::vector<Box> bounds;            ///< of the meshes, in object space
     std::vector<Mat4> poses;            ///< those that are shown, of every mesh
     std::vector<std::uint32_t> numbers; ///< of those poses
@@ -25,6 +25,7 @@ struct RenderInputs {
     std::vector<ClipPlane> clips;
     std::optional<AnnotationRoom> room; ///< of a picture that is annotated
     Mat4 clip_from_world{};
+    std::optional<MeshClearance> clearance; ///< with --show clearance
 
     [[nodiscard]] TransferFunctionDesc transferFunction(const RenderOptions& options) const {
         return {opacity, domain, options.transferFunction.tableSize};

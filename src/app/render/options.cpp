@@ -202,6 +202,7 @@ Result<void> checkRenderOptions(const RenderOptions& options) {
         return badArgument("--output " + options.output.string() + ": the ending of a picture is .png");
     }
     VOXTACT_TRY(checkViewpoint(options));
+    VOXTACT_TRY(checkShowOptions(options.show));
     if (options.meshes.sources.empty() && (!options.view.poses.empty() || options.poses)) {
         return badArgument("--poses and --pose are for a mesh; --mesh is missing");
     }

@@ -47,7 +47,7 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     constexpr double kPixelsOfOutline = 300;
     scene.thickness = std::max(1.0, std::min(options.view.size.width, options.view.size.height) / kPixelsOfOutline);
     std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
-    if (!options.show.what.empty()) {
+    if (!options.show.what.empty() && !inputs.clearance) {
         const TransferFunctionDesc function = inputs.transferFunction(options);
         VOXTACT_TRY(noteWhereNothingIsOpaque(function, scene.threshold));
         if (options.show.what == "triangles") {
@@ -64,7 +64,8 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     for (std::size_t i = 0; i < touching.size(); ++i) {
         const std::size_t mesh = i / inputs.poses.size();
         scene.meshes.push_back(
-            {&inputs.meshes[mesh], inputs.poses[i % inputs.poses.size()], meshColour(options, mesh), touching[i]});
+            {&inputs.meshes[mesh], inputs.poses[i % inputs.poses.size()], meshColour(options, mesh), touching[i],
+             inputs.clearance ? std::span<const Colour>(inputs.clearance->colours[i]) : std::span<const Colour>()});
     }
     return makeSlice(scene, options.view.size);
 }
@@ -97,6 +98,9 @@ Outcome runRender(const RenderOptions& options) {
     VOXTACT_TRY(picture);
     if (invalid.status != kExitDone) {
         return invalid;
+    }
+    if (inputs->clearance) {
+        drawClosest(*picture, *inputs->clearance, inputs->clip_from_world);
     }
     if (inputs->room) {
         VOXTACT_TRY(annotate(*picture, annotationOf(options, *inputs, window), *inputs->room));

@@ -74,23 +74,47 @@ Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPai
 
 void addShowOptions(CLI::App& parser, ShowOptions& options) {
     addName(
-        parser, "--show", options.what, {"contacts", "discarded", "triangles"},
+        parser, "--show", options.what, {"contacts", "discarded", "triangles", "clearance"},
         "painted on the mesh: contacts (what survives in this view, red), discarded (what does not survive, blue, and "
-        "survivors by their opacity, from dark gray to white), triangles (those that touch for certain, red)");
+        "survivors by their opacity, from dark gray to white), triangles (those that touch for certain, red), "
+        "clearance (how far each place is from what is opaque, and the closest points)");
     addNumber(
         parser, "--through", [&options](double part) { options.through = part; },
         "how much of what is painted is seen through the tissue before it; default: " + number(kContactsThrough) +
             ", for discarded " + number(kDiscardedThrough),
         [](double part) { return part >= 0 && part <= 1; }, "from 0 to 1", "");
+    addNumber(
+        parser, "--max-clearance", [&options](double mm) { options.maximum = mm; },
+        "mm, with --show clearance: what is as far away has the last colour",
+        [](double mm) { return mm > 0; }, "above 0", "20");
+    parser.get_option("--max-clearance")->needs("--show");
+    static_assert(kDefaultShownClearance == 20, "as the help says");
     parser.get_option("--show")->needs("--mesh");
     parser.get_option("--through")->needs("--show");
     parser.get_option("--threshold")->needs("--show");
 }
 
-Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs, bool progress,
+Result<void> checkShowOptions(const ShowOptions& options) {
+    if (options.maximum && !options.isClearance()) {
+        return badArgument("--max-clearance is for --show clearance");
+    }
+    return {};
+}
+
+Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs,
+                                    const std::optional<MeshClearance>& clearance, bool progress,
                                     const device::Session& session, const Renderer& renderer) {
     ShowObjects objects;
     if (options.what.empty()) {
+        return objects;
+    }
+    if (clearance) {
+        for (const std::vector<Colour>& colours : clearance->colours) {
+            Result<PaintedVertices> vertices =
+                PaintedVertices::upload(renderer, session.device.queueAccess(), colours);
+            VOXTACT_TRY(vertices);
+            objects.vertices.push_back(std::move(*vertices));
+        }
         return objects;
     }
     VOXTACT_TRY(noteWhereNothingIsOpaque(pairs.transferFunction, pairs.threshold));
@@ -111,6 +135,9 @@ MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double
     if (!objects.triangles.empty()) {
         paint.what = Paint::Triangles;
         paint.triangles = &objects.triangles[number];
+    } else if (!objects.vertices.empty()) {
+        paint.what = Paint::Vertices;
+        paint.vertices = &objects.vertices[number];
     } else if (objects.transferFunction) {
         paint.what = options.what == "discarded" ? Paint::Discarded : Paint::Contacts;
         paint.transferFunction = &*objects.transferFunction;

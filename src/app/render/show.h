@@ -3,6 +3,7 @@
 
 #include "app/options/open_session.h"
 #include "app/options/shared_options.h"
+#include "app/render/mesh_clearance.h"
 #include "voxtact/render.h"
 
 #include <optional>
@@ -20,19 +21,15 @@ namespace voxtact::app {
 struct ShowOptions {
     std::string what; ///< empty: nothing
     std::optional<double> through;
+    std::optional<double> maximum; ///< mm, of the colours of clearance
+
+    [[nodiscard]] bool isClearance() const { return what == "clearance"; }
 };
 
-/// --show and --through, and that they and --threshold need what they are about. After those options.
+/// --show, --through and --max-clearance, and that they and --threshold need what they are about. After those options.
 void addShowOptions(CLI::App& parser, ShowOptions& options);
-
-/// What is shown, as a detector has it: every mesh at every pose.
-struct ShownPairs {
-    const VolumeData& volume;
-    std::span<const MeshData> meshes;
-    std::span<const Mat4> poses;
-    TransferFunctionDesc transferFunction;
-    double threshold = kDefaultThreshold;
-};
+/// What the parser cannot see.
+[[nodiscard]] Result<void> checkShowOptions(const ShowOptions& options);
 
 /// The triangles that touch for certain, by the projection conservative on the host: of each mesh at each pose, mesh by
 /// mesh. Where nothing can touch, a note says so.
@@ -44,10 +41,12 @@ struct ShownPairs {
 struct ShowObjects {
     std::optional<TransferFunction> transferFunction{};
     std::vector<PaintedTriangles> triangles{}; ///< of each mesh at each pose, mesh by mesh
+    std::vector<PaintedVertices> vertices{};   ///< the same
 };
 
-/// Decides, and uploads.
-[[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs, bool progress,
+/// Decides what `clearance` has not measured, and uploads.
+[[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs,
+                                                  const std::optional<MeshClearance>& clearance, bool progress,
                                                   const device::Session& session, const Renderer& renderer);
 
 /// Of a mesh at a pose, by its number among all.

@@ -168,6 +168,7 @@ template <class Voxel> class SliceMaker {
                 side[i] = dot(scene_.plane.towardsEye, corners[i]) - scene_.plane.offset;
             }
             std::vector<Vec3> ends;
+            Colour colour{};
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::size_t next = (i + 1) % 3;
                 if ((side[i] < 0) == (side[next] < 0)) {
@@ -179,15 +180,20 @@ template <class Voxel> class SliceMaker {
                     end[axis] = corners[i][axis] + t * (corners[next][axis] - corners[i][axis]);
                 }
                 ends.push_back(end);
+                for (std::size_t channel = 0; channel < colour.size() && !mesh.vertices.empty(); ++channel) {
+                    const double here = mesh.vertices[mesh.mesh->indices[3 * triangle + i]][channel];
+                    const double there = mesh.vertices[mesh.mesh->indices[3 * triangle + next]][channel];
+                    colour[channel] += (here + t * (there - here)) / 2;
+                }
             }
             if (ends.size() == 2) {
-                drawCut(canvas, ends[0], ends[1], mesh, touching[triangle]);
+                drawCut(canvas, ends[0], ends[1], mesh.vertices.empty() ? mesh.colour : colour, touching[triangle]);
             }
         }
     }
 
     /// A triangle's cut, in pieces of a pixel where each is decided for itself.
-    void drawCut(Canvas& canvas, const Vec3& from, const Vec3& to, const SliceMesh& mesh, bool touching) const {
+    void drawCut(Canvas& canvas, const Vec3& from, const Vec3& to, const Colour& plain, bool touching) const {
         const Point a = pixelOf(from);
         const Point b = pixelOf(to);
         const double pixels = std::hypot(b.x - a.x, b.y - a.y);
@@ -206,7 +212,7 @@ template <class Voxel> class SliceMaker {
                 at[axis] = from[axis] + middle * (to[axis] - from[axis]);
             }
             const bool contact = touching || isOpaque(transformPoint(texture_from_world_, at));
-            const Colour& colour = contact ? scene_.contactColour : scene_.elsewhere.value_or(mesh.colour);
+            const Colour& colour = contact ? scene_.contactColour : scene_.elsewhere.value_or(plain);
             const auto along = [&](double t) { return Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; };
             // Round ends: pieces of one outline leave no gaps.
             canvas.line(along(begin), along(end), scene_.thickness, colour);

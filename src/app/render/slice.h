@@ -43,6 +43,7 @@ struct SliceMesh {
     Mat4 world_from_object{};
     Colour colour{};
     std::span<const std::uint32_t> touching{}; ///< triangles in the contact colour
+    std::span<const Colour> vertices{};        ///< colours of the vertices; none: all of it has its colour
 };
 
 struct SliceScene {
