@@ -117,7 +117,8 @@ struct MeshPaint {
     Colour contactColour{1, 0.23, 0.08};                ///< of survivors and chosen triangles; the rest: meshColour
     Colour discardedColour{0.16, 0.36, 0.88};           ///< for Discarded, of what does not survive
     /// 0..1: how much of what is painted is seen through the volume before it: survivors and chosen triangles; with
-    /// Discarded and Vertices all of the mesh. 0: it is as deep in the volume as the rest. 1: nothing of the volume is before it.
+    /// Discarded and Vertices all of the mesh. 0: it is as deep in the volume as the rest. 1: nothing of the volume is
+    /// before it.
     double through = 0;
 };
 

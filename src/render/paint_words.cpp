@@ -32,8 +32,7 @@ Result<void> checkSize(const ContextImpl& context, VkDeviceSize bytes, const Pai
 Result<void> describe(PaintWords& paint, const RendererImpl& renderer, const BufferRange& words, std::uint64_t perWord,
                       const PaintName& name) {
     constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
-    Result<DescriptorSet> set =
-        makeDescriptorSet(paint.context, renderer.bricksLayout.get(), {&kSize, 1}, name.whole);
+    Result<DescriptorSet> set = makeDescriptorSet(paint.context, renderer.bricksLayout.get(), {&kSize, 1}, name.whole);
     VOXTACT_TRY(set);
     paint.descriptors = std::move(*set);
     paint.room = words.size / sizeof(std::uint32_t) * perWord;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // voxtact render.
-#include "cli_fixture.h"
-#include "support/read_png.h"
+#include "render_fixture.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace voxtact::test {
@@ -12,38 +10,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-Arguments render(const std::string& output, const Arguments& more = {}) {
-    Arguments all{"render", "--volume", "builtin:head:32", "--size", "64x48", "--output", output};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-}
-
 class RenderCliTest : public CliTest {};
-
-class RenderPictureTest : public CliDeviceTest {
-  protected:
-    PngPicture picture(const Arguments& more = {}) {
-        EXPECT_EQ(output(render(path("a.png"), more)), "");
-        EXPECT_EQ(filesInFolder(), 1U);
-        PngPicture read = readPng(path("a.png"));
-        EXPECT_EQ(read.width, 64);
-        EXPECT_EQ(read.height, 48);
-        return read;
-    }
-};
-
-std::array<int, 3> pixel(const PngPicture& picture, int x, int y) {
-    const auto at = static_cast<std::size_t>(4 * (picture.width * y + x));
-    return {picture.rgba.at(at), picture.rgba.at(at + 1), picture.rgba.at(at + 2)};
-}
-
-std::size_t pixelsOf(const PngPicture& picture, const std::array<int, 3>& colour) {
-    std::size_t count = 0;
-    for (int i = 0; i < picture.width * picture.height; ++i) {
-        count += pixel(picture, i % picture.width, i / picture.width) == colour ? 1U : 0U;
-    }
-    return count;
-}
 
 TEST_F(RenderPictureTest, VolumeBeforeTheBackground) {
     const PngPicture head = picture({"--preset", "mr", "--background", "0a141e", "--validate"});
@@ -105,101 +72,6 @@ TEST_F(RenderPictureTest, ColoursFromTheTransferFunction) {
     EXPECT_GT(colour[2], 60);
     EXPECT_LT(colour[0], colour[2] / 2);
     EXPECT_EQ(colour[0], colour[1]);
-}
-
-/// Half in the head and half in the air before the face, 30 degrees from facing the eye.
-constexpr const char* kPlate = "v -40 0 -50\nv 40 -46 -50\nv 40 -46 60\nv -40 0 60\nf 1 2 3\nf 1 3 4\n";
-constexpr const char* kPlatePose = "1 0 0 0  0 1 0 -50  0 0 1 0  0 0 0 1\n";
-/// The same in the picture, but all in the air.
-constexpr const char* kAwayPose = "1 0 0 0  0 1 0 -150  0 0 1 0  0 0 0 1\n";
-
-class RenderShowTest : public RenderPictureTest {
-  protected:
-    void SetUp() override {
-        RenderPictureTest::SetUp();
-        writeText(path("plate.obj"), kPlate);
-        writeText(path("pose.txt"), kPlatePose);
-        writeText(path("camera.txt"), "0.0075 0 0 0\n0 0 -0.01 0\n0 0.002 0 0.5\n0 0 0 1\n");
-    }
-    [[nodiscard]] Arguments pair() const {
-        return {"--opacity", "50:0,200:1",     "--mesh",   path("plate.obj"),
-                "--poses",   path("pose.txt"), "--camera", path("camera.txt")};
-    }
-    PngPicture shown(const Arguments& more, const char* through = "1") {
-        Arguments all = pair();
-        all.insert(all.end(), {"--mesh-colour", "00ff00", "--through", through});
-        all.insert(all.end(), more.begin(), more.end());
-        EXPECT_EQ(output(render(path("a.png"), all)), "");
-        return readPng(path("a.png"));
-    }
-    /// The count that detect prints for the same pair, camera and size.
-    std::size_t detected(const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:32", "--size", "64x48", "--format", "csv"};
-        const Arguments same = pair();
-        all.insert(all.end(), same.begin(), same.end());
-        all.insert(all.end(), more.begin(), more.end());
-        const std::vector<std::string> lines = linesOf(output(all));
-        const std::vector<std::string> header = fieldsOf(lines.at(0));
-        const auto column = std::ranges::find(header, "count") - header.begin();
-        return std::stoul(fieldsOf(lines.at(1)).at(static_cast<std::size_t>(column)));
-    }
-};
-
-template <class Is> std::size_t pixelsThat(const PngPicture& picture, Is is) {
-    std::size_t count = 0;
-    for (int i = 0; i < picture.width * picture.height; ++i) {
-        const auto [red, green, blue] = pixel(picture, i % picture.width, i / picture.width);
-        count += is(red, green, blue) ? 1U : 0U;
-    }
-    return count;
-}
-
-bool isRed(int red, int green, int blue) {
-    return red > 2 * green && red > 2 * blue;
-}
-bool isBlue(int red, int green, int blue) {
-    return 2 * blue > 3 * red && 2 * blue > 3 * green;
-}
-
-TEST_F(RenderShowTest, ContactsAreWhatDetectCounts) {
-    for (const char* threshold : {"0.1", "0.4", "0.9"}) {
-        const std::size_t counted = detected({"--count", "query", "--threshold", threshold});
-        EXPECT_GT(counted, 20U);
-        EXPECT_EQ(pixelsThat(shown({"--show", "contacts", "--threshold", threshold, "--validate"}), isRed), counted);
-    }
-}
-
-TEST_F(RenderShowTest, DiscardedIsTheRestOfTheMesh) {
-    const std::size_t counted = detected({"--count", "query"});
-    writeText(path("pose.txt"), kAwayPose);
-    const std::size_t covered = pixelsThat(shown({"--show", "discarded"}), isBlue);
-    EXPECT_GT(covered, counted + 20);
-    writeText(path("pose.txt"), kPlatePose);
-    EXPECT_EQ(pixelsThat(shown({"--show", "discarded"}), isBlue), covered - counted);
-}
-
-TEST_F(RenderShowTest, TrianglesAreThoseThatTouchForCertain) {
-    // Both triangles touch, and are painted where they are in the air, too.
-    const std::size_t painted = pixelsThat(shown({"--show", "triangles", "--validate"}), isRed);
-    writeText(path("pose.txt"), kAwayPose);
-    EXPECT_EQ(pixelsThat(shown({"--show", "discarded"}), isBlue), painted);
-    EXPECT_EQ(pixelsThat(shown({"--show", "triangles"}), isRed), 0U);
-}
-
-TEST_F(RenderShowTest, TissueBeforeWhatIsPainted) {
-    const std::size_t bare = pixelsThat(shown({"--show", "contacts"}), isRed);
-    EXPECT_LT(pixelsThat(shown({"--show", "contacts"}, "0"), isRed), bare / 2);
-}
-
-TEST_F(RenderShowTest, ThresholdThatNothingReachesIsSaidAndDrawn) {
-    for (const char* what : {"contacts", "discarded", "triangles"}) {
-        const Ran ran = run(render(path("a.png"), {"--mesh", path("plate.obj"), "--opacity", "0:0,255:0.3", "--show",
-                                                   what, "--threshold", "0.4"}));
-        EXPECT_EQ(ran.status, 0);
-        EXPECT_THAT(ran.err, HasSubstr("no opacity of the transfer function reaches the threshold 0.4"));
-        EXPECT_EQ(linesOf(ran.err).size(), 1U);
-        EXPECT_EQ(pixelsThat(readPng(path("a.png")), isRed), 0U);
-    }
 }
 
 TEST_F(RenderPictureTest, ClippingTakesASideAway) {
@@ -340,132 +212,6 @@ TEST_F(RenderPictureTest, AnnotatedFrom320) {
     EXPECT_GT(dark, 100U);
 }
 
-/// Slices need no device.
-class RenderSliceTest : public CliTest {
-  protected:
-    PngPicture slice(const Arguments& more) {
-        EXPECT_EQ(output(render(path("a.png"), more)), "");
-        return readPng(path("a.png"));
-    }
-    static bool isGray(const PngPicture& picture) {
-        for (int i = 0; i < picture.width * picture.height; ++i) {
-            const auto [r, g, b] = pixel(picture, i % picture.width, i / picture.width);
-            if (r != g || g != b) {
-                return false;
-            }
-        }
-        return true;
-    }
-    /// The middle of what is green, left to right and top to bottom.
-    static std::pair<double, double> middleOfGreen(const PngPicture& picture) {
-        double x = 0;
-        double y = 0;
-        double count = 0;
-        for (int i = 0; i < picture.width * picture.height; ++i) {
-            const auto [r, g, b] = pixel(picture, i % picture.width, i / picture.width);
-            if (g > 2 * r && g > 2 * b) {
-                x += i % picture.width;
-                y += i / picture.width;
-                ++count;
-            }
-        }
-        EXPECT_GT(count, 0) << "nothing is green";
-        return {x / count, y / count};
-    }
-};
-
-TEST_F(RenderSliceTest, GrayPlanesOfTheVolume) {
-    for (const char* name : {"axial", "coronal:10", "sagittal", "view:5"}) {
-        const PngPicture gray = slice({"--slice", name});
-        EXPECT_TRUE(isGray(gray)) << name;
-        EXPECT_GT(pixelsOf(gray, {0, 0, 0}), 300U) << name;
-        EXPECT_LT(pixelsOf(gray, {0, 0, 0}), 2900U) << name;
-    }
-    EXPECT_EQ(slice({"--slice", "view:-20", "--view", "front"}).rgba, slice({"--slice", "coronal:20"}).rgba);
-    EXPECT_NE(slice({"--slice", "axial:0"}).rgba, slice({"--slice", "axial:30"}).rgba);
-    EXPECT_EQ(pixelsOf(slice({"--slice", "axial", "--window", "-2:-1"}), {255, 255, 255}) > 0, true);
-}
-
-TEST_F(RenderSliceTest, ValuesAreTheVolumes) {
-    // Values rise along x, from 0 to 100, 40 mm in 4 voxels; the window is 0 to 100.
-    writeText(path("v.mhd"), "ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementSpacing = 10 10 10\n"
-                             "Offset = -15 -15 -15\nElementType = MET_UCHAR\nElementDataFile = v.raw\n");
-    std::string voxels;
-    for (int i = 0; i < 64; ++i) {
-        voxels += static_cast<char>(20 + 20 * (i % 4));
-    }
-    writeText(path("v.raw"), voxels);
-    output({"render", "--volume", path("v.mhd"), "--slice", "axial:0", "--window", "0:100", "--size", "102x102",
-            "--output", path("a.png")});
-    const PngPicture seen = readPng(path("a.png"));
-    // 0.4 mm a pixel, the middle of the picture at x = 0: the value is 50 + 2 x.
-    for (const int x : {20, 35, 51, 70, 80}) {
-        const double mm = (x + 0.5 - 51) * 0.4 * 1.02 * 100 / 102;
-        EXPECT_NEAR(pixel(seen, x, 51)[0], 2.55 * (50 + 2 * mm), 3) << x;
-    }
-}
-
-TEST_F(RenderSliceTest, SidesAreWhereRadiologistsHaveThem) {
-    // A pyramid at the patient's left, front and top.
-    writeText(path("p.obj"), "v 20 -60 20\nv 60 -60 20\nv 60 -20 20\nv 20 -20 20\nv 40 -40 60\n"
-                             "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 1 2 3\nf 1 3 4\n");
-    const auto at = [&](const char* name) {
-        return middleOfGreen(slice({"--slice", name, "--mesh", path("p.obj"), "--mesh-colour", "00ff00"}));
-    };
-    // Seen from the feet, the face above: the left is at the right. No place given: through the mesh.
-    EXPECT_GT(at("axial").first, 32);
-    EXPECT_LT(at("axial").second, 24);
-    EXPECT_GT(at("coronal").first, 32);
-    EXPECT_LT(at("coronal").second, 24);
-    EXPECT_LT(at("sagittal").first, 32);
-    EXPECT_LT(at("sagittal").second, 24);
-}
-
-TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {
-    // Half in the head, half in the air before it.
-    writeText(path("plate.obj"), "v -30 -40 -20\nv 30 -40 -20\nv 30 -150 20\nv -30 -150 20\nf 1 2 3\nf 1 3 4\n");
-    const Arguments pair{"--slice",       "axial:0", "--mesh",    path("plate.obj"),
-                         "--mesh-colour", "00ff00",  "--opacity", "50:0,200:1"};
-    const auto with = [&](const Arguments& more) {
-        Arguments all = pair;
-        all.insert(all.end(), more.begin(), more.end());
-        return slice(all);
-    };
-    const auto red = [](int r, int g, int b) { return r > 2 * g && r > 2 * b; };
-    const auto green = [](int r, int g, int b) { return g > 2 * r && g > 2 * b; };
-    const auto blue = [](int r, int g, int b) { return 2 * b > 3 * r && 2 * b > 3 * g; };
-    EXPECT_EQ(pixelsThat(with({}), red), 0U);
-    EXPECT_GT(pixelsThat(with({}), green), 10U);
-    writeText(path("slant.txt"), "1 0 0 0  0 0 -1 -60  0 1 0 60  0 0 0 1\n");
-    const Arguments slanted{"--poses", path("slant.txt"), "--show"};
-    const auto shown = [&](const char* what) {
-        Arguments all = slanted;
-        all.emplace_back(what);
-        return with(all);
-    };
-    EXPECT_EQ(pixelsThat(shown("contacts"), blue), 0U);
-    EXPECT_GT(pixelsThat(shown("discarded"), blue) + pixelsThat(shown("discarded"), red), 5U);
-    EXPECT_EQ(pixelsThat(shown("discarded"), green), 0U);
-    EXPECT_GT(pixelsThat(shown("triangles"), red) + pixelsThat(shown("triangles"), green), 2U);
-}
-
-TEST_F(RenderSliceTest, WhatCannotBe) {
-    const std::string png = path("a.png");
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial:500"})),
-                AllOf(HasSubstr("--slice axial:500 is outside of the volume"), HasSubstr("to"), HasSubstr("mm")));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "view:-400"})), HasSubstr("outside of the volume"));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "oblique"})), HasSubstr("axial, coronal, sagittal or view"));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial:top"})), HasSubstr("no number of millimetres"));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--view", "left"})), HasSubstr("leave out --view"));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--clip", "left"})), HasSubstr("excludes"));
-    EXPECT_THAT(refused(2, render(png, {"--window", "0:1"})), HasSubstr("--window requires --slice"));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--window", "3:1"})), HasSubstr("LO below HI"));
-    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:16", "--slice", "axial", "--size", "100000x10",
-                            "--output", png}),
-                HasSubstr("beyond"));
-    EXPECT_EQ(filesInFolder(), 0U);
-}
-
 TEST_F(RenderPictureTest, SizeBeyondTheDevice) {
     EXPECT_THAT(refused(2, render(path("a.png"), {"--size", "1000000x10"})), HasSubstr("--size"));
     EXPECT_EQ(filesInFolder(), 0U);
@@ -510,6 +256,14 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
                 HasSubstr("--threshold requires --show"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--through", "0.2"})),
                 HasSubstr("--through requires --show"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--max-clearance", "5"})),
+                HasSubstr("--max-clearance requires --show"));
+    EXPECT_THAT(
+        refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "contacts", "--max-clearance", "5"})),
+        HasSubstr("--max-clearance is for --show clearance"));
+    EXPECT_THAT(
+        refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "clearance", "--max-clearance", "0"})),
+        HasSubstr("'0' is not a number above 0"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "triangles", "--through", "1.2"})),
                 HasSubstr("from 0 to 1"));
     EXPECT_EQ(filesInFolder(), 0U);

@@ -38,6 +38,9 @@ std::string blocking(Play& play) {
     const PaintedTriangles painted = play.ask("PaintedTriangles::upload", [&] {
         return PaintedTriangles::upload(renderer, queue, setting.mesh.triangles(), kPainted);
     });
+    const std::vector<Colour> reds(setting.meshData.positions.size() / 3, Colour{1, 0, 0});
+    const PaintedVertices coloured =
+        play.ask("PaintedVertices::upload", [&] { return PaintedVertices::upload(renderer, queue, reds); });
     std::string pictures;
     Scene scene = sceneOf(setting, function);
     const auto render = [&](VkExtent2D extent) {
@@ -49,6 +52,8 @@ std::string blocking(Play& play) {
     scene.bricks = &bricks;
     render({8, 6});
     scene.paint = {.what = Paint::Triangles, .triangles = &painted};
+    render({12, 4});
+    scene.paint = {.what = Paint::Vertices, .vertices = &coloured};
     render({12, 4});
     scene.normals = nullptr;
     scene.paint = {.what = Paint::Contacts, .transferFunction = &setting.function};

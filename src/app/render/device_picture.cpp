@@ -38,7 +38,8 @@ Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inpu
     }
     const ShownPairs pairs{inputs.volume, inputs.meshes, inputs.poses, inputs.transferFunction(options),
                            options.transferFunction.threshold};
-    Result<ShowObjects> show = makeShowObjects(options.show, pairs, inputs.clearance, options.progress, session, renderer);
+    Result<ShowObjects> show =
+        makeShowObjects(options.show, pairs, inputs.clearance, options.progress, session, renderer);
     VOXTACT_TRY(show);
     objects.show = std::move(*show);
     return {};

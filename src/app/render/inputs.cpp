@@ -160,9 +160,8 @@ Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
     const TransferFunctionDesc function = inputs.transferFunction(options);
     const double threshold = options.transferFunction.threshold;
     VOXTACT_TRY(noteWhereNothingIsOpaque(function, threshold));
-    Result<MeshClearance> measured =
-        measureMeshes({inputs.volume, inputs.meshes, inputs.poses, function, threshold}, shownMaximum(options),
-                      options.progress);
+    Result<MeshClearance> measured = measureMeshes({inputs.volume, inputs.meshes, inputs.poses, function, threshold},
+                                                   shownMaximum(options), options.progress);
     VOXTACT_TRY(measured);
     inputs.clearance = std::move(*measured);
     return {};

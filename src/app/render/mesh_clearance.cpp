@@ -17,8 +17,8 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr double kSteps = 20;           // of the colours, along an edge at most
-constexpr double kFinest = 400;         // parts of the maximum: what cannot be seen any more
+constexpr double kSteps = 20;   // of the colours, along an edge at most
+constexpr double kFinest = 400; // parts of the maximum: what cannot be seen any more
 constexpr std::size_t kPointsAtOnce = 4096;
 constexpr std::size_t kMostTriangles = 300'000;
 

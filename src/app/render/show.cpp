@@ -85,8 +85,8 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
         [](double part) { return part >= 0 && part <= 1; }, "from 0 to 1", "");
     addNumber(
         parser, "--max-clearance", [&options](double mm) { options.maximum = mm; },
-        "mm, with --show clearance: what is as far away has the last colour",
-        [](double mm) { return mm > 0; }, "above 0", "20");
+        "mm, with --show clearance: what is as far away has the last colour", [](double mm) { return mm > 0; },
+        "above 0", "20");
     parser.get_option("--max-clearance")->needs("--show");
     static_assert(kDefaultShownClearance == 20, "as the help says");
     parser.get_option("--show")->needs("--mesh");
@@ -110,8 +110,7 @@ Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs
     }
     if (clearance) {
         for (const std::vector<Colour>& colours : clearance->colours) {
-            Result<PaintedVertices> vertices =
-                PaintedVertices::upload(renderer, session.device.queueAccess(), colours);
+            Result<PaintedVertices> vertices = PaintedVertices::upload(renderer, session.device.queueAccess(), colours);
             VOXTACT_TRY(vertices);
             objects.vertices.push_back(std::move(*vertices));
         }
