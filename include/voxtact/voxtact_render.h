@@ -140,12 +140,33 @@ VXT_API void vxt_painted_triangles_release_staging(vxt_painted_triangles* painte
 /// Ends them.
 VXT_API void vxt_painted_triangles_destroy(vxt_painted_triangles* painted);
 
+/// The colours of a mesh's vertices that VXT_PAINT_VERTICES paints: voxtact::PaintedVertices.
+typedef struct vxt_painted_vertices vxt_painted_vertices;
+/// `colours`: red, green and blue of each vertex, 0..1; at least one vertex. Makes a staging buffer.
+VXT_CHECKED vxt_result vxt_painted_vertices_create(const vxt_renderer* renderer, const double* colours,
+                                                   size_t vertex_count, vxt_painted_vertices** painted);
+/// Makes and uploads them in one: submits on `queue` and waits. Blocks.
+VXT_CHECKED vxt_result vxt_painted_vertices_upload(const vxt_renderer* renderer, const vxt_queue* queue,
+                                                   const double* colours, size_t vertex_count,
+                                                   vxt_painted_vertices** painted);
+/// Colours that are on the device already: a uint for each vertex, red in its lowest 8 bits, then green and blue. The
+/// buffer must outlive this.
+VXT_CHECKED vxt_result vxt_painted_vertices_wrap(const vxt_renderer* renderer, const vxt_buffer_range* colours,
+                                                 vxt_painted_vertices** painted);
+/// Records the copy to the device.
+VXT_CHECKED vxt_result vxt_painted_vertices_cmd_upload(vxt_painted_vertices* painted, VkCommandBuffer commands);
+/// Frees the staging buffer. The submission of the upload must be complete.
+VXT_API void vxt_painted_vertices_release_staging(vxt_painted_vertices* painted);
+/// Ends them.
+VXT_API void vxt_painted_vertices_destroy(vxt_painted_vertices* painted);
+
 /// What a mesh shows of what is decided about it: voxtact::Paint.
 typedef enum vxt_paint {
     VXT_PAINT_PLAIN = 0,       ///< nothing
     VXT_PAINT_CONTACTS = 1,    ///< its survivors, as the projection VIEW counts them
     VXT_PAINT_DISCARDED = 2,   ///< its discarded fragments, and its survivors by their opacity
     VXT_PAINT_TRIANGLES = 3,   ///< chosen triangles
+    VXT_PAINT_VERTICES = 4,    ///< a colour of its own for each vertex
     VXT_PAINT_MAX = 0x7fffffff ///< makes the type 32 bits wide
 } vxt_paint;
 
@@ -161,9 +182,10 @@ typedef struct vxt_scene_mesh {
     double contact_colour[3];                       ///< of survivors and chosen triangles; default 1 0.23 0.08
     double discarded_colour[3];                     ///< DISCARDED: of what does not survive; default 0.16 0.36 0.88
     double threshold;                               ///< of CONTACTS and DISCARDED; 0..1; default 0.1
-    double through;   ///< 0..1: how much of what is painted is seen through the volume; default 0
-    vxt_paint paint;  ///< default PLAIN
-    uint32_t clipped; ///< by the clipping planes, as the volume is; default 0
+    double through;                       ///< 0..1: how much of what is painted is seen through the volume; default 0
+    vxt_paint paint;                      ///< default PLAIN
+    uint32_t clipped;                     ///< by the clipping planes, as the volume is; default 0
+    const vxt_painted_vertices* vertices; ///< for VERTICES
 } vxt_scene_mesh;
 
 /// What a clipping plane takes away: points p of world space with dot(normal, p) > offset.

@@ -39,6 +39,10 @@ struct vxt_painted_triangles {
     voxtact::PaintedTriangles object;
     voxtact::c::SharedErrors errors;
 };
+struct vxt_painted_vertices {
+    voxtact::PaintedVertices object;
+    voxtact::c::SharedErrors errors;
+};
 struct vxt_render_targets {
     voxtact::RenderTargets object;
     voxtact::c::SharedErrors errors;

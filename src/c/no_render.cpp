@@ -127,6 +127,27 @@ void vxt_painted_triangles_release_staging(vxt_painted_triangles*) {}
 
 void vxt_painted_triangles_destroy(vxt_painted_triangles*) {}
 
+vxt_result vxt_painted_vertices_create(const vxt_renderer*, const double*, size_t, vxt_painted_vertices** painted) {
+    return absent(kWhy, painted);
+}
+
+vxt_result vxt_painted_vertices_upload(const vxt_renderer*, const vxt_queue*, const double*, size_t,
+                                       vxt_painted_vertices** painted) {
+    return absent(kWhy, painted);
+}
+
+vxt_result vxt_painted_vertices_wrap(const vxt_renderer*, const vxt_buffer_range*, vxt_painted_vertices** painted) {
+    return absent(kWhy, painted);
+}
+
+vxt_result vxt_painted_vertices_cmd_upload(vxt_painted_vertices*, VkCommandBuffer) {
+    return absent(kWhy);
+}
+
+void vxt_painted_vertices_release_staging(vxt_painted_vertices*) {}
+
+void vxt_painted_vertices_destroy(vxt_painted_vertices*) {}
+
 vxt_result vxt_render_targets_create(const vxt_renderer*, uint32_t, uint32_t, vxt_render_targets** targets) {
     return absent(kWhy, targets);
 }

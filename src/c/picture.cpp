@@ -17,6 +17,7 @@ static_assert(VXT_PAINT_PLAIN == static_cast<int>(Paint::Plain));
 static_assert(VXT_PAINT_CONTACTS == static_cast<int>(Paint::Contacts));
 static_assert(VXT_PAINT_DISCARDED == static_cast<int>(Paint::Discarded));
 static_assert(VXT_PAINT_TRIANGLES == static_cast<int>(Paint::Triangles));
+static_assert(VXT_PAINT_VERTICES == static_cast<int>(Paint::Vertices));
 
 SceneMesh toSceneMesh(const vxt_scene_mesh& given) {
     SceneMesh out;
@@ -28,6 +29,7 @@ SceneMesh toSceneMesh(const vxt_scene_mesh& given) {
                  .transferFunction = objectOf(given.transfer_function),
                  .threshold = given.threshold,
                  .triangles = objectOf(given.triangles),
+                 .vertices = objectOf(given.vertices),
                  .contactColour = toColour(given.contact_colour),
                  .discardedColour = toColour(given.discarded_colour),
                  .through = given.through};

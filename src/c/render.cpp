@@ -36,6 +36,17 @@ class RenderFunctionOf {
     std::vector<ColourPoint> colours_;
 };
 
+/// `colours`: three numbers for each vertex.
+std::vector<Colour> vertexColours(const double* colours, std::size_t vertices) {
+    const std::span<const double> numbers = toSpan(colours, 3 * vertices, "colours");
+    std::vector<Colour> out;
+    out.reserve(vertices);
+    for (std::size_t at = 0; at < numbers.size(); at += 3) {
+        out.push_back({numbers[at], numbers[at + 1], numbers[at + 2]});
+    }
+    return out;
+}
+
 /// Makes an object with a renderer.
 template <class Handle, class Body>
 vxt_result createWith(const vxt_renderer* renderer, Handle** out, const Body& body) noexcept {
@@ -163,6 +174,42 @@ void vxt_painted_triangles_release_staging(vxt_painted_triangles* painted) {
 }
 
 void vxt_painted_triangles_destroy(vxt_painted_triangles* painted) {
+    delete painted;
+}
+
+vxt_result vxt_painted_vertices_create(const vxt_renderer* renderer, const double* colours, size_t vertex_count,
+                                       vxt_painted_vertices** painted) {
+    return createWith(renderer, painted, [&](const Renderer& with) {
+        return PaintedVertices::create(with, vertexColours(colours, vertex_count));
+    });
+}
+
+vxt_result vxt_painted_vertices_upload(const vxt_renderer* renderer, const vxt_queue* queue, const double* colours,
+                                       size_t vertex_count, vxt_painted_vertices** painted) {
+    return createWith(renderer, painted, [&](const Renderer& with) {
+        return PaintedVertices::upload(with, toQueue(queue), vertexColours(colours, vertex_count));
+    });
+}
+
+vxt_result vxt_painted_vertices_wrap(const vxt_renderer* renderer, const vxt_buffer_range* colours,
+                                     vxt_painted_vertices** painted) {
+    return createWith(renderer, painted, [&](const Renderer& with) {
+        const vxt_buffer_range& given = need(colours, "colours");
+        return PaintedVertices::wrap(with, {given.buffer, given.offset, given.size});
+    });
+}
+
+vxt_result vxt_painted_vertices_cmd_upload(vxt_painted_vertices* painted, VkCommandBuffer commands) {
+    return call(painted, [&] { take(need(painted, "painted").object.cmdUpload(commands)); });
+}
+
+void vxt_painted_vertices_release_staging(vxt_painted_vertices* painted) {
+    if (painted != nullptr) {
+        painted->object.releaseStaging();
+    }
+}
+
+void vxt_painted_vertices_destroy(vxt_painted_vertices* painted) {
     delete painted;
 }
 

@@ -114,6 +114,7 @@ TEST(CLooks, NothingIsRefusedAndEnded) {
     vxt_mesh_normals* normals = nullptr;
     vxt_render_bricks* bricks = nullptr;
     vxt_painted_triangles* painted = nullptr;
+    vxt_painted_vertices* vertices = nullptr;
     vxt_render_targets* targets = nullptr;
     vxt_blocking_renderer* blocking = nullptr;
     EXPECT_EQ(text(vxt_renderer_create(nullptr, VK_FORMAT_R8G8B8A8_UNORM, &renderer)), "context is null");
@@ -130,6 +131,10 @@ TEST(CLooks, NothingIsRefusedAndEnded) {
     EXPECT_EQ(text(vxt_painted_triangles_upload(nullptr, nullptr, 1, nullptr, 0, &painted)), "renderer is null");
     EXPECT_EQ(text(vxt_painted_triangles_wrap(nullptr, nullptr, &painted)), "renderer is null");
     EXPECT_EQ(text(vxt_painted_triangles_cmd_upload(nullptr, VK_NULL_HANDLE)), "painted is null");
+    EXPECT_EQ(text(vxt_painted_vertices_create(nullptr, nullptr, 0, &vertices)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_vertices_upload(nullptr, nullptr, nullptr, 0, &vertices)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_vertices_wrap(nullptr, nullptr, &vertices)), "renderer is null");
+    EXPECT_EQ(text(vxt_painted_vertices_cmd_upload(nullptr, VK_NULL_HANDLE)), "painted is null");
     EXPECT_EQ(text(vxt_render_targets_create(nullptr, 1, 1, &targets)), "renderer is null");
     EXPECT_EQ(text(vxt_renderer_cmd_render(nullptr, VK_NULL_HANDLE, nullptr, nullptr)), "renderer is null");
     EXPECT_EQ(text(vxt_blocking_renderer_create(nullptr, nullptr, &blocking)), "context is null");
@@ -148,6 +153,8 @@ TEST(CLooks, NothingIsRefusedAndEnded) {
     vxt_render_bricks_destroy(nullptr);
     vxt_painted_triangles_release_staging(nullptr);
     vxt_painted_triangles_destroy(nullptr);
+    vxt_painted_vertices_release_staging(nullptr);
+    vxt_painted_vertices_destroy(nullptr);
     vxt_render_targets_destroy(nullptr);
     vxt_picture_destroy(nullptr);
     vxt_blocking_renderer_destroy(nullptr);

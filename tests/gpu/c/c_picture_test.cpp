@@ -73,6 +73,10 @@ class CPictures : public CGpuTest {
         painted_ = made<vxt_painted_triangles>(vxt_painted_triangles_destroy, [&](auto out) {
             return vxt_painted_triangles_upload(renderer(), &queue_, 2, &chosen, 1, out);
         });
+        const std::vector<Colour> colours = vertexColours();
+        vertices_ = made<vxt_painted_vertices>(vxt_painted_vertices_destroy, [&](auto out) {
+            return vxt_painted_vertices_upload(renderer(), &queue_, colours.front().data(), colours.size(), out);
+        });
         mesh_.mesh = sides_->mesh.get();
         mesh_.normals = normals_.get();
         mesh_.transfer_function = sides_->function.get();
@@ -97,6 +101,14 @@ class CPictures : public CGpuTest {
         c_.jitter = 0;
     }
 
+    [[nodiscard]] std::vector<Colour> vertexColours() const {
+        std::vector<Colour> colours;
+        for (std::size_t i = 0; i < scene_.mesh.positions.size() / 3; ++i) {
+            colours.push_back({0.25 * static_cast<double>(i % 5), 0.5, 1 - 0.25 * static_cast<double>(i % 4)});
+        }
+        return colours;
+    }
+
     /// What of the C++ interface the scene looks at.
     struct CppParts {
         BlockingRenderer blocking;
@@ -107,6 +119,7 @@ class CPictures : public CGpuTest {
         RenderBricks bricks;
         MeshNormals normals;
         PaintedTriangles painted;
+        PaintedVertices vertices;
         SceneMesh sceneMesh;
         ClipPlane plane;
     };
@@ -125,6 +138,7 @@ class CPictures : public CGpuTest {
                                      std::move(bricks),
                                      take(MeshNormals::upload(with, queue(), scene_.mesh.view())),
                                      take(PaintedTriangles::upload(with, queue(), 2, chosen)),
+                                     take(PaintedVertices::upload(with, queue(), vertexColours())),
                                      {},
                                      {{1, 1, 0}, 1.4}});
         CppParts& parts = *cppParts_;
@@ -178,6 +192,7 @@ class CPictures : public CGpuTest {
     Owned<vxt_render_bricks> bricks_{nullptr, vxt_render_bricks_destroy};
     Owned<vxt_mesh_normals> normals_{nullptr, vxt_mesh_normals_destroy};
     Owned<vxt_painted_triangles> painted_{nullptr, vxt_painted_triangles_destroy};
+    Owned<vxt_painted_vertices> vertices_{nullptr, vxt_painted_vertices_destroy};
     vxt_scene_mesh mesh_ = vxt_scene_mesh_init();
     vxt_clip_plane plane_{{1, 1, 0}, 1.4};
     vxt_lighting lighting_ = vxt_lighting_init();
@@ -190,11 +205,14 @@ class CPictures : public CGpuTest {
 
 TEST_F(CPictures, AreTheCppInterfacesWithEveryPaint) {
     std::vector<std::vector<std::uint8_t>> all;
-    for (const vxt_paint paint : {VXT_PAINT_PLAIN, VXT_PAINT_CONTACTS, VXT_PAINT_DISCARDED, VXT_PAINT_TRIANGLES}) {
+    for (const vxt_paint paint :
+         {VXT_PAINT_PLAIN, VXT_PAINT_CONTACTS, VXT_PAINT_DISCARDED, VXT_PAINT_TRIANGLES, VXT_PAINT_VERTICES}) {
         mesh_.paint = paint;
         mesh_.triangles = paint == VXT_PAINT_TRIANGLES ? painted_.get() : nullptr;
+        mesh_.vertices = paint == VXT_PAINT_VERTICES ? vertices_.get() : nullptr;
         cppParts_->sceneMesh.paint.what = static_cast<Paint>(paint);
         cppParts_->sceneMesh.paint.triangles = paint == VXT_PAINT_TRIANGLES ? &cppParts_->painted : nullptr;
+        cppParts_->sceneMesh.paint.vertices = paint == VXT_PAINT_VERTICES ? &cppParts_->vertices : nullptr;
         all.push_back(byC());
         EXPECT_THAT(all.back(), ElementsAreArray(byCpp())) << "paint " << paint;
     }
@@ -254,6 +272,38 @@ TEST_F(CPictures, TellHowFarTheyAre) {
     EXPECT_EQ(byC(hear, &heard), expected);
     EXPECT_EQ(heard.done, kHeight);
     EXPECT_GE(heard.calls, 2U);
+}
+
+TEST_F(CPictures, VerticesAreRecordedOrWrapped) {
+    const std::vector<Colour> colours = vertexColours();
+    mesh_.paint = VXT_PAINT_VERTICES;
+    mesh_.vertices = vertices_.get();
+    const std::vector<std::uint8_t> expected = byC();
+    const auto recorded = made<vxt_painted_vertices>(vxt_painted_vertices_destroy, [&](auto out) {
+        return vxt_painted_vertices_create(renderer(), colours.front().data(), colours.size(), out);
+    });
+    RawVulkan raw(gpu().device);
+    const VkCommandBuffer commands = raw.begin();
+    need(vxt_painted_vertices_cmd_upload(recorded.get(), commands));
+    raw.submitAndWait(commands);
+    vxt_painted_vertices_release_staging(recorded.get());
+    mesh_.vertices = recorded.get();
+    EXPECT_EQ(byC(), expected);
+    std::vector<std::uint32_t> words;
+    for (const Colour& colour : colours) {
+        words.push_back(static_cast<std::uint32_t>(std::lround(255 * colour[0])) |
+                        static_cast<std::uint32_t>(std::lround(255 * colour[1])) << 8U |
+                        static_cast<std::uint32_t>(std::lround(255 * colour[2])) << 16U);
+    }
+    const RawVulkan::HostBuffer buffer =
+        raw.makeBuffer(std::span<const std::uint32_t>(words), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const vxt_buffer_range range{buffer.buffer, 0, 4 * words.size()};
+    const auto wrapped = made<vxt_painted_vertices>(
+        vxt_painted_vertices_destroy, [&](auto out) { return vxt_painted_vertices_wrap(renderer(), &range, out); });
+    mesh_.vertices = wrapped.get();
+    EXPECT_EQ(byC(), expected);
+    mesh_.vertices = nullptr;
+    EXPECT_THAT(refused(), HasSubstr("no colours of vertices"));
 }
 
 TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
