@@ -15,6 +15,7 @@ The exit status is 1 when fewer than PERCENT (97) of those that are not equivale
 not fit the sources.
 """
 import argparse
+import fnmatch
 import os
 import pathlib
 import shutil
@@ -111,6 +112,25 @@ def noticed(test):
     return failure(test) is not None
 
 
+def check_names(tests):
+    """A test that got another name would judge nothing any more."""
+    listed = {}
+    for test in sorted(tests):
+        name, _, patterns = test.partition(":")
+        if name not in listed:
+            run = subprocess.run([str(program(name)), "--gtest_list_tests"], capture_output=True, text=True, check=True)
+            suite = ""
+            listed[name] = []
+            for line in run.stdout.splitlines():
+                line = line.partition("#")[0].rstrip()
+                suite = line if not line.startswith(" ") else suite
+                if line.startswith(" "):
+                    listed[name].append(suite + line.strip())
+        for pattern in filter(None, patterns.split(":")):
+            if not fnmatch.filter(listed[name], pattern):
+                fail(f"{test}: no test is called {pattern}")
+
+
 def targets_of(mutants):
     return {test.partition(":")[0] for mutant in mutants for test in mutant["tests"]}
 
@@ -128,7 +148,9 @@ def prepare(mutants):
     built = build(targets_of(mutants))
     if built.returncode != 0:
         fail(f"the sources do not build as they are:\n{built.stdout[-3000:]}")
-    for test in sorted({test for mutant in mutants for test in mutant["tests"]}):
+    tests = {test for mutant in mutants for test in mutant["tests"]}
+    check_names(tests)
+    for test in sorted(tests):
         said = failure(test)
         if said is not None:
             fail(f"{test} fails without any mutant:\n{said}")
