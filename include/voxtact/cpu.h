@@ -88,6 +88,13 @@ class Mesh {
     VOXTACT_API ~Mesh();
     /// What checkMesh() found.
     [[nodiscard]] VOXTACT_API const MeshFacts& facts() const noexcept;
+
+    /// Bends it: vertices come elsewhere, three coordinates each in the order of MeshView::positions, and triangles
+    /// stay between them. The next call sees it; none may use the mesh meanwhile. Counts and outputs are those of a
+    /// mesh that is made afresh; what is faster is that triangles stay in their clusters, whose boxes are fitted to
+    /// them: where neighbours go far apart, a mesh made afresh is faster to ask. O(vertices + triangles). Refuses
+    /// another number of coordinates and what checkMesh() refuses; the mesh is then as it was.
+    [[nodiscard]] VOXTACT_API Result<void> update(std::span<const float> positions);
     [[nodiscard]] const MeshImpl& impl() const noexcept { return *impl_; }
 
   private:

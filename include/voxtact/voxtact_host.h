@@ -44,6 +44,9 @@ VXT_CHECKED vxt_result vxt_host_mesh_create(const vxt_mesh_view* view, vxt_host_
 VXT_CHECKED vxt_result vxt_host_mesh_facts(const vxt_host_mesh* mesh, vxt_mesh_facts* facts);
 /// Ends it.
 VXT_API void vxt_host_mesh_destroy(vxt_host_mesh* mesh);
+/// Bends it: `vertex_count` vertices of three coordinates, as many as it has, come elsewhere; triangles stay between
+/// them. No other call may use the mesh meanwhile. Refused, it is as it was: voxtact::cpu::Mesh::update().
+VXT_CHECKED vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const float* positions, size_t vertex_count);
 
 /// Ends calls of the host engine early: those whose batch or task has it soon return CANCELLED once it is set, and at
 /// once where it was set before. Setting it is safe from any thread while calls look at it.

@@ -72,6 +72,11 @@ void vxt_host_mesh_destroy(vxt_host_mesh* mesh) {
     delete mesh;
 }
 
+vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const float* positions, size_t vertex_count) {
+    return call(
+        [&] { take(need(mesh, "mesh").object.update(toSpan(positions, std::size_t{3} * vertex_count, "positions"))); });
+}
+
 vxt_result vxt_cancel_create(vxt_cancel** cancel) {
     return call([&] {
         vxt_cancel*& place = need(cancel, "the place for the new object");

@@ -132,6 +132,22 @@ TEST_F(CHostEdit, EditsAreSeenByTheNextAnswer) {
     EXPECT_EQ(vxt_host_volume_set_box(both_->cVolumeHandle.get(), &box, 256), VXT_ERROR_INVALID_ARGUMENT);
 }
 
+TEST_F(CHostEdit, ABentMeshIsSeenByTheNextAnswer) {
+    std::vector<float> positions = scene_.mesh.positions;
+    for (std::size_t at = 0; at < positions.size(); at += 3) {
+        positions[at] *= 0.3F;
+    }
+    const std::uint64_t before = byC().pairs[0].count;
+    need(vxt_host_mesh_update(both_->cMeshHandle.get(), positions.data(), positions.size() / 3));
+    take(both_->mesh.update(positions));
+    EXPECT_NE(byC().pairs[0].count, before);
+    EXPECT_EQ(wholeDifferenceOf(byC(), byCpp()), "");
+    EXPECT_EQ(vxt_host_mesh_update(both_->cMeshHandle.get(), positions.data(), 3), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_host_mesh_update(both_->cMeshHandle.get(), nullptr, 4), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_host_mesh_update(nullptr, positions.data(), 4), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(wholeDifferenceOf(byC(), byCpp()), "");
+}
+
 TEST_F(CHostEdit, AFailureLeavesTheAnswerAsItWas) {
     const Owned<vxt_answer> answer = newAnswer();
     vxt_host_item item = vxt_host_item_init();

@@ -100,6 +100,10 @@ TEST_F(Memory, OfWhatAScenesPartsAreMadeOf) {
     const vxt_mesh_view mesh = cMesh(scene_.mesh);
     expectTightCreation<vxt_host_mesh>("mesh", vxt_host_mesh_destroy,
                                        [&](auto out) { return vxt_host_mesh_create(&mesh, out); });
+    const std::size_t vertices = scene_.mesh.positions.size() / 3;
+    expectTight(
+        "bending a mesh",
+        [&] { return vxt_host_mesh_update(both_.cMeshHandle.get(), scene_.mesh.positions.data(), vertices); }, [] {});
     const std::vector<vxt_control_point> points = cPoints(scene_.points);
     const vxt_transfer_function_desc function = cFunction(points, scene_.domain, 256);
     expectTightCreation<vxt_host_transfer_function>(

@@ -2,11 +2,12 @@
 #include "cpu/scene/cluster_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voxtact::cpu {
 
-ClusterTree::ClusterTree(const MeshView& mesh, const MeshClusters& clusters) {
-    std::vector<RunBox> level = runBoxes(mesh, clusters);
+ClusterTree::ClusterTree(std::vector<RunBox> runs) {
+    std::vector<RunBox> level = std::move(runs);
     levels_.push_back(level);
     while (level.size() > kFanOut) {
         std::vector<RunBox> above;

@@ -21,7 +21,8 @@ class ClusterTree {
     static_assert(kRunsOfCluster == kFanOut, "clusters are a level of their own");
 
     ClusterTree() = default;
-    ClusterTree(const MeshView& mesh, const MeshClusters& clusters);
+    /// `runs`: the boxes of all runs, cluster by cluster.
+    explicit ClusterTree(std::vector<RunBox> runs);
 
     /// Calls `visit(run)` for the runs of the clusters [begin, end) in order, without those below a box that
     /// `keep(box)` is false for; run `r` is the (r % kRunsOfCluster)th of cluster r / kRunsOfCluster. Stops when

@@ -90,4 +90,19 @@ const MeshFacts& Mesh::facts() const noexcept {
     return impl_->facts;
 }
 
+Result<void> Mesh::update(std::span<const float> positions) {
+    return guard([&]() -> Result<void> {
+        if (positions.size() != std::size_t{3} * impl_->facts.vertices) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "the update has " + std::to_string(positions.size()) + " coordinates, the mesh has " +
+                             std::to_string(impl_->facts.vertices) + " vertices of three"};
+        }
+        const std::vector<std::uint32_t> indices = impl_->indices();
+        const Result<MeshFacts> facts = checkMesh({positions, indices});
+        VOXTACT_TRY(facts);
+        impl_->bend(positions, *facts);
+        return {};
+    });
+}
+
 } // namespace voxtact::cpu

@@ -6,6 +6,7 @@
 #include "cpu/scene/stored_image.h"
 #include "voxtact/cpu.h"
 
+#include <span>
 #include <vector>
 
 namespace voxtact::cpu {
@@ -51,10 +52,16 @@ struct ClusterPlace {
 struct MeshImpl {
     MeshImpl(const MeshView& data, const MeshFacts& checked);
 
-    std::uint64_t id = nextObjectId();
+    /// The mesh's own indices, as it was made from.
+    [[nodiscard]] std::vector<std::uint32_t> indices() const;
+    /// Puts its vertices elsewhere; `checked` is of these. What it throws leaves it as it was.
+    void bend(std::span<const float> positions, const MeshFacts& checked);
+
+    std::uint64_t id = nextObjectId(); ///< another one after every update
     MeshFacts facts;
     std::vector<ClusterPlace> clusters;
     std::vector<float> x, y, z;                          ///< vertices, cluster by cluster; the padding repeats the last
+    std::vector<std::uint32_t> vertices;                 ///< of x, y and z: numbers in the mesh
     std::vector<std::uint8_t> corner0, corner1, corner2; ///< of triangles: vertices of the cluster; padding: all 0
     std::vector<std::uint32_t> numbers;                  ///< of triangles in the mesh; of the padding: kNoTriangle
     /// Centres and half sides of the clusters' boxes, padded to kMeshAlignment. Rounded outward.
