@@ -32,6 +32,8 @@ target along which there is an entry within the limits:
   crosses                      the labels that its axis goes through, from the entry on
   target                       the target's label, its name in --targets, or its number, from 1
 
+Where the image ends within what is opaque, as at a neck, no path begins, unless --border-entries is given.
+
 A builtin needle is round and solid. A mesh needs --tip and --axis, and counts by its surface. --summary and --report
 say how many paths are safe, which is the best one, and for a needle the area of the patches all of whose paths certainly
 are safe, not only those of the rows.

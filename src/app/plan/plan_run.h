@@ -42,9 +42,10 @@ struct PlanOptions {
     std::uint32_t entries = 10000;
     LabelWord entryLabel;
     std::optional<double> entryRadius; ///< mm
-    std::optional<double> longest;     ///< mm
-    std::optional<double> steepest;    ///< degrees
-    double margin = 0;                 ///< mm
+    bool borderEntries = false;
+    std::optional<double> longest;  ///< mm
+    std::optional<double> steepest; ///< degrees
+    double margin = 0;              ///< mm
     double tolerance = kDefaultPlanTolerance;
     double maximum = kDefaultPlanMaximum;
     std::uint32_t threads = 0;
