@@ -55,11 +55,12 @@ def test_plans_are_those_of_the_program(files, planned, ways):
 
 
 def test_entries_where_the_image_ends(files, planned):
-    cut = vx.Scene(np.full((9, 9, 9), 200, dtype=np.uint8), opacity=[(99, 0), (101, 1)])
+    full = vx.read_volume(np.full((9, 9, 9), 200, dtype=np.uint8), affine=np.eye(4), space="lps")
+    cut = vx.Scene(full, opacity=[(99, 0), (101, 1)])
     wish = {"avoid_opacity": [(254, 0), (255, 1)], "entries": 162}
     with pytest.raises(vx.InvalidArgumentError, match="162 enter where the image ends"):
-        cut.plan((0, 0, 0), **wish)
-    assert len(cut.plan((0, 0, 0), border_entries=True, **wish)) == 162
+        cut.plan((4, 4, 4), **wish)
+    assert len(cut.plan((4, 4, 4), border_entries=True, **wish)) == 162
     assert planned.plan(TARGET, avoid=[3], entries=162).left_out["on_border"] == 0
 
 

@@ -98,11 +98,12 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
     addPath(parser, "--by-target", options->byTarget,
             "a CSV file with a row for each target: how many paths are safe, the area, the best path");
     addPath(parser, "--surface", options->surface,
-            "a .ply file for the entries and the triangles between them, in colours; of one target");
+            "a .ply file for the entries and the triangles between them, in colours; of several targets a path with "
+            "{target}, which becomes the target's name");
     addPath(
         parser, "--heat-map", options->heatMap,
         "a volume (.nii.gz, .nii, .nrrd, .mha) on the grid of --volume: the mm that every path which enters through a "
-        "voxel certainly keeps, -1 where none does; of one target");
+        "voxel certainly keeps, -1 where none does; of several targets a path with {target}");
     addPath(parser, "--picture", options->picture,
             "a .png file: the head with the entries in colours and the best path, from outside and cut open; needs a "
             "Vulkan device");

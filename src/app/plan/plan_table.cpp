@@ -180,6 +180,19 @@ io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans,
     return out;
 }
 
+void writePlanTable(std::ostream& out, io::Format format, const PlanInputs& inputs, std::span<const TargetPlan> plans,
+                    bool timing) {
+    const io::Table rows = planTable(inputs, plans, timing);
+    io::TableWriter writer(out, format);
+    writer.add(rows);
+    if (format == io::Format::Json) {
+        writer.beginArray(kByTarget);
+        writer.add(targetTable(inputs, plans));
+    }
+    const io::TableEnd end{"timing", rows.timing};
+    writer.end({&end, 1});
+}
+
 io::Table targetTable(const PlanInputs& inputs, std::span<const TargetPlan> plans) {
     io::Table out;
     out.columns = {kTargetColumns.begin(), kTargetColumns.end()};
