@@ -298,6 +298,9 @@ struct EntrySurface {
     const LabelData* labels = nullptr;                  ///< instead of a volume: of a label
     std::int32_t label = 0;                             ///< that one
     double radius = 0;                                  ///< mm, instead of both: of a ball around the target
+    /// Paths may begin where the image ends within what is opaque, or within the label, too. There it is the image that
+    /// was cut, as a scan of a head is at the neck, and nobody knows what lies before the entry.
+    bool borderEntries = false;
 };
 
 /// An instrument that is a mesh. Its surface alone counts, as everywhere.

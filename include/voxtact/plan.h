@@ -77,6 +77,7 @@ struct PlanAnswer {
     double safeArea = 0;                  ///< mm2 of the safe ones
     std::uint32_t directions = 0;         ///< that were looked along
     std::uint32_t noSurface = 0;          ///< of them, those along which there is no surface to enter through
+    std::uint32_t onBorder = 0;           ///< of the others, those where the image ends (EntrySurface::borderEntries)
     std::uint32_t tooLong = 0;            ///< of the others, those that are longer than the maximum
     std::uint32_t tooOblique = 0;         ///< of the others, those at a larger angle than the maximum, or at none
     double wallMilliseconds = 0;          ///< of the whole call

@@ -58,7 +58,7 @@ typedef struct vxt_plan_task {
     uint32_t has_max_angle; ///< default 0: at any angle, and where the surface has no normal
     uint32_t entries;       ///< directions: the least 10 n^2 + 2 that is no fewer; default 1002
     int32_t entry_label;    ///< of entry_labels
-    uint32_t reserved;      ///< 0
+    uint32_t border_entries; ///< 1: paths may begin where the image ends within the thing, too; default 0
 } vxt_plan_task;
 
 /// What a planner is made for: voxtact::cpu::PlannerDesc.
@@ -110,6 +110,8 @@ typedef struct vxt_plan_view {
     uint32_t no_surface;                 ///< of them, those along which there is no surface to enter through
     uint32_t too_long;                   ///< of the others, those that are longer than the maximum
     uint32_t too_oblique;                ///< of the others, those at a larger angle than the maximum, or at none
+    uint32_t on_border;                  ///< of those with a surface, those where the image ends
+    uint32_t reserved;                   ///< 0
 } vxt_plan_view;
 
 /// No labels, and the threshold 0.1.

@@ -59,7 +59,8 @@ class TaskOf {
                         .threshold = given_.entry_threshold,
                         .labels = objectOf(given_.entry_labels),
                         .label = given_.entry_label,
-                        .radius = given_.entry_radius};
+                        .radius = given_.entry_radius,
+                        .borderEntries = given_.border_entries != 0};
         task.obstacles = obstacles_;
         task.needle = {given_.needle_diameter, given_.needle_length};
         if (given_.mesh != nullptr) {
@@ -138,6 +139,7 @@ vxt_result vxt_plan_get(const vxt_plan* plan, vxt_plan_view* view) {
         out.wall_milliseconds = from.totals.wallMilliseconds;
         out.directions = from.totals.directions;
         out.no_surface = from.totals.noSurface;
+        out.on_border = from.totals.onBorder;
         out.too_long = from.totals.tooLong;
         out.too_oblique = from.totals.tooOblique;
         writeStruct(view, out, "view");

@@ -199,6 +199,7 @@ PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelDat
     cpu::PlanTask task;
     task.target = wish.target;
     task.surface.entries = wish.entries;
+    task.surface.borderEntries = wish.borderEntries;
     if (wish.entryRadius) {
         task.surface.radius = *wish.entryRadius;
     } else if (wish.entryLabel) {

@@ -56,6 +56,8 @@ void read(PlanWish& wish, const std::string& name, const py::handle& value) {
         wish.entryLabel = value.cast<std::int32_t>();
     } else if (name == "entry_radius") {
         wish.entryRadius = value.cast<double>();
+    } else if (name == "border_entries") {
+        wish.borderEntries = value.cast<bool>();
     } else if (name == "margin") {
         wish.margin = value.cast<double>();
     } else if (name == "max_length") {
@@ -111,6 +113,7 @@ void definePlans(py::module_& module) {
         .def_property_readonly("safe_area", total(&PlanAnswer::safeArea))
         .def_property_readonly("directions", total(&PlanAnswer::directions))
         .def_property_readonly("no_surface", total(&PlanAnswer::noSurface))
+        .def_property_readonly("on_border", total(&PlanAnswer::onBorder))
         .def_property_readonly("too_long", total(&PlanAnswer::tooLong))
         .def_property_readonly("too_oblique", total(&PlanAnswer::tooOblique))
         .def_property_readonly("milliseconds", total(&PlanAnswer::wallMilliseconds))

@@ -32,6 +32,7 @@ struct PlanWish {
     std::uint32_t entries = cpu::EntrySurface().entries;
     std::optional<std::int32_t> entryLabel;
     std::optional<double> entryRadius;
+    bool borderEntries = false;
     double margin = 0;
     std::optional<double> longest;
     std::optional<double> steepest;

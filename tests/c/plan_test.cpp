@@ -70,10 +70,11 @@ void expectSame(const vxt_plan_view& c, const PlanAnswer& cpp, Tally& tally) {
     EXPECT_EQ(c.safe_area, cpp.safeArea);
     EXPECT_EQ(c.directions, cpp.directions);
     EXPECT_EQ(c.no_surface, cpp.noSurface);
+    EXPECT_EQ(c.on_border, cpp.onBorder);
     EXPECT_EQ(c.too_long, cpp.tooLong);
     EXPECT_EQ(c.too_oblique, cpp.tooOblique);
     EXPECT_GE(c.wall_milliseconds, 0);
-    tally.leftOut += cpp.noSurface + cpp.tooLong + cpp.tooOblique;
+    tally.leftOut += cpp.noSurface + cpp.onBorder + cpp.tooLong + cpp.tooOblique;
 }
 
 /// A ball of 10 mm around the middle of 24 mm, with a denser ball of 3 mm and a label of 4 mm in it.
@@ -218,6 +219,20 @@ TEST_F(Plans, EntriesOfALabelAndOfABallAndAMeshAreTheCppInterfaces) {
     expectTheSame(tally);
     EXPECT_GT(tally.safe, 0U);
     EXPECT_GT(tally.unsafe, 0U);
+}
+
+TEST_F(Plans, EntriesWhereTheImageEndsAreTheCppInterfaces) {
+    // What has no label is cut by the image all around.
+    noSurface();
+    cpp_.surface.labels = &both_.labels;
+    cpp_.surface.label = c_.entry_label = 0;
+    c_.entry_labels = both_.cLabels.get();
+    EXPECT_THAT(refused(), HasSubstr("362 enter where the image ends"));
+    cpp_.surface.borderEntries = true;
+    c_.border_entries = 1;
+    Tally tally;
+    expectTheSame(tally);
+    EXPECT_EQ(tally.leftOut, 0U);
 }
 
 TEST_F(Plans, RefuseWhatTheCppInterfaceRefuses) {

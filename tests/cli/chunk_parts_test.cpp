@@ -2,6 +2,7 @@
 // The parts of a run in chunks: how it is cut and dealt, how contents are told apart, files that are whole or not.
 #include "app/chunks/chunk_cut.h"
 #include "app/chunks/content_hash.h"
+#include "app/chunks/frames.h"
 #include "app/chunks/run_folder.h"
 #include "app/chunks/sealed_file.h"
 #include "app/mpi/chunk_deck.h"
@@ -58,6 +59,56 @@ TEST(ContentHash, TellsApartWhatIsAlmostTheSame) {
     seen.insert(hashOf("1234567887654321"));
     seen.insert(hashOf("8765432112345678"));
     EXPECT_EQ(seen.size(), different + 2);
+}
+
+TEST(Frames, AreToldApartHoweverTheyCome) {
+    const auto seed = std::random_device()();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::vector<std::string> files;
+    std::string framed;
+    for (const std::size_t length :
+         {std::size_t{3}, std::size_t{0}, std::size_t{400}, std::size_t{1}, std::size_t{0}}) {
+        files.emplace_back(length, static_cast<char>('a' + files.size()));
+        framed += frameHead(length) + files.back();
+    }
+    for (int way = 0; way < 50; ++way) {
+        std::vector<std::string> found;
+        std::size_t ended = 0;
+        FrameReader reader({[&]() -> Result<void> {
+                                found.emplace_back();
+                                return {};
+                            },
+                            [&](std::string_view part) -> Result<void> {
+                                found.back() += part;
+                                return {};
+                            },
+                            [&]() -> Result<void> {
+                                ++ended;
+                                return {};
+                            }});
+        for (std::size_t at = 0; at < framed.size();) {
+            const std::size_t part =
+                way == 0 ? framed.size() : std::min<std::size_t>(random() % 60, framed.size() - at);
+            ASSERT_TRUE(reader.add(std::string_view(framed).substr(at, part)).ok());
+            EXPECT_TRUE(!reader.isBetween() || ended == found.size());
+            at += part;
+        }
+        EXPECT_TRUE(reader.isBetween());
+        EXPECT_EQ(found, files);
+        EXPECT_EQ(ended, files.size());
+    }
+}
+
+TEST(Frames, WhatIsNoneIsRefused) {
+    const auto nothing = []() -> Result<void> { return {}; };
+    const FrameReader::Files files{nothing, [](std::string_view) -> Result<void> { return {}; }, nothing};
+    for (const std::string text : {"0000000000000000000x\n", "00000000000000000003abc", "-0000000000000000003\n"}) {
+        EXPECT_EQ(FrameReader(files).add(text).error().code, ErrorCode::Format) << text;
+    }
+    FrameReader cut(files);
+    EXPECT_TRUE(cut.add(frameHead(3) + "ab").ok());
+    EXPECT_FALSE(cut.isBetween());
 }
 
 TEST(ChunkCut, HasEveryRowOnce) {

@@ -334,7 +334,8 @@ TEST_F(ChunksTest, WhatIsNoFolderOfARunIsRefused) {
         EXPECT_THAT(refused(1, chunked()), HasSubstr("is damaged"));
         EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is damaged"));
     }
-    EXPECT_THAT(refused(1, with(detect(), {"--resume", path("no/such")})), HasSubstr("--resume"));
+    EXPECT_THAT(refused(1, with(detect(), {"--resume", path("no/such")})),
+                HasSubstr("the folder '" + path("no") + "' does not exist: make it first"));
 }
 
 TEST_F(ChunksTest, TwoProcessesDoNotDoTheSame) {

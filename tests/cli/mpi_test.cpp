@@ -139,6 +139,40 @@ TEST_F(MpiTest, PlansAreDealtByTarget) {
     EXPECT_EQ(chunks(), 3U);
 }
 
+TEST_F(MpiTest, NotesOfAllRanksAreSaidOnceAndNamed) {
+    std::string far;
+    for (int i = 0; i < 12; ++i) {
+        far += "1 0 0 1e11 0 1 0 0 0 0 1 0 0 0 0 1\n";
+    }
+    writeText(path("poses.txt"), far);
+    for (const int ranks : {1, 3}) {
+        std::filesystem::remove_all(path("run"));
+        const Ran ran = runRanks(ranks, {"detect", "--volume", "builtin:sphere:16", "--mesh", "builtin:ellipsoid:60",
+                                         "--poses", path("poses.txt"), "--clearance", "--tolerance", "1e-6",
+                                         "--threads", "1", "--resume", path("run"), "--chunk", "1"});
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        std::size_t all = 0;
+        std::size_t lines = 0;
+        for (const std::string& line : linesOf(ran.err)) {
+            const std::size_t at = line.find("the bounds of ");
+            if (at == std::string::npos) {
+                continue;
+            }
+            ++lines;
+            // "all ranks: ", "ranks 0, 2: ", "rank 1: ", or nothing of one rank alone
+            const std::string who = line.substr(0, at);
+            const std::size_t saying = who.find("all ranks: ") != std::string::npos ? static_cast<std::size_t>(ranks)
+                                       : who.find("rank") != std::string::npos
+                                           ? 1 + static_cast<std::size_t>(std::count(who.begin(), who.end(), ','))
+                                           : 1;
+            EXPECT_EQ(who.find("rank") == std::string::npos, ranks == 1) << line;
+            all += saying * static_cast<std::size_t>(std::atoi(line.c_str() + at + 14));
+        }
+        EXPECT_EQ(all, 12U) << ran.err;
+        EXPECT_GE(lines, 1U);
+    }
+}
+
 TEST_F(MpiTest, ARankThatDiesEndsTheJobAndTheRunGoesOn) {
     std::string many;
     for (int i = 0; i < 50; ++i) {

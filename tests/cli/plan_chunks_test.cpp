@@ -43,6 +43,18 @@ class PlanChunksTest : public PlanTest {
         }
         return found;
     }
+    /// What each target has of its own; they are no longer there then.
+    [[nodiscard]] std::vector<std::string> takeFiles() const {
+        std::vector<std::string> found;
+        for (int target = 1; target <= 9; ++target) {
+            for (const std::string& file :
+                 {"s" + std::to_string(target) + ".ply", "m" + std::to_string(target) + ".nii.gz"}) {
+                found.push_back(readText(path(file)));
+                fs::remove(path(file));
+            }
+        }
+        return found;
+    }
     static Arguments with(Arguments all, const Arguments& more) {
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -51,11 +63,15 @@ class PlanChunksTest : public PlanTest {
 
 TEST_F(PlanChunksTest, TheFilesAreTheSameHoweverTheyAreDone) {
     for (const std::string format : {"csv", "json"}) {
-        Arguments command = asked({"--by-target", path("t.csv")});
+        Arguments command = asked(
+            {"--by-target", path("t.csv"), "--surface", path("s{target}.ply"), "--heat-map", path("m{target}.nii.gz")});
         std::replace(command.begin(), command.end(), std::string("csv"), format);
         const std::string rows = output(command);
         const std::string targets = readText(path("t.csv"));
         EXPECT_EQ(linesOf(targets).size(), 10U);
+        const std::vector<std::string> maps = takeFiles();
+        EXPECT_THAT(maps, testing::Each(testing::Not("")));
+        EXPECT_NE(maps.front(), maps.back());
         for (const int shards : {1, 2, 7}) {
             SCOPED_TRACE(format + ", shards: " + std::to_string(shards));
             fs::remove_all(path("run"));
@@ -65,14 +81,29 @@ TEST_F(PlanChunksTest, TheFilesAreTheSameHoweverTheyAreDone) {
                           "");
             }
             fs::remove(path("t.csv"));
-            EXPECT_EQ(output({"merge", path("run"), "--by-target", path("t.csv")}), rows);
+            EXPECT_EQ(output({"merge", path("run"), "--by-target", path("t.csv"), "--surface", path("s{target}.ply"),
+                              "--heat-map", path("m{target}.nii.gz")}),
+                      rows);
             EXPECT_EQ(readText(path("t.csv")), targets);
+            EXPECT_EQ(takeFiles(), maps);
         }
         fs::remove_all(path("run"));
         EXPECT_EQ(output(with(command, {"--resume", path("run")})), rows) << "in one go";
         EXPECT_EQ(readText(path("t.csv")), targets);
+        EXPECT_EQ(takeFiles(), maps);
         fs::remove_all(path("run"));
     }
+}
+
+TEST_F(PlanChunksTest, MergeRefusesFilesThatCannotBe) {
+    output(asked({"--resume", path("run"), "--shard", "1/1", "--heat-map", "wanted.nrrd"}));
+    const auto line = [&](const Arguments& more) { return refused(2, with({"merge", path("run")}, more)); };
+    EXPECT_THAT(line({"--surface", path("{target}.ply")}), HasSubstr("was not asked for it; leave it out"));
+    EXPECT_THAT(line({"--heat-map", path("{target}.nii.gz")}), HasSubstr("--heat-map: the run has it as .nrrd"));
+    EXPECT_THAT(line({"--heat-map", path("map.nrrd")}), HasSubstr("--heat-map: there are 9 targets"));
+    EXPECT_THAT(line({"--heat-map", path("run/{target}.nrrd")}), HasSubstr("in the folder '" + path("run") + "'"));
+    output({"merge", path("run"), "--heat-map", path("{target}.nrrd"), "--output", path("rows.csv")});
+    EXPECT_FALSE(readText(path("9.nrrd")).empty());
 }
 
 TEST_F(PlanChunksTest, GoesOnWhereItWasKilled) {
@@ -101,7 +132,8 @@ TEST_F(PlanChunksTest, GoesOnWhereItWasKilled) {
 TEST_F(PlanChunksTest, RefusesWhatIsAboutAll) {
     const auto line = [&](const Arguments& more) { return refused(2, asked(with({"--resume", path("run")}, more))); };
     EXPECT_THAT(line({"--report", path("r.html")}), HasSubstr("--report: not with --resume"));
-    EXPECT_THAT(line({"--heat-map", path("m.nii.gz")}), HasSubstr("--heat-map: not with --resume"));
+    EXPECT_THAT(line({"--picture", path("p.png")}), HasSubstr("--picture: not with --resume"));
+    EXPECT_THAT(line({"--heat-map", path("m.nii.gz")}), HasSubstr("--heat-map: there are 9 targets"));
     EXPECT_THAT(line({"--summary"}), HasSubstr("--by-target says the same"));
     EXPECT_THAT(line({"--timing"}), HasSubstr("--timing: not with --resume"));
     EXPECT_THAT(refused(2, asked({"--shard", "1/2"})), HasSubstr("give its folder by --resume"));

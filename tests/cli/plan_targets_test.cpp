@@ -69,6 +69,76 @@ TEST_F(PlanTest, SeveralTargetsAreEachAsAlone) {
     EXPECT_THAT(ran.err, HasSubstr("note: best: entry "));
 }
 
+TEST_F(PlanTest, EachTargetHasASurfaceAndAHeatMapOfItsOwn) {
+    writeText(path("targets.txt"), "20 0 30 left/first\n-5 0 30 .hidden\n1 2 33\n");
+    const Arguments avoid{"--labels", path("labels.nii.gz"), "--avoid", "Skull", "--output", path("rows.csv")};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = avoid;
+        all.insert(all.end(), more.begin(), more.end());
+        return plan(all);
+    };
+    output(with({"--targets", path("targets.txt"), "--surface", path("s {target}.ply"), "--heat-map",
+                 path("{target}.nii.gz")}));
+    for (const auto& [name, target] :
+         {std::pair("left_first", "20,0,30"), std::pair("_hidden", "-5,0,30"), std::pair("3", "1,2,33")}) {
+        SCOPED_TRACE(name);
+        output(with({"--target", target, "--surface", path("alone.ply"), "--heat-map", path("alone.nii.gz")}));
+        EXPECT_EQ(readText(path("s " + std::string(name) + ".ply")), readText(path("alone.ply")));
+        EXPECT_EQ(readText(path(std::string(name) + ".nii.gz")), readText(path("alone.nii.gz")));
+    }
+    // Of one target the word may be there, too.
+    output(with({"--target", "Cortex", "--surface", path("one {target} {target}.ply")}));
+    EXPECT_FALSE(readText(path("one Cortex Cortex.ply")).empty());
+}
+
+TEST_F(PlanTest, RefusesOneFileForTwoTargets) {
+    writeText(path("targets.txt"), "20 0 30 a/b\n-5 0 30 a:b\n");
+    const auto line = [&](const Arguments& more) {
+        Arguments all{"--avoid-opacity", "200:0,201:1", "--targets", path("targets.txt")};
+        all.insert(all.end(), more.begin(), more.end());
+        return refused(2, plan(all));
+    };
+    EXPECT_THAT(line({"--surface", path("{target}.ply")}),
+                HasSubstr("--surface: the targets 'a/b' and 'a:b' would both be '" + path("a_b.ply") +
+                          "'; give one of them another name in a file of --targets"));
+    writeText(path("targets.txt"), "20 0 30 a\n-5 0 30 b\n");
+    EXPECT_THAT(line({"--surface", path("{target}.ply"), "--output", path("b.ply")}),
+                HasSubstr("--output and --surface: both are '" + path("b.ply") + "'"));
+    EXPECT_THAT(line({"--surface", path("{target}.txt")}), HasSubstr("must be .ply"));
+    writeText(path("targets.txt"), "20 0 30 labels\n-5 0 30 b\n");
+    EXPECT_THAT(line({"--labels", path("labels.nii.gz"), "--heat-map", path("{target}.nii.gz")}),
+                HasSubstr("labels.nii.gz' is the file that --labels reads, and is not overwritten"));
+}
+
+TEST_F(PlanTest, JsonHasWhatIsSaidOfEachTarget) {
+    const auto text = [&](const std::string& format, const Arguments& more) {
+        Arguments all{
+            "plan",     "--volume", "builtin:head:32", "--labels", path("labels.nii.gz"), "--avoid", "Skull",
+            "--target", "20,0,30",  "--target",        "Cortex",   "--entries",           "100",     "--format",
+            format};
+        all.insert(all.end(), more.begin(), more.end());
+        return output(all);
+    };
+    text("csv", {"--by-target", path("t.csv")});
+    const std::string json = text("json", {"--timing"});
+    const std::vector<std::string> lines = linesOf(readText(path("t.csv")));
+    const std::vector<std::string> columns = fieldsOf(lines.at(0));
+    std::size_t found = json.find("\n],\n\"by_target\": [\n{");
+    ASSERT_NE(found, std::string::npos);
+    EXPECT_LT(found, json.find("\"timing\": "));
+    for (std::size_t target = 1; target < lines.size(); ++target) {
+        const std::vector<std::string> fields = fieldsOf(lines[target]);
+        for (const char* name : {"target", "paths", "safe", "area_mm2", "safe_area_mm2"}) {
+            const auto at = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+            const bool word = std::string(name) == "target";
+            const std::string quote = word ? "\"" : "";
+            const std::string member = "\"" + std::string(name) + "\":" + quote + fields.at(at) + quote;
+            found = json.find(member, found);
+            EXPECT_NE(found, std::string::npos) << member;
+        }
+    }
+}
+
 TEST_F(PlanTest, RefusesTargetsThatItCannotTell) {
     const auto line = [&](const Arguments& more, int status = 2) {
         Arguments all{"--avoid-opacity", "200:0,201:1"};
@@ -81,7 +151,12 @@ TEST_F(PlanTest, RefusesTargetsThatItCannotTell) {
     EXPECT_THAT(line({"--labels", labels, "--target", "70", "--target-label", "Skin,Cortex"}),
                 HasSubstr("--target-label: there is a target 'Cortex' already"));
     EXPECT_THAT(line({"--target", "20,0,30", "--target", "0,0,20", "--surface", path("a.ply")}),
-                HasSubstr("--surface: it is about one target, and there are 2"));
+                HasSubstr("--surface: there are 2 targets, and each has a file of its own; put {target} into '"));
+    for (const char* wrong : {"20,0", "nan,0,0", "1,2,3,4", "1,,2"}) {
+        EXPECT_THAT(line({"--labels", labels, "--target", wrong}),
+                    HasSubstr("--target: '" + std::string(wrong) +
+                              "' is neither a point x,y,z, three finite numbers, nor a label"));
+    }
     // Of what is beyond the limits the target is named.
     EXPECT_THAT(line({"--target", "20,0,30", "--target", "0,0,20", "--entry-radius", "40", "--max-length", "30"}),
                 HasSubstr("target '1': no entry is left"));

@@ -7,14 +7,16 @@
 
 An HTML comment before a block, which no reader sees, says what there is to know about it:
 
-  <!-- test: needs head.nii.gz tool.stl -->   make these first, from FILES below; `device` is a Vulkan device, and
-                                              `tool:NAME` a program, without which the block is skipped
+  <!-- test: needs head.nii.gz tool.stl -->   make these first, from FILES below; `device` is a Vulkan device,
+                                              `tool:NAME` a program and `slurm` Slurm, without which the block is
+                                              skipped
   <!-- not run: it installs packages -->      why the block is not run; its voxtact options are checked all the same
   <!-- prints -->                             before a block without a language: exactly what the ```sh block before it
                                               writes to standard output
 
 A block that is neither fit to run nor marked fails the test. Exit status: 0 passed, 1 failed.
 """
+import contextlib
 import os
 import pathlib
 import re
@@ -24,6 +26,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import slurm
 
 # Small inputs that examples may ask for: the arguments of `voxtact make`, or the text itself.
 FILES = {
@@ -142,8 +146,12 @@ def make(name, folder, env):
 
 def run_block(block, folder, env, require_device):
     """Runs one block. Returns (what is wrong or None, standard output, skipped)."""
-    for name in (block.directive("test: needs") or "").split():
-        if name == "device":
+    needs = (block.directive("test: needs") or "").split()
+    for name in needs:
+        if name == "slurm":
+            if not slurm.is_there():
+                return None, "", True
+        elif name == "device":
             if not has_device(env):
                 return ("there is no Vulkan device" if require_device else None), "", True
         elif name.startswith("tool:"):
@@ -151,8 +159,10 @@ def run_block(block, folder, env, require_device):
                 return None, "", True
         elif wrong := make(name, folder, env):
             return wrong, "", False
-    done = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], cwd=folder, env=env, capture_output=True,
-                          text=True, stdin=subprocess.DEVNULL)
+    command = ["bash", "-euo", "pipefail", "-c", block.text]
+    with slurm.cluster() if "slurm" in needs else contextlib.nullcontext({}) as more:
+        done = subprocess.run(command, cwd=folder, env={**env, **more}, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL)
     if done.returncode != 0:
         return f"exit status {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}", done.stdout, False
     return None, done.stdout, False

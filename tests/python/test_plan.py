@@ -54,6 +54,16 @@ def test_plans_are_those_of_the_program(files, planned, ways):
     assert found.safe_area <= found.area * (1 + 1e-9)
 
 
+def test_entries_where_the_image_ends(files, planned):
+    full = vx.read_volume(np.full((9, 9, 9), 200, dtype=np.uint8), affine=np.eye(4), space="lps")
+    cut = vx.Scene(full, opacity=[(99, 0), (101, 1)])
+    wish = {"avoid_opacity": [(254, 0), (255, 1)], "entries": 162}
+    with pytest.raises(vx.InvalidArgumentError, match="162 enter where the image ends"):
+        cut.plan((4, 4, 4), **wish)
+    assert len(cut.plan((4, 4, 4), border_entries=True, **wish)) == 162
+    assert planned.plan(TARGET, avoid=[3], entries=162).left_out["on_border"] == 0
+
+
 def test_a_heat_map_lies_over_the_image(files):
     nibabel = pytest.importorskip("nibabel")
     rows = program("plan", "--volume", "volume.nii.gz", "--opacity", "40:0,80:1", "--labels", "labels.nii.gz", "--avoid",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "app/chunks/frames.h"
 #include "app/chunks/run_chunks.h"
 #include "app/output/standard_streams.h"
+#include "app/output/target_path.h"
 #include "core/base/try.h"
 
 #include <algorithm>
@@ -87,23 +89,79 @@ Result<void> checkChunks(const RunFolder& folder) {
     return missing.empty() ? Result<void>() : Result<void>(refusal(missing, "missing"));
 }
 
+Error changed(const RunFolder& folder, std::uint64_t chunk) {
+    return {ErrorCode::File, 0,
+            "cannot merge " + folderText(folder.path()) + ": chunk " + std::to_string(chunk) +
+                " changed while it was read"};
+}
+
+/// Hands out what an output has of a chunk.
+Result<void> readChunk(const RunFolder& folder, std::uint64_t chunk, const RunOutput& output,
+                       const std::function<void(std::string_view)>& take) {
+    const SealState state = readSealed(folder.chunkPath(chunk, output), folder.chunkLine(chunk, output), take);
+    return state == SealState::Whole ? Result<void>() : changed(folder, chunk);
+}
+
+/// Adds a part of a file, or all of it.
 Result<void> writeOutput(const RunFolder& folder, const RunOutput& output, Sink& sink) {
     sink.write(output.head);
     for (std::uint64_t chunk = 0; chunk < folder.manifest().chunks; ++chunk) {
         if (chunk > 0) {
             sink.write(output.between);
         }
-        const SealState state = readSealed(folder.chunkPath(chunk, output), folder.chunkLine(chunk, output),
-                                           [&](std::string_view part) { sink.write(part); });
-        if (state != SealState::Whole) {
-            return Error{ErrorCode::File, 0,
-                         "cannot merge " + folderText(folder.path()) + ": chunk " + std::to_string(chunk) +
-                             " changed while it was read"};
-        }
+        VOXTACT_TRY(readChunk(folder, chunk, output, [&](std::string_view part) { sink.write(part); }));
         VOXTACT_TRY(sink.state());
     }
     sink.write(output.tail);
-    return sink.close();
+    return sink.state();
+}
+
+/// Adds a file for each target.
+Result<void> writeTargets(const RunFolder& folder, const RunOutput& output, const std::filesystem::path& path,
+                          std::vector<Sink>& files) {
+    std::size_t begun = 0;
+    FrameReader reader({[&]() -> Result<void> {
+                            if (begun == output.targets.size()) {
+                                return Error{ErrorCode::Format, 0, "it has more files than targets"};
+                            }
+                            Result<Sink> sink = Sink::create(targetPath(path, output.targets[begun++]));
+                            VOXTACT_TRY(sink);
+                            files.push_back(std::move(*sink));
+                            return {};
+                        },
+                        [&](std::string_view part) {
+                            files.back().write(part);
+                            return files.back().state();
+                        },
+                        [&] { return files.back().close(); }});
+    for (std::uint64_t chunk = 0; chunk < folder.manifest().chunks; ++chunk) {
+        Result<void> done;
+        VOXTACT_TRY(readChunk(folder, chunk, output,
+                              [&](std::string_view part) { done = done.ok() ? reader.add(part) : done; }));
+        VOXTACT_TRY(done);
+    }
+    return begun == output.targets.size() && reader.isBetween() ? Result<void>()
+                                                                : changed(folder, folder.manifest().chunks - 1);
+}
+
+/// The files of an option, whole, under temporary names.
+Result<void> writeFiles(const RunFolder& folder, const std::string& option, const std::filesystem::path& path,
+                        std::vector<Sink>& files) {
+    const std::vector<const RunOutput*> parts = folder.manifest().outputsOf(option);
+    if (parts.empty()) {
+        return {};
+    }
+    if (!parts.front()->targets.empty()) {
+        return writeTargets(folder, *parts.front(), path, files);
+    }
+    Result<Sink> sink = Sink::create(path);
+    VOXTACT_TRY(sink);
+    for (const RunOutput* part : parts) {
+        VOXTACT_TRY(writeOutput(folder, *part, *sink));
+    }
+    VOXTACT_TRY(sink->close());
+    files.push_back(std::move(*sink));
+    return {};
 }
 
 } // namespace
@@ -114,16 +172,10 @@ Result<void> mergeRun(const RunFolder& folder, const MergePaths& paths) {
     std::vector<Sink> files;
     const auto isFile = [](const std::filesystem::path& path) { return !path.empty() && path != "-"; };
     for (const bool file : {true, false}) {
-        for (const RunOutput& output : folder.manifest().outputs) {
-            const auto found = std::find_if(paths.begin(), paths.end(),
-                                            [&](const auto& entry) { return entry.first == output.option; });
-            if (found == paths.end() || isFile(found->second) != file) {
-                continue;
+        for (const auto& [option, path] : paths) {
+            if (isFile(path) == file) {
+                VOXTACT_TRY(writeFiles(folder, option, path, files));
             }
-            Result<Sink> sink = Sink::create(found->second);
-            VOXTACT_TRY(sink);
-            VOXTACT_TRY(writeOutput(folder, output, *sink));
-            files.push_back(std::move(*sink));
         }
     }
     for (auto sink = files.rbegin(); sink != files.rend(); ++sink) {

@@ -214,10 +214,11 @@ void useDealer(ChunkDealer* other) {
     dealer = other;
 }
 
-Result<ResultFile> ChunkFiles::create(const std::string& option) const {
+Result<ResultFile> ChunkFiles::create(const std::string& option, const std::string& part) const {
     const std::vector<RunOutput>& outputs = folder.manifest().outputs;
-    const auto found =
-        std::find_if(outputs.begin(), outputs.end(), [&](const RunOutput& output) { return output.option == option; });
+    const auto found = std::find_if(outputs.begin(), outputs.end(), [&](const RunOutput& output) {
+        return output.option == option && output.part == part;
+    });
     return ResultFile::createSealed(folder.chunkPath(chunk, *found), folder.chunkLine(chunk, *found));
 }
 

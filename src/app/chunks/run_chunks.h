@@ -66,8 +66,8 @@ struct ChunkFiles {
     const RunFolder& folder;
     std::uint64_t chunk = 0;
 
-    /// The output of an option, which the manifest must have.
-    [[nodiscard]] Result<ResultFile> create(const std::string& option) const;
+    /// The output of an option, or a part of it, which the manifest must have.
+    [[nodiscard]] Result<ResultFile> create(const std::string& option, const std::string& part = {}) const;
 };
 
 /// Does a chunk: all of its files, committed. `rows`: how many rows of it are done, for progress. Where an interrupt

@@ -10,10 +10,12 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <fcntl.h>
 #include <fstream>
 #include <sys/file.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 namespace voxtact::app {
@@ -23,6 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr int kManifestFormat = 2;
 constexpr const char* kManifestName = "voxtact-run.json";
 constexpr const char* kLockName = "run.lock";
 constexpr std::string_view kShardName = "shard-";
@@ -56,9 +59,11 @@ Json bodyOf(const RunManifest& manifest) {
                            {"ending", output.ending},
                            {"head", output.head},
                            {"between", output.between},
-                           {"tail", output.tail}});
+                           {"tail", output.tail},
+                           {"part", output.part},
+                           {"targets", output.targets}});
     }
-    return {{"voxtact_run", 1}, {"chunks", manifest.chunks}, {"facts", facts}, {"outputs", outputs}};
+    return {{"voxtact_run", kManifestFormat}, {"chunks", manifest.chunks}, {"facts", facts}, {"outputs", outputs}};
 }
 
 std::string textOf(const RunManifest& manifest) {
@@ -76,7 +81,7 @@ std::optional<RunManifest> manifestOf(const std::string& text) {
     const auto check = json.value("check", Json());
     json.erase("check");
     if (!check.is_string() || check.get<std::string>() != hashOf(dump(json)) ||
-        json.value("voxtact_run", Json()) != 1) {
+        json.value("voxtact_run", Json()) != kManifestFormat) {
         return std::nullopt;
     }
     // What has its check was written by textOf().
@@ -88,7 +93,8 @@ std::optional<RunManifest> manifestOf(const std::string& text) {
     for (const Json& output : json["outputs"]) {
         manifest.outputs.push_back({output["option"].get<std::string>(), output["ending"].get<std::string>(),
                                     output["head"].get<std::string>(), output["between"].get<std::string>(),
-                                    output["tail"].get<std::string>()});
+                                    output["tail"].get<std::string>(), output["part"].get<std::string>(),
+                                    output["targets"].get<std::vector<std::string>>()});
     }
     return manifest;
 }
@@ -110,7 +116,13 @@ Result<void> prepare(const fs::path& folder) {
     if (status.type() == fs::file_type::not_found) {
         fs::create_directory(folder, problem);
         // Another process may have been faster.
-        return problem && !fs::is_directory(folder) ? cannotUse(folder, problem.message()) : Result<void>();
+        if (std::error_code ignored; !problem || fs::is_directory(folder, ignored)) {
+            return {};
+        }
+        return cannotUse(folder,
+                         problem == std::errc::no_such_file_or_directory
+                             ? "the folder " + folderText(folder.parent_path()) + " does not exist: make it first"
+                             : problem.message());
     }
     if (!fs::is_directory(status)) {
         return cannotUse(folder, problem ? problem.message() : "it is a file; give a folder, which need not be there");
@@ -124,6 +136,20 @@ Result<void> prepare(const fs::path& folder) {
         }
     }
     return problem ? cannotUse(folder, problem.message()) : Result<void>();
+}
+
+/// Of processes that have ended: whoever writes has a lock.
+void removeTemporaryFiles(const fs::path& folder) {
+    std::error_code problem;
+    for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
+        const std::string name = entry->path().filename().string();
+        const std::string rest = name.substr(std::min(name.size(), kTemporaryName.size()));
+        std::error_code ignored;
+        if (name.starts_with(kTemporaryName) && (rest.starts_with('-') || rest.find_first_of("0123456789") == 0) &&
+            entry->is_regular_file(ignored)) {
+            fs::remove(entry->path(), ignored);
+        }
+    }
 }
 
 /// Puts the manifest there unless there is one: of two processes one is first.
@@ -140,17 +166,22 @@ Result<void> place(const fs::path& folder, const RunManifest& manifest) {
         out << textOf(manifest);
         return {};
     });
-    if (!written.ok()) {
-        return cannotUse(folder, written.error().text);
+    if (written.ok()) {
+        fs::create_hard_link(own, target, problem);
+        if (problem && problem != std::errc::file_exists) {
+            // A file system without links.
+            fs::rename(own, target, problem);
+        } else {
+            fs::remove(own, problem);
+            return {};
+        }
     }
-    fs::create_hard_link(own, target, problem);
-    if (problem && problem != std::errc::file_exists) {
-        // A file system without links.
-        fs::rename(own, target, problem);
-        return problem ? cannotUse(folder, problem.message()) : Result<void>();
+    // Who was first may have swept away what is no longer needed.
+    if (std::error_code ignored; fs::exists(target, ignored)) {
+        return {};
     }
-    fs::remove(own, problem);
-    return {};
+    return written.ok() && !problem ? Result<void>()
+                                    : cannotUse(folder, written.ok() ? problem.message() : written.error().text);
 }
 
 Result<RunManifest> readManifest(const fs::path& folder) {
@@ -171,13 +202,24 @@ std::string RunManifest::id() const {
     return hashOf(dump(bodyOf({facts, {}, chunks})));
 }
 
+std::vector<const RunOutput*> RunManifest::outputsOf(const std::string& option) const {
+    std::vector<const RunOutput*> found;
+    for (const RunOutput& output : outputs) {
+        if (output.option == option) {
+            found.push_back(&output);
+        }
+    }
+    return found;
+}
+
 /// An flock() of a file, which the system lifts however the process ends.
 class RunFolder::Lock {
   public:
     explicit Lock(int file) noexcept : file_(file) {}
-    Lock(Lock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+    Lock(Lock&& other) noexcept : file_(std::exchange(other.file_, -1)), isReal_(other.isReal_) {}
     Lock& operator=(Lock&& other) noexcept {
         std::swap(file_, other.file_);
+        std::swap(isReal_, other.isReal_);
         return *this;
     }
     ~Lock() {
@@ -193,15 +235,20 @@ class RunFolder::Lock {
         if (lock.file_ < 0) {
             return cannotUse(folder, std::generic_category().message(errno));
         }
-        if (::flock(lock.file_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-            // Some file systems know no locks. Nothing is lost without: a chunk that is done twice is the same twice.
-            return std::optional(std::move(lock));
-        }
-        return std::optional<Lock>();
+        return lock.change(alone) ? std::optional(std::move(lock)) : std::optional<Lock>();
     }
+    /// Whether it is had, alone or with others; where not, it is had no longer.
+    [[nodiscard]] bool change(bool alone) {
+        isReal_ = ::flock(file_, (alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
+        // Some file systems know no locks. Nothing is lost without: a chunk that is done twice is the same twice.
+        return isReal_ || errno != EWOULDBLOCK;
+    }
+    /// Whether the file system knows locks.
+    [[nodiscard]] bool isReal() const noexcept { return isReal_; }
 
   private:
     int file_;
+    bool isReal_ = false;
 };
 
 RunFolder::RunFolder(fs::path path, RunManifest manifest)
@@ -211,8 +258,22 @@ RunFolder& RunFolder::operator=(RunFolder&&) noexcept = default;
 RunFolder::~RunFolder() = default;
 
 Result<void> RunFolder::lock(const std::optional<Shard>& shard) {
-    Result<std::optional<Lock>> whole = Lock::take(path_, kLockName, !shard);
+    Result<std::optional<Lock>> whole = Lock::take(path_, kLockName, true);
     VOXTACT_TRY(whole);
+    if (*whole && (*whole)->isReal()) {
+        removeTemporaryFiles(path_);
+    }
+    if (shard && (!*whole || !(*whole)->change(false))) {
+        // Another one may be alone for as long as it takes to remove files.
+        constexpr int kTries = 40;
+        constexpr auto kWait = std::chrono::milliseconds(50);
+        whole->reset();
+        for (int i = 0; i < kTries && !*whole; ++i) {
+            std::this_thread::sleep_for(i == 0 ? kWait / 50 : kWait);
+            whole = Lock::take(path_, kLockName, false);
+            VOXTACT_TRY(whole);
+        }
+    }
     if (!*whole) {
         return cannotUse(path_, shard ? "another process does the whole run; wait for it, or stop it"
                                       : "other processes do this run; wait for them, or stop them");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/chunks/run_chunks.h"
 #include "app/commands.h"
+#include "app/output/target_path.h"
 #include "core/base/try.h"
 
 #include <CLI/CLI.hpp>
@@ -28,41 +29,57 @@ struct MergeOptions {
     std::filesystem::path closest;
     std::filesystem::path labels;
     std::filesystem::path byTarget;
+    std::filesystem::path surface;
+    std::filesystem::path heatMap;
+
+    /// Those beside the rows.
+    [[nodiscard]] MergePaths files() const {
+        return {{"--triangles", triangles}, {"--closest", closest}, {"--label-clearance", labels},
+                {"--by-target", byTarget},  {"--surface", surface}, {"--heat-map", heatMap}};
+    }
 };
+
+/// The files of an output: where each target has one, all of them.
+std::vector<NamedPath> filesOf(const std::string& option, const std::filesystem::path& path, const RunOutput& output) {
+    std::vector<NamedPath> files;
+    if (output.targets.empty()) {
+        files.push_back({option, path});
+    }
+    for (const std::string& target : output.targets) {
+        files.push_back({option, targetPath(path, target)});
+    }
+    return files;
+}
 
 /// The paths that were given, for outputs that the run has.
 Result<MergePaths> pathsOf(const MergeOptions& options, const RunFolder& folder) {
     MergePaths paths{{"--output", options.output}};
-    for (const auto& [option, path] :
-         {std::pair("--triangles", options.triangles), std::pair("--closest", options.closest),
-          std::pair("--label-clearance", options.labels), std::pair("--by-target", options.byTarget)}) {
+    std::vector<NamedPath> files{{"--output", options.output}};
+    for (const auto& [option, path] : options.files()) {
         if (path.empty()) {
             continue;
         }
-        const std::vector<RunOutput>& outputs = folder.manifest().outputs;
-        const auto found = std::find_if(outputs.begin(), outputs.end(),
-                                        [name = option](const RunOutput& output) { return output.option == name; });
-        if (found == outputs.end()) {
-            return badArgument(option + (": the run in " + folderText(options.folder)) +
+        const std::vector<const RunOutput*> found = folder.manifest().outputsOf(option);
+        if (found.empty()) {
+            return badArgument(option + ": the run in " + folderText(options.folder) +
                                " was not asked for it; leave it out");
         }
-        if (!found->ending.empty() && path.extension() != found->ending) {
-            return badArgument(option + (": the run has it as " + found->ending) + ", which the ending of '" +
+        const RunOutput& output = *found.front();
+        if (!path.filename().string().ends_with(output.ending)) {
+            return badArgument(option + ": the run has it as " + output.ending + ", which the ending of '" +
                                path.string() + "' must be");
         }
+        VOXTACT_TRY(checkTargetPaths(option, path, output.targets));
+        const std::vector<NamedPath> all = filesOf(option, path, output);
+        files.insert(files.end(), all.begin(), all.end());
         paths.emplace_back(option, path);
     }
+    // A folder with its files, none of which may be written over.
+    VOXTACT_TRY(checkOutputs(files, {{"DIR", options.folder}}));
     return paths;
 }
 
 Outcome runMerge(const MergeOptions& options) {
-    // A folder with its files, none of which may be written over.
-    VOXTACT_TRY(checkOutputs({{"--output", options.output},
-                              {"--triangles", options.triangles},
-                              {"--closest", options.closest},
-                              {"--label-clearance", options.labels},
-                              {"--by-target", options.byTarget}},
-                             {{"DIR", options.folder}}));
     const Result<RunFolder> folder = RunFolder::read(options.folder);
     VOXTACT_TRY(folder);
     const Result<MergePaths> paths = pathsOf(options, *folder);
@@ -83,6 +100,9 @@ Command addMerge(CLI::App& program) {
     addPath(*parser, "--closest", options->closest, "a .csv file for what detect --closest writes");
     addPath(*parser, "--label-clearance", options->labels, "a file for what detect --label-clearance writes");
     addPath(*parser, "--by-target", options->byTarget, "a file for what plan --by-target writes");
+    addPath(*parser, "--surface", options->surface,
+            "a .ply file for what plan --surface writes; of several targets a path with {target}");
+    addPath(*parser, "--heat-map", options->heatMap, "the same of plan --heat-map, with the ending it was asked for");
     return {parser, [options] { return runMerge(*options); }};
 }
 

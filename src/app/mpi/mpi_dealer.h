@@ -96,7 +96,7 @@ class DeckAsker : public ChunkDealer {
 /// Tags of messages.
 constexpr int kMessageTag = 1; ///< a RankMessage to the first rank
 constexpr int kAnswerTag = 2;  ///< a number from there
-constexpr int kFailureTag = 3; ///< an exit status as text, a line break, and what the rank had to say
+constexpr int kEndTag = 3;     ///< a RankEnd, once the program of the rank has ended
 
 /// Waits without using the processor, which others may need: for a message, or an interrupt (false).
 [[nodiscard]] bool waitForMessage(int from, int tag);

@@ -2,6 +2,8 @@
 // voxtact-mpi: detect, motion and plan over the ranks of an MPI job. The first rank makes the folder of the run, deals
 // its chunks, does some itself, and merges.
 #include "app/mpi/mpi_dealer.h"
+#include "app/mpi/rank_report.h"
+#include "app/output/notes.h"
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
 #include "app/program.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <sstream>
 #include <thread>
 #include <unistd.h>
 
@@ -116,11 +119,13 @@ int runOther(const Words& words) {
     DeckAsker asker;
     useDealer(&asker);
     const HeldErrors errors;
+    std::string notes;
+    useNotes([&](const std::string& note) { notes += note + "\n"; });
     const int status = runProgram(words);
-    if (status != kExitDone || !asker.ended()) {
-        const std::string failure = std::to_string(status) + "\n" + errors.text();
-        MPI_Send(failure.data(), static_cast<int>(failure.size()), MPI_BYTE, 0, kFailureTag, MPI_COMM_WORLD);
-    }
+    useNotes({});
+    const bool good = status == kExitDone && asker.ended();
+    const std::string end = RankEnd{status, asker.ended(), good ? notes : errors.text()}.message();
+    MPI_Send(end.data(), static_cast<int>(end.size()), MPI_BYTE, 0, kEndTag, MPI_COMM_WORLD);
     return status;
 }
 
@@ -131,13 +136,15 @@ class Service {
 
     /// Until the program, which runs in another thread, has ended: `status` is then no longer kRunning.
     [[nodiscard]] int serve(const std::atomic<int>& status);
+    void addNote(const std::string& note) { notes_.add(0, note); } ///< of the program, while it runs
+    void sayNotes() const;
     void sayWork() const;
 
     static constexpr int kRunning = -1;
 
   private:
     [[nodiscard]] bool takeMessage();
-    [[nodiscard]] bool takeFailure();
+    [[nodiscard]] bool takeEnd();
     void answer(int rank, std::int64_t number) const {
         MPI_Send(&number, 1, MPI_INT64_T, rank, kAnswerTag, MPI_COMM_WORLD);
     }
@@ -146,7 +153,10 @@ class Service {
     int ranks_;
     std::vector<RankWork> works_;
     std::vector<int> waiting_; ///< to begin
-    int ended_ = 0;
+    int ended_ = 0;            ///< that ask for no more chunks
+    int reported_ = 0;         ///< whose program has ended
+    std::vector<std::pair<int, std::string>> otherNotes_;
+    RankNotes notes_;
     bool over_ = false; ///< nothing is dealt any more
     std::string failure_;
     int failureStatus_ = 0;
@@ -174,22 +184,25 @@ bool Service::takeMessage() {
     return true;
 }
 
-bool Service::takeFailure() {
+bool Service::takeEnd() {
     int there = 0;
     MPI_Status about;
-    MPI_Iprobe(MPI_ANY_SOURCE, kFailureTag, MPI_COMM_WORLD, &there, &about);
+    MPI_Iprobe(MPI_ANY_SOURCE, kEndTag, MPI_COMM_WORLD, &there, &about);
     if (there == 0) {
         return false;
     }
     int size = 0;
     MPI_Get_count(&about, MPI_BYTE, &size);
-    std::string text(static_cast<std::size_t>(size), '\0');
-    MPI_Recv(text.data(), size, MPI_BYTE, about.MPI_SOURCE, kFailureTag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    ++ended_;
-    if (failure_.empty()) {
-        const std::size_t line = text.find('\n');
-        failureStatus_ = std::max(std::atoi(text.c_str()), kExitFailed);
-        failure_ = "rank " + std::to_string(about.MPI_SOURCE) + ": " + oneLine(text.substr(line + 1));
+    std::string message(static_cast<std::size_t>(size), '\0');
+    MPI_Recv(message.data(), size, MPI_BYTE, about.MPI_SOURCE, kEndTag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    const RankEnd end = RankEnd::of(message);
+    ++reported_;
+    ended_ += end.done ? 0 : 1;
+    if (end.status == kExitDone && end.done) {
+        otherNotes_.emplace_back(about.MPI_SOURCE, end.text);
+    } else if (failure_.empty()) {
+        failureStatus_ = std::max(end.status, kExitFailed);
+        failure_ = "rank " + std::to_string(about.MPI_SOURCE) + ": " + oneLine(end.text);
     }
     return true;
 }
@@ -200,7 +213,7 @@ int Service::serve(const std::atomic<int>& status) {
     std::optional<std::chrono::steady_clock::time_point> last;
     while (true) {
         const int now = status;
-        while (takeMessage() || takeFailure()) {
+        while (takeMessage() || takeEnd()) {
         }
         if (now > kExitDone && !last) {
             // It has said why. The others may have found the same, or are in the middle of a chunk.
@@ -211,13 +224,11 @@ int Service::serve(const std::atomic<int>& status) {
             answer(rank, over_ ? kNone : kGo);
         }
         waiting_.erase(waiting_.begin(), deck_.ready() || over_ ? waiting_.end() : waiting_.begin());
-        if (ended_ == ranks_ - 1) {
-            if (now != kRunning) {
-                return now;
-            }
-            if (failure_.empty()) {
-                deck_.othersEnded();
-            }
+        if (reported_ == ranks_ - 1 && now != kRunning) {
+            return now;
+        }
+        if (ended_ == ranks_ - 1 && failure_.empty()) {
+            deck_.othersEnded();
         }
         if (!failure_.empty() && !over_ && deck_.ready()) {
             // Of arguments and inputs the first rank would have found the same: this is about one rank.
@@ -228,6 +239,19 @@ int Service::serve(const std::atomic<int>& status) {
             MPI_Abort(MPI_COMM_WORLD, now);
         }
         std::this_thread::sleep_for(kWait);
+    }
+}
+
+void Service::sayNotes() const {
+    RankNotes all = notes_;
+    for (const auto& [rank, text] : otherNotes_) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            all.add(rank, line);
+        }
+    }
+    for (const std::string& line : all.lines(ranks_)) {
+        printNote(line);
     }
 }
 
@@ -250,9 +274,13 @@ int runFirst(const Words& words, int ranks) {
     useDealer(&deck);
     Service service(deck, ranks);
     std::atomic<int> ended{Service::kRunning};
+    // Said at the end, with those of the others.
+    useNotes([&](const std::string& note) { service.addNote(note); });
     std::thread program([&] { ended = runProgram(words); });
     const int status = service.serve(ended);
     program.join();
+    useNotes({});
+    service.sayNotes();
     if (status == kExitDone) {
         service.sayWork();
     }

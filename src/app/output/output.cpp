@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <sys/stat.h>
@@ -41,22 +42,6 @@ bool isStandardOutput(const fs::path& path) {
     return path.empty() || path == "-";
 }
 
-/// The deliveries from number `next` on, each written before the ones after it are put in their places.
-Result<void> deliverFrom(const std::vector<Delivery>& deliveries, std::size_t next) {
-    if (next == deliveries.size()) {
-        return {};
-    }
-    const Delivery& delivery = deliveries[next];
-    return deliver(delivery.path, [&](std::ostream& out) -> Result<void> {
-        VOXTACT_TRY(delivery.write(out));
-        errno = 0;
-        if (!out.flush()) {
-            return fileError(delivery.path, errno != 0 ? std::generic_category().message(errno) : "writing stopped");
-        }
-        return deliverFrom(deliveries, next + 1);
-    });
-}
-
 } // namespace
 
 io::Format OutputOptions::format() const {
@@ -85,20 +70,21 @@ Result<void> checkOutput(const fs::path& path) {
 }
 
 Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& paths) {
-    for (auto one = paths.begin(); one != paths.end(); ++one) {
-        if (isStandardOutput(one->second) || isSpecial(one->second)) {
+    std::map<fs::path, std::size_t> places;
+    std::map<std::pair<dev_t, ino_t>, std::size_t> identities;
+    for (std::size_t number = 0; number < paths.size(); ++number) {
+        const auto& [option, path] = paths[number];
+        if (isStandardOutput(path) || isSpecial(path)) {
             continue;
         }
         std::error_code ignored;
-        const fs::path place = fs::weakly_canonical(fs::absolute(one->second), ignored);
-        const auto identity = identityOf(one->second);
-        for (auto other = paths.begin(); other != one; ++other) {
-            if (!isStandardOutput(other->second) &&
-                (fs::weakly_canonical(fs::absolute(other->second), ignored) == place ||
-                 (identity && identityOf(other->second) == identity))) {
-                return badArgument(other->first + " and " + one->first + ": both are '" + one->second.string() +
-                                   "'; each needs a file of its own");
-            }
+        std::size_t first = places.emplace(fs::weakly_canonical(fs::absolute(path), ignored), number).first->second;
+        if (const auto identity = identityOf(path)) {
+            first = std::min(first, identities.emplace(*identity, number).first->second);
+        }
+        if (first != number) {
+            return badArgument(paths[first].first + " and " + option + ": both are '" + path.string() +
+                               "'; each needs a file of its own");
         }
     }
     return {};
@@ -114,10 +100,29 @@ Result<void> deliver(const fs::path& path, const std::function<Result<void>(std:
 }
 
 Result<void> deliverAll(std::vector<Delivery> deliveries) {
-    // The last is put in its place first. What is on standard output cannot be taken back, and may fail.
-    std::stable_partition(deliveries.begin(), deliveries.end(),
-                          [](const Delivery& delivery) { return !isStandardOutput(delivery.path); });
-    return deliverFrom(deliveries, 0);
+    std::vector<io::OutputFile> files; // closed: there may be more than a process may have open
+    std::string text;
+    for (const Delivery& delivery : deliveries) {
+        if (isStandardOutput(delivery.path)) {
+            std::ostringstream out;
+            VOXTACT_TRY(delivery.write(out));
+            text += out.str();
+            continue;
+        }
+        Result<io::OutputFile> file = io::OutputFile::create(delivery.path);
+        VOXTACT_TRY(file);
+        VOXTACT_TRY(delivery.write(file->stream()));
+        VOXTACT_TRY(file->close());
+        files.push_back(std::move(*file));
+    }
+    // What is on standard output cannot be taken back, and may fail.
+    if (!text.empty()) {
+        VOXTACT_TRY(writeStandardOutput(text));
+    }
+    for (auto file = files.rbegin(); file != files.rend(); ++file) {
+        VOXTACT_TRY(file->commit());
+    }
+    return {};
 }
 
 } // namespace voxtact::app

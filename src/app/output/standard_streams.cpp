@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/output/standard_streams.h"
 
+#include "app/output/notes.h"
 #include "app/output/text_for_messages.h"
 
 #include <cerrno>
@@ -33,6 +34,11 @@ void printLine(std::string_view text) {
     static_cast<void>(writeAll(STDERR_FILENO, messageLine(oneLine(text)) + "\n"));
 }
 
+std::function<void(const std::string& text)>& takeNote() {
+    static std::function<void(const std::string& text)> take;
+    return take;
+}
+
 } // namespace
 
 void claimStandardStreams() noexcept {
@@ -61,7 +67,15 @@ Result<void> writeStandardOutput(std::string_view text) {
     return {};
 }
 
+void useNotes(std::function<void(const std::string& text)> take) {
+    takeNote() = std::move(take);
+}
+
 void printNote(std::string_view text) {
+    if (takeNote()) {
+        takeNote()(oneLine(text));
+        return;
+    }
     printLine("voxtact: note: " + std::string(text));
 }
 

@@ -3,6 +3,7 @@
 #include "app/detect/detect_run.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
+#include "app/output/target_path.h"
 #include "app/output/text_for_messages.h"
 #include "app/plan/plan_picture.h"
 #include "app/plan/plan_run.h"
@@ -32,6 +33,8 @@ target along which there is an entry within the limits:
   crosses                      the labels that its axis goes through, from the entry on
   target                       the target's label, its name in --targets, or its number, from 1
 
+Where the image ends within what is opaque, as at a neck, no path begins, unless --border-entries is given.
+
 A builtin needle is round and solid. A mesh needs --tip and --axis, and counts by its surface. --summary and --report
 say how many paths are safe, which is the best one, and for a needle the area of the patches all of whose paths certainly
 are safe, not only those of the rows.
@@ -42,16 +45,6 @@ Examples:
       --mesh builtin:needle:1.5:180 --max-length 90 --surface entries.ply --output paths.csv
   voxtact plan --volume head.nii.gz --labels atlas.nii.gz --target-label Thalamus_L,Thalamus_R --target 4,20,-8 \
       --avoid Precentral_L,Insula_L --by-target targets.csv --report paths.html --output paths.csv)";
-
-Result<void> checkPaths(const PlanOptions& options) {
-    return checkOutputs({{"--output", options.output.path},
-                         {"--by-target", options.byTarget},
-                         {"--surface", options.surface},
-                         {"--heat-map", options.heatMap},
-                         {"--picture", options.picture},
-                         {"--report", options.report}},
-                        planReads(options));
-}
 
 Result<void> checkOptions(const PlanOptions& options) {
     if (options.volumes.size() > 1 || options.meshes.sources.size() > 1) {
@@ -83,15 +76,7 @@ Result<void> checkOptions(const PlanOptions& options) {
 }
 
 /// Of all targets, one after the other.
-Result<std::vector<TargetPlan>> planAll(const PlanOptions& options, const PlanInputs& inputs, cpu::Planner& planner) {
-    if (inputs.targets.size() > 1 && (!options.surface.empty() || !options.heatMap.empty())) {
-        return badArgument(std::string(options.surface.empty() ? "--heat-map" : "--surface") +
-                           ": it is about one target, and there are " + std::to_string(inputs.targets.size()) +
-                           "; leave it out, or plan for each alone");
-    }
-    if (!options.heatMap.empty()) {
-        VOXTACT_TRY(checkHeatMap(options, inputs.head->volume.grid()));
-    }
+Result<std::vector<TargetPlan>> planAll(const PlanInputs& inputs, cpu::Planner& planner) {
     std::vector<TargetPlan> plans;
     for (std::size_t target = 0; target < inputs.targets.size() && !interrupted(); ++target) {
         Result<TargetPlan> plan = planFor(inputs, target, planner);
@@ -106,7 +91,7 @@ Result<void> deliverPlans(const PlanOptions& options, const PlanInputs& inputs, 
                           const std::string& png) {
     std::vector<Delivery> deliveries;
     deliveries.push_back({options.output.path, [&](std::ostream& out) -> Result<void> {
-                              io::writeTable(out, options.output.format(), planTable(inputs, plans, options.timing));
+                              writePlanTable(out, options.output.format(), inputs, plans, options.timing);
                               return {};
                           }});
     if (!options.byTarget.empty()) {
@@ -115,18 +100,11 @@ Result<void> deliverPlans(const PlanOptions& options, const PlanInputs& inputs, 
                                   return {};
                               }});
     }
-    if (!options.surface.empty()) {
-        deliveries.push_back({options.surface, [&](std::ostream& out) -> Result<void> {
-                                  writePlanSurface(out, plans.front().answer, !inputs.task.mesh, options.maximum);
-                                  return {};
-                              }});
-    }
-    if (!options.heatMap.empty()) {
-        deliveries.push_back({options.heatMap, [&](std::ostream& out) -> Result<void> {
-                                  const VolumeData map =
-                                      planHeatMap(inputs.head->volume.grid(), plans.front().answer, !inputs.task.mesh);
-                                  return io::writeVolume(out, options.heatMap, map.view());
-                              }});
+    for (const TargetFile& file : targetFiles(options, inputs)) {
+        for (const TargetPlan& plan : plans) {
+            deliveries.push_back({targetPath(file.path, plan.target.name),
+                                  [write = file.write, &plan](std::ostream& out) { return write(out, plan); }});
+        }
     }
     if (!options.picture.empty()) {
         deliveries.push_back({options.picture, [&](std::ostream& out) -> Result<void> {
@@ -185,11 +163,12 @@ Outcome runPlan(const CLI::App& parser, PlanOptions options) {
     }
     VOXTACT_TRY(checkOptions(options));
     VOXTACT_TRY(checkPlanChunks(options));
-    VOXTACT_TRY(checkPaths(options));
+    VOXTACT_TRY(checkOutputs(planWrites(options), planReads(options)));
     const InterruptGuard guard;
     const Result<std::unique_ptr<PlanInputs>> read = readPlan(options);
     VOXTACT_TRY(read);
     PlanInputs& inputs = **read;
+    VOXTACT_TRY(checkTargetFiles(options, inputs));
     PictureDevice device;
     if (!options.picture.empty()) {
         VOXTACT_TRY(device.open(options));
@@ -201,7 +180,7 @@ Outcome runPlan(const CLI::App& parser, PlanOptions options) {
     if (options.chunks.asked()) {
         return runPlanChunks(parser, options, inputs, *planner);
     }
-    const Result<std::vector<TargetPlan>> plans = planAll(options, inputs, *planner);
+    const Result<std::vector<TargetPlan>> plans = planAll(inputs, *planner);
     if (interrupted()) {
         return interruptOutcome("nothing is written");
     }
@@ -235,6 +214,13 @@ std::vector<NamedPath> planReads(const PlanOptions& options) {
         inputs.push_back({"--label-names", labelNamesPath(options.labelNames, options.labels)});
     }
     return inputs;
+}
+
+std::vector<NamedPath> planWrites(const PlanOptions& options) {
+    return {{"--output", options.output.path},
+            {"--by-target", options.byTarget},
+            {"--picture", options.picture},
+            {"--report", options.report}};
 }
 
 Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::Planner& planner) {

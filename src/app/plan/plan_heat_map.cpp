@@ -132,16 +132,14 @@ VolumeData planHeatMap(const Grid& grid, const PlanAnswer& answer, bool certifie
     return map.volume();
 }
 
-Result<void> checkHeatMap(const PlanOptions& options, const Grid& grid) {
-    const std::string name = options.heatMap.filename().string();
-    if (!name.ends_with(".nii.gz") && !name.ends_with(".nii") && !name.ends_with(".nrrd") && !name.ends_with(".mha")) {
-        return badArgument("--heat-map: the ending of '" + options.heatMap.string() +
-                           "' must be .nii.gz, .nii, .nrrd or .mha");
+std::string volumeEnding(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    for (const char* ending : {".nii.gz", ".nii", ".nrrd", ".mha"}) {
+        if (name.ends_with(ending)) {
+            return ending;
+        }
     }
-    // What this format cannot hold is said before the work.
-    const std::vector<std::byte> voxels(std::size_t{grid.size[0]} * grid.size[1] * grid.size[2]);
-    std::ostream nowhere(nullptr);
-    return io::writeVolume(nowhere, options.heatMap, {grid, ScalarType::UInt8, voxels});
+    return {};
 }
 
 } // namespace voxtact::app

@@ -123,6 +123,7 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
 Result<void> chooseSurface(const PlanOptions& options, PlanInputs& inputs) {
     cpu::EntrySurface& surface = inputs.task.surface;
     surface.entries = options.entries;
+    surface.borderEntries = options.borderEntries;
     if (!options.entryLabel.empty() && options.entryRadius) {
         return badArgument("--entry-radius: --entry-label says already where entries are; leave out one of the two");
     }

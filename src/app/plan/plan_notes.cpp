@@ -27,12 +27,13 @@ std::string bestText(const PlannedPath& best) {
 
 void addNotesOf(const PlanInputs& inputs, const PlanAnswer& answer, const std::string& before,
                 std::vector<std::string>& notes) {
-    const std::uint32_t left = answer.noSurface + answer.tooLong + answer.tooOblique;
+    const std::uint32_t left = answer.noSurface + answer.onBorder + answer.tooLong + answer.tooOblique;
     notes.push_back(
         before + "paths: " + std::to_string(answer.paths.size()) + "; safe: " + countOf(answer, Safety::Safe) +
         ", unsafe: " + countOf(answer, Safety::Unsafe) + ", possible: " + countOf(answer, Safety::Possible) +
         (left == 0 ? ""
-                   : "; directions that meet no surface: " + std::to_string(answer.noSurface) + ", too long: " +
+                   : "; directions that meet no surface: " + std::to_string(answer.noSurface) +
+                         ", that enter where the image ends: " + std::to_string(answer.onBorder) + ", too long: " +
                          std::to_string(answer.tooLong) + ", too oblique: " + std::to_string(answer.tooOblique)));
     if (!inputs.task.mesh) {
         notes.push_back(before + "every path is safe from " + tenths(answer.safeArea) + " of " + tenths(answer.area) +

@@ -63,6 +63,9 @@ void addEntryOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& optio
     addNumber(
         parser, "--entry-radius", [options](double mm) { options->entryRadius = mm; },
         "entries are all so far from the target, mm", [](double mm) { return mm > 0; }, "above 0", "none");
+    parser.add_flag("--border-entries", options->borderEntries,
+                    "paths may begin where the image ends within what is opaque, or within --entry-label, too; without "
+                    "it they are left out: there the image was cut, and not the body");
     addNumber(
         parser, "--max-length", [options](double mm) { options->longest = mm; }, "mm: longer paths are left out",
         [](double mm) { return mm > 0; }, "above 0", "none");
@@ -95,11 +98,12 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
     addPath(parser, "--by-target", options->byTarget,
             "a CSV file with a row for each target: how many paths are safe, the area, the best path");
     addPath(parser, "--surface", options->surface,
-            "a .ply file for the entries and the triangles between them, in colours; of one target");
+            "a .ply file for the entries and the triangles between them, in colours; of several targets a path with "
+            "{target}, which becomes the target's name");
     addPath(
         parser, "--heat-map", options->heatMap,
         "a volume (.nii.gz, .nii, .nrrd, .mha) on the grid of --volume: the mm that every path which enters through a "
-        "voxel certainly keeps, -1 where none does; of one target");
+        "voxel certainly keeps, -1 where none does; of several targets a path with {target}");
     addPath(parser, "--picture", options->picture,
             "a .png file: the head with the entries in colours and the best path, from outside and cut open; needs a "
             "Vulkan device");

@@ -7,6 +7,8 @@
 #include "app/options/shared_options.h"
 #include "voxtact/cpu.h"
 
+#include <functional>
+#include <iosfwd>
 #include <map>
 #include <memory>
 #include <optional>
@@ -42,9 +44,10 @@ struct PlanOptions {
     std::uint32_t entries = 10000;
     LabelWord entryLabel;
     std::optional<double> entryRadius; ///< mm
-    std::optional<double> longest;     ///< mm
-    std::optional<double> steepest;    ///< degrees
-    double margin = 0;                 ///< mm
+    bool borderEntries = false;
+    std::optional<double> longest;  ///< mm
+    std::optional<double> steepest; ///< degrees
+    double margin = 0;              ///< mm
     double tolerance = kDefaultPlanTolerance;
     double maximum = kDefaultPlanMaximum;
     std::uint32_t threads = 0;
@@ -109,6 +112,8 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 
 /// What a plan reads, for who must not write over it.
 [[nodiscard]] std::vector<NamedPath> planReads(const PlanOptions& options);
+/// What it writes, but for the files of which each target has one.
+[[nodiscard]] std::vector<NamedPath> planWrites(const PlanOptions& options);
 /// Reads all of it. What comes out must not be moved: it refers to itself.
 [[nodiscard]] Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options);
 /// Sets where tips go; volume and labels are read.
@@ -137,6 +142,25 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 /// What is said of plans: how many paths are safe, the area, the best path.
 [[nodiscard]] std::vector<std::string> planNotes(const PlanInputs& inputs, std::span<const TargetPlan> plans);
 
+[[nodiscard]] std::vector<std::string> targetNames(const PlanInputs& inputs);
+
+/// A file of which each target has one: its path may have {target} in it.
+struct TargetFile {
+    std::string option;
+    std::filesystem::path path;
+    std::string ending;
+    std::function<Result<void>(std::ostream&, const TargetPlan&)> write;
+};
+/// Those that are asked for. They refer to both.
+[[nodiscard]] std::vector<TargetFile> targetFiles(const PlanOptions& options, const PlanInputs& inputs);
+/// Refuses endings, grids that a file cannot hold, one file for several targets, and files that are read.
+[[nodiscard]] Result<void> checkTargetFiles(const PlanOptions& options, const PlanInputs& inputs);
+
+/// JSON has the rows of targetTable() behind these as "by_target".
+void writePlanTable(std::ostream& out, io::Format format, const PlanInputs& inputs, std::span<const TargetPlan> plans,
+                    bool timing);
+/// Where that array begins in JSON.
+inline constexpr const char* kByTarget = "by_target";
 /// The rows, and what they are about. Refers to both.
 [[nodiscard]] io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans, bool timing);
 /// A row for each plan. Refers to both.
@@ -146,8 +170,8 @@ void writePlanSurface(std::ostream& out, const PlanAnswer& answer, bool certifie
 /// The entries on a grid, as float: mm that every path which enters through a voxel certainly keeps; -1 where none
 /// does. Not `certified`: of a mesh's paths, each in the voxel of its entry.
 [[nodiscard]] VolumeData planHeatMap(const Grid& grid, const PlanAnswer& answer, bool certified);
-/// Refuses an ending that is no volume's, and a grid that the file cannot hold.
-[[nodiscard]] Result<void> checkHeatMap(const PlanOptions& options, const Grid& grid);
+/// The ending by which a file of volumes is known; empty: it has none of these.
+[[nodiscard]] std::string volumeEnding(const std::filesystem::path& path);
 /// A page with the notes, the best paths, and for each target the entries in colours.
 /// `png`: the content of a picture that is in it; empty: there is none.
 void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans, double maximum,

@@ -13,10 +13,24 @@ namespace {
 constexpr std::array kColumns{"entry",        "x",       "y",         "z",         "safe",      "clearance_lo",
                               "clearance_hi", "nearest", "nearest_x", "nearest_y", "nearest_z", "length",
                               "angle",        "crosses", "target"};
-constexpr std::array kTargetColumns{
-    "target",     "x",          "y",        "z",           "paths",    "safe",          "unsafe", "possible",
-    "directions", "no_surface", "too_long", "too_oblique", "area_mm2", "safe_area_mm2", "best",   "best_clearance_lo",
-    "best_length"};
+constexpr std::array kTargetColumns{"target",
+                                    "x",
+                                    "y",
+                                    "z",
+                                    "paths",
+                                    "safe",
+                                    "unsafe",
+                                    "possible",
+                                    "directions",
+                                    "no_surface",
+                                    "on_border",
+                                    "too_long",
+                                    "too_oblique",
+                                    "area_mm2",
+                                    "safe_area_mm2",
+                                    "best",
+                                    "best_clearance_lo",
+                                    "best_length"};
 
 /// A nanometre: more digits say nothing.
 io::Cell millimetres(double value) {
@@ -124,15 +138,17 @@ io::Cell targetCell(const PlanInputs& inputs, const TargetPlan& plan, std::size_
     case 9:
         return std::uint64_t{answer.noSurface};
     case 10:
-        return std::uint64_t{answer.tooLong};
+        return std::uint64_t{answer.onBorder};
     case 11:
-        return std::uint64_t{answer.tooOblique};
+        return std::uint64_t{answer.tooLong};
     case 12:
-        return areaCell(answer.area);
+        return std::uint64_t{answer.tooOblique};
     case 13:
+        return areaCell(answer.area);
+    case 14:
         return inputs.task.mesh ? io::Cell() : areaCell(answer.safeArea);
     default:
-        return bestCell(plan, column - 14);
+        return bestCell(plan, column - 15);
     }
 }
 
@@ -162,6 +178,19 @@ io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans,
                       {"entries_per_s", 1000 * static_cast<double>(out.rows) / milliseconds}};
     }
     return out;
+}
+
+void writePlanTable(std::ostream& out, io::Format format, const PlanInputs& inputs, std::span<const TargetPlan> plans,
+                    bool timing) {
+    const io::Table rows = planTable(inputs, plans, timing);
+    io::TableWriter writer(out, format);
+    writer.add(rows);
+    if (format == io::Format::Json) {
+        writer.beginArray(kByTarget);
+        writer.add(targetTable(inputs, plans));
+    }
+    const io::TableEnd end{"timing", rows.timing};
+    writer.end({&end, 1});
 }
 
 io::Table targetTable(const PlanInputs& inputs, std::span<const TargetPlan> plans) {

@@ -128,8 +128,11 @@ Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs) {
         } else if (!inputs.labels) {
             return badArgument("--target: " + forMessage(text) +
                                " is not a point x,y,z, and there are no --labels that could have one of this name");
-        } else {
-            VOXTACT_TRY(targets.addLabel("--target", text));
+        } else if (const Result<void> label = targets.addLabel("--target", text); !label.ok()) {
+            return text.find(',') == std::string::npos
+                       ? label.error()
+                       : badArgument("--target: " + forMessage(text) +
+                                     " is neither a point x,y,z, three finite numbers, nor a label");
         }
     }
     if (!options.targetLabels.empty() && !inputs.labels) {

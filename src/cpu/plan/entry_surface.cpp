@@ -39,8 +39,14 @@ struct VoxelRay {
     }
 };
 
-/// The largest distance, mm, at which `inside(centred voxel)`, looked at in steps from outside; 0 where it nowhere is.
-template <class Inside> double outermost(const VoxelRay& ray, const Inside& inside) {
+/// Where a ray from the target is last in something.
+struct Outermost {
+    double distance = 0;  ///< mm; 0: it nowhere is
+    bool isAtEnd = false; ///< the grid ends there, and the thing may go on
+};
+
+/// The largest distance at which `inside(centred voxel)`, looked at in steps from outside.
+template <class Inside> Outermost outermost(const VoxelRay& ray, const Inside& inside) {
     constexpr int kHalvings = 12;
     const double step = kStep / std::max({std::abs(ray.way.x), std::abs(ray.way.y), std::abs(ray.way.z)});
     const double nearest = std::max(ray.begin, kNearest);
@@ -52,13 +58,14 @@ template <class Inside> double outermost(const VoxelRay& ray, const Inside& insi
             outside = at;
             continue;
         }
-        for (int i = 0; i < kHalvings; ++i) {
+        const bool isAtEnd = outside == at;
+        for (int i = 0; i < kHalvings && !isAtEnd; ++i) {
             const double middle = 0.5 * (at + outside);
             (inside(ray.from + middle * ray.way) ? at : outside) = middle;
         }
-        return at;
+        return {at, isAtEnd};
     }
-    return 0;
+    return {};
 }
 
 /// Whether a point is opaque, up to rounding.
@@ -94,8 +101,8 @@ class EntrySearch {
         }
     }
 
-    /// mm from the target; 0 where there is no surface.
-    [[nodiscard]] double along(const dvec3& direction) const {
+    /// From the target.
+    [[nodiscard]] Outermost along(const dvec3& direction) const {
         if (part_) {
             const VoxelRay ray(part_->space, target_ - part_->space.middle, direction);
             return outermost(ray, [&](const dvec3& voxel) { return isOpaque(*part_, surface_.volume->impl(), voxel); });
@@ -104,7 +111,7 @@ class EntrySearch {
             const VoxelRay ray(*space_, target_ - space_->middle, direction);
             return outermost(ray, [&](const dvec3& voxel) { return hasLabel(voxel); });
         }
-        return surface_.radius;
+        return {surface_.radius, false};
     }
 
   private:
@@ -151,8 +158,10 @@ Result<void> findEntries(PlanScene& scene, Workers& workers, PlanAnswer& answer)
     }
     VOXTACT_TRY(workers.forEach(scene.entries, scene.task.cancel, [&](EntryPoint& entry, ThreadMemory& /*memory*/) {
         const dvec3 direction = scene.grid.direction(entry.number);
-        entry.length = search.along(direction);
-        entry.isThere = entry.length > kNearest;
+        const Outermost found = search.along(direction);
+        entry.length = found.distance;
+        entry.isOnBorder = found.distance > kNearest && found.isAtEnd && !scene.task.surface.borderEntries;
+        entry.isThere = found.distance > kNearest && !entry.isOnBorder;
         entry.position = target + entry.length * direction;
     }));
     const std::vector<dvec3> normals = normalsOf(scene);
@@ -165,10 +174,12 @@ Result<void> findEntries(PlanScene& scene, Workers& workers, PlanAnswer& answer)
         }
         const bool tooLong = scene.task.longest && entry.length > *scene.task.longest;
         const bool tooOblique = scene.task.steepest && !(entry.angle && *entry.angle <= *scene.task.steepest);
-        (!entry.isThere ? answer.noSurface
-         : tooLong      ? answer.tooLong
-                        : answer.tooOblique) += !entry.isThere || tooLong || tooOblique ? 1 : 0;
-        entry.isThere = entry.isThere && !tooLong && !tooOblique;
+        const bool isLeft = entry.isThere && !tooLong && !tooOblique;
+        (entry.isOnBorder ? answer.onBorder
+         : !entry.isThere ? answer.noSurface
+         : tooLong        ? answer.tooLong
+                          : answer.tooOblique) += isLeft ? 0 : 1;
+        entry.isThere = isLeft;
     }
     return {};
 }

@@ -31,6 +31,7 @@ struct Obstacle {
 struct EntryPoint {
     std::uint32_t number = 0; ///< of the direction
     bool isThere = false;
+    bool isOnBorder = false;     ///< left out for that
     glm::dvec3 position{};       ///< world
     double length = 0;           ///< mm, from the target
     std::optional<double> angle; ///< degrees, between the direction and the surface's normal

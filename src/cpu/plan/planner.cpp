@@ -174,8 +174,9 @@ Error noEntries(const PlanAnswer& answer) {
     }
     return {ErrorCode::InvalidArgument, 0,
             "no entry is left of " + all + " directions: " + std::to_string(answer.noSurface) + " meet no surface, " +
-                std::to_string(answer.tooLong) + " are too long, " + std::to_string(answer.tooOblique) +
-                " too oblique; allow more"};
+                std::to_string(answer.onBorder) + " enter where the image ends, " + std::to_string(answer.tooLong) +
+                " are too long, " + std::to_string(answer.tooOblique) + " too oblique; allow more" +
+                (answer.onBorder > 0 ? ", border entries among them" : "")};
 }
 
 } // namespace
@@ -206,7 +207,7 @@ Result<PlanAnswer> Planner::plan(const PlanTask& task) {
         scene.margin = std::max(task.margin, kLeastMargin);
         PlanAnswer answer;
         VOXTACT_TRY(findEntries(scene, workers, answer));
-        if (answer.noSurface + answer.tooLong + answer.tooOblique == answer.directions) {
+        if (answer.noSurface + answer.onBorder + answer.tooLong + answer.tooOblique == answer.directions) {
             return noEntries(answer);
         }
         scene.slack = kRelativeError * magnitudeOf(scene);

@@ -188,6 +188,11 @@ void TableWriter::add(const Table& part) {
     rows_ += part.rows;
 }
 
+void TableWriter::beginArray(const std::string& name) {
+    out_ << "\n],\n" << dump(name) << ": [";
+    rows_ = 0;
+}
+
 void TableWriter::end(std::span<const TableEnd> ends, bool whole) {
     const bool json = format_ == Format::Json;
     out_ << (json ? "\n]" : "");

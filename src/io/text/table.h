@@ -68,6 +68,8 @@ class TableWriter {
     /// The next rows. What comes before them is written with the first part, which may have none; columns of text are
     /// as wide as the widest field so far.
     void add(const Table& part);
+    /// JSON only: the rows that follow are of another array, a member of this name behind the one before.
+    void beginArray(const std::string& name);
     /// What comes before the rows is written by somebody else.
     void omitHead() noexcept { begun_ = true; }
     /// After all parts, of which there must be one. `whole` false: JSON says "interrupted".

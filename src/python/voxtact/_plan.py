@@ -92,9 +92,10 @@ class Plan:
 
     @property
     def left_out(self) -> dict[str, int]:
-        """How many of the directions have no path, and why: "no_surface", "too_long", "too_oblique"."""
+        """How many of the directions have no path, and why: "no_surface", "on_border", "too_long",
+        "too_oblique"."""
         of = self._core
-        return {"no_surface": of.no_surface, "too_long": of.too_long, "too_oblique": of.too_oblique}
+        return {"no_surface": of.no_surface, "on_border": of.on_border, "too_long": of.too_long, "too_oblique": of.too_oblique}
 
     @property
     def seconds(self) -> float:

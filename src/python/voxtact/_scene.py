@@ -446,9 +446,10 @@ class Scene:
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,
              tip: Optional[npt.ArrayLike] = None, axis: Optional[npt.ArrayLike] = None,
              entries: int = core.DEFAULT_PLAN_ENTRIES, entry_label: Union[None, int, str] = None,
-             entry_radius: Optional[float] = None, margin: float = 0.0, max_length: Optional[float] = None,
-             max_angle: Optional[float] = None, tolerance: float = core.DEFAULT_PLAN_TOLERANCE,
-             maximum: float = core.DEFAULT_PLAN_MAXIMUM, most_steps: int = core.DEFAULT_PLAN_STEPS) -> Plan:
+             entry_radius: Optional[float] = None, border_entries: bool = False, margin: float = 0.0,
+             max_length: Optional[float] = None, max_angle: Optional[float] = None,
+             tolerance: float = core.DEFAULT_PLAN_TOLERANCE, maximum: float = core.DEFAULT_PLAN_MAXIMUM,
+             most_steps: int = core.DEFAULT_PLAN_STEPS) -> Plan:
         """Which straight paths to a target keep clear of what must not be touched: a `Plan` with a row for each entry.
 
         An instrument goes straight from an entry to the target, its axis on that line, and is certain to keep its
@@ -469,6 +470,9 @@ class Scene:
         entry_label, entry_radius
             entries are on the outside of this label, or all so far from the target, mm; None: on the outside of what is
             opaque in the scene
+        border_entries
+            paths may begin where the image ends within what is opaque, or within the label, too: there it is the image
+            that was cut, as a scan of a head is at the neck
         margin
             mm that a safe path keeps from all that is to be avoided
         max_length, max_angle
@@ -498,6 +502,7 @@ class Scene:
             wish["avoid"] = [self._labels.number(label) for label in avoid]
         if entry_label is not None and self._labels is not None:
             wish["entry_label"] = self._labels.number(entry_label)
+        wish["border_entries"] = bool(border_entries)
         given = {"needle": needle, "entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
         wish.update({name: value for name, value in given.items() if value is not None})
         if mesh is not None and tip is not None and axis is not None:
