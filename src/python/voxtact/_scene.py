@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import struct
-import zlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, Literal, NamedTuple, NoReturn, Optional, Union
@@ -21,6 +19,7 @@ from ._files import read_opacity
 from ._labels import Labels, read_labels
 from ._mesh import Mesh
 from ._motion import Interpolation, Motion
+from ._picture import Clip, Colour, Light, Show, picture_options, png
 from ._plan import Plan
 from ._track import Tracker
 from ._volume import Volume, read_volume
@@ -84,7 +83,7 @@ def _asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
         return mesh._core, numbers(poses, "poses")
-    if poses is None and isinstance(mesh, Sequence):
+    if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
         pairs = []
         for one in mesh:
             if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
@@ -127,20 +126,6 @@ def _pair(given: Any, what: str) -> tuple[float, float]:
     if array.shape != (2,):
         raise InvalidArgumentError(f"{what} is {given!r}; two numbers are needed")
     return float(array[0]), float(array[1])
-
-
-def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """A picture as PNG, in memory."""
-    height, width, _ = pixels.shape
-
-    def chunk(kind: bytes, content: bytes) -> bytes:
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-
-    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with its filter, none
-    rows[:, 1:] = pixels.reshape(height, 4 * width)
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
-            + chunk(b"IEND", b""))
 
 
 class Scene:
@@ -510,40 +495,66 @@ class Scene:
 
     # Pictures
 
-    def picture(self, mesh: Optional[Mesh] = None, pose: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512),
-                view: Union[str, tuple[float, float], npt.ArrayLike] = "front", preset: Optional[str] = None,
-                background: tuple[float, float, float] = (0.0, 0.0, 0.0),
-                show: Literal["contacts", "discarded", "plain"] = "contacts", through: float = 0.0) -> npt.NDArray[np.uint8]:
-        """A picture of the volume under its opacity, and of the mesh in it: (H,W,4), uint8, the uppermost row first.
+    def picture(self, mesh: Union[None, Mesh, Sequence[tuple[Mesh, Poses]]] = None, pose: Optional[Poses] = None, *,
+                size: tuple[int, int] = (512, 512), view: Union[str, tuple[float, float], npt.ArrayLike] = "front",
+                preset: Optional[str] = None, colours: Optional[npt.ArrayLike] = None,
+                background: Colour = (0.0, 0.0, 0.0), lighting: Light = "soft", clip: Union[Clip, Sequence[Clip]] = (),
+                clip_meshes: bool = False, show: Optional[Show] = None, triangles: Optional[npt.ArrayLike] = None,
+                through: Optional[float] = None,
+                mesh_colours: Optional[Sequence[Colour]] = None) -> npt.NDArray[np.uint8]:
+        """A picture of the volume under its opacity, and of meshes in it: (H,W,4), uint8, the uppermost row first.
 
         A Vulkan device makes it: the scene's, else the best one of this machine; UnsupportedError where there is none.
+        The same picture as `voxtact render --no-annotate` makes of the same.
 
+        mesh, pose
+            a mesh at a pose (4,4), None: where its coordinates are, or at several poses (N,4,4); or a list of (mesh,
+            poses) alone
         size
             (width, height), pixels
         view
             "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 before the face and
             90 beside the left ear; or (4,4), clip_from_world
-        preset
-            colours of a preset of `voxtact render` ("mr", "ct-bone", …); None: one warm white
+        preset, colours
+            colours of one of `looks()`; or (N,4), ascending: value, red, green, blue. None: one warm white
+        background
+            red, green and blue, 0 to 1
+        lighting
+            "soft": from the eye and from above its left, darker where a place is shut in; "eye"; "none"
+        clip
+            what is taken away of the volume, up to six times: "left", "right", "front", "back", "top" or "bottom" of a
+            plane through its middle, or ("left", mm) of one at that x, y or z; "near" or ("near", mm): what is nearer to
+            the eye than so many mm before the middle; or (x, y, z, offset): points with x px + y py + z pz > offset
+        clip_meshes
+            takes the same of meshes away
         show
-            what is red on the mesh: "contacts", as the projection "view" counts them; "discarded" also shows the rest in
-            blue; "plain": nothing
+            what is red on the meshes: "contacts" (None), as the projection "view" counts them; "discarded" also shows the
+            rest in blue; "triangles": those that touch for certain, or those of `triangles`; "plain": nothing
+        triangles
+            chosen triangles: numbers, of one mesh at all its poses; or rows with `pair` and `triangle`, as
+            `Answer.triangles` of the same meshes and poses has them
         through
-            0 to 1: how much of the contacts is seen through the volume before them
+            0 to 1: how much of what is painted is seen through the volume before it; None: 0.8, of "discarded" 1
+        mesh_colours
+            (red, green, blue) of each mesh; None: gray, and others
         """
-        if mesh is not None and not isinstance(mesh, Mesh):
-            raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-        width, height = _whole(size, 2, "size")
+        meshes, matrices = None, None
+        if mesh is not None:
+            meshes, matrices = _asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
+        count = 0 if meshes is None else 1 if matrices is not None else len(meshes)
+        if show == "triangles" and triangles is None:
+            triangles = () if mesh is None else self.detect(mesh, matrices, triangles=True).triangles
+        options = picture_options(0 if meshes is None else _pairs_in(meshes, matrices), count, size=_whole(size, 2, "size"),
+                                  view=view, preset=preset, colours=colours, background=background, lighting=lighting,
+                                  show=show, through=through, triangles=triangles, mesh_colours=mesh_colours, clip=clip,
+                                  clip_meshes=clip_meshes)
         device = self._device if self._device is not None or self._closed else best_device()
-        camera = view if isinstance(view, (str, tuple)) else numbers(view, "view")
-        matrices = np.eye(4) if pose is None else numbers(pose, "pose")
-        return self._core.picture(None if mesh is None else mesh._core, matrices, width, height, camera, preset,
-                                  [number(channel, "background") for channel in background], show, number(through, "through"), None if device is None else device._core)
+        return self._core.picture(meshes, matrices, options, None if device is None else device._core)
 
     def _repr_png_(self) -> Optional[bytes]:
         """For notebooks; nothing where no device can draw."""
         try:
-            return _png(self.picture(size=(320, 320)))
+            return png(self.picture(size=(320, 320)))
         except Error:
             return None
 
