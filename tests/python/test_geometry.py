@@ -92,3 +92,9 @@ def test_what_methods_are_worth(device):
     scene = vx.Scene("builtin:head:16", opacity=[(40, 0), (80, 1)], device=device)
     answer = scene.detect(cube(20), placed((0, 0, 80)), projection="view")
     assert answer.method == device.default_method
+    fastest = device.fastest_method()
+    assert measured[fastest].trusted and fastest != "query-any" and device.fastest_method() == fastest
+    assert scene.detect(cube(20), placed((0, 0, 80)), projection="view", method="auto").method == fastest
+    assert scene.detect(cube(20), placed((0, 0, 80)), method="auto").method == "compute"
+    on_host = vx.Scene("builtin:head:16", opacity=[(40, 0), (80, 1)])
+    assert on_host.detect(cube(20), placed((0, 0, 80)), projection="view", method="auto").method == "cpu"

@@ -25,7 +25,7 @@ from ._track import Tracker
 from ._volume import Volume, read_volume
 
 Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
-Method = Literal["query", "query-any", "atomic", "subgroup", "compute", "cpu"]
+Method = Literal["auto", "query", "query-any", "atomic", "subgroup", "compute", "cpu"]
 #: Points (value, opacity), ascending; or text, "40:0,80:1"; or a file. None: from 0 to 1 over the domain.
 Opacity = Union[None, npt.ArrayLike, str, "os.PathLike[str]"]
 #: (N,4,4) or (4,4).
@@ -84,10 +84,11 @@ def _asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
         return mesh._core, numbers(poses, "poses")
     if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
-        pairs = []
+        pairs: list[tuple[Any, Any]] = []
         for one in mesh:
             if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
-                raise TypeError("a list of what is asked has pairs (mesh, poses)")
+                raise TypeError(f"item {len(pairs)} of the list is no pair (mesh, poses) with a voxtact.Mesh, as "
+                                "voxtact.read_mesh() makes it")
             pairs.append((one[0]._core, numbers(one[1], "poses")))
         return pairs, None
     raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
@@ -272,7 +273,8 @@ class Scene:
             "conservative" is certified: no contact is missed, and *possible* says where rounding decides. "view",
             "two-view" (of `view`; without, from above) and "dominant-axis" (`samples_per_voxel`, 1 to 16) count pixels
         method, filter, boundary, overestimate
-            how a device counts; see docs/counting.md. The host engine has "cpu" and "exact"
+            how a device counts; see docs/counting.md. "auto" is the fastest one that counts, measured once for each
+            `Device`; None: `Device.default_method`. The host engine has "cpu" and "exact"
         resolution
             conservative: how small, in voxels, the pieces of a triangle may get
         max_depth
@@ -299,7 +301,10 @@ class Scene:
             options["yes_no"] = True
         if projection != "conservative":
             options["projection"] = projection
-        if method is not None:
+        if method == "auto":  # the certified projection has one on a device, and the host has one
+            if self._device is not None and projection != "conservative":
+                options["method"] = self._device.fastest_method()
+        elif method is not None:
             options["method"] = method
         if filter is not None:
             options["filter"] = filter
