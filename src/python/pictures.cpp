@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -185,6 +186,25 @@ void Reading::read(const std::string& name, const py::handle& value) {
     }
 }
 
+py::array_t<double> sideViewOf(const py::object& view, const Image& volume, const std::shared_ptr<Shape>& mesh,
+                               const py::object& poses, std::uint32_t width, std::uint32_t height) {
+    const Camera camera = cameraOf(view);
+    if (!camera.direction) {
+        refuseArgument("view is neither a name nor (azimuth, elevation)");
+    }
+    if (width == 0 || height == 0) {
+        refuseArgument("size has a 0; a view has at least one pixel");
+    }
+    if (!std::isfinite(camera.direction->azimuth) || !std::isfinite(camera.direction->elevation)) {
+        refuseArgument("view: azimuth or elevation is not finite");
+    }
+    Request shown;
+    if (mesh != nullptr) {
+        shown = requestOf(py::cast(mesh), poses);
+    }
+    return matrixInPython(viewFrom(*camera.direction, volume.data().grid, boxOf(shown), width, height));
+}
+
 } // namespace
 
 PictureWish pictureWishOf(const Image& volume, const py::object& meshes, const py::object& poses,
@@ -221,6 +241,8 @@ py::array_t<std::uint8_t> pixelsOf(const Picture& picture) {
 }
 
 void definePictures(py::module_& module) {
+    module.def("view_from", &sideViewOf, py::arg("view"), py::arg("volume"), py::arg("mesh"), py::arg("poses"),
+               py::arg("width"), py::arg("height"));
     module.def("look_names", [] {
         std::vector<std::string> names;
         for (const LookPreset& preset : lookPresets()) {

@@ -286,6 +286,16 @@ def test_progress(scene, knife):
     assert (bars[-1].n, bars[-1].total, bars[-1].closed) == (20, 20, True)
     with pytest.raises(TypeError, match="progress"):
         scene.detect(knife, poses, progress=3)
+
+    def stop(done, of):
+        told.append(done)
+        raise StopIteration("enough")
+
+    told = []
+    with pytest.raises(StopIteration, match="enough"):
+        scene.detect(knife, np.tile(poses, (50, 1, 1)), progress=stop)
+    assert len(told) == 1 and told[0] < 50_000, "it ended with the first piece"
+    assert len(scene.detect(knife, poses)) == 1000, "and the scene is as good as ever"
     tqdm = pytest.importorskip("tqdm").tqdm
     scene.within(knife, poses, margin=1, progress=tqdm)
 

@@ -96,6 +96,28 @@ def test_chosen_triangles(drawn, knife):
         drawn.picture(knife, size=SIZE, triangles=[0], show="plain")
 
 
+def test_a_view_from_a_side_is_the_pictures(drawn, knife, tmp_path):
+    pose = placed((0, 0, 60))
+    head = drawn.volume
+    view = vx.view_from("left", head, knife, pose, size=SIZE)
+    assert (view.width, view.height) == SIZE
+    np.testing.assert_array_equal(drawn.picture(knife, pose, view=view), drawn.picture(knife, pose, view="left", size=SIZE))
+    np.testing.assert_array_equal(vx.view_from((90, 0), head, knife, pose, size=SIZE).clip_from_world, view.clip_from_world)
+    counted = drawn.detect(knife, pose, projection="view", view=view).count[0]
+    painted = red(drawn.picture(knife, pose, view=view, through=1, show="contacts")).sum()
+    assert counted > 0 and painted > 0
+    assert drawn.detect(knife, pose, projection="view", view=view).device_seconds >= 0
+    for wrong in ("above", (np.nan, 0)):
+        with pytest.raises(vx.InvalidArgumentError, match="view"):
+            vx.view_from(wrong, head)
+    with pytest.raises(vx.InvalidArgumentError, match="size"):
+        vx.view_from("left", head, size=(0, 5))
+    with pytest.raises(TypeError, match="a name or"):
+        vx.view_from(np.eye(4), head)
+    with pytest.raises(TypeError, match="read_volume"):
+        vx.view_from("left", "head.nii")
+
+
 def test_looks(device, tmp_path):
     assert {"mr", "ct-bone"} <= set(vx.looks())
     head = vx.read_volume(VOLUME)

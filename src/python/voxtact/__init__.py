@@ -47,7 +47,7 @@ from ._mesh import Mesh, read_mesh
 from ._motion import Motion, pose_between
 from ._picture import Look, look, looks, read_colours
 from ._plan import Plan
-from ._scene import Scene, View
+from ._scene import Scene, View, view_from
 from ._track import Tracked, Tracker
 from ._volume import Volume, read_volume
 
@@ -96,6 +96,7 @@ __all__ = [
     "read_points",
     "read_poses",
     "read_volume",
+    "view_from",
     "write_png",
 ]
 

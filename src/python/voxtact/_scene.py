@@ -39,13 +39,35 @@ _INFINITE = float("inf")
 
 
 class View(NamedTuple):
-    """The camera of the projections "view" and "two-view"."""
+    """The camera of the projections "view" and "two-view", and of pictures. `view_from` makes one."""
 
     #: (4,4): Vulkan's clip space (x right, y down, depth 0 to 1); orthographic or perspective
     clip_from_world: npt.ArrayLike
     #: pixels
     width: int = 512
     height: int = 512
+
+
+def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optional[Mesh] = None,
+              poses: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512)) -> View:
+    """A `View` that frames a volume, as `Scene.picture` does: orthographic, with square pixels.
+
+        scene.detect(knife, poses, projection="view", view=vx.view_from("left", head, knife, poses))
+
+    view
+        "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees
+    mesh, poses
+        what is between the near and the far plane, too: the projection "view" counts nothing beyond them
+    size
+        (width, height), pixels
+    """
+    if not isinstance(volume, Volume) or not (mesh is None or isinstance(mesh, Mesh)):
+        raise TypeError("volume is a voxtact.Volume, and mesh a voxtact.Mesh: voxtact.read_volume() and read_mesh() make them")
+    if not isinstance(view, (str, tuple)):
+        raise TypeError(f"view is a {type(view).__name__}; a name or (azimuth, elevation) is needed")
+    width, height = _whole(size, 2, "size")
+    matrices = None if mesh is None else np.eye(4) if poses is None else numbers(poses, "poses")
+    return View(core.view_from(view, volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)
 
 
 @contextmanager
@@ -438,7 +460,8 @@ class Scene:
              entries: int = core.DEFAULT_PLAN_ENTRIES, entry_label: Union[None, int, str] = None,
              entry_radius: Optional[float] = None, margin: float = 0.0, max_length: Optional[float] = None,
              max_angle: Optional[float] = None, tolerance: float = core.DEFAULT_PLAN_TOLERANCE,
-             maximum: float = core.DEFAULT_PLAN_MAXIMUM, most_steps: int = core.DEFAULT_PLAN_STEPS) -> Plan:
+             maximum: float = core.DEFAULT_PLAN_MAXIMUM, most_steps: int = core.DEFAULT_PLAN_STEPS,
+             triangle_clearances: bool = False) -> Plan:
         """Which straight paths to a target keep clear of what must not be touched: a `Plan` with a row for each entry.
 
         An instrument goes straight from an entry to the target, its axis on that line, and is certain to keep its
@@ -466,6 +489,8 @@ class Scene:
         tolerance, maximum, most_steps
             mm, how near to each other the bounds of a clearance are brought; mm, what is farther is not measured; a path
             that takes more steps is left with the bounds that it has
+        triangle_clearances
+            how much every path from a whole triangle keeps, too, of a needle: `Plan.triangle_clearance`
 
         The host engine plans, also for scenes on a device. Whether the target is inside of the volume is not asked.
         """
@@ -484,6 +509,8 @@ class Scene:
         wish: dict[str, Any] = {"entries": _whole([entries], 1, "entries")[0], "margin": number(margin, "margin"),
                                    "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
                                    "most_steps": _whole([most_steps], 1, "most_steps")[0]}
+        if triangle_clearances:
+            wish["triangle_clearances"] = True
         if self._labels is not None:
             wish["avoid"] = [self._labels.number(label) for label in avoid]
         if entry_label is not None and self._labels is not None:
@@ -496,12 +523,12 @@ class Scene:
             wish.update(mesh=mesh._core, tip=numbers(tip, "tip"), axis=numbers(axis, "axis"))
         avoided = None if avoid_volume is None else read_volume(avoid_volume)._core
         return Plan(self._core.plan(numbers(target, "target"), wish, avoided, _points(avoid_opacity),
-                                    self.domain if avoided is None else None), self._labels)
+                                    self.domain if avoided is None else None), self._labels, bool(triangle_clearances))
 
     # Pictures
 
     def picture(self, mesh: Union[None, Mesh, Sequence[tuple[Mesh, Poses]]] = None, pose: Optional[Poses] = None, *,
-                size: tuple[int, int] = (512, 512), view: Union[str, tuple[float, float], npt.ArrayLike] = "front",
+                size: tuple[int, int] = (512, 512), view: Union[str, tuple[float, float], View, npt.ArrayLike] = "front",
                 preset: Optional[str] = None, colours: Optional[npt.ArrayLike] = None,
                 background: Colour = (0.0, 0.0, 0.0), lighting: Light = "soft", clip: Union[Clip, Sequence[Clip]] = (),
                 clip_meshes: bool = False, show: Optional[Show] = None, triangles: Optional[npt.ArrayLike] = None,
@@ -519,7 +546,7 @@ class Scene:
             (width, height), pixels
         view
             "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 before the face and
-            90 beside the left ear; or (4,4), clip_from_world
+            90 beside the left ear; or (4,4), clip_from_world; or a `View`, whose size then is the picture's
         preset, colours
             colours of one of `looks()`; or (N,4), ascending: value, red, green, blue. None: one warm white
         background
@@ -543,6 +570,8 @@ class Scene:
         mesh_colours
             (red, green, blue) of each mesh; None: gray, and others
         """
+        if isinstance(view, View):
+            size, view = (view.width, view.height), view.clip_from_world
         meshes, matrices = None, None
         if mesh is not None:
             meshes, matrices = _asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
