@@ -10,6 +10,8 @@ The truth is voxtact's certified answer (`voxtact detect --answer yes-no --count
   distance   a signed Euclidean distance transform of the opaque voxels (scipy), sampled trilinearly at the vertices of
              the mesh; or, for comparison, at points of its triangles that are half a voxel apart
   vertices   the image itself, sampled trilinearly at the same points: no distance, but nothing to make beforehand
+  open3d     the isosurface of `vtk` against the mesh (TriangleMesh.is_intersecting, every triangle against every other of
+             the surface cropped to the mesh's box), and one vertex looked up; where there is open3d, for a few poses
   python     voxtact again, through `import voxtact`, all poses in one call; where PYTHONPATH has it
   view, fcl  as `voxtact bench --certified` has them: the paper's view of 512x512 pixels by the host, and FCL, the mesh
              against an octree of the opaque voxels
@@ -18,7 +20,9 @@ Poses are at large (`voxtact make poses`), or around the onset of contact: a ran
 random direction until it no longer does, found by bisection with the certified answer, and from there by a random
 length from 0.75 voxels back to 0.25 voxels on. Rates are pairs per second of CPU time on one thread, all in one run.
 
-open3d is not among them: the RaycastingScene of Debian 12 (0.16.1) finds no hit, not even of a ray through a triangle.
+open3d's RaycastingScene, which is made for such questions, is not among them: that of Debian 12 (0.16.1) finds no hit,
+not even of a ray through a triangle, by cast_rays, count_intersections and test_occlusions alike; so its signed distances
+are positive inside, too, and its occupancies 0. Its unsigned distances are right, and say nothing of a mesh that is inside.
 
 Needs the packages of third_party/debian-packages-peers.txt. Usage:
   peers.py VOXTACT [--poses N] [--output FILE]
@@ -206,7 +210,8 @@ class Vtk:
         triangles = numpy_support.vtk_to_numpy(contour.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
         a, b, c = (points[triangles[:, corner]] for corner in range(3))
         triangles = triangles[numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) > 1e-12]
-        surface = polygons(placed(scene.world_from_index, points), triangles)
+        self.surface = placed(scene.world_from_index, points), triangles
+        surface = polygons(*self.surface)
         self.triangles = len(triangles)
         self.pose = vtk.vtkMatrix4x4()
         self.collide = vtk.vtkCollisionDetectionFilter()
@@ -229,6 +234,32 @@ class Vtk:
     def hit(self, pose):
         corner = placed(pose, self.scene.vertices[:1])
         return self.cuts(pose) or self.scene.sample(self.scene.voxels, corner, 0.0)[0] >= isovalue()
+
+
+class Open3d:
+    """Triangles against triangles. What it does not say, whether the mesh is inside, is looked up as for VTK."""
+
+    most = 40  # poses of each kind: it takes seconds for one
+
+    def __init__(self, scene, surface):
+        import open3d
+
+        self.scene, self.library = scene, open3d
+        begin = time.process_time()
+        self.surface = self.mesh(*surface)
+        self.setup_s = time.process_time() - begin
+
+    def mesh(self, points, triangles):
+        utility = self.library.utility
+        return self.library.geometry.TriangleMesh(utility.Vector3dVector(points), utility.Vector3iVector(triangles))
+
+    def hit(self, pose):
+        mesh = self.mesh(placed(pose, self.scene.vertices), self.scene.triangles)
+        box = mesh.get_axis_aligned_bounding_box()
+        # It keeps triangles all of whose vertices are in the box, and those of the surface are smaller than two voxels.
+        near = self.surface.crop(self.library.geometry.AxisAlignedBoundingBox(box.min_bound - 2, box.max_bound + 2))
+        corner = placed(pose, self.scene.vertices[:1])
+        return mesh.is_intersecting(near) or self.scene.sample(self.scene.voxels, corner, 0.0)[0] >= isovalue()
 
 
 class Python:
@@ -255,6 +286,8 @@ def ask(engine, poses, truth):
             answers = engine.hits(poses)
             times.append(time.process_time() - begin)
         return judged(answers, poses, truth, float(numpy.median(times)))
+    most = getattr(engine, "most", len(poses))
+    poses, truth = poses[:most], truth[:most]
     begin = time.process_time()
     answers = numpy.array([bool(engine.hit(pose)) for pose in poses])
     return judged(answers, poses, truth, time.process_time() - begin)
@@ -266,7 +299,7 @@ def judged(answers, poses, truth, seconds):
             "missed": int((contacts & ~answers).sum()), "false": int((misses & answers).sum()),
             "missed_percent": round(100 * float((contacts & ~answers).sum()) / max(1, int(contacts.sum())), 2),
             "false_percent": round(100 * float((misses & answers).sum()) / max(1, int(misses.sum())), 2),
-            "pairs_per_cpu_s": round(len(poses) / seconds, 1)}
+            "pairs_per_cpu_s": round(len(poses) / seconds, 2)}
 
 
 BENCH_ENGINES = {("cpu", "conservative", "yes/no", 1): "certified",
@@ -313,6 +346,10 @@ def main():
             engines["python"] = Python(voxtact.mesh)
         except ImportError:
             print("there is no voxtact in PYTHONPATH: no row for Python")
+        try:
+            engines["open3d"] = Open3d(scene, engines["vtk"].surface)
+        except ImportError:
+            print("there is no open3d: no row for it")
         for name, engine in engines.items():
             for kind, poses in kinds.items():
                 rows.append({"engine": name, "poses": kind, **ask(engine, poses, truth[kind])})
@@ -320,11 +357,13 @@ def main():
             "date": datetime.date.today().isoformat(),
             "machine": {"cpu": processor(), "processors": os.cpu_count(), "system": platform.platform()},
             "versions": {"voxtact": voxtact.run("--version").split("\n")[0], "vtk": vtk.vtkVersion().GetVTKVersion(),
-                         "scipy": scipy.__version__, "numpy": numpy.__version__, "python": platform.python_version()},
+                         "scipy": scipy.__version__, "numpy": numpy.__version__, "python": platform.python_version(),
+                         **({"open3d": engines["open3d"].library.__version__} if "open3d" in engines else {})},
             "scene": {"volume": VOLUME, "mesh": MESH, "opacity": OPACITY, "threshold": THRESHOLD,
                       "vertices": len(scene.vertices), "triangles": len(scene.triangles),
                       "surface_triangles": engines["vtk"].triangles,
                       "dense_points": len(dense)},
+            "open3d_poses": Open3d.most,
             "possible": {kind: int((hits == 2).sum()) for kind, hits in truth.items()},
             "setup_cpu_s": {name: round(engine.setup_s, 2) for name, engine in engines.items()},
             "rows": rows,

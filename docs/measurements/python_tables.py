@@ -18,13 +18,16 @@ PAGE = ROOT / "docs" / "python.md"
 PEERS = {"python": "`scene.detect(…, yes_no=True)`",
          "certified": "the same in C++, `voxtact bench`",
          "vtk": "VTK {vtk}, isosurface and `vtkCollisionDetectionFilter`",
+         "open3d": "Open3D {open3d}, the same isosurface and `TriangleMesh.is_intersecting`, {most} poses of each",
          "distance": "distance transform at the vertices (SciPy {scipy})",
          "distance, dense": "… at points half a voxel apart",
          "vertices, dense": "the image itself at points half a voxel apart"}
 
 
 def rounded(value):
-    """Three digits."""
+    """Three digits; of what is less than one, one."""
+    if value < 1:
+        return f"{value:.1g}"
     digits = max(0, len(str(int(value))) - 3)
     return f"{round(value, -digits):,.0f}"
 
@@ -45,7 +48,7 @@ def bench_table(rows):
             yield (f"| one pose, {row['threads']} | {row['engine_us']:.1f} µs | {row['more_us']:.1f} µs (90 % of 5,000: "
                    f"{row['low_us']:.1f} to {row['high_us']:.1f}) |")
         else:
-            yield (f"| {row['poses']:,} poses, {row['threads']} | {row['engine_s']:.2f} s | {signed(row['more_percent'])} % "
+            yield (f"| {row['poses']:,} poses, {row['threads']} | {row['engine_s']:.2f} s of processors | {signed(row['more_percent'])} % "
                    f"(median of 15; {signed(row['low_percent'])} to {signed(row['high_percent'])}) |")
 
 
@@ -54,7 +57,10 @@ def peers_table(result):
     yield "| --- | --- | --- | --- | --- | --- | --- | --- |"
     rows = {(row["engine"], row["poses"]): row for row in result["rows"]}
     for engine, name in PEERS.items():
-        cells = [name.format(**result["versions"])]
+        if (engine, "onset") not in rows:
+            print(f"no row for {engine}: it is not installed")
+            continue
+        cells = [name.format(**result["versions"], most=result["open3d_poses"])]
         for kind in ("onset", "large"):
             row = rows[engine, kind]
             cells += [percent(row["missed_percent"]), percent(row["false_percent"]), rounded(row["pairs_per_cpu_s"])]
@@ -76,7 +82,8 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--poses", type=int, default=300)
     options = parser.parse_args()
-    env = {**os.environ, "PYTHONPATH": str(options.build.resolve() / "python")}
+    paths = [str(options.build.resolve() / "python"), os.environ.get("PYTHONPATH", "")]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
     bench = json.loads(subprocess.run([sys.executable, ROOT / "tests/bench/python_bench.py", "--json"], env=env,
                                       check=True, stdout=subprocess.PIPE).stdout)
     with tempfile.TemporaryDirectory() as folder:

@@ -117,8 +117,8 @@ struct Batch {
     View view{};                          ///< at most kMaxViewport pixels a side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
     /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
-    /// threads at rest; until then it must stay true. They look at it between cells and steps of a search. Where it is
-    /// true when the call begins, nothing is done at all. May be null.
+    /// threads at rest. They look at it between cells and steps of a search; what one of them has seen is not taken
+    /// back by a flag that is false again. Where it is true when the call begins, nothing is done at all. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
 

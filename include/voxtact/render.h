@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 /// Pictures (target voxtact::render): a translucent volume by ray casting, and an opaque mesh in it at the right depth.
@@ -76,6 +78,10 @@ struct Lighting {
     /// over to the gradient in two more. false: the gradient at once, which is noise on such a face.
     bool faces = true;
 };
+/// The light of that name. `soft`: from the eye and from above its left, darker where a place is shut in, by what is
+/// within a part of the volume's diagonal; `eye`: Lighting's defaults; `none`: colours as they are. Nothing for
+/// another.
+[[nodiscard]] VOXTACT_API std::optional<Lighting> lightingNamed(std::string_view name, const Grid& grid) noexcept;
 
 /// The side `normal` points to is away: points p of world space with dot(normal, p) > offset.
 struct ClipPlane {
@@ -84,6 +90,12 @@ struct ClipPlane {
 };
 /// Planes that a Scene may have.
 inline constexpr std::size_t kMostClipPlanes = 6;
+/// What takes a side of a volume away. `left`, `right`, `back`, `front`, `top` and `bottom`: that side of a plane at
+/// `at` mm of the world's x, y or z; `near`: what is nearer to the eye than `at` mm before the volume's middle. Without
+/// `at` the plane goes through the middle. `towardsEye`, of unit length, matters to `near` alone. Nothing for another
+/// name.
+[[nodiscard]] VOXTACT_API std::optional<ClipPlane> clipSide(std::string_view side, std::optional<double> at,
+                                                            const Grid& grid, const Vec3& towardsEye) noexcept;
 
 class RenderTransferFunction;
 class RenderTargets;
@@ -131,6 +143,11 @@ struct SceneMesh {
     MeshPaint paint{};                    ///< what of it has another colour
     bool clipped = false;                 ///< by Scene::clipPlanes, as the volume is
 };
+/// A SceneMesh::meshColour for each of several meshes: apart from each other, from tissue, and from the colours of
+/// contacts. The first is that of a SceneMesh; after six they begin again.
+[[nodiscard]] VOXTACT_API Colour meshColour(std::size_t number) noexcept;
+/// A MeshPaint::through that shows what is painted: 0.8, and 1 of Discarded, where all of the mesh is painted.
+[[nodiscard]] VOXTACT_API double throughFor(Paint paint) noexcept;
 
 /// What is to be seen: a volume, and meshes in it. It is its first mesh itself; without one, `mesh` is null.
 struct Scene : SceneMesh {

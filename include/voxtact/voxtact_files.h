@@ -120,6 +120,16 @@ VXT_API const char* vxt_label_names_get(const vxt_label_names* names, size_t ind
 /// Ends it.
 VXT_API void vxt_label_names_destroy(vxt_label_names* names);
 
+/// A list of points that was read.
+typedef struct vxt_points vxt_points;
+/// `x y z` or `x y z name`, one a line: voxtact::io::readPoints().
+VXT_CHECKED vxt_result vxt_read_points(const char* path, vxt_points** points);
+/// The name of the point at a place of the file's order, "" where it has none; null beyond the last one. Its position
+/// as it stands in the file, and its line there, from 1; both may be null.
+VXT_API const char* vxt_points_get(const vxt_points* points, size_t index, double position[3], uint64_t* line);
+/// Ends it.
+VXT_API void vxt_points_destroy(vxt_points* points);
+
 #ifdef __cplusplus
 }
 #endif

@@ -49,11 +49,12 @@ VXT_API void vxt_host_mesh_destroy(vxt_host_mesh* mesh);
 VXT_CHECKED vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const float* positions, size_t vertex_count);
 
 /// Ends calls of the host engine early: those whose batch or task has it soon return CANCELLED once it is set, and at
-/// once where it was set before. Setting it is safe from any thread while calls look at it.
+/// once where it was set before. Setting it is safe from any thread while calls look at it; a call that has seen it
+/// set returns CANCELLED, even where it is made ready again meanwhile.
 typedef struct vxt_cancel vxt_cancel;
 /// One that is not set.
 VXT_CHECKED vxt_result vxt_cancel_create(vxt_cancel** cancel);
-/// Sets it, or with 0 makes it ready for the next call, once those that look at it have returned. Null is allowed.
+/// Sets it, or with 0 makes it ready for the next call. Null is allowed.
 VXT_API void vxt_cancel_set(vxt_cancel* cancel, uint32_t set);
 /// Ends it. No call may look at it.
 VXT_API void vxt_cancel_destroy(vxt_cancel* cancel);

@@ -47,18 +47,19 @@ typedef struct vxt_plan_task {
     const vxt_cancel* cancel;                                  ///< ends the call early; may be null, the default
     double target[3];                                          ///< where the tip goes
     double mesh_tip[3];                                        ///< object space: comes to the target
-    double mesh_axis[3];    ///< object space: from the tip to where it is held; default 0 0 1
-    double entry_threshold; ///< 0..1: of entry_volume; default 0.1
-    double entry_radius;    ///< of a ball around the target, where neither a volume nor labels are given
-    double needle_diameter; ///< above 0; default 2
-    double needle_length;   ///< from the tip to the other end, at least the diameter; default 200
-    double margin;          ///< that is to be kept; default 0
-    double max_length;      ///< of paths, above 0; 0, the default: of any length
-    double max_angle;       ///< with has_max_angle: degrees between a path and the normal of the surface, 0 to 90
-    uint32_t has_max_angle; ///< default 0: at any angle, and where the surface has no normal
-    uint32_t entries;       ///< directions: the least 10 n^2 + 2 that is no fewer; default 1002
-    int32_t entry_label;    ///< of entry_labels
-    uint32_t border_entries; ///< 1: paths may begin where the image ends within the thing, too; default 0
+    double mesh_axis[3];          ///< object space: from the tip to where it is held; default 0 0 1
+    double entry_threshold;       ///< 0..1: of entry_volume; default 0.1
+    double entry_radius;          ///< of a ball around the target, where neither a volume nor labels are given
+    double needle_diameter;       ///< above 0; default 2
+    double needle_length;         ///< from the tip to the other end, at least the diameter; default 200
+    double margin;                ///< that is to be kept; default 0
+    double max_length;            ///< of paths, above 0; 0, the default: of any length
+    double max_angle;             ///< with has_max_angle: degrees between a path and the normal of the surface, 0 to 90
+    uint32_t has_max_angle;       ///< default 0: at any angle, and where the surface has no normal
+    uint32_t entries;             ///< directions: the least 10 n^2 + 2 that is no fewer; default 1002
+    int32_t entry_label;          ///< of entry_labels
+    uint32_t border_entries;      ///< 1: paths may begin where the image ends within the thing, too; default 0
+    uint32_t triangle_clearances; ///< of a needle: those of vxt_plan_view, for about as long again; default 0
 } vxt_plan_task;
 
 /// What a planner is made for: voxtact::cpu::PlannerDesc.
@@ -112,6 +113,9 @@ typedef struct vxt_plan_view {
     uint32_t too_oblique;                ///< of the others, those at a larger angle than the maximum, or at none
     uint32_t on_border;                  ///< of those with a surface, those where the image ends
     uint32_t reserved;                   ///< 0
+    /// Of each triangle, where the task asks for them: every path from any point of it certainly keeps at least so
+    /// much, up to the planner's maximum; else null.
+    const double* triangle_clearances;
 } vxt_plan_view;
 
 /// No labels, and the threshold 0.1.

@@ -211,6 +211,18 @@ typedef struct vxt_lighting {
     uint32_t reserved;   ///< 0
 } vxt_lighting;
 
+/// The light of a name, `soft`, `eye` or `none`, in this volume: voxtact::lightingNamed(). `lighting` comes from
+/// vxt_lighting_init().
+VXT_CHECKED vxt_result vxt_lighting_named(const char* name, const vxt_grid* grid, vxt_lighting* lighting);
+/// What takes a side of a volume away, as `left` or `near`: voxtact::clipSide(). `at`: mm; null: at the middle.
+/// `direction`: from where the eye looks, for `near` alone; else it may be null.
+VXT_CHECKED vxt_result vxt_clip_side(const char* side, const double* at, const vxt_grid* grid,
+                                     const vxt_view_direction* direction, vxt_clip_plane* plane);
+/// A colour for each of several meshes, by its number: voxtact::meshColour(). Null is allowed.
+VXT_API void vxt_mesh_colour(size_t number, double colour[3]);
+/// How much of what is painted shines through, so that it is seen: voxtact::throughFor(); 0 for no paint.
+VXT_API double vxt_paint_through(vxt_paint paint);
+
 /// What is to be seen: voxtact::Scene.
 typedef struct vxt_picture_scene {
     size_t struct_size;                  ///< sizeof

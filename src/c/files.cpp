@@ -4,6 +4,8 @@
 #include "c/handles.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
+
 using namespace voxtact;
 using namespace voxtact::c;
 
@@ -15,6 +17,9 @@ struct vxt_colour_points {
 };
 struct vxt_label_names {
     std::vector<io::LabelName> object;
+};
+struct vxt_points {
+    std::vector<io::NamedPoint> object;
 };
 
 namespace {
@@ -162,4 +167,26 @@ const char* vxt_label_names_get(const vxt_label_names* names, size_t index, int3
 
 void vxt_label_names_destroy(vxt_label_names* names) {
     delete names;
+}
+
+vxt_result vxt_read_points(const char* path, vxt_points** points) {
+    return create(points, [&] { return take(io::readPoints(toPath(path))); });
+}
+
+const char* vxt_points_get(const vxt_points* points, size_t index, double position[3], uint64_t* line) {
+    if (points == nullptr || index >= points->object.size()) {
+        return nullptr;
+    }
+    const io::NamedPoint& point = points->object[index];
+    if (position != nullptr) {
+        std::ranges::copy(point.position, position);
+    }
+    if (line != nullptr) {
+        *line = point.line;
+    }
+    return point.name.c_str();
+}
+
+void vxt_points_destroy(vxt_points* points) {
+    delete points;
 }

@@ -3,9 +3,11 @@
 #include "voxtact/looks.h"
 #include "c/convert.h"
 #include "c/handles.h"
+#include "c/structs.h"
 #include "voxtact/render.h"
 #include "voxtact/voxtact_render.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -74,6 +76,67 @@ vxt_result vxt_view_from(const vxt_view_direction* direction, const vxt_grid* gr
         out.width = width;
         out.height = height;
     });
+}
+
+vxt_result vxt_clip_side(const char* side, const double* at, const vxt_grid* grid, const vxt_view_direction* direction,
+                         vxt_clip_plane* plane) {
+    return call([&] {
+        const std::string name = &need(side, "side");
+        const Grid of = checkedGrid(grid);
+        vxt_clip_plane& out = need(plane, "plane");
+        const std::optional<double> where = at == nullptr ? std::nullopt : std::optional<double>(*at);
+        if (where && !std::isfinite(*where)) {
+            refuse(ErrorCode::InvalidArgument, "at is not finite");
+        }
+        Vec3 eye{};
+        if (name == "near") {
+            const vxt_view_direction& from = need(direction, "direction");
+            eye = towardsEye({from.azimuth, from.elevation});
+            if (!std::isfinite(from.azimuth) || !std::isfinite(from.elevation)) {
+                refuse(ErrorCode::InvalidArgument, "direction: azimuth or elevation is not finite");
+            }
+        }
+        const std::optional<ClipPlane> found = clipSide(name, where, of, eye);
+        if (!found) {
+            refuse(ErrorCode::InvalidArgument,
+                   "there is no side '" + name + "'; there are left, right, back, front, top, bottom and near");
+        }
+        std::ranges::copy(found->normal, out.normal);
+        out.offset = found->offset;
+    });
+}
+
+vxt_result vxt_lighting_named(const char* name, const vxt_grid* grid, vxt_lighting* lighting) {
+    return call([&] {
+        const std::optional<Lighting> found = lightingNamed(&need(name, "name"), checkedGrid(grid));
+        if (!found) {
+            refuse(ErrorCode::InvalidArgument,
+                   std::string("there is no light '") + name + "'; there are soft, eye and none");
+        }
+        vxt_lighting out = vxt_lighting_init();
+        out.ambient = found->ambient;
+        out.diffuse = found->diffuse;
+        out.specular = found->specular;
+        out.shininess = found->shininess;
+        out.side = found->side;
+        std::ranges::copy(found->sideFrom, out.side_from);
+        out.occlusion = found->occlusion;
+        out.reach = found->reach;
+        out.volume = found->volume ? 1 : 0;
+        out.mesh = found->mesh ? 1 : 0;
+        out.faces = found->faces ? 1 : 0;
+        writeStruct(lighting, out, "lighting");
+    });
+}
+
+void vxt_mesh_colour(size_t number, double colour[3]) {
+    if (colour != nullptr) {
+        std::ranges::copy(meshColour(number), colour);
+    }
+}
+
+double vxt_paint_through(vxt_paint paint) {
+    return paint == VXT_PAINT_PLAIN ? 0 : throughFor(static_cast<Paint>(paint));
 }
 
 vxt_result vxt_split_at_creases(const vxt_mesh_view* mesh, double degrees, vxt_mesh_data** data) {

@@ -86,3 +86,13 @@ const char* vxt_label_names_get(const vxt_label_names*, size_t, int32_t*) {
 }
 
 void vxt_label_names_destroy(vxt_label_names*) {}
+
+vxt_result vxt_read_points(const char*, vxt_points** points) {
+    return absent(kWhy, points);
+}
+
+const char* vxt_points_get(const vxt_points*, size_t, double*, uint64_t*) {
+    return nullptr;
+}
+
+void vxt_points_destroy(vxt_points*) {}

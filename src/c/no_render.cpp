@@ -4,6 +4,8 @@
 #include "c/absent.h"
 #include "voxtact/voxtact_render.h"
 
+#include <algorithm>
+
 using namespace voxtact;
 using namespace voxtact::c;
 
@@ -46,6 +48,24 @@ vxt_result vxt_direction_named(const char*, vxt_view_direction*) {
 
 vxt_result vxt_view_from(const vxt_view_direction*, const vxt_grid*, const vxt_box*, uint32_t, uint32_t, vxt_view*) {
     return absent(kWhy);
+}
+
+vxt_result vxt_clip_side(const char*, const double*, const vxt_grid*, const vxt_view_direction*, vxt_clip_plane*) {
+    return absent(kWhy);
+}
+
+vxt_result vxt_lighting_named(const char*, const vxt_grid*, vxt_lighting*) {
+    return absent(kWhy);
+}
+
+void vxt_mesh_colour(size_t, double colour[3]) {
+    if (colour != nullptr) {
+        std::fill_n(colour, 3, 0);
+    }
+}
+
+double vxt_paint_through(vxt_paint) {
+    return 0;
 }
 
 vxt_result vxt_split_at_creases(const vxt_mesh_view*, double, vxt_mesh_data** data) {

@@ -11,7 +11,8 @@ using namespace voxtact::c;
 struct vxt_plan {
     std::vector<vxt_planned_path> paths;
     std::vector<vxt_entry_triangle> triangles;
-    PlanAnswer totals; ///< without these
+    std::vector<double> triangleClearances; ///< of each, or none
+    PlanAnswer totals;                      ///< without these
 };
 
 namespace {
@@ -74,6 +75,7 @@ class TaskOf {
         if (given_.has_max_angle != 0) {
             task.steepest = given_.max_angle;
         }
+        task.triangleClearances = given_.triangle_clearances != 0;
         task.cancel = objectOf(given_.cancel);
         return task;
     }
@@ -108,8 +110,11 @@ vxt_entry_triangle toTriangle(const EntryTriangle& triangle) noexcept {
     return {{triangle.paths[0], triangle.paths[1], triangle.paths[2]}, triangle.safe ? 1U : 0U};
 }
 
-vxt_plan toPlan(PlanAnswer answer) {
+vxt_plan toPlan(PlanAnswer answer, bool triangleClearances) {
     vxt_plan out;
+    if (triangleClearances) {
+        std::ranges::transform(answer.triangles, std::back_inserter(out.triangleClearances), &EntryTriangle::clearance);
+    }
     std::ranges::transform(answer.paths, std::back_inserter(out.paths), toPath);
     std::ranges::transform(answer.triangles, std::back_inserter(out.triangles), toTriangle);
     answer.paths = {};
@@ -134,6 +139,7 @@ vxt_result vxt_plan_get(const vxt_plan* plan, vxt_plan_view* view) {
         vxt_plan_view out = vxt_plan_view_init();
         out.paths = handOut<vxt_planned_path>(from.paths, &out.path_count);
         out.triangles = handOut<vxt_entry_triangle>(from.triangles, &out.triangle_count);
+        out.triangle_clearances = from.triangleClearances.empty() ? nullptr : from.triangleClearances.data();
         out.area = from.totals.area;
         out.safe_area = from.totals.safeArea;
         out.wall_milliseconds = from.totals.wallMilliseconds;
@@ -159,7 +165,8 @@ vxt_result vxt_host_planner_plan(vxt_host_planner* planner, const vxt_plan_task*
         cpu::Planner& by = need(planner, "planner").object;
         vxt_plan& to = need(plan, "plan");
         const TaskOf of(task);
-        to = toPlan(take(by.plan(of.task())));
+        const cpu::PlanTask asked = of.task();
+        to = toPlan(take(by.plan(asked)), asked.triangleClearances);
     });
 }
 

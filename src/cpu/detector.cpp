@@ -66,12 +66,14 @@ Result<BatchAnswer> Detector::detect(const Batch& batch) {
         const Result<std::uint32_t> pairs = checkBatch(impl_->desc, batch);
         VOXTACT_TRY(pairs);
         VOXTACT_TRY(checkLabelMaps(batch, impl_->desc.outputs));
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        const Cancellation cancel(batch.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         DetectorImpl& impl = *impl_;
-        BatchAnswer answer = rowOf(impl.desc.projection).certified
-                                 ? runCertified(batch, *pairs, impl.desc, impl.pool, impl.certified)
-                                 : runCounts(batch, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        BatchAnswer answer =
+            rowOf(impl.desc.projection).certified
+                ? runCertified(batch, cancel, *pairs, impl.desc, impl.pool, impl.certified)
+                : runCounts(batch, cancel, *pairs, impl.desc, {impl.pool, impl.scratches}, impl.occupancies);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         answer.wallMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         return answer;

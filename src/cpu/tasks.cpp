@@ -16,7 +16,8 @@ constexpr std::uint32_t kPartsPerThread = 4;
 
 } // namespace
 
-Tasks::Tasks(const Batch& batch, std::uint32_t pairs, std::uint32_t threads) : cancel_(batch.cancel) {
+Tasks::Tasks(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs, std::uint32_t threads)
+    : cancel_(&cancel) {
     const std::uint32_t wanted = threads == 1 || pairs == 0 ? 1 : std::max(threads * kPartsPerThread / pairs, 1U);
     std::uint32_t pair = 0;
     for (const BatchItem& item : batch.items) {

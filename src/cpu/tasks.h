@@ -25,11 +25,11 @@ struct Task {
 class Tasks {
   public:
     /// Expects a batch that checkBatch() accepts, and its number of pairs.
-    Tasks(const Batch& batch, std::uint32_t pairs, std::uint32_t threads);
+    Tasks(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs, std::uint32_t threads);
 
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] Task at(std::uint64_t task) const noexcept;
-    /// Calls `body(task, thread)` for all, until the batch is cancelled, on the pool's threads. What it throws comes
+    /// Calls `body(task, thread)` for all, until the call is cancelled, on the pool's threads. What it throws comes
     /// out, when all are at rest.
     void run(ThreadPool& pool, const std::function<void(const Task&, std::uint32_t thread)>& body) const;
 

@@ -97,6 +97,7 @@ void Answer::add(std::size_t first, BatchAnswer piece) {
     }
     addContacts(first, std::move(piece.contacts));
     milliseconds += piece.wallMilliseconds;
+    deviceMilliseconds += piece.gpuMilliseconds;
 }
 
 void Answer::addContacts(std::size_t first, std::vector<Contact> piece) {
@@ -155,6 +156,7 @@ void defineAnswers(py::module_& module) {
         .def_property_readonly("pose", [](const Answer& answer) { return posesOf(*answer.request); })
         .def_readonly("contacts_found", &Answer::contactsFound)
         .def_readonly("milliseconds", &Answer::milliseconds)
+        .def_readonly("device_milliseconds", &Answer::deviceMilliseconds)
         .def_readonly("revision", &Answer::revision)
         .def_property_readonly("counters", &countersOf)
         .def_property_readonly("method", [](const Answer& answer) { return toString(answer.method); })

@@ -34,6 +34,7 @@ class Answer {
     std::uint64_t contactsFound = 0;
     std::optional<CertifiedCounters> counters; ///< of all pieces together, where the question asks for them
     double milliseconds = 0;
+    double deviceMilliseconds = 0;
 
   private:
     void addContacts(std::size_t first, std::vector<Contact> piece);

@@ -4,6 +4,7 @@
 #include "failure.h"
 #include "image.h"
 #include "voxtact/io.h"
+#include "voxtact/plan.h"
 #include "voxtact/samples.h"
 
 #include <pybind11/stl.h>
@@ -72,6 +73,13 @@ py::array_t<std::int32_t> labelsAt(const LabelData& labels, const Doubles& point
     return found;
 }
 
+py::array_t<std::int32_t> labelsOnLine(const LabelData& labels, const Doubles& from, const Doubles& to) {
+    const Vec3 first = vectorOf(from, "start");
+    const Vec3 last = vectorOf(to, "end");
+    const std::vector<std::int32_t> found = unlocked([&] { return take(labelsAlong(labels, first, last)); });
+    return py::array_t<std::int32_t>(static_cast<py::ssize_t>(found.size()), found.data());
+}
+
 void defineImage(py::module_& module) {
     py::class_<Image, std::shared_ptr<Image>>(module, "Volume")
         .def_static("read", &readImage, py::arg("path"), py::arg("frame"), py::arg("series"))
@@ -105,7 +113,8 @@ void defineImage(py::module_& module) {
         .def_property_readonly(
             "values",
             [](const py::object& self) { return readOnly(shown(self.cast<const LabelData&>().values, self)); })
-        .def("at", &labelsAt, py::arg("points"));
+        .def("at", &labelsAt, py::arg("points"))
+        .def("along", &labelsOnLine, py::arg("start"), py::arg("end"));
 }
 
 std::shared_ptr<Shape> readShape(const std::string& path, bool ras, double scale) {
@@ -167,6 +176,18 @@ py::dict readLabelNames(const std::string& path) {
     return names;
 }
 
+py::tuple readPoints(const std::string& path) {
+    const std::vector<io::NamedPoint> points = unlocked([&] { return take(io::readPoints(path)); });
+    py::array_t<double> positions({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+    py::list names;
+    double* to = positions.mutable_data();
+    for (const io::NamedPoint& point : points) {
+        to = std::copy(point.position.begin(), point.position.end(), to);
+        names.append(point.name);
+    }
+    return py::make_tuple(std::move(positions), py::tuple(names));
+}
+
 void writePng(const std::string& path, const py::array_t<std::uint8_t, py::array::c_style>& picture) {
     const std::span<const std::uint8_t> rgba{picture.data(), static_cast<std::size_t>(picture.size())};
     take(io::writePng(path, static_cast<std::uint32_t>(picture.shape(1)), static_cast<std::uint32_t>(picture.shape(0)),
@@ -188,6 +209,7 @@ void defineData(py::module_& module) {
     module.def(
         "parse_opacity", [](const std::string& text) { return pointsInPython(take(io::parseOpacity(text))); },
         py::arg("text"));
+    module.def("read_points", &readPoints, py::arg("path"));
     module.def("read_label_names", &readLabelNames, py::arg("path"));
     module.def("write_png", &writePng, py::arg("path"), py::arg("picture"));
 }

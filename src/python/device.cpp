@@ -2,6 +2,7 @@
 #include "device.h"
 
 #include "failure.h"
+#include "measuring.h"
 
 #include <dlfcn.h>
 #include <pybind11/stl.h>
@@ -414,7 +415,8 @@ void defineDevice(py::module_& module) {
     const auto facts = [version](const DeviceFacts& of) {
         return py::make_tuple(of.index, of.name, of.type, of.driver, version(of));
     };
-    py::class_<Device, std::shared_ptr<Device>>(module, "Device")
+    py::class_<Device, std::shared_ptr<Device>> device(module, "Device");
+    device
         .def_static("list",
                     [facts] {
                         std::vector<DeviceFacts> all;
@@ -429,15 +431,16 @@ void defineDevice(py::module_& module) {
                         return out;
                     })
         .def_static("open", &Device::open, py::arg("wanted"), py::call_guard<py::gil_scoped_release>())
-        .def_property_readonly("facts", [facts](const Device& device) { return facts(device.facts()); })
-        .def_property_readonly("methods", [](const Device& device) {
+        .def_property_readonly("facts", [facts](const Device& of) { return facts(of.facts()); })
+        .def_property_readonly("methods", [](const Device& of) {
             py::dict methods;
-            for (const MethodSupport& support : device.context().methods()) {
+            for (const MethodSupport& support : of.context().methods()) {
                 methods[toString(support.method)] =
                     support.available ? py::object(py::none()) : py::object(py::str(support.reason));
             }
             return methods;
         });
+    defineMeasuring(device);
 }
 
 } // namespace voxtact::python

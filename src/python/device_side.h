@@ -3,28 +3,14 @@
 
 #include "device.h"
 #include "edits.h"
+#include "pictures.h"
 #include "request.h"
 #include "voxtact/detector.h"
-#include "voxtact/render.h"
 
 #include <map>
 #include <memory>
 
 namespace voxtact::python {
-
-/// What a picture shows.
-struct PictureWish {
-    std::shared_ptr<const Shape> mesh; ///< null: the volume alone
-    std::vector<Mat4> world_from_object;
-    Mat4 clip_from_world{};
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<ColourPoint> colours;
-    Colour background{};
-    Paint paint = Paint::Contacts;
-    double through = 0;
-    double threshold = kDefaultThreshold;
-};
 
 /// A scene on a Vulkan device: what is on the device, in the order in which it is made. One call at a time.
 class DeviceSide {
@@ -57,6 +43,8 @@ class DeviceSide {
     [[nodiscard]] Uploaded& uploaded(const std::shared_ptr<const Shape>& shape);
     [[nodiscard]] const Mesh& onDevice(const std::shared_ptr<const Shape>& shape);
     [[nodiscard]] const Drawn& drawn(const std::shared_ptr<const Shape>& shape);
+    /// Of each pair, where they are shown.
+    [[nodiscard]] std::vector<PaintedTriangles> paint(const PictureWish& wish);
     [[nodiscard]] RenderTransferFunction upload(const PictureWish& wish, const OpacityDesc& opacity);
 
     std::shared_ptr<Device> device_;

@@ -216,6 +216,7 @@ PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelDat
         task.mesh = cpu::PlanMesh{&wish.mesh->onHost(), wish.tip, wish.axis};
     }
     task.margin = wish.margin;
+    task.triangleClearances = wish.triangleClearances;
     task.longest = wish.longest;
     task.steepest = wish.steepest;
     return interruptibly(task, [&](const cpu::PlanTask& asked) { return take(planner.plan(asked)); });

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // voxtact._core: what the package voxtact, in voxtact/, is thin on.
 #include "failure.h"
+#include "geometry.h"
 #include "motions.h"
+#include "pictures.h"
 #include "plans.h"
 #include "process.h"
 #include "scene.h"
@@ -27,9 +29,11 @@ PYBIND11_MODULE(_core, module) {
     python::watchForks();
     python::registerFailures();
     python::defineData(module);
+    python::defineGeometry(module);
     python::defineDevice(module);
     python::defineAnswers(module);
     python::defineMotions(module);
+    python::definePictures(module);
     python::definePlans(module);
     python::defineScene(module);
     python::defineTracker(module);

@@ -3,32 +3,13 @@
 #include "device_side.h"
 #include "failure.h"
 #include "turn.h"
-#include "voxtact/looks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 
 namespace voxtact::python {
 
 namespace {
-
-/// That of `voxtact render`: soft, with places that are shut in darker.
-Lighting softLight(const Grid& grid) {
-    Lighting lighting;
-    lighting.ambient = 0.3;
-    lighting.diffuse = 0.45;
-    lighting.side = 0.5;
-    lighting.specular = 0.16;
-    lighting.occlusion = 0.55;
-    constexpr double kReach = 0.025; // of the diagonal
-    double diagonal = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        diagonal += std::pow(grid.spacing[axis] * grid.size[axis], 2);
-    }
-    lighting.reach = kReach * std::sqrt(diagonal);
-    return lighting;
-}
 
 /// Leaves render(), which nothing may be thrown through, and is thrown on.
 class Interruption {
@@ -73,24 +54,42 @@ RenderTransferFunction DeviceSide::upload(const PictureWish& wish, const Opacity
     return take(RenderTransferFunction::upload(renderer_->renderer(), device_->queue(), desc));
 }
 
+std::vector<PaintedTriangles> DeviceSide::paint(const PictureWish& wish) {
+    std::vector<PaintedTriangles> painted;
+    for (const Request::Item& item : wish.shown.items) {
+        for (std::size_t pose = 0; wish.paint == Paint::Triangles && pose < item.world_from_object.size(); ++pose) {
+            painted.push_back(
+                take(PaintedTriangles::upload(renderer_->renderer(), device_->queue(), item.mesh->facts().triangles,
+                                              wish.triangles[item.firstPair + pose])));
+        }
+    }
+    return painted;
+}
+
 Picture DeviceSide::picture(const PictureWish& wish, const OpacityDesc& opacity) {
     if (!renderer_) {
         renderer_.emplace(take(BlockingRenderer::create(device_->context(), device_->queue())));
         bricks_.emplace(take(RenderBricks::create(renderer_->renderer(), volume_)));
     }
     const RenderTransferFunction function = upload(wish, opacity);
+    const std::vector<PaintedTriangles> painted = paint(wish);
     std::vector<SceneMesh> meshes;
-    for (const Mat4& pose : wish.world_from_object) {
-        const Drawn& drawing = drawn(wish.mesh);
-        SceneMesh one;
-        one.mesh = &drawing.mesh;
-        one.normals = &drawing.normals;
-        one.world_from_object = pose;
-        one.paint.what = wish.paint;
-        one.paint.transferFunction = &function_;
-        one.paint.threshold = wish.threshold;
-        one.paint.through = wish.through;
-        meshes.push_back(one);
+    for (std::size_t item = 0; item < wish.shown.items.size(); ++item) {
+        const Drawn& drawing = drawn(wish.shown.items[item].mesh);
+        for (const Mat4& pose : wish.shown.items[item].world_from_object) {
+            SceneMesh one;
+            one.mesh = &drawing.mesh;
+            one.normals = &drawing.normals;
+            one.world_from_object = pose;
+            one.meshColour = wish.meshColours[item];
+            one.clipped = wish.clipMeshes;
+            one.paint.what = wish.paint;
+            one.paint.transferFunction = &function_;
+            one.paint.threshold = wish.threshold;
+            one.paint.triangles = painted.empty() ? nullptr : &painted[meshes.size()];
+            one.paint.through = wish.through;
+            meshes.push_back(one);
+        }
     }
     voxtact::Scene scene;
     scene.volume = &volume_;
@@ -99,7 +98,8 @@ Picture DeviceSide::picture(const PictureWish& wish, const OpacityDesc& opacity)
     scene.others = meshes;
     scene.clip_from_world = wish.clip_from_world;
     scene.background = wish.background;
-    scene.lighting = softLight(volume_.grid());
+    scene.clipPlanes = wish.clips;
+    scene.lighting = wish.lighting;
     Interruption interruption;
     Picture made = take(renderer_->render(scene, {wish.width, wish.height},
                                           [&](std::uint32_t, std::uint32_t) { interruption.look(); }));

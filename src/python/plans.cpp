@@ -70,6 +70,8 @@ void read(PlanWish& wish, const std::string& name, const py::handle& value) {
         wish.maximum = value.cast<double>();
     } else if (name == "most_steps") {
         wish.mostSteps = value.cast<std::uint64_t>();
+    } else if (name == "triangle_clearances") {
+        wish.triangleClearances = value.cast<bool>();
     } else {
         throw py::type_error("there is no option " + name);
     }
@@ -85,6 +87,7 @@ Plan::Plan(PlanAnswer answer, bool withLabels) : totals(std::move(answer)) {
     for (const EntryTriangle& triangle : totals.triangles) {
         triangles.insert(triangles.end(), triangle.paths.begin(), triangle.paths.end());
         safe.push_back(triangle.safe ? 1 : 0);
+        clearances.push_back(triangle.clearance);
     }
     totals.paths = {};
     totals.triangles = {};
@@ -109,6 +112,8 @@ void definePlans(py::module_& module) {
             "triangles", [](const py::object& self) { return shown(self.cast<const Plan&>().triangles, 3, self); })
         .def_property_readonly("safe",
                                [](const py::object& self) { return truths(self.cast<const Plan&>().safe, self); })
+        .def_property_readonly("triangle_clearance",
+                               [](const py::object& self) { return shown(self.cast<const Plan&>().clearances, self); })
         .def_property_readonly("area", total(&PlanAnswer::area))
         .def_property_readonly("safe_area", total(&PlanAnswer::safeArea))
         .def_property_readonly("directions", total(&PlanAnswer::directions))

@@ -39,6 +39,7 @@ struct PlanWish {
     double tolerance = kDefaultPlanTolerance;
     double maximum = kDefaultPlanMaximum;
     std::uint64_t mostSteps = cpu::PlannerDesc().mostSteps;
+    bool triangleClearances = false;
 };
 
 /// A row of Plan::paths.
@@ -64,6 +65,7 @@ struct Plan {
     std::vector<PathRow> paths;
     std::vector<std::uint32_t> triangles; ///< three numbers of paths for each
     std::vector<std::uint8_t> safe;       ///< of each triangle
+    std::vector<double> clearances;       ///< of each triangle, where they were asked for
     PlanAnswer totals;                    ///< without paths and triangles
 };
 

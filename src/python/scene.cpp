@@ -113,6 +113,9 @@ void Scene::append(Edit edit) {
 
 std::shared_ptr<Answer> Scene::answered(std::shared_ptr<const Request> request, const Question& question,
                                         const Progress& progress) {
+    if (question.outputs.labels && desc_.labels == nullptr) {
+        refuseArgument("labels of what touches need a scene with labels=");
+    }
     auto answer = std::make_shared<Answer>(request, question);
     answer->revision = revision_;
     if (desc_.device != nullptr) {

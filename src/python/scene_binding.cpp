@@ -3,13 +3,11 @@
 #include "arrays.h"
 #include "failure.h"
 #include "scene.h"
-#include "voxtact/looks.h"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::python {
 
@@ -166,76 +164,15 @@ std::shared_ptr<Plan> plan(Scene& scene, const Doubles& target, const py::dict& 
     return scene.plan(wish);
 }
 
-Paint paintOf(const std::string& name) {
-    constexpr std::array<std::pair<const char*, Paint>, 3> kPaints{
-        {{"contacts", Paint::Contacts}, {"discarded", Paint::Discarded}, {"plain", Paint::Plain}}};
-    for (const auto& [word, paint] : kPaints) {
-        if (name == word) {
-            return paint;
-        }
-    }
-    refuseArgument("show '" + name + "' is none of contacts, discarded, plain");
-}
-
-/// A name, (azimuth, elevation), or a matrix clip_from_world.
-Mat4 cameraOf(const py::object& view, const PictureWish& wish, const Grid& grid) {
-    ViewDirection direction;
-    if (py::isinstance<py::str>(view)) {
-        const auto name = view.cast<std::string>();
-        const std::optional<ViewDirection> found = directionNamed(name);
-        if (!found) {
-            refuseArgument("view '" + name + "' is none of front, back, left, right, top, bottom");
-        }
-        direction = *found;
-    } else if (py::isinstance<py::tuple>(view) && py::len(view) == 2) {
-        const auto [azimuth, elevation] = view.cast<std::pair<double, double>>();
-        direction = {azimuth, elevation};
-    } else {
-        return matrixOf(view.cast<Doubles>(), "view");
-    }
-    std::optional<Box> around;
-    for (const Mat4& pose : wish.world_from_object) {
-        const Box box = transformBox(pose, wish.mesh->facts().bounds);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!around) {
-                around = box;
-            }
-            around->lo[axis] = std::min(around->lo[axis], box.lo[axis]);
-            around->hi[axis] = std::max(around->hi[axis], box.hi[axis]);
-        }
-    }
-    return viewFrom(direction, grid, around, wish.width, wish.height);
-}
-
-py::array_t<std::uint8_t> picture(Scene& scene, std::shared_ptr<Shape> mesh, const py::object& poses,
-                                  std::uint32_t width, std::uint32_t height, const py::object& view,
-                                  const std::optional<std::string>& preset, const Colour& background,
-                                  const std::string& show, double through, const std::shared_ptr<Device>& device) {
-    if (width == 0 || height == 0) {
-        refuseArgument("size has a 0; a picture has at least one pixel");
-    }
-    const Image& volume = *scene.desc().volume;
-    PictureWish wish;
-    if (mesh != nullptr) {
-        wish.world_from_object = matricesOf(poses.cast<Doubles>(), "poses");
-    }
-    wish.mesh = std::move(mesh);
-    wish.width = width;
-    wish.height = height;
-    wish.colours = preset ? take(lookNamed(*preset, volume.range())).colours : plainColours();
-    wish.background = background;
-    wish.paint = paintOf(show);
-    wish.through = through;
-    wish.clip_from_world = cameraOf(view, wish, volume.data().grid);
+py::array_t<std::uint8_t> picture(Scene& scene, const py::object& meshes, const py::object& poses,
+                                  const py::dict& options, const std::shared_ptr<Device>& device) {
+    const PictureWish wish = pictureWishOf(*scene.desc().volume, meshes, poses, options);
     Picture made;
     {
         const py::gil_scoped_release release;
         made = scene.picture(wish, device);
     }
-    py::array_t<std::uint8_t> pixels(
-        {static_cast<py::ssize_t>(made.height), static_cast<py::ssize_t>(made.width), py::ssize_t{4}});
-    std::copy(made.rgba.begin(), made.rgba.end(), pixels.mutable_data());
-    return pixels;
+    return pixelsOf(made);
 }
 
 } // namespace
@@ -272,9 +209,7 @@ void defineScene(py::module_& module) {
              py::arg("progress"))
         .def("plan", &plan, py::arg("target"), py::arg("options"), py::arg("avoided"), py::arg("points"),
              py::arg("domain"))
-        .def("picture", &picture, py::arg("mesh"), py::arg("poses"), py::arg("width"), py::arg("height"),
-             py::arg("view"), py::arg("preset"), py::arg("background"), py::arg("show"), py::arg("through"),
-             py::arg("device"))
+        .def("picture", &picture, py::arg("meshes"), py::arg("poses"), py::arg("options"), py::arg("device"))
         .def("close", &Scene::close, py::call_guard<py::gil_scoped_release>());
 }
 

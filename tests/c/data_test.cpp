@@ -245,6 +245,19 @@ TEST_F(CFiles, TextsBecomeArrays) {
     EXPECT_EQ(label, -4);
     EXPECT_STREQ(vxt_label_names_get(names.get(), 0, nullptr), "left");
     EXPECT_EQ(vxt_label_names_get(names.get(), 2, &label), nullptr);
+
+    const auto list = made<vxt_points>(vxt_points_destroy, [&](auto out) {
+        return vxt_read_points(write("points.txt", "# targets\n1 2 3\n-4.5 5 6 tip\n").c_str(), out);
+    });
+    double position[3] = {};
+    std::uint64_t line = 0;
+    EXPECT_STREQ(vxt_points_get(list.get(), 0, position, &line), "");
+    EXPECT_THAT(position, testing::ElementsAre(1, 2, 3));
+    EXPECT_EQ(line, 2U);
+    EXPECT_STREQ(vxt_points_get(list.get(), 1, position, nullptr), "tip");
+    EXPECT_THAT(position, testing::ElementsAre(-4.5, 5, 6));
+    EXPECT_NE(vxt_points_get(list.get(), 1, nullptr, nullptr), nullptr);
+    EXPECT_EQ(vxt_points_get(list.get(), 2, position, &line), nullptr);
 }
 
 } // namespace

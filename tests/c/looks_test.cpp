@@ -89,6 +89,77 @@ TEST(CLooks, ViewsAreTheCppInterfaces) {
     EXPECT_THAT(text(vxt_view_from(&direction, &cGridOf, nullptr, 1, 1, &view)), HasSubstr("not finite"));
 }
 
+TEST(CLooks, CutsAreTheCppInterfaces) {
+    const Grid grid = unitGrid(4, 5, 6);
+    const vxt_grid cGridOf = cGrid(grid);
+    const double at = 1.25;
+    const vxt_view_direction direction{30, 20};
+    for (const char* side : {"left", "right", "back", "front", "top", "bottom", "near"}) {
+        for (const double* where : {static_cast<const double*>(nullptr), &at}) {
+            const auto expected =
+                clipSide(side, where == nullptr ? std::nullopt : std::optional<double>(at), grid, towardsEye({30, 20}));
+            vxt_clip_plane plane{};
+            need(vxt_clip_side(side, where, &cGridOf, &direction, &plane));
+            EXPECT_THAT(plane.normal, ElementsAreArray(expected.value().normal)) << side;
+            EXPECT_EQ(plane.offset, expected.value().offset) << side;
+        }
+    }
+    // The grid's box is the unit cube.
+    vxt_clip_plane plane{};
+    need(vxt_clip_side("right", nullptr, &cGridOf, nullptr, &plane));
+    EXPECT_THAT(plane.normal, testing::ElementsAre(-1, 0, 0));
+    EXPECT_EQ(plane.offset, -0.5);
+    EXPECT_THAT(text(vxt_clip_side("behind", nullptr, &cGridOf, nullptr, &plane)),
+                HasSubstr("'behind'; there are left"));
+    EXPECT_EQ(text(vxt_clip_side("near", nullptr, &cGridOf, nullptr, &plane)), "direction is null");
+    EXPECT_EQ(text(vxt_clip_side(nullptr, nullptr, &cGridOf, nullptr, &plane)), "side is null");
+    EXPECT_EQ(text(vxt_clip_side("left", nullptr, nullptr, nullptr, &plane)), "grid is null");
+    EXPECT_EQ(text(vxt_clip_side("left", nullptr, &cGridOf, nullptr, nullptr)), "plane is null");
+    const double nan = std::nan("");
+    EXPECT_EQ(text(vxt_clip_side("left", &nan, &cGridOf, nullptr, &plane)), "at is not finite");
+}
+
+TEST(CLooks, LightsAndColoursAreTheCppInterfaces) {
+    const Grid grid = unitGrid(4, 5, 6);
+    const vxt_grid cGridOf = cGrid(grid);
+    for (const char* name : {"soft", "eye", "none"}) {
+        const Lighting expected = lightingNamed(name, grid).value();
+        vxt_lighting light = vxt_lighting_init();
+        need(vxt_lighting_named(name, &cGridOf, &light));
+        EXPECT_EQ(light.ambient, expected.ambient) << name;
+        EXPECT_EQ(light.diffuse, expected.diffuse) << name;
+        EXPECT_EQ(light.specular, expected.specular) << name;
+        EXPECT_EQ(light.shininess, expected.shininess) << name;
+        EXPECT_EQ(light.side, expected.side) << name;
+        EXPECT_THAT(light.side_from, ElementsAreArray(expected.sideFrom)) << name;
+        EXPECT_EQ(light.occlusion, expected.occlusion) << name;
+        EXPECT_EQ(light.reach, expected.reach) << name;
+        EXPECT_EQ(light.volume != 0, expected.volume) << name;
+        EXPECT_EQ(light.mesh != 0, expected.mesh) << name;
+        EXPECT_EQ(light.faces != 0, expected.faces) << name;
+    }
+    vxt_lighting soft = vxt_lighting_init();
+    need(vxt_lighting_named("soft", &cGridOf, &soft));
+    EXPECT_GT(soft.occlusion, 0) << "not that of the eye";
+    vxt_lighting unset{};
+    EXPECT_THAT(text(vxt_lighting_named("soft", &cGridOf, &unset)), HasSubstr("struct_size"));
+    EXPECT_THAT(text(vxt_lighting_named("hard", &cGridOf, &soft)), HasSubstr("'hard'; there are soft"));
+    EXPECT_EQ(text(vxt_lighting_named(nullptr, &cGridOf, &soft)), "name is null");
+    EXPECT_EQ(text(vxt_lighting_named("soft", nullptr, &soft)), "grid is null");
+    EXPECT_EQ(text(vxt_lighting_named("soft", &cGridOf, nullptr)), "lighting is null");
+    for (std::size_t number = 0; number < 7; ++number) {
+        double colour[3] = {};
+        vxt_mesh_colour(number, colour);
+        EXPECT_THAT(colour, ElementsAreArray(meshColour(number))) << number;
+        vxt_mesh_colour(number, nullptr);
+    }
+    EXPECT_NE(meshColour(0), meshColour(1));
+    EXPECT_EQ(meshColour(0), meshColour(6));
+    EXPECT_EQ(vxt_paint_through(VXT_PAINT_PLAIN), 0);
+    EXPECT_EQ(vxt_paint_through(VXT_PAINT_CONTACTS), throughFor(Paint::Contacts));
+    EXPECT_EQ(vxt_paint_through(VXT_PAINT_DISCARDED), 1);
+}
+
 TEST(CLooks, CreasesAreTheCppInterfaces) {
     // Two triangles at a right angle, which share an edge.
     MeshData roof;

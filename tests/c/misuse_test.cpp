@@ -48,6 +48,7 @@ TEST(CMisuse, EndingNothingIsNothing) {
     vxt_label_map_destroy(nullptr);
     vxt_label_map_release_staging(nullptr);
     vxt_label_names_destroy(nullptr);
+    vxt_points_destroy(nullptr);
     vxt_labels_destroy(nullptr);
     vxt_mesh_data_destroy(nullptr);
     vxt_mesh_destroy(nullptr);
@@ -75,6 +76,7 @@ TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
     EXPECT_EQ(vxt_poses_get(nullptr, nullptr), nullptr);
     EXPECT_EQ(vxt_control_points_get(nullptr, nullptr), nullptr);
     EXPECT_EQ(vxt_label_names_get(nullptr, 0, nullptr), nullptr);
+    EXPECT_EQ(vxt_points_get(nullptr, 0, nullptr, nullptr), nullptr);
     EXPECT_EQ(vxt_volume_data_view(nullptr).bytes, 0U);
     EXPECT_EQ(vxt_mesh_data_view(nullptr).triangle_count, 0U);
     EXPECT_STREQ(vxt_volume_data_name(nullptr), "");
@@ -151,6 +153,7 @@ TEST(CMisuse, NullIsRefusedByFiles) {
     EXPECT_NULL_REFUSED(vxt_read_transfer_function(nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_parse_opacity(nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_read_label_names(nullptr, nullptr));
+    EXPECT_NULL_REFUSED(vxt_read_points(nullptr, nullptr));
 }
 
 TEST(CMisuse, NullIsRefusedByTheDevice) {

@@ -50,6 +50,7 @@ struct Tally {
     std::size_t safe = 0;
     std::size_t unsafe = 0;
     std::size_t safeTriangles = 0;
+    std::size_t clearTriangles = 0;
     std::size_t leftOut = 0;
 };
 
@@ -65,6 +66,9 @@ void expectSame(const vxt_plan_view& c, const PlanAnswer& cpp, Tally& tally) {
         EXPECT_THAT(c.triangles[i].paths, ElementsAreArray(cpp.triangles[i].paths));
         EXPECT_EQ(c.triangles[i].safe != 0, cpp.triangles[i].safe);
         tally.safeTriangles += c.triangles[i].safe;
+        const double clearance = c.triangle_clearances == nullptr ? 0 : c.triangle_clearances[i];
+        EXPECT_EQ(clearance, cpp.triangles[i].clearance);
+        tally.clearTriangles += clearance > 0 ? 1 : 0;
     }
     EXPECT_EQ(c.area, cpp.area);
     EXPECT_EQ(c.safe_area, cpp.safeArea);
@@ -197,6 +201,11 @@ TEST_F(Plans, AnswerAsTheCppInterfaceDoes) {
     EXPECT_GT(tally.unsafe, 5U);
     EXPECT_GT(tally.safeTriangles, 0U);
     EXPECT_GT(tally.leftOut, 0U);
+    EXPECT_EQ(tally.clearTriangles, 0U) << "nobody asked";
+    cpp_.triangleClearances = true;
+    c_.triangle_clearances = 1;
+    expectTheSame(tally);
+    EXPECT_GT(tally.clearTriangles, 0U);
     std::cout << tally.safe << " safe, " << tally.unsafe << " not, " << tally.safeTriangles << " triangles safe, "
               << tally.leftOut << " left out\n";
 }

@@ -216,6 +216,14 @@ TEST(CValues, ACallThatIsCancelled) {
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("cancelled"));
     EXPECT_TRUE(answerOf(*answer).pairs.empty()) << "the answer holds what it held";
     vxt_cancel_set(cancel.get(), 0);
+    std::thread hasty([&] { // asks, and makes it ready again at once
+        for (const uint32_t set : {1, 0}) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            vxt_cancel_set(cancel.get(), set);
+        }
+    });
+    EXPECT_EQ(vxt_host_detector_detect(detector.get(), &batch, answer.get()), VXT_ERROR_CANCELLED);
+    hasty.join();
     item.pose_count = 3;
     need(vxt_host_detector_detect(detector.get(), &batch, answer.get()));
     EXPECT_EQ(answerOf(*answer).pairs.size(), 3U);

@@ -116,6 +116,30 @@ TEST_F(Cancel, AViewWithOutputs) {
     expectDetectorCancelled({.threads = 2, .outputs = {.triangles = true}});
 }
 
+TEST_F(Cancel, AFlagThatIsTakenBackEndsTheCallAllTheSame) {
+    // Now and then set for a moment: threads leave out the rest, and at the end it is most likely not set.
+    for (const Projection projection : {Projection::Conservative, Projection::View}) {
+        cpu::Detector detector = take(cpu::Detector::create({.threads = 2, .projection = projection}));
+        for (int time = 0; time < 4; ++time) {
+            std::atomic<bool> cancel{false};
+            std::atomic<bool> ended{false};
+            std::thread other([&] {
+                while (!ended) {
+                    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                    cancel = true;
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                    cancel = false;
+                }
+            });
+            const Result<BatchAnswer> answer = detector.detect(batch(&cancel));
+            ended = true;
+            other.join();
+            ASSERT_FALSE(answer.ok()) << toString(projection);
+            EXPECT_EQ(answer.error().code, ErrorCode::Cancelled);
+        }
+    }
+}
+
 TEST_F(Cancel, DominantAxis) {
     expectDetectorCancelled({.threads = 1, .projection = Projection::DominantAxis, .samplesPerVoxel = 16});
 }

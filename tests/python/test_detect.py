@@ -236,6 +236,31 @@ def test_names_of_options_are_listed(scene, knife):
         scene.detect(knife, np.eye(4), method="query")
 
 
+def test_refusals_name_what_is_wrong(scene, knife):
+    with pytest.raises(vx.InvalidArgumentError, match="labels of what touches need a scene with labels="):
+        scene.detect(knife, np.eye(4), labels=True)
+    with pytest.raises(vx.InvalidArgumentError, match="item 1, pose 0: the last row"):
+        scene.detect([(knife, np.eye(4)), (knife, np.zeros((4, 4)))])
+    with pytest.raises(TypeError, match="item 1 of the list is no pair"):
+        scene.detect([(knife, np.eye(4)), ("tool.stl", np.eye(4))])
+    with pytest.raises(TypeError, match="mesh is a str; voxtact.read_mesh"):
+        scene.detect("tool.stl")
+    with pytest.raises(TypeError, match="threshold is 'high'; a number is needed"):
+        scene.threshold = "high"
+    with pytest.raises(TypeError, match="margin is None"):
+        scene.within(knife, np.eye(4), margin=None)
+
+
+def test_poses_that_are_not_finite_are_refused_wherever_that_is(scene, knife):
+    for row in range(4):
+        for column in range(4):
+            for wrong in (np.nan, np.inf, -np.inf):
+                poses = np.tile(np.eye(4), (3, 1, 1))
+                poses[2, row, column] = wrong
+                with pytest.raises(vx.InvalidArgumentError, match="^pose 2: "):
+                    scene.detect(knife, poses)
+
+
 def test_progress(scene, knife):
     class Bar:  # what tqdm's has
         total = None
@@ -261,6 +286,16 @@ def test_progress(scene, knife):
     assert (bars[-1].n, bars[-1].total, bars[-1].closed) == (20, 20, True)
     with pytest.raises(TypeError, match="progress"):
         scene.detect(knife, poses, progress=3)
+
+    def stop(done, of):
+        told.append(done)
+        raise StopIteration("enough")
+
+    told = []
+    with pytest.raises(StopIteration, match="enough"):
+        scene.detect(knife, np.tile(poses, (50, 1, 1)), progress=stop)
+    assert len(told) == 1 and told[0] < 50_000, "it ended with the first piece"
+    assert len(scene.detect(knife, poses)) == 1000, "and the scene is as good as ever"
     tqdm = pytest.importorskip("tqdm").tqdm
     scene.within(knife, poses, margin=1, progress=tqdm)
 

@@ -105,6 +105,13 @@ def test_a_ball_beside_the_way():
     assert (found.paths["obstacle"][np.isfinite(found.paths["hi"])] == 1).all()
     assert 0 < found.safe_area < found.area < 4 * np.pi * 28**2
     assert found.triangle_safe.any() and found.safe[found.triangles[found.triangle_safe]].all()
+    with pytest.raises(vx.NotReadyError, match="triangle_clearances=True"):
+        found.triangle_clearance
+    more = scene.plan((0, 0, 0), avoid_opacity=[(99, 0), (101, 1)], entry_radius=28, entries=642, needle=(1, 40), margin=1,
+                      triangle_clearances=True)
+    keeps = more.triangle_clearance
+    assert keeps.shape == (len(more.triangles),) and (keeps[more.triangle_safe] >= 1).all() and keeps.min() == 0
+    assert (keeps <= more.paths["hi"][more.triangles].min(axis=1)).all(), "no more than the worst of its corners"
     assert repr(found).startswith(f"<voxtact.Plan: {found.safe.sum()} of 642 paths are safe")
 
     scene.edit(ball=(20, 0, 0, 9), value=0)

@@ -22,6 +22,11 @@ answer: vx.Answer = scene.detect(mesh, np.eye(4), contacts=True, projection="vie
 hits: int = int(answer.hit.sum())
 nearest: float = float(scene.clearance([(mesh, np.eye(4))]).lo.min())
 scene.edit(ball=(0, 0, 0, 5), value=-1000)
+look: vx.Look = vx.look("mr", scene.volume)
+shown: int = int(scene.picture([(mesh, np.eye(4))], clip=["left", ("near", 3), (1, 0, 0, 5)], colours=look.colours,
+                               triangles=answer.triangles, show="triangles", lighting="eye").max())
+near: list[int] = vx.overlapping_pairs(mesh.boxes_at(np.eye(4)), [scene.volume.bounds])[:, 0].tolist()
+speed: float = vx.Device().measure_methods()["compute"].pairs_per_second
 '''
 
 

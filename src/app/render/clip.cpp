@@ -15,18 +15,10 @@ namespace voxtact::app {
 
 namespace {
 
-struct Side {
-    const char* name;
-    std::size_t axis;
-    bool negative; ///< the side of the smaller coordinates is taken away
-};
-constexpr Side kSides[] = {{"left", 0, false}, {"right", 0, true}, {"back", 1, false},
-                           {"front", 1, true}, {"top", 2, false},  {"bottom", 2, true}};
 constexpr const char* kNear = "near";
 
-const Side* sideNamed(const std::string& name) {
-    const auto* found = std::ranges::find_if(kSides, [&](const Side& side) { return name == side.name; });
-    return found != std::end(kSides) ? found : nullptr;
+bool isSide(const std::string& name) {
+    return clipSide(name, std::nullopt, {}, {0, 0, 1}).has_value();
 }
 
 /// Four numbers with commas between them.
@@ -57,16 +49,7 @@ ClipPlane planeOf(const ClipOption& clip, const Grid& grid, const Vec3& towardsE
     if (clip.side.empty()) {
         return clip.plane;
     }
-    const Vec3 middle = transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5});
-    if (clip.side == kNear) {
-        return {towardsEye, dot(towardsEye, middle) + clip.at.value_or(0)};
-    }
-    const Side& side = *sideNamed(clip.side);
-    ClipPlane plane;
-    const double sign = side.negative ? -1 : 1;
-    plane.normal[side.axis] = sign;
-    plane.offset = sign * clip.at.value_or(middle[side.axis]);
-    return plane;
+    return clipSide(clip.side, clip.at, grid, towardsEye).value_or(ClipPlane{});
 }
 
 /// How far the volume's corners are along a normal.
@@ -83,7 +66,7 @@ ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
 }
 
 /// Where the volume is along a clip's own measure, in words.
-std::string whereItIs(const ClipOption& clip, const Grid& grid, const ValueRange& reach, const Vec3& towardsEye) {
+std::string whereItIs(const ClipOption& clip, const Grid& grid, const Vec3& normal, const ValueRange& reach) {
     const auto from = [](double lo, double hi) {
         return "from " + number(std::round(10 * lo) / 10) + " to " + number(std::round(10 * hi) / 10) + " mm";
     };
@@ -91,10 +74,10 @@ std::string whereItIs(const ClipOption& clip, const Grid& grid, const ValueRange
         return "the volume's offsets along that normal are " + from(reach.lo, reach.hi);
     }
     if (clip.side == kNear) {
-        const double middle = dot(towardsEye, transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5}));
+        const double middle = dot(normal, transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5}));
         return "the volume is " + from(reach.lo - middle, reach.hi - middle) + " towards the eye";
     }
-    const bool negative = sideNamed(clip.side)->negative;
+    const bool negative = std::ranges::any_of(normal, [](double component) { return component < 0; });
     return "the volume is there " + (negative ? from(-reach.hi, -reach.lo) : from(reach.lo, reach.hi));
 }
 
@@ -112,7 +95,7 @@ std::optional<std::string> parseClip(const std::string& text, ClipOption& clip) 
     }
     const std::size_t colon = text.find(':');
     clip.side = text.substr(0, colon);
-    if (clip.side != kNear && sideNamed(clip.side) == nullptr) {
+    if (!isSide(clip.side)) {
         return "is neither SIDE[:MM], with left, right, front, back, top, bottom or near, nor NX,NY,NZ,D";
     }
     if (colon != std::string::npos) {
@@ -134,11 +117,11 @@ Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, 
         const ValueRange reach = reachAlong(plane.normal, grid);
         if (plane.offset <= reach.lo) {
             return badArgument("--clip " + clip.text +
-                               " takes all of the volume away: " + whereItIs(clip, grid, reach, towardsEye));
+                               " takes all of the volume away: " + whereItIs(clip, grid, plane.normal, reach));
         }
         if (plane.offset >= reach.hi) {
             printNote("--clip " + clip.text +
-                      " takes nothing of the volume away: " + whereItIs(clip, grid, reach, towardsEye));
+                      " takes nothing of the volume away: " + whereItIs(clip, grid, plane.normal, reach));
         }
         planes.push_back(plane);
     }

@@ -7,7 +7,6 @@
 #include "core/base/try.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace voxtact::app {
 
@@ -85,26 +84,6 @@ std::vector<SceneMesh> sceneMeshes(const RenderOptions& options, const RenderInp
 
 } // namespace
 
-Lighting lightingOf(const std::string& name, const Grid& grid) {
-    Lighting lighting;
-    lighting.volume = lighting.mesh = name != "none";
-    if (name == "soft") {
-        lighting.ambient = 0.3;
-        lighting.diffuse = 0.45;
-        lighting.side = 0.5;
-        lighting.specular = 0.16;
-        lighting.occlusion = 0.55;
-        // What shuts in is a part of the whole: millimetres of a head are too much for a tooth.
-        constexpr double kReach = 0.025; // of the diagonal
-        double diagonal = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            diagonal += std::pow(grid.spacing[axis] * grid.size[axis], 2);
-        }
-        lighting.reach = kReach * std::sqrt(diagonal);
-    }
-    return lighting;
-}
-
 Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs, const device::Session& session) {
     VOXTACT_TRY(checkViewport(options.view.size, session.context.maxViewport(), "the device"));
     Result<RenderObjects> objects = uploadObjects(options, inputs, session);
@@ -119,7 +98,7 @@ Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& input
     scene.bricks = &objects->bricks;
     scene.others = meshes;
     scene.clipPlanes = inputs.clips;
-    scene.lighting = lightingOf(options.lighting, inputs.volume.grid);
+    scene.lighting = lightingNamed(options.lighting, inputs.volume.grid).value_or(Lighting{});
     scene.clip_from_world = inputs.clip_from_world;
     scene.background = options.background;
     Progress progress(options.progress, "rows of the picture", options.view.size.height);

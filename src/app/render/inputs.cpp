@@ -9,7 +9,6 @@
 #include "voxtact/looks.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace voxtact::app {
 
@@ -181,10 +180,7 @@ Colour meshColour(const RenderOptions& options, std::size_t mesh) {
     if (mesh < options.meshColours.size()) {
         return options.meshColours[mesh];
     }
-    // Apart from each other, from tissue, and from the colours of contacts.
-    const Colour colours[] = {SceneMesh{}.meshColour, {0.30, 0.70, 0.88}, {0.98, 0.80, 0.28},
-                              {0.46, 0.78, 0.42},     {0.74, 0.58, 0.90}, {0.20, 0.62, 0.60}};
-    return colours[mesh % std::size(colours)];
+    return voxtact::meshColour(mesh);
 }
 
 } // namespace voxtact::app

@@ -14,10 +14,6 @@ namespace voxtact::app {
 
 namespace {
 
-/// How much is seen through the tissue, where it is not said: of contacts, and of a mesh that is all painted.
-constexpr double kContactsThrough = 0.8;
-constexpr double kDiscardedThrough = 1;
-
 Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const device::Session& session,
                              const Renderer& renderer, ShowObjects& objects) {
     const Result<std::vector<std::vector<std::uint32_t>>> touching = touchingTriangles(pairs, progress);
@@ -80,8 +76,8 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
         "clearance (how far each place is from what is opaque, and the closest points)");
     addNumber(
         parser, "--through", [&options](double part) { options.through = part; },
-        "how much of what is painted is seen through the tissue before it; default: " + number(kContactsThrough) +
-            ", for discarded " + number(kDiscardedThrough),
+        "how much of what is painted is seen through the tissue before it; default: " +
+            number(throughFor(Paint::Contacts)) + ", for discarded " + number(throughFor(Paint::Discarded)),
         [](double part) { return part >= 0 && part <= 1; }, "from 0 to 1", "");
     addNumber(
         parser, "--max-clearance", [&options](double mm) { options.maximum = mm; },
@@ -141,7 +137,7 @@ MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double
         paint.what = options.what == "discarded" ? Paint::Discarded : Paint::Contacts;
         paint.transferFunction = &*objects.transferFunction;
     }
-    paint.through = options.through.value_or(paint.what == Paint::Discarded ? kDiscardedThrough : kContactsThrough);
+    paint.through = options.through.value_or(throughFor(paint.what));
     return paint;
 }
 

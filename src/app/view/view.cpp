@@ -3,10 +3,10 @@
 #include "app/detect/auto_method.h"
 #include "app/draw/font.h"
 #include "app/options/open_session.h"
-#include "app/render/device_picture.h"
 #include "app/view/view_options.h"
 #include "core/base/try.h"
 #include "view/window.h"
+#include "voxtact/render.h"
 
 #include <CLI/CLI.hpp>
 
@@ -20,7 +20,7 @@ view::WindowDesc windowDesc(const ViewerOptions& options, const Grid& grid) {
     view::WindowDesc desc;
     desc.size = {options.size.width, options.size.height};
     desc.font = {kFont, kFontBytes};
-    desc.light = lightingOf("soft", grid);
+    desc.light = lightingNamed("soft", grid).value_or(Lighting{});
     desc.reportState = options.reportState;
     desc.frames = options.frames;
     return desc;

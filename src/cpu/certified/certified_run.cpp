@@ -37,8 +37,8 @@ PairAnswer answerOf(const PairTally& tally, const Task& at, bool stopAtFirst) {
 
 } // namespace
 
-BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const DetectorDesc& desc, ThreadPool& pool,
-                         CertifiedOccupancies& occupancies) {
+BatchAnswer runCertified(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs, const DetectorDesc& desc,
+                         ThreadPool& pool, CertifiedOccupancies& occupancies) {
     std::vector<std::shared_ptr<const CertifiedOccupancy>> ofItem;
     for (const BatchItem& item : batch.items) {
         ofItem.push_back(
@@ -49,7 +49,7 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
     if (desc.outputs.any()) {
         outputs.emplace(batch, desc, pairs, pool.threads());
     }
-    const Tasks tasks(batch, pairs, pool.threads());
+    const Tasks tasks(batch, cancel, pairs, pool.threads());
     tasks.run(pool, [&](const Task& task, std::uint32_t thread) {
         PairTally& tally = tallies[task.pair];
         if (desc.stopAtFirst && tally.certain.load(std::memory_order_relaxed) > 0) {
@@ -64,7 +64,7 @@ BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const Detector
                                task.clusterBegin,
                                task.clusterEnd,
                                desc.stopAtFirst,
-                               batch.cancel};
+                               &cancel};
         CertifiedTally found;
         if (outputs) {
             outputs->collect(task.item, task.pair, thread, [&](OutputRun::Sink& sink) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/cancel.h"
 #include "cpu/certified/certified_occupancy.h"
 #include "cpu/raster/occupancy_cache.h"
 #include "cpu/thread_pool.h"
@@ -10,8 +11,9 @@ namespace voxtact::cpu {
 
 using CertifiedOccupancies = OccupancyCache<CertifiedOccupancy, 2>;
 
-/// The answers of a checked batch in the projection `conservative`.
-[[nodiscard]] BatchAnswer runCertified(const Batch& batch, std::uint32_t pairs, const DetectorDesc& desc,
-                                       ThreadPool& pool, CertifiedOccupancies& occupancies);
+/// The answers of a checked batch in the projection `conservative`. What they say of a call that is cancelled means
+/// nothing.
+[[nodiscard]] BatchAnswer runCertified(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs,
+                                       const DetectorDesc& desc, ThreadPool& pool, CertifiedOccupancies& occupancies);
 
 } // namespace voxtact::cpu

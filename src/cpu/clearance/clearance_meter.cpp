@@ -235,11 +235,12 @@ Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
     return guard([&]() -> Result<ClearanceAnswer> {
         const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        const Cancellation cancel(batch.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         ClearanceAnswer answer;
         answer.pairs = numberedPairs<PairClearance>(batch);
         Workers& workers = impl_->workers;
-        VOXTACT_TRY(workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
+        VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
                                         [&](const PairAt& at, PairClearance& pair, ThreadMemory& memory) {
                                             measurePair(at, impl_->desc, memory, pair);
                                         }));
@@ -255,11 +256,12 @@ Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
         if (!(margin >= 0 && margin < kInfinity)) {
             return refuse("the margin " + number(margin) + " mm is not a number from 0 on");
         }
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        const Cancellation cancel(batch.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;
-        VOXTACT_TRY(workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
+        VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
                                         [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
                                             decideMargin(at, margin, impl_->desc, memory, pair);
                                         }));
@@ -273,7 +275,8 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
         const StopWatch watch;
         VOXTACT_TRY(checkClearanceBatch(batch));
         VOXTACT_TRY(checkMeasuredLabels(batch, labels));
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        const Cancellation cancel(batch.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         const Parts parts = impl_->desc.labelsAtAnyOpacity ? impl_->workers.wholesOf(batch)
                                                            : impl_->workers.partsOf(batch, impl_->desc.resolution);
         std::vector<std::vector<std::uint32_t>> indices;
@@ -292,7 +295,7 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
             answer.labels[i].label = labels[i % labels.size()];
             answer.labels[i].bounds = {kInfinity, kInfinity};
         }
-        VOXTACT_TRY(impl_->workers.forEachPair(batch, parts, answer.labels,
+        VOXTACT_TRY(impl_->workers.forEachPair(batch, cancel, parts, answer.labels,
                                                [&](const PairAt& at, LabelClearance& label, ThreadMemory& memory) {
                                                    const LabelData& map = *at.item.labels;
                                                    const std::vector<std::uint32_t>& known = indices[label.item];

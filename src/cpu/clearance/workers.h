@@ -56,14 +56,14 @@ class Workers {
     /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. What it throws comes out,
     /// when all are at rest. Refuses what is cancelled meanwhile.
     template <class Answer, class Fill>
-    [[nodiscard]] Result<void> forEach(std::vector<Answer>& answers, CancelFlag cancel, const Fill& fill) {
+    [[nodiscard]] Result<void> forEach(std::vector<Answer>& answers, const Cancellation& cancel, const Fill& fill) {
         if (answers.empty()) {
             return {};
         }
         std::atomic<std::size_t> next{0};
         const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(pool_.threads(), answers.size()));
         pool_.run(threads, [&](std::uint32_t thread) {
-            for (std::size_t i = next++; i < answers.size() && !isCancelled(cancel); i = next++) {
+            for (std::size_t i = next++; i < answers.size() && !cancel.seen(); i = next++) {
                 fill(answers[i], memories_[thread]);
             }
         });
@@ -71,11 +71,11 @@ class Workers {
     }
     /// Calls `fill(at, answer, memory)` for answers that have an item and a pose.
     template <class Answer, class Fill>
-    [[nodiscard]] Result<void> forEachPair(const Batch& batch, const Parts& parts, std::vector<Answer>& answers,
-                                           const Fill& fill) {
-        return forEach(answers, batch.cancel, [&](Answer& answer, ThreadMemory& memory) {
+    [[nodiscard]] Result<void> forEachPair(const Batch& batch, const Cancellation& cancel, const Parts& parts,
+                                           std::vector<Answer>& answers, const Fill& fill) {
+        return forEach(answers, cancel, [&](Answer& answer, ThreadMemory& memory) {
             const BatchItem& item = batch.items[answer.item];
-            fill(PairAt{item, *parts[answer.item], item.world_from_object[answer.pose], batch.cancel}, answer, memory);
+            fill(PairAt{item, *parts[answer.item], item.world_from_object[answer.pose], &cancel}, answer, memory);
         });
     }
 

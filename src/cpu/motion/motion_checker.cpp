@@ -115,16 +115,16 @@ Result<MotionAnswer> MotionChecker::check(const Batch& batch) {
         VOXTACT_TRY(checkMotionBatch(batch));
         const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl_->desc.interpolation);
         VOXTACT_TRY(motions);
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        const Cancellation cancel(batch.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         const Parts parts = impl_->workers.partsOf(batch, impl_->desc.touchResolution);
         MotionAnswer answer;
         answer.segments = numberedSegments(batch);
-        VOXTACT_TRY(
-            impl_->workers.forEach(answer.segments, batch.cancel, [&](SegmentMotion& segment, ThreadMemory& memory) {
-                SegmentSearch(batch.items[segment.item], *parts[segment.item], (*motions)[segment.segment], impl_->desc,
-                              memory, segment.pose, batch.cancel)
-                    .run(segment);
-            }));
+        VOXTACT_TRY(impl_->workers.forEach(answer.segments, cancel, [&](SegmentMotion& segment, ThreadMemory& memory) {
+            SegmentSearch(batch.items[segment.item], *parts[segment.item], (*motions)[segment.segment], impl_->desc,
+                          memory, segment.pose, &cancel)
+                .run(segment);
+        }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });
@@ -135,12 +135,13 @@ Result<BatchAnswer> MotionChecker::around(const Batch& batch, const PoseToleranc
         const StopWatch watch;
         VOXTACT_TRY(checkMotionBatch(batch));
         VOXTACT_TRY(checkTolerance(tolerance));
-        VOXTACT_TRY(checkNotCancelled(batch.cancel));
+        const Cancellation cancel(batch.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;
-        VOXTACT_TRY(workers.forEachPair(batch, workers.partsOf(batch, impl_->desc.touchResolution), answer.pairs,
-                                        [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+        VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.touchResolution),
+                                        answer.pairs, [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
                                             PoseToleranceSearch(at, tolerance, impl_->desc.mostSteps, memory).run(pair);
                                         }));
         answer.wallMilliseconds = watch.milliseconds();

@@ -156,7 +156,7 @@ Result<void> findEntries(PlanScene& scene, Workers& workers, PlanAnswer& answer)
     for (std::uint32_t number = 0; number < scene.grid.count(); ++number) {
         scene.entries[number].number = number;
     }
-    VOXTACT_TRY(workers.forEach(scene.entries, scene.task.cancel, [&](EntryPoint& entry, ThreadMemory& /*memory*/) {
+    VOXTACT_TRY(workers.forEach(scene.entries, scene.cancel, [&](EntryPoint& entry, ThreadMemory& /*memory*/) {
         const dvec3 direction = scene.grid.direction(entry.number);
         const Outermost found = search.along(direction);
         entry.length = found.distance;

@@ -73,7 +73,7 @@ bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open
     for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
         const Obstacle& of = scene_.obstacles[i];
         const BatchItem item{&scene_.axis, of.given->volume, nullptr, {}};
-        const Found found = PairAt{item, *of.part, scene_.axisPose(cone.axis, longest), scene_.task.cancel}.search(
+        const Found found = PairAt{item, *of.part, scene_.axisPose(cone.axis, longest), &scene_.cancel}.search(
             memory_, of.searched(), goal, sweep, open[i].get());
         if (found.lo < goal.maximum) {
             apart = false;
@@ -124,7 +124,7 @@ double PatchCertificate::clearanceOf(const DirectionPatch& cell, double longest,
                               .measures = true,
                               .coarsely = true};
         const BatchItem item{&scene_.axis, of.given->volume, nullptr, {}};
-        const Found found = PairAt{item, *of.part, scene_.axisPose(cone.axis, longest), scene_.task.cancel}.search(
+        const Found found = PairAt{item, *of.part, scene_.axisPose(cone.axis, longest), &scene_.cancel}.search(
             memory_, of.searched(), goal, sweep);
         clearance = std::min(clearance, found.lo - off);
     }

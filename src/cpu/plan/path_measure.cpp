@@ -37,8 +37,8 @@ Found PathMeasure::search(const Way& way, std::size_t obstacle, SearchGoal goal)
     goal.measures = way.sweep.has_value();
     goal.known = way.sweep ? std::nullopt : known_[obstacle];
     const BatchItem item{&mesh, of.given->volume, nullptr, {}};
-    Found found = PairAt{item, *of.part, way.world_from_object, scene_.task.cancel}.search(memory_, of.searched(), goal,
-                                                                                           way.sweep);
+    Found found =
+        PairAt{item, *of.part, way.world_from_object, &scene_.cancel}.search(memory_, of.searched(), goal, way.sweep);
     if (found.isOpaque && found.hi < kInfinity) {
         known_[obstacle] = found.inVolume;
     }

@@ -40,6 +40,7 @@ struct EntryPoint {
 /// A task, ready to be searched.
 struct PlanScene {
     const PlanTask& task;
+    const Cancellation& cancel; ///< of this call
     const PlannerDesc& desc;
     DirectionGrid grid;
     std::vector<Obstacle> obstacles;
@@ -56,7 +57,7 @@ struct PlanScene {
     [[nodiscard]] Mat4 axisPose(const glm::dvec3& direction, double entry) const;
     /// That of the mesh half way in, and how it moves.
     [[nodiscard]] Mat4 meshPose(const glm::dvec3& direction, double entry, Sweep& sweep) const;
-    [[nodiscard]] bool givenUp() const { return isCancelled(task.cancel); }
+    [[nodiscard]] bool givenUp() const { return cancel.seen(); }
 };
 
 } // namespace voxtact::cpu

@@ -115,7 +115,7 @@ Result<void> measurePaths(const PlanScene& scene, Workers& workers, PlanAnswer& 
         }
     }
     std::vector<Row> rows = rowsOf(scene, answer.paths);
-    return workers.forEach(rows, scene.task.cancel, [&](Row& row, ThreadMemory& memory) {
+    return workers.forEach(rows, scene.cancel, [&](Row& row, ThreadMemory& memory) {
         PathMeasure measure(scene, memory);
         for (PlannedPath* path : row.paths) {
             if (scene.givenUp()) {
@@ -156,7 +156,7 @@ Result<void> certifyTriangles(const PlanScene& scene, Workers& workers, PlanAnsw
             }
         }
     }
-    VOXTACT_TRY(workers.forEach(blocks, scene.task.cancel, [&](DirectionPatch& block, ThreadMemory& memory) {
+    VOXTACT_TRY(workers.forEach(blocks, scene.cancel, [&](DirectionPatch& block, ThreadMemory& memory) {
         PatchCertificate(scene, byNumber, places, memory).run(block, answer.triangles);
     }));
     for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -197,12 +197,14 @@ Result<PlanAnswer> Planner::plan(const PlanTask& task) {
     return guard([&]() -> Result<PlanAnswer> {
         const StopWatch watch;
         VOXTACT_TRY(checkTask(task));
-        VOXTACT_TRY(checkNotCancelled(task.cancel));
+        const Cancellation cancel(task.cancel);
+        VOXTACT_TRY(checkNotCancelled(cancel));
         Result<Mesh> axis = axisMesh();
         VOXTACT_TRY(axis);
         Workers& workers = impl_->workers;
-        PlanScene scene{task, impl_->desc,     DirectionGrid(task.surface.entries), obstaclesOf(task, workers),
-                        {},   std::move(*axis)};
+        PlanScene scene{
+            task, cancel,          impl_->desc, DirectionGrid(task.surface.entries), obstaclesOf(task, workers),
+            {},   std::move(*axis)};
         scene.radius = task.mesh ? 0 : 0.5 * task.needle.diameter;
         scene.margin = std::max(task.margin, kLeastMargin);
         PlanAnswer answer;

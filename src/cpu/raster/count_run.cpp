@@ -25,9 +25,10 @@ struct ItemFacts {
 
 class CountRun {
   public:
-    CountRun(const Batch& batch, std::uint32_t pairs, const DetectorDesc& desc, const Workshop& workshop,
-             Occupancies& occupancies)
-        : batch_(batch), desc_(desc), workshop_(workshop), cameras_(desc.projection, batch.view), counts_(pairs) {
+    CountRun(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs, const DetectorDesc& desc,
+             const Workshop& workshop, Occupancies& occupancies)
+        : batch_(batch), cancel_(cancel), desc_(desc), workshop_(workshop), cameras_(desc.projection, batch.view),
+          counts_(pairs) {
         for (const BatchItem& item : batch.items) {
             items_.push_back({occupancies.get(item.volume->impl(), item.transferFunction->impl(), batch.threshold),
                               viewOf(item), dominantGrid(item.volume->grid())});
@@ -39,7 +40,7 @@ class CountRun {
 
     BatchAnswer run() {
         const auto pairs = static_cast<std::uint32_t>(counts_.size());
-        Tasks(batch_, pairs, workshop_.pool.threads())
+        Tasks(batch_, cancel_, pairs, workshop_.pool.threads())
             .run(workshop_.pool, [this](const Task& task, std::uint32_t thread) { runTask(task, thread); });
         BatchAnswer answer;
         answer.pairs.reserve(pairs);
@@ -94,7 +95,7 @@ class CountRun {
                           .clusterBegin = task.clusterBegin,
                           .clusterEnd = task.clusterEnd,
                           .stopAtFirst = desc_.stopAtFirst,
-                          .cancel = batch_.cancel};
+                          .cancel = &cancel_};
         return outputs_ ? outputs_->collect(job, task.item, task.pair, thread)
                         : countSurvivors(job, *workshop_.scratches[thread]);
     }
@@ -113,6 +114,7 @@ class CountRun {
     }
 
     const Batch& batch_;
+    const Cancellation& cancel_;
     const DetectorDesc& desc_;
     const Workshop& workshop_;
     Cameras cameras_;
@@ -123,9 +125,9 @@ class CountRun {
 
 } // namespace
 
-BatchAnswer runCounts(const Batch& batch, std::uint32_t pairs, const DetectorDesc& desc, const Workshop& workshop,
-                      Occupancies& occupancies) {
-    return CountRun(batch, pairs, desc, workshop, occupancies).run();
+BatchAnswer runCounts(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs, const DetectorDesc& desc,
+                      const Workshop& workshop, Occupancies& occupancies) {
+    return CountRun(batch, cancel, pairs, desc, workshop, occupancies).run();
 }
 
 } // namespace voxtact::cpu

@@ -19,8 +19,9 @@ struct Workshop {
     std::span<const ScratchPointer> scratches;
 };
 
-/// The answers of a checked batch in the projections that have samples: view, two-view, dominant-axis.
-[[nodiscard]] BatchAnswer runCounts(const Batch& batch, std::uint32_t pairs, const DetectorDesc& desc,
-                                    const Workshop& workshop, Occupancies& occupancies);
+/// The answers of a checked batch in the projections that have samples: view, two-view, dominant-axis. What they say
+/// of a call that is cancelled means nothing.
+[[nodiscard]] BatchAnswer runCounts(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs,
+                                    const DetectorDesc& desc, const Workshop& workshop, Occupancies& occupancies);
 
 } // namespace voxtact::cpu

@@ -26,7 +26,7 @@ Everything that is refused raises a `voxtact.Error`, which says what, why and wh
 from ._answer import Answer, Clearance, Counters
 from ._core import __version__
 from ._common import LPS_FROM_RAS
-from ._device import Device, DeviceInfo, devices
+from ._device import Device, DeviceInfo, MethodReport, devices
 from ._errors import (
     DeviceLostError,
     Error,
@@ -40,12 +40,14 @@ from ._errors import (
     UnsupportedError,
     VulkanError,
 )
-from ._files import read_camera, read_opacity, read_poses, write_png
+from ._files import Points, read_camera, read_opacity, read_points, read_poses, write_png
+from ._geometry import overlapping_pairs
 from ._labels import Labels, read_label_names, read_labels
 from ._mesh import Mesh, read_mesh
 from ._motion import Motion, pose_between
+from ._picture import Look, look, looks, read_colours
 from ._plan import Plan
-from ._scene import Scene, View
+from ._scene import Scene, View, view_from
 from ._track import Tracked, Tracker
 from ._volume import Volume, read_volume
 
@@ -64,11 +66,14 @@ __all__ = [
     "InvalidArgumentError",
     "Labels",
     "LimitExceededError",
+    "Look",
     "Mesh",
+    "MethodReport",
     "Motion",
     "NotReadyError",
     "OutOfMemoryError",
     "Plan",
+    "Points",
     "Scene",
     "Tracked",
     "Tracker",
@@ -78,14 +83,20 @@ __all__ = [
     "VulkanError",
     "__version__",
     "devices",
+    "look",
+    "looks",
+    "overlapping_pairs",
     "pose_between",
     "read_camera",
+    "read_colours",
     "read_label_names",
     "read_labels",
     "read_mesh",
     "read_opacity",
+    "read_points",
     "read_poses",
     "read_volume",
+    "view_from",
     "write_png",
 ]
 

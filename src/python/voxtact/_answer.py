@@ -107,6 +107,11 @@ class Answer:
         return self._core.exact
 
     @property
+    def device_seconds(self) -> float:
+        """What the device was at work for it; 0 on the host, and where its queue has no timestamps."""
+        return self._core.device_milliseconds / 1000
+
+    @property
     def item(self) -> npt.NDArray[np.uint32]:
         """(N,): the number of the mesh in the list that was given; 0 for a single one."""
         return self._core.item

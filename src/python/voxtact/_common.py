@@ -55,6 +55,8 @@ def number(given: Any, what: str) -> float:
         return float(given)
     except OverflowError:
         raise InvalidArgumentError(f"{what} is too large a number") from None
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} is {given!r}; a number is needed") from None
 
 
 def check_space(space: str, argument: str) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Union
+from typing import NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,20 @@ def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64
     if isinstance(source, str) and ":" in source and not os.path.exists(source):
         return core.parse_opacity(source)
     return core.read_opacity(os.fsencode(source))
+
+
+class Points(NamedTuple):
+    """A list of points that was read."""
+
+    #: (N,3), as they stand in the file
+    positions: npt.NDArray[np.float64]
+    #: of each; "": it has none
+    names: tuple[str, ...]
+
+
+def read_points(path: Union[str, os.PathLike[str]]) -> Points:
+    """Points from a file: lines `x y z` or `x y z name`; `#` comments."""
+    return Points(*core.read_points(os.fsencode(path)))
 
 
 def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]) -> None:

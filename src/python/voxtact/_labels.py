@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import check_made, not_pickled
+from ._common import check_made, not_pickled, numbers
 from ._errors import InvalidArgumentError
 from ._volume import Volume, read_volume
 
@@ -40,6 +40,12 @@ class Labels:
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
         """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
         return self._core.at(points)
+
+    def along(self, start: npt.ArrayLike, end: npt.ArrayLike) -> npt.NDArray[np.int32]:
+        """The labels that the straight line from one world point (3,) to another crosses, LPS, mm: in that order, each
+        once, without 0. Those that it only grazes may be missing.
+        """
+        return self._core.along(numbers(start, "start"), numbers(end, "end"))
 
     def number(self, label: Union[int, str]) -> int:
         """The number of a label that is given by its number or its name."""

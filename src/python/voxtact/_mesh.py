@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, Space, check_space, not_pickled
+from ._common import BUILTIN, Space, check_space, not_pickled, numbers
 from ._errors import InvalidArgumentError
 
 
@@ -42,6 +42,10 @@ class Mesh:
     def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """The least and the greatest corner, mm."""
         return self._core.bounds
+
+    def boxes_at(self, poses: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """(N,2,3): the least and the greatest corner of the world box around it at poses (N,4,4) or (4,4)."""
+        return core.mesh_boxes(self._core, numbers(poses, "poses"))
 
     @property
     def degenerate(self) -> int:

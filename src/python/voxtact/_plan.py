@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._common import check_made, not_pickled
+from ._errors import NotReadyError
 from ._labels import Labels
 
 _UNSAFE, _SAFE, _POSSIBLE = range(3)
@@ -18,14 +19,16 @@ _UNSAFE, _SAFE, _POSSIBLE = range(3)
 class Plan:
     """What `Scene.plan` found: a row for each path, in the order of the directions."""
 
-    __slots__ = ("_core", "_labels")
+    __slots__ = ("_core", "_labels", "_with_clearances")
     _core: core.Plan
     _labels: Optional[Labels]
+    _with_clearances: bool
 
-    def __init__(self, made_of: core.Plan, labels: Optional[Labels]) -> None:
+    def __init__(self, made_of: core.Plan, labels: Optional[Labels], with_clearances: bool) -> None:
         check_made(made_of, core.Plan, "Scene.plan()")
         self._core = made_of
         self._labels = labels
+        self._with_clearances = with_clearances
 
     @property
     def safe(self) -> npt.NDArray[np.bool_]:
@@ -79,6 +82,16 @@ class Plan:
     def triangle_safe(self) -> npt.NDArray[np.bool_]:
         """(T,): *every* path from anywhere in the triangle is safe. Never so for a mesh, whose paths alone are decided."""
         return self._core.safe
+
+    @property
+    def triangle_clearance(self) -> npt.NDArray[np.float64]:
+        """(T,): *every* path from anywhere in the triangle certainly keeps at least so much, mm, up to `maximum`.
+
+        NotReadyError where the plan was made without triangle_clearances=True.
+        """
+        if not self._with_clearances:
+            raise NotReadyError("the plan was made without triangle_clearances=True; plan again with it")
+        return self._core.triangle_clearance
 
     @property
     def area(self) -> float:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import struct
-import zlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, Literal, NamedTuple, NoReturn, Optional, Union
@@ -21,12 +19,13 @@ from ._files import read_opacity
 from ._labels import Labels, read_labels
 from ._mesh import Mesh
 from ._motion import Interpolation, Motion
+from ._picture import Clip, Colour, Light, Show, picture_options, png
 from ._plan import Plan
 from ._track import Tracker
 from ._volume import Volume, read_volume
 
 Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
-Method = Literal["query", "query-any", "atomic", "subgroup", "compute", "cpu"]
+Method = Literal["auto", "query", "query-any", "atomic", "subgroup", "compute", "cpu"]
 #: Points (value, opacity), ascending; or text, "40:0,80:1"; or a file. None: from 0 to 1 over the domain.
 Opacity = Union[None, npt.ArrayLike, str, "os.PathLike[str]"]
 #: (N,4,4) or (4,4).
@@ -40,13 +39,35 @@ _INFINITE = float("inf")
 
 
 class View(NamedTuple):
-    """The camera of the projections "view" and "two-view"."""
+    """The camera of the projections "view" and "two-view", and of pictures. `view_from` makes one."""
 
     #: (4,4): Vulkan's clip space (x right, y down, depth 0 to 1); orthographic or perspective
     clip_from_world: npt.ArrayLike
     #: pixels
     width: int = 512
     height: int = 512
+
+
+def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optional[Mesh] = None,
+              poses: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512)) -> View:
+    """A `View` that frames a volume, as `Scene.picture` does: orthographic, with square pixels.
+
+        scene.detect(knife, poses, projection="view", view=vx.view_from("left", head, knife, poses))
+
+    view
+        "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees
+    mesh, poses
+        what is between the near and the far plane, too: the projection "view" counts nothing beyond them
+    size
+        (width, height), pixels
+    """
+    if not isinstance(volume, Volume) or not (mesh is None or isinstance(mesh, Mesh)):
+        raise TypeError("volume is a voxtact.Volume, and mesh a voxtact.Mesh: voxtact.read_volume() and read_mesh() make them")
+    if not isinstance(view, (str, tuple)):
+        raise TypeError(f"view is a {type(view).__name__}; a name or (azimuth, elevation) is needed")
+    width, height = _whole(size, 2, "size")
+    matrices = None if mesh is None else np.eye(4) if poses is None else numbers(poses, "poses")
+    return View(core.view_from(view, volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)
 
 
 @contextmanager
@@ -84,11 +105,12 @@ def _asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
         return mesh._core, numbers(poses, "poses")
-    if poses is None and isinstance(mesh, Sequence):
-        pairs = []
+    if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
+        pairs: list[tuple[Any, Any]] = []
         for one in mesh:
             if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
-                raise TypeError("a list of what is asked has pairs (mesh, poses)")
+                raise TypeError(f"item {len(pairs)} of the list is no pair (mesh, poses) with a voxtact.Mesh, as "
+                                "voxtact.read_mesh() makes it")
             pairs.append((one[0]._core, numbers(one[1], "poses")))
         return pairs, None
     raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
@@ -127,20 +149,6 @@ def _pair(given: Any, what: str) -> tuple[float, float]:
     if array.shape != (2,):
         raise InvalidArgumentError(f"{what} is {given!r}; two numbers are needed")
     return float(array[0]), float(array[1])
-
-
-def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """A picture as PNG, in memory."""
-    height, width, _ = pixels.shape
-
-    def chunk(kind: bytes, content: bytes) -> bytes:
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-
-    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with its filter, none
-    rows[:, 1:] = pixels.reshape(height, 4 * width)
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
-            + chunk(b"IEND", b""))
 
 
 class Scene:
@@ -287,7 +295,8 @@ class Scene:
             "conservative" is certified: no contact is missed, and *possible* says where rounding decides. "view",
             "two-view" (of `view`; without, from above) and "dominant-axis" (`samples_per_voxel`, 1 to 16) count pixels
         method, filter, boundary, overestimate
-            how a device counts; see docs/counting.md. The host engine has "cpu" and "exact"
+            how a device counts; see docs/counting.md. "auto" is the fastest one that counts, measured once for each
+            `Device`; None: `Device.default_method`. The host engine has "cpu" and "exact"
         resolution
             conservative: how small, in voxels, the pieces of a triangle may get
         max_depth
@@ -314,7 +323,10 @@ class Scene:
             options["yes_no"] = True
         if projection != "conservative":
             options["projection"] = projection
-        if method is not None:
+        if method == "auto":  # the certified projection has one on a device, and the host has one
+            if self._device is not None and projection != "conservative":
+                options["method"] = self._device.fastest_method()
+        elif method is not None:
             options["method"] = method
         if filter is not None:
             options["filter"] = filter
@@ -449,7 +461,7 @@ class Scene:
              entry_radius: Optional[float] = None, border_entries: bool = False, margin: float = 0.0,
              max_length: Optional[float] = None, max_angle: Optional[float] = None,
              tolerance: float = core.DEFAULT_PLAN_TOLERANCE, maximum: float = core.DEFAULT_PLAN_MAXIMUM,
-             most_steps: int = core.DEFAULT_PLAN_STEPS) -> Plan:
+             most_steps: int = core.DEFAULT_PLAN_STEPS, triangle_clearances: bool = False) -> Plan:
         """Which straight paths to a target keep clear of what must not be touched: a `Plan` with a row for each entry.
 
         An instrument goes straight from an entry to the target, its axis on that line, and is certain to keep its
@@ -480,6 +492,8 @@ class Scene:
         tolerance, maximum, most_steps
             mm, how near to each other the bounds of a clearance are brought; mm, what is farther is not measured; a path
             that takes more steps is left with the bounds that it has
+        triangle_clearances
+            how much every path from a whole triangle keeps, too, of a needle: `Plan.triangle_clearance`
 
         The host engine plans, also for scenes on a device. Whether the target is inside of the volume is not asked.
         """
@@ -498,6 +512,8 @@ class Scene:
         wish: dict[str, Any] = {"entries": _whole([entries], 1, "entries")[0], "margin": number(margin, "margin"),
                                    "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
                                    "most_steps": _whole([most_steps], 1, "most_steps")[0]}
+        if triangle_clearances:
+            wish["triangle_clearances"] = True
         if self._labels is not None:
             wish["avoid"] = [self._labels.number(label) for label in avoid]
         if entry_label is not None and self._labels is not None:
@@ -511,44 +527,72 @@ class Scene:
             wish.update(mesh=mesh._core, tip=numbers(tip, "tip"), axis=numbers(axis, "axis"))
         avoided = None if avoid_volume is None else read_volume(avoid_volume)._core
         return Plan(self._core.plan(numbers(target, "target"), wish, avoided, _points(avoid_opacity),
-                                    self.domain if avoided is None else None), self._labels)
+                                    self.domain if avoided is None else None), self._labels, bool(triangle_clearances))
 
     # Pictures
 
-    def picture(self, mesh: Optional[Mesh] = None, pose: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512),
-                view: Union[str, tuple[float, float], npt.ArrayLike] = "front", preset: Optional[str] = None,
-                background: tuple[float, float, float] = (0.0, 0.0, 0.0),
-                show: Literal["contacts", "discarded", "plain"] = "contacts", through: float = 0.0) -> npt.NDArray[np.uint8]:
-        """A picture of the volume under its opacity, and of the mesh in it: (H,W,4), uint8, the uppermost row first.
+    def picture(self, mesh: Union[None, Mesh, Sequence[tuple[Mesh, Poses]]] = None, pose: Optional[Poses] = None, *,
+                size: tuple[int, int] = (512, 512), view: Union[str, tuple[float, float], View, npt.ArrayLike] = "front",
+                preset: Optional[str] = None, colours: Optional[npt.ArrayLike] = None,
+                background: Colour = (0.0, 0.0, 0.0), lighting: Light = "soft", clip: Union[Clip, Sequence[Clip]] = (),
+                clip_meshes: bool = False, show: Optional[Show] = None, triangles: Optional[npt.ArrayLike] = None,
+                through: Optional[float] = None,
+                mesh_colours: Optional[Sequence[Colour]] = None) -> npt.NDArray[np.uint8]:
+        """A picture of the volume under its opacity, and of meshes in it: (H,W,4), uint8, the uppermost row first.
 
         A Vulkan device makes it: the scene's, else the best one of this machine; UnsupportedError where there is none.
+        The same picture as `voxtact render --no-annotate` makes of the same.
 
+        mesh, pose
+            a mesh at a pose (4,4), None: where its coordinates are, or at several poses (N,4,4); or a list of (mesh,
+            poses) alone
         size
             (width, height), pixels
         view
             "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 before the face and
-            90 beside the left ear; or (4,4), clip_from_world
-        preset
-            colours of a preset of `voxtact render` ("mr", "ct-bone", …); None: one warm white
+            90 beside the left ear; or (4,4), clip_from_world; or a `View`, whose size then is the picture's
+        preset, colours
+            colours of one of `looks()`; or (N,4), ascending: value, red, green, blue. None: one warm white
+        background
+            red, green and blue, 0 to 1
+        lighting
+            "soft": from the eye and from above its left, darker where a place is shut in; "eye"; "none"
+        clip
+            what is taken away of the volume, up to six times: "left", "right", "front", "back", "top" or "bottom" of a
+            plane through its middle, or ("left", mm) of one at that x, y or z; "near" or ("near", mm): what is nearer to
+            the eye than so many mm before the middle; or (x, y, z, offset): points with x px + y py + z pz > offset
+        clip_meshes
+            takes the same of meshes away
         show
-            what is red on the mesh: "contacts", as the projection "view" counts them; "discarded" also shows the rest in
-            blue; "plain": nothing
+            what is red on the meshes: "contacts" (None), as the projection "view" counts them; "discarded" also shows the
+            rest in blue; "triangles": those that touch for certain, or those of `triangles`; "plain": nothing
+        triangles
+            chosen triangles: numbers, of one mesh at all its poses; or rows with `pair` and `triangle`, as
+            `Answer.triangles` of the same meshes and poses has them
         through
-            0 to 1: how much of the contacts is seen through the volume before them
+            0 to 1: how much of what is painted is seen through the volume before it; None: 0.8, of "discarded" 1
+        mesh_colours
+            (red, green, blue) of each mesh; None: gray, and others
         """
-        if mesh is not None and not isinstance(mesh, Mesh):
-            raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-        width, height = _whole(size, 2, "size")
+        if isinstance(view, View):
+            size, view = (view.width, view.height), view.clip_from_world
+        meshes, matrices = None, None
+        if mesh is not None:
+            meshes, matrices = _asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
+        count = 0 if meshes is None else 1 if matrices is not None else len(meshes)
+        if show == "triangles" and triangles is None:
+            triangles = () if mesh is None else self.detect(mesh, matrices, triangles=True).triangles
+        options = picture_options(0 if meshes is None else _pairs_in(meshes, matrices), count, size=_whole(size, 2, "size"),
+                                  view=view, preset=preset, colours=colours, background=background, lighting=lighting,
+                                  show=show, through=through, triangles=triangles, mesh_colours=mesh_colours, clip=clip,
+                                  clip_meshes=clip_meshes)
         device = self._device if self._device is not None or self._closed else best_device()
-        camera = view if isinstance(view, (str, tuple)) else numbers(view, "view")
-        matrices = np.eye(4) if pose is None else numbers(pose, "pose")
-        return self._core.picture(None if mesh is None else mesh._core, matrices, width, height, camera, preset,
-                                  [number(channel, "background") for channel in background], show, number(through, "through"), None if device is None else device._core)
+        return self._core.picture(meshes, matrices, options, None if device is None else device._core)
 
     def _repr_png_(self) -> Optional[bytes]:
         """For notebooks; nothing where no device can draw."""
         try:
-            return _png(self.picture(size=(320, 320)))
+            return png(self.picture(size=(320, 320)))
         except Error:
             return None
 

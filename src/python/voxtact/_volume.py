@@ -77,6 +77,11 @@ class Volume:
         return LPS_FROM_RAS @ self._core.world_from_index
 
     @property
+    def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The least and the greatest corner of the world box around it, out to the outermost voxels' faces: LPS, mm."""
+        return core.volume_box(self._core)
+
+    @property
     def range(self) -> tuple[float, float]:
         """Smallest and largest voxel."""
         return self._core.range

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""What pictures are asked for, and how they look."""
+from __future__ import annotations
+
+import os
+import struct
+import zlib
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core as core
+from ._common import number, numbers
+from ._errors import InvalidArgumentError
+from ._volume import Volume
+
+#: Red, green and blue, 0 to 1.
+Colour = tuple[float, float, float]
+Show = Literal["contacts", "discarded", "triangles", "plain"]
+Light = Literal["soft", "eye", "none"]
+#: What takes a side of the volume away: see `Scene.picture`.
+Clip = Union[str, tuple[str, float], tuple[float, float, float, float]]
+
+
+class Look(NamedTuple):
+    """Opacity and colours of a kind of image. `look` makes one."""
+
+    #: (N,2): value and opacity, for `Scene`
+    opacity: npt.NDArray[np.float64]
+    #: (N,4): value, red, green and blue, for `Scene.picture`
+    colours: npt.NDArray[np.float64]
+
+
+def looks() -> tuple[str, ...]:
+    """The names of the looks that there are: "mr", "ct-bone", …"""
+    return tuple(core.look_names())
+
+
+def look(name: str, volume: Volume) -> Look:
+    """The look of that name, in the volume's own units: those of "mr" are of its range, those of "ct" Hounsfield units.
+
+        mr = vx.look("mr", head)
+        vx.Scene(head, opacity=mr.opacity).picture(colours=mr.colours)
+    """
+    if not isinstance(volume, Volume):
+        raise TypeError(f"volume is a {type(volume).__name__}; voxtact.read_volume() makes a voxtact.Volume of it")
+    return Look(*core.look(name, volume._core))
+
+
+def read_colours(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
+    """The colours of a transfer function in JSON (docs/cli.md): (N,4), value, red, green and blue; (0,4): it has none."""
+    return core.read_colours(os.fsencode(path))
+
+
+def _colour(given: Any, what: str) -> tuple[float, ...]:
+    array = numbers(given, what)
+    if array.shape != (3,):
+        raise InvalidArgumentError(f"{what} is {given!r}; three numbers from 0 to 1 are needed: red, green, blue")
+    return tuple(float(channel) for channel in array)
+
+
+def _clip(given: Any) -> tuple[Any, ...]:
+    """(side, mm or None), or a plane's four numbers."""
+    if isinstance(given, str):
+        return (given, None)
+    if isinstance(given, Sequence) and len(given) == 2 and isinstance(given[0], str):
+        at = number(given[1], "clip")
+        if not np.isfinite(at):
+            raise InvalidArgumentError(f"clip {given[0]!r} is at {at} mm")
+        return (given[0], at)
+    plane = numbers(given, "clip")
+    if plane.shape != (4,):
+        raise InvalidArgumentError(f"clip has {given!r}; a side, (side, mm), or a plane (x, y, z, offset) is needed")
+    return tuple(float(each) for each in plane)
+
+
+def _clips(given: Any) -> list[tuple[Any, ...]]:
+    if isinstance(given, str) or (isinstance(given, tuple) and len(given) in (2, 4)
+                                  and not isinstance(given[-1], (str, tuple, list, np.ndarray))):
+        return [_clip(given)]
+    return [_clip(each) for each in given]
+
+
+def _chosen(given: Any, pairs: int, meshes: int) -> tuple[list[int], list[int]]:
+    """Pair and triangle of each."""
+    array = np.asarray(given)
+    if array.dtype.names is not None and {"pair", "triangle"} <= set(array.dtype.names):
+        return array["pair"].tolist(), array["triangle"].tolist()
+    if array.size == 0:
+        return [], []
+    if array.ndim != 1 or array.dtype.kind not in "iu" or array.min() < 0 or array.max() >= 2**32:
+        raise InvalidArgumentError("triangles are neither rows with pair and triangle, as Answer.triangles has them, nor "
+                                   "numbers of triangles")
+    if meshes != 1:
+        raise InvalidArgumentError(f"triangles are numbers, and there are {meshes} meshes: give rows with pair and "
+                                   "triangle, as Answer.triangles has them")
+    return np.repeat(np.arange(pairs), len(array)).tolist(), np.tile(array, pairs).tolist()
+
+
+def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, preset: Optional[str], colours: Any,
+                    background: Any, lighting: str, show: Optional[str], through: Optional[float], triangles: Any,
+                    mesh_colours: Any, clip: Any, clip_meshes: bool) -> dict[str, Any]:
+    """What the compiled part takes."""
+    if preset is not None and colours is not None:
+        raise InvalidArgumentError("preset and colours both say which colours the volume has; leave out one of them")
+    options: dict[str, Any] = {
+        "size": size, "view": view if isinstance(view, (str, tuple)) else numbers(view, "view"), "lighting": lighting,
+        "background": _colour(background, "background"), "clip": _clips(clip), "clip_meshes": bool(clip_meshes),
+        "show": show if show is not None else "contacts" if triangles is None else "triangles"}
+    if preset is not None:
+        options["preset"] = preset
+    if colours is not None:
+        options["colours"] = numbers(colours, "colours")
+    if through is not None:
+        options["through"] = number(through, "through")
+        if not 0 <= options["through"] <= 1:
+            raise InvalidArgumentError(f"through is {through!r}; it must be from 0 to 1")
+    if mesh_colours is not None:
+        options["mesh_colours"] = [_colour(each, "mesh_colours") for each in mesh_colours]
+    if triangles is not None:
+        if options["show"] != "triangles":
+            raise InvalidArgumentError(f"triangles are chosen, and show={options['show']!r} does not show them")
+        options["triangles"] = _chosen(triangles, pairs, meshes)
+    return options
+
+
+def png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    """A picture as PNG, in memory."""
+    height, width, _ = pixels.shape
+
+    def chunk(kind: bytes, content: bytes) -> bytes:
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with its filter, none
+    rows[:, 1:] = pixels.reshape(height, 4 * width)
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
+            + chunk(b"IEND", b""))
