@@ -18,6 +18,10 @@ constexpr std::size_t kChunk = std::size_t{1} << 18;
 constexpr std::size_t kTold = std::size_t{1} << 23; // bytes, at most, from one ReadProgress to the next
 constexpr const char* kDamaged = "its compressed data is cut off or damaged; get the file again";
 
+Error wasCancelled(const std::filesystem::path& path) {
+    return {ErrorCode::Cancelled, 0, "reading '" + path.string() + "' was cancelled"};
+}
+
 bool beginsAsGzip(std::span<const std::byte> bytes) {
     return bytes.size() >= 2 && bytes[0] == std::byte{0x1F} && bytes[1] == std::byte{0x8B};
 }
@@ -171,7 +175,7 @@ Result<std::size_t> ByteReader::inflate(std::byte* to, std::size_t length) {
 Result<std::size_t> ByteReader::read(std::byte* to, std::size_t length) {
     Result<std::size_t> got = inflater_ ? inflate(to, length) : stored_->read(to, length);
     if (stored_->cancelled) {
-        return Error{ErrorCode::Cancelled, 0, "reading '" + path_.string() + "' was cancelled"};
+        return wasCancelled(path_);
     }
     if (stored_->failed) {
         return cannotRead(path_, "reading stopped before its end", ErrorCode::File);
@@ -232,6 +236,9 @@ Result<std::vector<std::byte>> ByteReader::take(std::uint64_t needed) {
         return cannotRead(path_, "it is truncated: its voxels take " + std::to_string(needed) + " bytes, " +
                                      std::to_string(present) + " are there; get the file again");
     };
+    if (stored_->cancelled) { // while the header was read
+        return wasCancelled(path_);
+    }
     if (!inflater_ && needed > stored_->left()) {
         return truncated(stored_->left());
     }

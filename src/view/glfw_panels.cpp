@@ -21,8 +21,7 @@ void onKey(GLFWwindow* window, int key, int, int action, int modifiers) {
 }
 
 void onDrop(GLFWwindow* window, int count, const char** paths) {
-    auto& dropped = static_cast<State*>(glfwGetWindowUserPointer(window))->dropped;
-    dropped.insert(dropped.end(), paths, paths + count);
+    static_cast<State*>(glfwGetWindowUserPointer(window))->drop(count, paths);
 }
 
 } // namespace

@@ -121,6 +121,7 @@ Result<void> MainLoop::turn() {
     if (std::exchange(state.cancelLoading, false) && state.loading) {
         loader_->cancel();
         state.loading.reset();
+        opening_.clear();
         state.say("cancelled");
     }
     if (state.wanted) {
@@ -250,7 +251,7 @@ void MainLoop::load(std::function<Result<Given>(Progress&)> read, std::optional<
 
 /// A session whose files are gone is asked about first.
 void MainLoop::open(Wanted wanted) {
-    if (wanted.kind == FileKind::Session) {
+    if (wanted.kind == FileKind::Session && !(state_->blank && desc_->frames)) {
         const std::vector<MissingFile> files = missingFiles(wanted.document.sources, wanted.path);
         if (!files.empty()) {
             state_->question = missingQuestion(files, wanted.path);
@@ -293,8 +294,11 @@ Result<void> MainLoop::put(Loaded loaded) {
     state.question = question;
     state.loaded = loading;
     settling_ = true;
-    recent_.add(opening_);
-    opening_.clear();
+    if (!loaded.opened) { // what the command line named
+        recent_.add(state.document.sources.mesh);
+        recent_.add(state.document.sources.volume);
+    }
+    recent_.add(std::exchange(opening_, {}));
     state.recent = recent_.paths();
     return {};
 }
@@ -306,7 +310,9 @@ Result<void> MainLoop::refuse(LoadFailure failure) {
     if (failure.error.code == ErrorCode::Cancelled) {
         return {};
     }
-    if (failure.error.code == ErrorCode::DeviceLost) {
+    // With a number of frames there may be nobody who chooses.
+    const bool ends = state.blank && (desc_->frames || (!failure.opened && !failure.tooLarge));
+    if (ends || failure.error.code == ErrorCode::DeviceLost) {
         return failure.error;
     }
     if (failure.tooLarge) {
@@ -316,9 +322,7 @@ Result<void> MainLoop::refuse(LoadFailure failure) {
         coarser_ = failure.coarser;
         return {};
     }
-    if (state.blank && !failure.opened) {
-        return failure.error;
-    }
+    opening_.clear();
     state.say({}); // that it is opened
     state.complain(failure.error.text);
     return {};
@@ -344,6 +348,8 @@ void MainLoop::takeChoice() {
         open(std::move(*wanted));
     } else if (question.kind == Question::Kind::Lost && !first) {
         state.method = desc_->method(*session_);
+    } else if (question.kind == Question::Kind::Coarser) {
+        opening_.clear();
     }
 }
 

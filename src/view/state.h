@@ -109,6 +109,8 @@ struct State {
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
+    /// Paths are dropped on the window, as GLFW tells of them.
+    void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
     [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
     /// The document with what the window has of its own: camera, method, cursor, holes, and what is on.

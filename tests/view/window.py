@@ -220,6 +220,14 @@ def keys(program, folder):
         state = window.until("an answer in another size", lambda s: s["pose"][3] == 2 and s["settled"])
         assert state["frame"] > before, state
         compare(program, state)
+        # Out of sight for a while.
+        window.tool("windowunmap", "--sync", window.id)
+        time.sleep(1)
+        window.tool("windowmap", "--sync", window.id)
+        window.tool("windowfocus", "--sync", window.id)
+        window.press("Left")
+        state = window.until("an answer in sight again", lambda s: s["pose"][3] == 1 and s["settled"])
+        compare(program, state)
         window.press("ctrl+q")
         window.end()
 
@@ -248,6 +256,23 @@ def handles(program, folder):
         compare(program, state)
         window.press("ctrl+z")
         window.until("the pose before the drag", lambda s: s["pose"] == first["pose"])
+        # A ring: from the front the one of y is a circle round the tip. Beside its radius a drag turns the picture, and
+        # the next one looks from the front again.
+        state, away = first, 40
+        while state["pose"] == first["pose"] and away < 62:
+            window.press("1", "f")
+            state = window.until("the picture from the front", lambda s: s["settled"])
+            drag(window, x + width // 2 + away, y + height // 2 + away, -7, 7)
+            state = window.state()
+            away += 2
+        assert state["pose"] != first["pose"], f"no ring up to {away} points to the lower right of the middle"
+        place = [state["pose"][i] - first["pose"][i] for i in (3, 7, 11)]
+        turned = [state["pose"][i] - first["pose"][i] for i in (0, 2, 8, 10)]
+        assert max(map(abs, place)) < 1e-9 and max(map(abs, turned)) > 0.01, state["pose"]
+        state = window.until("the answer after the turn", lambda s: s["settled"])
+        compare(program, state)
+        window.press("ctrl+z")
+        window.until("the pose before the turn", lambda s: s["pose"] == first["pose"])
         window.press("ctrl+q")
         window.end()
 
@@ -542,7 +567,7 @@ def screenshot(program, folder):
                                                              poses(folder, 60)]) as window:
         state = window.until("the first answer", lambda s: s["settled"])
         window.dialog("ctrl+p", f"{folder}/window.png")
-        state = window.until("a picture", lambda s: "window.png" in s["status"])
+        state = window.until("a picture", lambda s: s["status"].startswith("the picture is in"))
         assert png_size(f"{folder}/window.png") == tuple(int(side) for side in state["picture"][2:]), state
         window.press("ctrl+p")
         time.sleep(1)
@@ -552,7 +577,7 @@ def screenshot(program, folder):
             time.sleep(0.5)
             window.type(side)
         window.enter()
-        window.until("a larger picture", lambda s: "large.png" in s["status"])
+        window.until("a larger picture", lambda s: s["status"].endswith("large.png") and "picture is in" in s["status"])
         assert png_size(f"{folder}/large.png") == (900, 1300), png_size(f"{folder}/large.png")
         # It has what lies over the picture: the same without it is another file.
         assert pathlib.Path(f"{folder}/large.png").stat().st_size > 10000
@@ -647,7 +672,14 @@ def refusals(program, folder):
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
     refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
+    session.write_text('{"voxtact_session": 1, "volume": "nowhere.nii", "mesh": "builtin:scalpel:300", '
+                       '"transfer_function": {"points": [[0, 0], [1, 1]]}}')
+    refused(program, 1, "nowhere.nii", ["--session", str(session)], without)
     with Server() as server:
+        # With a number of frames there may be nobody to ask.
+        for arguments in (["--session", str(session)], ["--volume", "nowhere.nii"]):
+            refused(program, 1, "nowhere.nii", [*arguments, "--frames", "2"], server.environment)
+        refused(program, 1, "--volume-side", [*SCENE, "--volume-side", "8", "--frames", "2"], server.environment)
         no_driver = {**server.environment, "VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
         refused(program, 1, "Vulkan", [*SCENE], no_driver)
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -106,6 +107,16 @@ Result<void> openFile(const std::filesystem::path& path, State& state) {
         state.wanted = Wanted{*kind, withFile(state.saved(), *kind, path.string()), path.string()};
     }
     return {};
+}
+
+void takeDropped(State& state) {
+    for (const std::string& path : std::exchange(state.dropped, {})) {
+        state.say("opened: " + path);
+        if (const Result<void> opened = openFile(path, state); !opened.ok()) {
+            state.say({});
+            state.complain(opened.error().text);
+        }
+    }
 }
 
 } // namespace voxtact::view

@@ -44,8 +44,8 @@ void drawPictureSize(const State& state) {
     if (sides[0] <= 0) {
         sides = {static_cast<int>(state.picture.extent.width), static_cast<int>(state.picture.extent.height)};
     }
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
-    ImGui::InputInt2("width x height, pixels", sides.data());
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
+    ImGui::InputInt2("width x height", sides.data());
     for (int& side : sides) {
         side = std::clamp(side, 16, kMost);
     }
@@ -163,16 +163,6 @@ void askForFile() {
 
 void askForSession() {
     asked() = kSession;
-}
-
-void takeDropped(State& state) {
-    for (const std::string& path : std::exchange(state.dropped, {})) {
-        state.say("opened: " + path);
-        if (const Result<void> opened = openFile(path, state); !opened.ok()) {
-            state.say({});
-            state.complain(opened.error().text);
-        }
-    }
 }
 
 void askForPicture() {

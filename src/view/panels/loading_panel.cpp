@@ -14,7 +14,10 @@ void drawLoading(State& state) {
     }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFontSize();
-    const ImVec2 at{size.x / 2, state.blank ? size.y / 2 : size.y - 3 * line};
+    // Not over the panels.
+    const double middle = state.picture.corner[0] + state.picture.size[0] / 2;
+    const ImVec2 at{state.blank ? size.x / 2 : static_cast<float>(middle),
+                    state.blank ? size.y / 2 : size.y - 3 * line};
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, {0.5F, state.blank ? 0.5F : 1.0F});
     ImGui::SetNextWindowSize({line * 26, 0});
     ImGui::Begin("loading", nullptr,

@@ -56,8 +56,6 @@ void askForFile();
 void askForSession();
 /// Opens the dialog for a picture to save.
 void askForPicture();
-/// Opens what was dropped on the window.
-void takeDropped(State& state);
 /// What is pressed.
 void takeKeys(State& state);
 void drawHelp(State& state);
