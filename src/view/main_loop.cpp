@@ -134,7 +134,7 @@ Result<void> MainLoop::turn() {
 Result<void> MainLoop::show() {
     State& state = *state_;
     const ImDrawData& panels = drawAllPanels(state);
-    const Result<void> shown = frames_->show(state, panels, pixelsOf(window_));
+    Result<void> shown = frames_->show(state, panels, pixelsOf(window_));
     if (!shown.ok()) {
         if (shown.error().vkResult != VK_ERROR_SURFACE_LOST_KHR) {
             return shown;

@@ -59,7 +59,7 @@ class Devices {
             if (!session.ok()) {
                 return kept_ ? rescued(session.error(), *kept_) : session.error();
             }
-            const Result<void> ended =
+            Result<void> ended =
                 MainLoop(window_, **session, *state_, *desc_).run(lost_ ? again() : firstOf(**session));
             if (ended.ok() || ended.error().code != ErrorCode::DeviceLost) {
                 return ended;
