@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # What takes too long for every change: the tests under the address and undefined-behaviour sanitizers and under the
 # thread sanitizer, every fuzz target for a minute, every mutant, all random cases of the tests, the tests of agreement on
-# other software drivers, and a copy of the sources with one more counting method. All of it runs, and the status is 1 if any part failed.
+# other software drivers, a copy of the sources with one more counting method, and ten minutes of random input to the
+# window. All of it runs, and the status is 1 if any part failed.
 # Under the thread sanitizer the tiers of the host alone: lavapipe's own threads are not built with it.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
@@ -23,6 +24,9 @@ scripts/mutate.py || failed+=(mutate)
 { VOXTACT_TEST_LONG=1 ctest --preset release -j "$(nproc)" -L '^(cpu|gpu)$'; } || failed+=(long)
 scripts/second_drivers.sh build/release/tests/gpu/voxtact_gpu_tests || [ $? -eq 77 ] || failed+=(drivers)
 scripts/change.py --build || failed+=(change)
+if [ -x build/release/voxtact ]; then # the window: ten minutes of random input under validation
+    python3 tests/view/window.py build/release/voxtact soak 600 || failed+=(soak)
+fi
 
 if [ ${#failed[@]} -gt 0 ]; then
     printf 'deep: failed: %s\n' "${failed[*]}" >&2

@@ -20,13 +20,20 @@
 /// Thread-safety: safe from any thread on different files.
 namespace voxtact::io {
 
-/// Which image of a file or folder that holds several is read.
+/// How far reading is: how much was taken up, of how much; bytes of a file as it is stored, or files of a DICOM series.
+/// Of a header and of the file with its voxels one after the other. Called on the reading thread, at least every 8 MiB.
+/// False: no more is read, and what is called returns Cancelled.
+using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t all)>;
+
+/// Which image of a file or folder that holds several is read, and who hears how far that is.
 struct VolumeReadOptions {
     /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it.
     std::optional<std::uint32_t> frame;
     /// SeriesInstanceUID of the series of a DICOM folder. A folder that holds several is refused without it. Empty: the
     /// only one.
-    std::string series{}; // the initialiser lets {.frame = 3} compile without a warning
+    std::string series{}; // the initialisers let {.frame = 3} compile without a warning
+    /// Must not throw. Empty: nobody. Not called for bytes in memory.
+    ReadProgress progress{};
 };
 
 /// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,

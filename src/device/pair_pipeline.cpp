@@ -121,6 +121,7 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
         submit.commandBufferInfoCount = 1;
         submit.pCommandBufferInfos = &commands;
         flight.pending = true;
+        const auto lock = device.lockQueue();
         result = vk.vkQueueSubmit2(device.queueAccess().queue, 1, &submit, flight.fence);
     }
     if (result != VK_SUCCESS) {
@@ -199,7 +200,10 @@ bool PairPipeline::State::drain() noexcept {
     if (std::ranges::none_of(flights, &Flight::pending)) {
         return true;
     }
-    const VkResult result = device.table().vkDeviceWaitIdle(device.handle());
+    const VkResult result = [this] {
+        const auto lock = device.lockQueue();
+        return device.table().vkDeviceWaitIdle(device.handle());
+    }();
     if (result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST) {
         return false;
     }

@@ -59,7 +59,10 @@ struct TimedCommands::State {
 };
 
 bool TimedCommands::State::waitForAll() noexcept {
-    const VkResult result = device.table().vkDeviceWaitIdle(device.handle());
+    const VkResult result = [this] {
+        const auto lock = device.lockQueue();
+        return device.table().vkDeviceWaitIdle(device.handle());
+    }();
     if (result == VK_SUCCESS || result == VK_ERROR_DEVICE_LOST) {
         inFlight = false;
     }
@@ -171,6 +174,7 @@ Result<void> TimedCommands::submit() {
     VkResult result = vk.vkResetFences(state_->device.handle(), 1, &state_->fence);
     if (result == VK_SUCCESS) {
         state_->inFlight = true;
+        const auto lock = state_->device.lockQueue();
         result = vk.vkQueueSubmit2(state_->device.queueAccess().queue, 1, &info, state_->fence);
     }
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "submitting failed");

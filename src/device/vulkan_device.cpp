@@ -130,6 +130,7 @@ struct VulkanDevice::State {
     VkDevice device = VK_NULL_HANDLE;
     VolkDeviceTable table{};
     VkQueue queue = VK_NULL_HANDLE;
+    std::mutex queueMutex;
     std::uint32_t family = 0;
     bool timestamps = false;
     ContextDesc desc;
@@ -310,7 +311,14 @@ QueueAccess VulkanDevice::queueAccess() const noexcept {
     QueueAccess access;
     access.queue = state_->queue;
     access.family = state_->family;
+    access.lock = [](void* mutex) { static_cast<std::mutex*>(mutex)->lock(); };
+    access.unlock = [](void* mutex) { static_cast<std::mutex*>(mutex)->unlock(); };
+    access.user = &state_->queueMutex;
     return access;
+}
+
+std::unique_lock<std::mutex> VulkanDevice::lockQueue() const {
+    return std::unique_lock(state_->queueMutex);
 }
 
 bool VulkanDevice::hasTimestamps() const noexcept {

@@ -97,7 +97,7 @@ struct DeviceOptions {
 };
 
 /// A device with one graphics queue and every feature that voxtact can use.
-/// Thread-safety: const functions are safe from any thread; the queue needs the caller's own lock.
+/// Thread-safety: const functions are safe from any thread; what uses the queue itself holds lockQueue().
 class VulkanDevice {
   public:
     /// Unsupported, with the reason, for a device below Vulkan 1.3 or without a graphics queue. A device that lacks a
@@ -110,7 +110,10 @@ class VulkanDevice {
     [[nodiscard]] const PhysicalDevice& physical() const noexcept;
     /// Its pointers are valid as long as this device.
     [[nodiscard]] const ContextDesc& contextDesc() const noexcept;
+    /// With the lock of the queue.
     [[nodiscard]] QueueAccess queueAccess() const noexcept;
+    /// Threads share the queue: held by whoever submits to it, shows an image, or waits for all that is on the device.
+    [[nodiscard]] std::unique_lock<std::mutex> lockQueue() const;
     [[nodiscard]] bool hasTimestamps() const noexcept;
 
     struct State;

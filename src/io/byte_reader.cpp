@@ -15,7 +15,12 @@ namespace voxtact::io {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 18;
+constexpr std::size_t kTold = std::size_t{1} << 23; // bytes, at most, from one ReadProgress to the next
 constexpr const char* kDamaged = "its compressed data is cut off or damaged; get the file again";
+
+Error wasCancelled(const std::filesystem::path& path) {
+    return {ErrorCode::Cancelled, 0, "reading '" + path.string() + "' was cancelled"};
+}
 
 bool beginsAsGzip(std::span<const std::byte> bytes) {
     return bytes.size() >= 2 && bytes[0] == std::byte{0x1F} && bytes[1] == std::byte{0x8B};
@@ -28,17 +33,27 @@ struct ByteReader::Stored {
     std::ifstream file;
     std::vector<std::byte> chunk;
     std::span<const std::byte> ready; ///< in `chunk`, or in the caller's memory
+    std::uint64_t all = 0;            ///< bytes of the file
     std::uint64_t behind = 0;         ///< bytes of the file that come after `ready`
+    ReadProgress progress;            ///< empty: nobody hears of it
+    bool cancelled = false;           ///< by that
     bool failed = false;              ///< the file could not be read although it says it has more
 
     [[nodiscard]] std::uint64_t left() const noexcept { return ready.size() + behind; }
 
     std::size_t fromFile(std::byte* to, std::size_t length) {
         const std::size_t wanted = static_cast<std::size_t>(std::min<std::uint64_t>(length, behind));
-        file.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(wanted));
-        const auto got = static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0));
-        failed = failed || got < wanted;
-        behind = got < wanted ? 0 : behind - got;
+        std::size_t got = 0;
+        while (got < wanted && !failed && !cancelled) {
+            const std::size_t part = std::min(wanted - got, kTold);
+            file.read(reinterpret_cast<char*>(to) + got, static_cast<std::streamsize>(part));
+            const auto read = static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0));
+            failed = read < part;
+            got += read;
+            behind -= read;
+            cancelled = progress && !progress(all - behind, all);
+        }
+        behind = failed || cancelled ? 0 : behind;
         return got;
     }
 
@@ -91,12 +106,13 @@ ByteReader::ByteReader(ByteReader&&) noexcept = default;
 ByteReader& ByteReader::operator=(ByteReader&&) noexcept = default;
 ByteReader::~ByteReader() = default;
 
-Result<ByteReader> ByteReader::ofFile(const std::filesystem::path& path) {
+Result<ByteReader> ByteReader::ofFile(const std::filesystem::path& path, ReadProgress progress) {
     const Result<std::uint64_t> size = readableFile(path);
     VOXTACT_TRY(size);
     auto stored = std::make_unique<Stored>();
     stored->file.open(path, std::ios::binary);
-    stored->behind = *size;
+    stored->all = stored->behind = *size;
+    stored->progress = std::move(progress);
     return ByteReader(path, std::move(stored));
 }
 
@@ -158,6 +174,9 @@ Result<std::size_t> ByteReader::inflate(std::byte* to, std::size_t length) {
 
 Result<std::size_t> ByteReader::read(std::byte* to, std::size_t length) {
     Result<std::size_t> got = inflater_ ? inflate(to, length) : stored_->read(to, length);
+    if (stored_->cancelled) {
+        return wasCancelled(path_);
+    }
     if (stored_->failed) {
         return cannotRead(path_, "reading stopped before its end", ErrorCode::File);
     }
@@ -217,6 +236,9 @@ Result<std::vector<std::byte>> ByteReader::take(std::uint64_t needed) {
         return cannotRead(path_, "it is truncated: its voxels take " + std::to_string(needed) + " bytes, " +
                                      std::to_string(present) + " are there; get the file again");
     };
+    if (stored_->cancelled) { // while the header was read
+        return wasCancelled(path_);
+    }
     if (!inflater_ && needed > stored_->left()) {
         return truncated(stored_->left());
     }

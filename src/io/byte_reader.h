@@ -2,6 +2,7 @@
 #pragma once
 
 #include "voxtact/error.h"
+#include "voxtact/io.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace voxtact::io {
 /// The bytes of a file or of memory, in order, each read once; what is compressed is decompressed on the way.
 class ByteReader {
   public:
-    [[nodiscard]] static Result<ByteReader> ofFile(const std::filesystem::path& path);
+    [[nodiscard]] static Result<ByteReader> ofFile(const std::filesystem::path& path, ReadProgress progress = {});
     /// `bytes` must outlive the reader; `name` stands in messages.
     [[nodiscard]] static ByteReader ofMemory(std::filesystem::path name, std::span<const std::byte> bytes);
 

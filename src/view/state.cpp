@@ -25,12 +25,17 @@ Vec3 middleOf(const Grid& grid) {
 } // namespace
 
 State::State(Given opened)
-    : volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), labels(std::move(opened.labels)),
-      values(opened.values), deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
-      document(std::move(opened.document)), window(opened.values) {
+    : blank(false), volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), labels(std::move(opened.labels)),
+      values(opened.values), coarserBy(opened.coarserBy), deviceOption(std::move(opened.deviceOption)),
+      deviceName(std::move(opened.deviceName)), document(std::move(opened.document)), window(opened.values) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
     histogram = view::histogram(volume.view(), document.domain, kBins);
+    if (document.shown) {
+        show(*document.shown);
+    }
+    drillAll(document.holes);
+    writes.clear(); // there is no copy yet
     method = document.method.value_or(MethodChoice{});
     camera = document.camera.value_or(framing(volume.grid, {20, 15}));
     cursor = document.cursor.value_or(middleOf(volume.grid));
@@ -84,8 +89,122 @@ void State::drill(const Vec3& centre) {
         say("nothing to drill there: no voxel changes");
         return;
     }
-    holes_.add(std::move(*hole));
+    addHole(std::move(*hole), {centre, drillRadius});
     command([](Edit& edit) { ++edit.holes; });
+}
+
+Shown State::shown() const {
+    Shown out;
+    out.handleAxes = gizmoAxes;
+    out.handles = showGizmo;
+    out.contacts = showContacts;
+    out.logHistogram = logHistogram;
+    out.maximised = maximised;
+    out.stepMillimetres = stepMillimetres;
+    out.stepDegrees = stepDegrees;
+    out.drillRadius = drillRadius;
+    out.window = window;
+    return out;
+}
+
+void State::show(const Shown& what) {
+    gizmoAxes = what.handleAxes;
+    showGizmo = what.handles;
+    showContacts = what.contacts;
+    logHistogram = what.logHistogram;
+    maximised = what.maximised;
+    stepMillimetres = what.stepMillimetres;
+    stepDegrees = what.stepDegrees;
+    drillRadius = what.drillRadius;
+    window = what.window.value_or(window);
+}
+
+/// Those that are filled again are forgotten.
+void State::addHole(Hole hole, const Ball& ball) {
+    balls_.resize(holes_.drilled());
+    balls_.push_back(ball);
+    holes_.add(std::move(hole));
+}
+
+/// One after the other, each in the volume as those before it left it; then as many as the edit has.
+void State::drillAll(const std::vector<Ball>& balls) {
+    for (const Ball& ball : balls) {
+        Result<Hole> hole = holeOf(volume.view(), ball, values.lo);
+        if (!hole.ok()) {
+            complain(hole.error().text);
+            break;
+        }
+        addHole(std::move(*hole), ball);
+        std::ranges::move(holes_.bring(volume, holes_.drilled() + 1), std::back_inserter(writes));
+    }
+    document.edit.holes = std::min(document.edit.holes, balls_.size());
+    drillAndFill();
+}
+
+void State::drillAnew(const std::vector<Ball>& balls) {
+    std::ranges::move(holes_.bring(volume, 0), std::back_inserter(writes));
+    holes_ = {};
+    balls_.clear();
+    drillAll(balls);
+}
+
+void State::passOn(State& next, std::optional<FileKind> opened) {
+    if (!blank && (opened == FileKind::Mesh || opened == FileKind::Volume)) {
+        Document kept = saved();
+        kept.sources = next.document.sources;
+        if (opened == FileKind::Volume) {
+            kept.edit.curve = next.document.edit.curve;
+            kept.edit.holes = 0;
+            kept.holes.clear();
+            kept.colours = next.document.colours;
+            kept.domain = next.document.domain;
+            kept.tableSize = next.document.tableSize;
+        } else {
+            next.camera = camera;
+            next.cursor = cursor;
+            next.window = window;
+            next.history = std::move(history);
+        }
+        next.document = std::move(kept);
+        next.method = method;
+        next.drillAnew(next.document.holes);
+    }
+    next.frame = frame;
+    next.frameTimes = frameTimes;
+    next.keys = std::move(keys);
+    next.dropped = std::move(dropped);
+    next.picture.extent = picture.extent;
+    next.picture.corner = picture.corner;
+    next.picture.size = picture.size;
+    for (std::size_t slice = 0; slice < slices.size(); ++slice) {
+        next.slices[slice].extent = slices[slice].extent;
+    }
+    next.error = next.error.empty() ? error : next.error;
+    if (!next.document.shown || opened == FileKind::Volume || opened == FileKind::Mesh) {
+        Shown kept = shown();
+        kept.window = next.window;
+        next.show(kept);
+    }
+    next.helpOpen = helpOpen;
+    next.quit = quit;
+    next.wanted = std::move(wanted);
+    next.recent = std::move(recent);
+}
+
+Given State::giveBack() {
+    Given out;
+    out.document = saved();
+    static_cast<void>(holes_.bring(volume, 0)); // they are drilled again
+    out.volume = std::move(volume);
+    out.mesh = std::move(mesh);
+    out.labels = std::move(labels);
+    out.values = values;
+    out.coarserBy = coarserBy;
+    out.deviceOption = deviceOption;
+    State next;
+    passOn(next, std::nullopt);
+    *this = std::move(next);
+    return out;
 }
 
 void State::undo() {
@@ -115,6 +234,8 @@ Document State::saved() const {
     out.method = method;
     out.camera = camera;
     out.cursor = cursor;
+    out.holes = balls_;
+    out.shown = shown();
     return out;
 }
 

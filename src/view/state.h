@@ -8,6 +8,8 @@
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
 #include "view/model/live_clearance.h"
+#include "view/model/loading.h"
+#include "view/model/question.h"
 #include "view/model/slice.h"
 
 #include <array>
@@ -27,8 +29,9 @@ struct Given {
     std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
-    std::string deviceOption; ///< as --device was given; for copied commands
-    std::string deviceName;   ///< that draws
+    std::uint32_t coarserBy = 1; ///< Sources::coarser of the volume that is here
+    std::string deviceOption;    ///< as --device was given; for copied commands
+    std::string deviceName;      ///< that draws
 };
 
 /// What a file can be to the window.
@@ -38,6 +41,7 @@ enum class FileKind { Volume, Mesh, Poses, Function, Session };
 struct Wanted {
     FileKind kind = FileKind::Session; ///< Volume: the transfer function is that which the volume has by itself
     Document document;
+    std::string path; ///< the file that was opened
 };
 
 /// A part of the window that shows a picture, in pixels.
@@ -49,8 +53,11 @@ struct Pane {
     Point2 used{1, 1};       ///< the part of the texture that it takes up
 };
 
-/// Panes that can have the whole middle of the window.
-enum class Maximised { None, Picture, Slice0, Slice1, Slice2 };
+/// A picture that is to be made for a file.
+struct Shot {
+    std::string path;
+    Extent extent; ///< pixels
+};
 
 /// A line for the person who looks: a dialog for errors, the status line for what was done.
 struct Message {
@@ -76,7 +83,15 @@ struct GizmoDrag {
 struct State {
     using Clock = std::chrono::steady_clock;
 
+    /// Nothing to show yet: no volume, no mesh.
+    State() = default;
     explicit State(Given opened);
+
+    /// What another State goes on with that is shown instead of this: what belongs to the window, and for a mesh or a
+    /// volume that was opened what was edited meanwhile.
+    void passOn(State& next, std::optional<FileKind> opened);
+    /// What it was opened with and what became of that, to be opened once more. Leaves nothing to show.
+    [[nodiscard]] Given giveBack();
 
     /// Once a frame, after the panels: whether something changed, and when.
     void update();
@@ -94,16 +109,21 @@ struct State {
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
+    /// Paths are dropped on the window, as GLFW tells of them.
+    void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
     [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
-    /// The document with what the window has of its own: camera, method and cursor.
+    /// The document with what the window has of its own: camera, method, cursor, holes, and what is on.
     [[nodiscard]] Document saved() const;
+
+    bool blank = true; ///< nothing to show yet: only the window's own parts count
 
     // What it was opened with.
     VolumeData volume;
     MeshData mesh;
     std::optional<Labels> labels;
     ValueRange values;
+    std::uint32_t coarserBy = 1;
     std::string deviceOption;
     std::string deviceName;
     Mat4 texture_from_world{};
@@ -134,6 +154,8 @@ struct State {
     std::uint64_t frame = 0;
     std::string status;
     std::string error;
+    std::optional<Question> question; ///< a dialog, until it is answered
+    std::vector<std::string> recent;  ///< files that were opened, the last first
 
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame
@@ -153,7 +175,12 @@ struct State {
     bool logHistogram = true;
     std::optional<Wanted> wanted;     ///< until the window has looked at it
     std::vector<std::string> dropped; ///< paths, since the last frame
-    std::string screenshot;           ///< a path, while one is asked for
+    std::vector<std::string> taken;   ///< paths of poses and transfer functions that were opened, since the last frame
+    std::optional<Shot> shot;         ///< until the window has looked at it
+    std::optional<double> shooting;   ///< how much of a picture for a file is made, 0..1
+    std::optional<Loading> loading;   ///< while something is
+    std::optional<Loading> loaded;    ///< how that went which was loaded last
+    bool cancelLoading = false;       ///< asked for
 
   private:
     struct Seen {
@@ -163,9 +190,15 @@ struct State {
         Extent extent;
         std::uint64_t answer = 0;
     };
+    [[nodiscard]] Shown shown() const;
+    void show(const Shown& what);
     void drillAndFill();
+    void addHole(Hole hole, const Ball& ball);
+    void drillAll(const std::vector<Ball>& balls);
+    void drillAnew(const std::vector<Ball>& balls);
 
     Holes holes_;
+    std::vector<Ball> balls_; ///< of holes_
     Seen seen_;
     Clock::time_point changed_ = Clock::now();
 };

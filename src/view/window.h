@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/session.h"
+#include "view/model/progress.h"
 #include "view/state.h"
 #include "voxtact/render.h"
 
@@ -34,16 +35,25 @@ class Display {
 
 struct WindowDesc {
     Extent size{1280, 800};
-    std::span<const unsigned char> font; ///< a TrueType file; outlives the window
-    Lighting light{};                    ///< of the fine picture
-    std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
-    std::optional<std::uint64_t> frames; ///< to show before it ends by itself; nothing: until it is closed
+    std::span<const unsigned char> font;        ///< a TrueType file; outlives the window
+    std::function<Lighting(const Grid&)> light; ///< of the fine picture of a volume
+    std::filesystem::path reportState;          ///< a file to write after each answer; empty: none
+    std::optional<std::uint64_t> frames;        ///< to show before it ends by itself; nothing: until it is closed
+    std::uint32_t mostSide = 0;                 ///< voxels along a side of a volume; 0: what the device takes
+
+    /// A device to draw on, with the display's extensions; asked again when that was lost.
+    std::function<Result<std::unique_ptr<device::Session>>()> session;
+    /// What is shown at first; empty where `opened` is given. An error ends the window.
+    std::function<Result<Given>(const device::Session&, Progress&)> first;
+    /// A session that is opened at first, as if it were with the menu.
+    std::optional<Wanted> opened;
     /// Reads the files of a document that is wanted while the window is there.
-    std::function<Result<Given>(const Wanted&)> open;
+    std::function<Result<Given>(const Wanted&, const device::Session&, Progress&)> open;
+    /// How a device answers best.
+    std::function<MethodChoice(const device::Session&)> method;
 };
 
-/// Shows the window until it is closed. The session was made with the display's extensions.
-[[nodiscard]] Result<void> runWindow(const Display& display, const device::Session& session, State& state,
-                                     const WindowDesc& desc);
+/// Shows the window until it is closed.
+[[nodiscard]] Result<void> runWindow(const Display& display, const WindowDesc& desc);
 
 } // namespace voxtact::view

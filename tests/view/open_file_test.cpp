@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include <unistd.h>
@@ -72,7 +73,9 @@ TEST_F(ViewOpen, PosesAndFunctionsAreCommands) {
 }
 
 TEST_F(ViewOpen, AnotherMeshKeepsTheRest) {
-    state_.document.edit.holes = 0;
+    state_.drillRadius = 40;
+    state_.drill({0, 0, 0});
+    state_.update();
     ASSERT_TRUE(openFile("/data/tool.stl", state_).ok());
     ASSERT_TRUE(state_.wanted.has_value());
     EXPECT_EQ(state_.wanted->kind, FileKind::Mesh);
@@ -83,6 +86,8 @@ TEST_F(ViewOpen, AnotherMeshKeepsTheRest) {
     EXPECT_EQ(sources.volume, "builtin:head:16");
     EXPECT_EQ(sources.labels, "atlas.nii");
     EXPECT_TRUE(state_.wanted->document.camera.has_value());
+    EXPECT_EQ(state_.wanted->document.edit.holes, 1U);
+    EXPECT_EQ(state_.wanted->document.holes.size(), 1U);
 }
 
 TEST_F(ViewOpen, AnotherVolumeHasNotTheLabelsAndHolesOfTheOneBefore) {
@@ -112,6 +117,38 @@ TEST_F(ViewOpen, WhatIsWrongChangesNothing) {
     EXPECT_FALSE(openFile(file("s.json", "{\"voxtact_session\": 1}"), state_).ok());
     EXPECT_EQ(state_.document.edit, before);
     EXPECT_FALSE(state_.wanted.has_value());
+}
+
+TEST_F(ViewOpen, WhatIsDroppedIsOpenedOneAfterTheOther) {
+    const std::string poses = file("poses.txt", "1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1\n").string();
+    const std::string curve = file("curve.json", R"({"points": [[1, 0], [2, 1]]})").string();
+    const std::array<const char*, 2> first{poses.c_str(), "/data/tool.stl"};
+    const char* const second = curve.c_str();
+    state_.drop(2, first.data());
+    state_.drop(1, &second);
+    takeDropped(state_);
+    EXPECT_EQ(state_.document.edit.world_from_object, translation({5, 0, 0}));
+    EXPECT_EQ(state_.document.edit.curve.front().value, 1);
+    ASSERT_TRUE(state_.wanted.has_value());
+    EXPECT_EQ(state_.wanted->path, "/data/tool.stl");
+    EXPECT_THAT(state_.taken, testing::ElementsAre(poses, curve));
+    EXPECT_EQ(state_.error, "");
+    EXPECT_TRUE(state_.dropped.empty());
+    // What cannot be opened changes nothing, and is told of.
+    const std::string broken = file("broken.json", R"({"points": [[2, 0], [1, 1]]})").string();
+    const char* const third = broken.c_str();
+    state_.drop(1, &third);
+    takeDropped(state_);
+    EXPECT_THAT(state_.error, HasSubstr("broken.json"));
+    EXPECT_EQ(state_.document.edit.curve.front().value, 1);
+}
+
+TEST_F(ViewOpen, WithNothingToShowItNeedsAVolume) {
+    State blank;
+    EXPECT_FALSE(openFile("/data/tool.stl", blank).ok());
+    EXPECT_FALSE(openFile(file("poses.txt", "1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1\n"), blank).ok());
+    ASSERT_TRUE(openFile("/data/head.nii", blank).ok());
+    EXPECT_EQ(blank.wanted->document.sources.volume, "/data/head.nii");
 }
 
 } // namespace voxtact::test

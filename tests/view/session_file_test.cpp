@@ -33,6 +33,10 @@ Document document() {
     out.method = MethodChoice{CountingMethod::Atomic, Projection::TwoView};
     out.camera = Camera{{1, 2, 3}, {30, -10}, 77};
     out.cursor = Vec3{4, 5, 6};
+    out.sources.coarser = 2;
+    out.holes = {{{1, 2, 3}, 4}, {{-1, 0.5, 1.0 / 3}, 2.5}};
+    out.edit.holes = 2;
+    out.shown = Shown{GizmoAxes::Own, false, false, false, Maximised::Slice1, 0.25, 2.5, 7.5, ValueRange{-10, 300}};
     return out;
 }
 
@@ -46,6 +50,18 @@ std::string refused(const std::string& pointer, const nlohmann::json& value) {
 
 } // namespace
 
+TEST(ViewSession, RefusesWhatCannotBeShown) {
+    EXPECT_THAT(refused("/volume_coarser", 0), HasSubstr("volume_coarser"));
+    EXPECT_THAT(refused("/volume_coarser", 1.5), HasSubstr("volume_coarser"));
+    EXPECT_THAT(refused("/holes/0", {1, 2, 3}), HasSubstr("holes[0]"));
+    EXPECT_THAT(refused("/holes/1/3", -1), HasSubstr("holes[1]"));
+    EXPECT_THAT(refused("/shown/handle_axes", "mine"), HasSubstr("shown.handle_axes"));
+    EXPECT_THAT(refused("/shown/handles", 1), HasSubstr("shown.handles"));
+    EXPECT_THAT(refused("/shown/maximised", "all"), HasSubstr("shown.maximised"));
+    EXPECT_THAT(refused("/shown/drill_radius_mm", 0), HasSubstr("shown.drill_radius_mm"));
+    EXPECT_THAT(refused("/shown/window", {2, 1}), HasSubstr("shown.window"));
+}
+
 TEST(ViewSession, ComesBackAsItWas) {
     const Document before = document();
     const Result<Document> after = parseSession(sessionText(before), "s.json");
@@ -57,6 +73,16 @@ TEST(ViewSession, ComesBackAsItWas) {
     EXPECT_EQ(after->cursor, before.cursor);
     EXPECT_EQ(after->sources.meshSpace, "ras");
     EXPECT_EQ(after->sources.labels, "atlas.nii.gz");
+    EXPECT_EQ(after->sources.coarser, 2U);
+    ASSERT_EQ(after->holes.size(), 2U);
+    EXPECT_EQ(after->holes[1].centre, before.holes[1].centre);
+    EXPECT_EQ(after->holes[1].radius, 2.5);
+    ASSERT_TRUE(after->shown.has_value());
+    EXPECT_EQ(after->shown->handleAxes, GizmoAxes::Own);
+    EXPECT_EQ(after->shown->maximised, Maximised::Slice1);
+    EXPECT_FALSE(after->shown->handles || after->shown->contacts || after->shown->logHistogram);
+    EXPECT_EQ(after->shown->drillRadius, 7.5);
+    EXPECT_EQ(after->shown->window->hi, 300);
     EXPECT_EQ(after->sources.labelNames, "atlas names.txt");
     EXPECT_EQ(after->camera->halfHeight, 77);
 }

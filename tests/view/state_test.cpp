@@ -116,4 +116,86 @@ TEST(ViewHistogram, TellsTheValueOfTheNearestVoxel) {
     EXPECT_EQ(valueAt(view, texture_from_world, {8.9, 0, 0}), std::nullopt);
 }
 
+TEST(ViewState, GivesBackAllThatItShows) {
+    State state = makeState();
+    state.update();
+    state.drillRadius = 30;
+    state.drill({0, 0, 0});
+    state.update();
+    state.drill({0, 0, 40});
+    state.update();
+    state.undo();
+    state.command([](Edit& edit) { edit.threshold = 0.5; });
+    state.update();
+    state.gizmoAxes = GizmoAxes::Own;
+    state.window = {10, 20};
+    const std::vector<std::byte> drilled = state.volume.voxels;
+    Given given = state.giveBack();
+    EXPECT_TRUE(state.blank);
+    EXPECT_EQ(given.volume.voxels, makeState().volume.voxels);
+    State again(std::move(given));
+    EXPECT_FALSE(again.blank);
+    EXPECT_EQ(again.volume.voxels, drilled);
+    EXPECT_EQ(again.document.edit.holes, 1U);
+    EXPECT_EQ(again.document.edit.threshold, 0.5);
+    EXPECT_EQ(again.gizmoAxes, GizmoAxes::Own);
+    EXPECT_EQ(again.window.hi, 20);
+    EXPECT_TRUE(again.writes.empty());
+}
+
+TEST(ViewState, WhatIsDoneWhileAMeshIsLoadedStays) {
+    State state = makeState();
+    state.update();
+    state.drillRadius = 30;
+    state.drill({0, 0, 0});
+    state.update();
+    Given given;
+    given.volume = makeBuiltinVolume("head:16").value();
+    given.mesh = makeBuiltinMesh("scalpel:600").value();
+    given.values = state.values;
+    given.document = state.saved();
+    given.document.sources.mesh = "other.stl";
+    State next(std::move(given));
+    ASSERT_EQ(next.volume.voxels, state.volume.voxels);
+    // Meanwhile: the hole is filled, another one drilled, and the instrument moved.
+    state.undo();
+    state.update();
+    state.drill({0, 0, 40});
+    state.command([](Edit& edit) { edit.world_from_object = translation({7, 0, 0}); });
+    state.update();
+    state.stepMillimetres = 3;
+    const std::vector<std::byte> drilled = state.volume.voxels;
+    state.passOn(next, FileKind::Mesh);
+    EXPECT_EQ(next.volume.voxels, drilled);
+    EXPECT_FALSE(next.writes.empty()); // the copy on the device is that of before
+    EXPECT_EQ(next.document.sources.mesh, "other.stl");
+    EXPECT_EQ(next.document.edit.world_from_object, translation({7, 0, 0}));
+    EXPECT_EQ(next.stepMillimetres, 3);
+    next.undo();
+    next.undo();
+    next.update();
+    EXPECT_EQ(next.document.edit.holes, 0U);
+    EXPECT_EQ(next.volume.voxels, makeState().volume.voxels);
+}
+
+TEST(ViewState, AnotherVolumeHasItsOwnCurveAndNoHoles) {
+    State state = makeState();
+    state.drillRadius = 30;
+    state.drill({0, 0, 0});
+    state.update();
+    state.command([](Edit& edit) { edit.world_from_object = translation({7, 0, 0}); });
+    Given given;
+    given.volume = makeBuiltinVolume("head:16").value();
+    given.mesh = makeBuiltinMesh("scalpel:300").value();
+    given.values = state.values;
+    given.document.edit.curve = {{1, 0}, {2, 1}};
+    State next(std::move(given));
+    state.passOn(next, FileKind::Volume);
+    EXPECT_EQ(next.document.edit.curve.front().value, 1);
+    EXPECT_EQ(next.document.edit.holes, 0U);
+    EXPECT_TRUE(next.saved().holes.empty());
+    EXPECT_EQ(next.document.edit.world_from_object, translation({7, 0, 0}));
+    EXPECT_FALSE(next.history.canUndo());
+}
+
 } // namespace voxtact::test

@@ -9,6 +9,12 @@
   window.py PROGRAM labels    what is touched by its labels, on the host and on the device
   window.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
   window.py PROGRAM files     other files are opened while the window is there, good ones and bad ones
+  window.py PROGRAM loading   a volume is loaded while the instrument moves, and one is cancelled
+  window.py PROGRAM coarser   a volume that is too large is shown as a coarser copy
+  window.py PROGRAM session   a session whose files are gone, and the files that were opened last
+  window.py PROGRAM lost      the surface and the device are lost (a layer in the folder VOXTACT_FAULT_LAYERS says so)
+  window.py PROGRAM screenshot   pictures of any size
+  window.py PROGRAM soak      random input for ten seconds; with a number behind it, for so many
   window.py PROGRAM refusals  no display, and what cannot be shown
 
 Nothing sleeps for a fixed time but the hand that drags, which tries again: each step is waited for, at most so long as
@@ -44,7 +50,9 @@ class Server:
         self.process = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         number = self.process.stdout.readline().strip()
-        self.environment = {**os.environ, "DISPLAY": f":{number}"}
+        # What the window keeps from run to run is not that of whoever runs the tests.
+        self.kept = tempfile.TemporaryDirectory()
+        self.environment = {**os.environ, "DISPLAY": f":{number}", "XDG_STATE_HOME": self.kept.name}
 
     def __enter__(self):
         return self
@@ -52,16 +60,17 @@ class Server:
     def __exit__(self, *_):
         self.process.terminate()
         self.process.wait()
+        self.kept.cleanup()
 
 
 class Window:
-    def __init__(self, program, server, folder, arguments):
+    def __init__(self, program, server, folder, arguments, environment=None):
         self.server, self.program = server, program
         self.state_path = pathlib.Path(folder) / "state.json"
         self.state_path.unlink(missing_ok=True)
         self.process = subprocess.Popen(
             [program, "view", "--size", SIZE, "--validate", "--report-state", str(self.state_path), *arguments],
-            env=server.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            env={**server.environment, **(environment or {})}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.id = None
 
     def __enter__(self):
@@ -100,10 +109,26 @@ class Window:
         self.tool("key", *keys)
 
     def open(self, path):
-        self.press("ctrl+o")
-        time.sleep(1)  # until the dialog has the keyboard, which nothing tells
-        self.tool("type", "--delay", "30", str(path))
+        self.dialog("ctrl+o", path)
+
+    def save_session(self, path):
+        self.dialog("ctrl+s", path)
+        deadline = time.monotonic() + PATIENCE
+        while not pathlib.Path(path).exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+
+    def type(self, text):
+        self.tool("type", "--delay", "30", text)
         time.sleep(1)
+
+    def dialog(self, keys, path):
+        """A dialog that asks for a path, which those keys open."""
+        self.press(keys)
+        time.sleep(1)  # until the dialog has the keyboard, which nothing tells
+        self.type(str(path))
+        self.enter()
+
+    def enter(self):
         # Long enough for a slow frame to see it.
         self.tool("keydown", "Return")
         time.sleep(0.4)
@@ -195,6 +220,14 @@ def keys(program, folder):
         state = window.until("an answer in another size", lambda s: s["pose"][3] == 2 and s["settled"])
         assert state["frame"] > before, state
         compare(program, state)
+        # Out of sight for a while.
+        window.tool("windowunmap", "--sync", window.id)
+        time.sleep(1)
+        window.tool("windowmap", "--sync", window.id)
+        window.tool("windowfocus", "--sync", window.id)
+        window.press("Left")
+        state = window.until("an answer in sight again", lambda s: s["pose"][3] == 1 and s["settled"])
+        compare(program, state)
         window.press("ctrl+q")
         window.end()
 
@@ -223,6 +256,23 @@ def handles(program, folder):
         compare(program, state)
         window.press("ctrl+z")
         window.until("the pose before the drag", lambda s: s["pose"] == first["pose"])
+        # A ring: from the front the one of y is a circle round the tip. Beside its radius a drag turns the picture, and
+        # the next one looks from the front again.
+        state, away = first, 40
+        while state["pose"] == first["pose"] and away < 62:
+            window.press("1", "f")
+            state = window.until("the picture from the front", lambda s: s["settled"])
+            drag(window, x + width // 2 + away, y + height // 2 + away, -7, 7)
+            state = window.state()
+            away += 2
+        assert state["pose"] != first["pose"], f"no ring up to {away} points to the lower right of the middle"
+        place = [state["pose"][i] - first["pose"][i] for i in (3, 7, 11)]
+        turned = [state["pose"][i] - first["pose"][i] for i in (0, 2, 8, 10)]
+        assert max(map(abs, place)) < 1e-9 and max(map(abs, turned)) > 0.01, state["pose"]
+        state = window.until("the answer after the turn", lambda s: s["settled"])
+        compare(program, state)
+        window.press("ctrl+z")
+        window.until("the pose before the turn", lambda s: s["pose"] == first["pose"])
         window.press("ctrl+q")
         window.end()
 
@@ -331,6 +381,276 @@ def files(program, folder):
         window.end()
 
 
+def make(program, folder, kind, source, name):
+    path = f"{folder}/{name}"
+    subprocess.run([program, "make", kind, source, path], check=True, capture_output=True, timeout=PATIENCE)
+    return path
+
+
+def loading(program, folder):
+    large = make(program, folder, "volume", "builtin:ct:128", "large.nii.gz")
+    larger = make(program, folder, "volume", "builtin:ct:160", "larger.nii.gz")
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 130)]) as window:
+        window.until("the first answer", lambda s: s["settled"] and s["loaded"])
+        window.open(large)
+        window.until("the loading", lambda s: s["loading"])
+        # What is shown goes on meanwhile, and what is done with it is not lost.
+        window.press("Next")
+        state = window.until("a pose while it is loaded", lambda s: s["pose"][HEIGHT] == 129)
+        meanwhile = state["loading"] is not None
+        state = window.until("the volume", lambda s: "/large.nii.gz" in s["command"] and s["settled"])
+        assert state["loading"] is None and state["loaded"]["frames"] > 3, state
+        assert state["pose"][HEIGHT] == 129, state
+        compare(program, state)
+        print(f"loaded in {state['loaded']['seconds']:.2f} s, the longest frame "
+              f"{state['loaded']['longest_frame_ms']:.0f} ms, moved meanwhile: {meanwhile}")
+        window.open(larger)
+        window.until("the next loading", lambda s: s["loading"])
+        window.press("Escape")
+        state = window.until("what was shown before", lambda s: s["loading"] is None)
+        if "cancelled" in state["status"]:  # else it was there sooner than the key
+            window.press("Next")
+            state = window.until("another pose", lambda s: s["pose"][HEIGHT] == 128 and s["settled"])
+            assert "/large.nii.gz" in state["command"], state
+        # One file after the other at once: the last one is shown.
+        window.open(large)
+        window.open(f"{folder}/nowhere.nii")
+        window.until("the error of the last one", lambda s: "nowhere.nii" in s["error"] and s["loading"] is None)
+        window.press("Return")
+        window.until("the window going on", lambda s: s["error"] == "")
+        pathlib.Path(folder, "broken.json").write_text('{"points": [[10, 0], [5, 1]]}')
+        before = window.state()["points"]
+        window.open(f"{folder}/broken.json")
+        state = window.until("the error of the curve", lambda s: "broken.json" in s["error"])
+        assert state["points"] == before, state
+        window.press("Return", "ctrl+q")
+        window.end()
+
+
+def coarser(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--volume-side", "20",
+                                                             "--poses", poses(folder, 60)]) as window:
+        state = window.until("the question", lambda s: s["question"])
+        assert "32 x 32 x 32 voxels" in state["question"]["text"], state
+        assert "coarser by 2" in state["question"]["text"], state
+        window.press("Return")
+        state = window.until("the coarser copy", lambda s: s["settled"])
+        assert state["coarser"] == 2 and state["hit"] == 1 and state["count"] > 0, state
+        assert "coarser by 2" in state["command"].splitlines()[0], state
+        # The same answer as of a file that holds the copy: 16 voxels a side of twice the spacing.
+        large = make(program, folder, "volume", "builtin:head:96", "large.nii")
+        window.open(large)
+        state = window.until("the next question", lambda s: s["question"])
+        assert "coarser by 5" in state["question"]["text"], state
+        window.press("Escape")
+        state = window.until("what was shown before", lambda s: s["question"] is None)
+        assert state["coarser"] == 2, state
+        window.open(large)
+        window.until("the question again", lambda s: s["question"])
+        window.press("Return")
+        state = window.until("the other copy", lambda s: s["coarser"] == 5 and s["settled"])
+        assert "/large.nii" in state["command"] and state["hit"] == 1, state
+        window.press("ctrl+q")
+        window.end()
+
+
+def session(program, folder):
+    volume = make(program, folder, "volume", "builtin:ct:32", "ct.nii")
+    tool = make(program, folder, "mesh", "builtin:scalpel:600", "tool.stl")
+    with Server() as server:
+        with Window(program, server, folder, ["--volume", volume, "--mesh", tool, "--device", "cpu", "--poses",
+                                              poses(folder, 60)]) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            window.press("x")
+            state = window.until("a hole", lambda s: s["holes"] == 1 and s["settled"])
+            window.press("Next", "t")
+            state = window.until("another pose", lambda s: s["pose"][HEIGHT] == 59 and s["settled"])
+            window.save_session(f"{folder}/session.json")
+            window.press("ctrl+q")
+            window.end()
+        saved = json.loads(pathlib.Path(folder, "session.json").read_text())
+        assert saved["holes"] and saved["shown"]["handle_axes"] == "view", saved
+        with Window(program, server, folder, ["--session", f"{folder}/session.json"]) as window:
+            again = window.until("the session", lambda s: s["settled"])
+            for name in ("count", "hit", "pose", "holes", "points"):
+                assert again[name] == state[name], (name, again, state)
+            window.press("ctrl+q")
+            window.end()
+        # Its files are elsewhere now.
+        moved = pathlib.Path(folder, "moved")
+        moved.mkdir()
+        for name in ("ct.nii", "tool.stl"):
+            pathlib.Path(folder, name).rename(moved / name)
+        with Window(program, server, folder, ["--session", f"{folder}/session.json"]) as window:
+            asked = window.until("the question", lambda s: s["question"])["question"]
+            assert [file["name"] for file in asked["files"]] == ["volume", "mesh"], asked
+            window.press("Return")  # they are not where the fields still say
+            window.until("the question again", lambda s: s["question"])
+            time.sleep(1)
+            window.type(str(moved / "ct.nii"))
+            window.press("Tab")
+            time.sleep(1)
+            window.type(str(moved / "tool.stl"))
+            window.press("Return")
+            again = window.until("the session with its files", lambda s: s["settled"])
+            assert again["count"] == state["count"] and "moved/ct.nii" in again["command"], again
+            window.press("ctrl+q")
+            window.end()
+        recent = json.loads(pathlib.Path(server.kept.name, "voxtact", "recent.json").read_text())
+        assert recent[0] == f"{folder}/session.json", recent
+        # A list that cannot be read is none.
+        pathlib.Path(server.kept.name, "voxtact", "recent.json").write_text("{")
+        with Window(program, server, folder, [*SCENE, "--device", "cpu"]) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            window.press("ctrl+q")
+            window.end()
+
+
+def lost(program, folder):
+    layers = os.environ.get("VOXTACT_FAULT_LAYERS", "")
+    if not layers:
+        fail("VOXTACT_FAULT_LAYERS names no folder with the layer")
+    fault = pathlib.Path(folder, "fault")
+    faults = {"VK_ADD_LAYER_PATH": layers, "VK_INSTANCE_LAYERS": "VK_LAYER_VOXTACT_fault", "VOXTACT_FAULT": str(fault)}
+
+    def lose(window, what):
+        (fault.parent / "fault.new").write_text(what)
+        (fault.parent / "fault.new").rename(fault)
+        window.press("Next")
+        deadline = time.monotonic() + PATIENCE
+        while fault.exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert not fault.exists(), f"{what}: nothing was to fail"
+
+    with Server() as server:
+        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+                    faults) as window:
+            first = window.until("the first answer", lambda s: s["settled"])
+            assert first["method"] == "compute", first
+            lose(window, "surface")
+            state = window.until("a new surface", lambda s: "surface" in s["status"] and s["settled"])
+            assert state["pose"][HEIGHT] == 59 and state["method"] == "compute", state
+            window.press("x")
+            window.until("a hole", lambda s: s["holes"] == 1 and s["settled"])
+            lose(window, "lost")
+            window.until("the question", lambda s: s["question"])
+            window.press("Return")
+            state = window.until("the host's answer", lambda s: s["settled"] and s["method"] == "cpu")
+            assert state["pose"][HEIGHT] == 58 and state["points"] == first["points"] and state["holes"] == 1, state
+            window.press("ctrl+z", "ctrl+z")
+            window.press("Next")
+            state = window.until("the next answer", lambda s: s["pose"][HEIGHT] == 57 and s["settled"])
+            window.press("ctrl+q")
+            window.end()
+        # The same twice in a moment: it ends, and what was shown is kept.
+        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+                    faults) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            lose(window, "lost")
+            fault.write_text("lost")
+            window.process.wait(timeout=PATIENCE)
+            said = window.process.stderr.read()
+            assert window.process.returncode == 1 and "rescued-session.json" in said, said
+        kept = json.loads(pathlib.Path(server.kept.name, "voxtact", "rescued-session.json").read_text())
+        assert kept["instrument"]["pose"][HEIGHT] == 59, kept
+
+
+def png_size(path):
+    head = pathlib.Path(path).read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", head
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+def screenshot(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 60)]) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        window.dialog("ctrl+p", f"{folder}/window.png")
+        state = window.until("a picture", lambda s: s["status"].startswith("the picture is in"))
+        assert png_size(f"{folder}/window.png") == tuple(int(side) for side in state["picture"][2:]), state
+        window.press("ctrl+p")
+        time.sleep(1)
+        window.type(f"{folder}/large.png")
+        for side in ("900", "1300"):
+            window.press("Tab")
+            time.sleep(0.5)
+            window.type(side)
+        window.enter()
+        window.until("a larger picture", lambda s: s["status"].endswith("large.png") and "picture is in" in s["status"])
+        assert png_size(f"{folder}/large.png") == (900, 1300), png_size(f"{folder}/large.png")
+        # It has what lies over the picture: the same without it is another file.
+        assert pathlib.Path(f"{folder}/large.png").stat().st_size > 10000
+        window.dialog("ctrl+p", f"{folder}/nowhere/large.png")
+        window.until("the error", lambda s: "nowhere/large.png" in s["error"])
+        window.press("Return", "ctrl+q")
+        window.end()
+
+
+def memory(process):
+    """Resident, MB."""
+    for line in pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines():
+        if line.startswith("VmRSS:"):
+            return int(line.split()[1]) / 1024
+    return fail("no VmRSS")
+
+
+SOAK_KEYS = ("Left Right Up Down Prior Next i o w s a d q e bracketleft bracketright space 1 2 3 4 5 6 f g h t x c "
+             "shift+Next shift+Prior ctrl+z ctrl+z ctrl+y Escape F1 F1").split()
+
+
+def soak_step(random, width, height):
+    """Arguments of xdotool for something that a person might do."""
+    def place():
+        return ["mousemove", str(random.randrange(width)), str(random.randrange(30, height))]
+    kind = random.randrange(10)
+    if kind < 4:
+        return ["key", *random.choices(SOAK_KEYS, k=random.randrange(1, 6))]
+    button = random.choice("1113")
+    if kind < 8:
+        return [*place(), "mousedown", button, "sleep", "0.05", *place(), "sleep", "0.05", *place(), "mouseup", button]
+    if kind < 9:
+        return [*place(), "click", "--repeat", str(random.randrange(1, 6)), random.choice("45")]
+    return [*place(), "click", "--repeat", "2", "--delay", "30", "1"]
+
+
+def soak(program, folder, seconds=10):
+    import random as source
+    seed = int(os.environ.get("VOXTACT_SOAK_SEED", time.time_ns() % 1000000))
+    random = source.Random(seed)
+    print(f"seed {seed}", flush=True)
+    sizes = ((640, 480), (900, 700), (700, 720))
+    with Server() as server, Window(program, server, folder, [*SCENE, "--count", "compute", "--poses",
+                                                             poses(folder, 130, 90, 60, 40, 20)]) as window:
+        window.until("the first answer", lambda s: s["settled"])
+        window.press("Next")
+        began, size, steps, resident, frames = time.monotonic(), sizes[0], 0, [], []
+        while time.monotonic() - began < seconds:
+            if window.process.poll() is not None:
+                fail(f"the window ended with {window.process.returncode}: {window.process.stderr.read()}")
+            if steps % 60 == 59:
+                size = random.choice(sizes)
+                window.tool("windowsize", window.id, str(size[0]), str(size[1]))
+            window.tool(*soak_step(random, *size))
+            steps += 1
+            if steps % 5 == 0:
+                resident.append(memory(window.process))
+                frames.append(window.state()["frame_ms"])
+        window.tool("key", "Escape", "Escape", "Escape")
+        last = window.state()
+        middle, end = resident[len(resident) // 3:2 * len(resident) // 3], resident[2 * len(resident) // 3:]
+        growth = sorted(end)[len(end) // 2] - sorted(middle)[len(middle) // 2]
+        frames.sort()
+        print(f"{steps} steps in {seconds} s, {last['frame']} frames, {last['answers']} answers; a frame takes "
+              f"{frames[len(frames) // 2]:.0f} ms (median of medians; most {frames[-1]:.0f}); resident "
+              f"{resident[0]:.0f} MB at first, {max(resident):.0f} at most, {resident[-1]:.0f} at last, "
+              f"{growth:+.1f} from the middle third to the last")
+        # Images of other sizes, and what undo keeps.
+        assert growth < 24, resident
+        window.press("ctrl+q")
+        window.end()
+
+
 def refused(program, status, text, arguments, environment):
     ran = subprocess.run([program, "view", *arguments], env=environment, capture_output=True, text=True,
                          timeout=PATIENCE)
@@ -352,20 +672,29 @@ def refusals(program, folder):
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
     refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
+    session.write_text('{"voxtact_session": 1, "volume": "nowhere.nii", "mesh": "builtin:scalpel:300", '
+                       '"transfer_function": {"points": [[0, 0], [1, 1]]}}')
+    refused(program, 1, "nowhere.nii", ["--session", str(session)], without)
     with Server() as server:
+        # With a number of frames there may be nobody to ask.
+        for arguments in (["--session", str(session)], ["--volume", "nowhere.nii"]):
+            refused(program, 1, "nowhere.nii", [*arguments, "--frames", "2"], server.environment)
+        refused(program, 1, "--volume-side", [*SCENE, "--volume-side", "8", "--frames", "2"], server.environment)
         no_driver = {**server.environment, "VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
         refused(program, 1, "Vulkan", [*SCENE], no_driver)
 
 
 def main(arguments):
     checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "files": files,
-              "refusals": refusals}
-    if len(arguments) != 2 or arguments[1] not in checks:
+              "loading": loading, "coarser": coarser, "session": session, "lost": lost, "screenshot": screenshot,
+              "soak": soak, "refusals": refusals}
+    timed = len(arguments) == 3 and arguments[1] == "soak" and arguments[2].isdigit()
+    if not (len(arguments) == 2 or timed) or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        checks[arguments[1]](arguments[0], folder)
+        checks[arguments[1]](arguments[0], folder, *(int(number) for number in arguments[2:]))
     print(f"{arguments[1]}: passed in {time.monotonic() - begun:.1f} s")
     return 0
 

@@ -38,9 +38,10 @@ void printNotes(const std::string& source, const std::vector<std::string>& notes
 }
 
 /// Of a folder a series, of a file a frame.
-Result<VolumeData> readImage(const std::string& source) {
+Result<VolumeData> readImage(const std::string& source, const io::ReadProgress& progress = {}) {
     const NamedImage image = namedImage(source);
     io::VolumeReadOptions options;
+    options.progress = progress;
     std::error_code ignored;
     if (std::filesystem::is_directory(image.path, ignored)) {
         options.series = image.which;
@@ -62,10 +63,10 @@ Result<VolumeData> readImage(const std::string& source) {
 
 } // namespace
 
-Result<VolumeData> loadVolume(const std::string& source) {
+Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress& progress) {
     const bool builtin = source.starts_with(kBuiltin);
     Result<VolumeData> volume =
-        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source);
+        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source, progress);
     if (!volume.ok()) {
         return builtin ? badArgument("--volume " + source + ": " + volume.error().text) : fileFault(volume.error());
     }

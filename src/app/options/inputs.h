@@ -3,6 +3,7 @@
 
 #include "app/options/shared_options.h"
 #include "voxtact/data.h"
+#include "voxtact/io.h"
 
 #include <map>
 #include <string>
@@ -12,7 +13,7 @@
 namespace voxtact::app {
 
 /// A path, of a file or folder with several images one as namedImage() says, or `builtin:NAME`.
-[[nodiscard]] Result<VolumeData> loadVolume(const std::string& source);
+[[nodiscard]] Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress& progress = {});
 [[nodiscard]] Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options);
 
 /// The control points that the user gave; none when the default ramp is wanted.

@@ -57,7 +57,8 @@ Provenance provenanceOf(const CLI::App& parser) {
 }
 
 Loaders loaders() {
-    return {loadVolume, [](const std::string& source) { return loadMesh(source, {}); }};
+    return {[](const std::string& source) { return loadVolume(source); },
+            [](const std::string& source) { return loadMesh(source, {}); }};
 }
 
 void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help) {

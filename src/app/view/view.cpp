@@ -16,56 +16,95 @@ namespace voxtact::app {
 
 namespace {
 
-view::WindowDesc windowDesc(const ViewerOptions& options, const Grid& grid) {
+/// A window that is not there cannot say which file is at fault.
+Error noDisplay(const ViewerOptions& options, const Error& error) {
+    view::Progress progress;
+    const Result<Opened> opened = openDocument(options, progress);
+    return opened.ok() ? error : opened.error();
+}
+
+view::WindowDesc windowDesc(const ViewerOptions& options) {
     view::WindowDesc desc;
     desc.size = {options.size.width, options.size.height};
     desc.font = {kFont, kFontBytes};
-    desc.light = lightingNamed("soft", grid).value_or(Lighting{});
+    desc.light = [](const Grid& grid) { return lightingNamed("soft", grid).value_or(Lighting{}); };
     desc.reportState = options.reportState;
     desc.frames = options.frames;
+    desc.mostSide = options.mostSide;
+    desc.method = [](const device::Session& session) {
+        return view::MethodChoice{conservativeMethod(session, {}), Projection::Conservative};
+    };
     return desc;
 }
 
+/// The files of what is shown, and how it is answered where nothing says so.
+void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std::string& device) {
+    const auto given = [device, standard = desc.method](Result<Opened> files,
+                                                        const device::Session& session) -> Result<view::Given> {
+        VOXTACT_TRY(files);
+        view::Given out{std::move(files->volume),
+                        std::move(files->mesh),
+                        std::move(files->labels),
+                        files->values,
+                        files->document,
+                        1,
+                        device,
+                        {}};
+        out.document.method = out.document.method ? *out.document.method : standard(session);
+        return out;
+    };
+    desc.first = [options, given](const device::Session& session, view::Progress& progress) {
+        return given(openDocument(options, progress), session);
+    };
+    desc.open = [given](const view::Wanted& wanted, const device::Session& session, view::Progress& progress) {
+        return given(openWanted(wanted, progress), session);
+    };
+}
+
+/// A session is opened in the window, which asks where its files are when they are gone.
+Result<void> addSession(view::WindowDesc& desc, const ViewerOptions& options) {
+    if (options.session.empty()) {
+        return {};
+    }
+    Result<view::Document> document = sessionOf(options);
+    VOXTACT_TRY(document);
+    desc.first = nullptr;
+    desc.opened = view::Wanted{view::FileKind::Session, std::move(*document), options.session.string()};
+    return {};
+}
+
 /// The validation's messages are complete once everything on the device has ended.
-Result<void> show(const ViewerOptions& options, Opened opened, Outcome& invalid) {
-    const Result<std::unique_ptr<view::Display>> display = view::Display::open();
-    VOXTACT_TRY(display);
+Result<void> show(const ViewerOptions& options, Outcome& invalid) {
+    view::WindowDesc desc = windowDesc(options);
     DeviceChoice choice = options.device;
     choice.wanted = choice.wanted == "cpu" ? "" : choice.wanted;
-    std::shared_ptr<const device::ValidationMessages> messages;
-    Result<void> shown = [&]() -> Result<void> {
-        const Result<device::Session> session =
+    addReaders(desc, options, choice.wanted);
+    VOXTACT_TRY(addSession(desc, options));
+    const Result<std::unique_ptr<view::Display>> display = view::Display::open();
+    if (!display.ok()) {
+        return noDisplay(options, display.error());
+    }
+    std::vector<std::shared_ptr<const device::ValidationMessages>> messages;
+    desc.session = [&]() -> Result<std::unique_ptr<device::Session>> {
+        Result<device::Session> session =
             openSession(choice, {(*display)->instanceExtensions(), (*display)->deviceExtensions()});
         VOXTACT_TRY(session);
-        messages = session->instance.messages();
-        const view::MethodChoice standard{conservativeMethod(*session, {}), Projection::Conservative};
-        opened.document.method = opened.document.method.value_or(standard);
-        const auto given = [&](Opened files) -> view::Given {
-            return {std::move(files.volume), std::move(files.mesh), std::move(files.labels),        files.values,
-                    files.document,          choice.wanted,         session->device.physical().name};
-        };
-        view::State state(given(std::move(opened)));
-        view::WindowDesc desc = windowDesc(options, state.volume.grid);
-        desc.open = [&](const view::Wanted& wanted) -> Result<view::Given> {
-            Result<Opened> files = openWanted(wanted);
-            VOXTACT_TRY(files);
-            files->document.method = files->document.method.value_or(standard);
-            return given(std::move(*files));
-        };
-        return view::runWindow(**display, *session, state, desc);
-    }();
-    if (shown.ok()) {
-        invalid = validationOutcome(*messages);
+        messages.push_back(session->instance.messages());
+        return std::make_unique<device::Session>(std::move(*session));
+    };
+    VOXTACT_TRY(view::runWindow(**display, desc));
+    for (const auto& said : messages) {
+        if (Outcome outcome = validationOutcome(*said); outcome.status != 0) {
+            invalid = std::move(outcome);
+        }
     }
-    return shown;
+    return {};
 }
 
 Outcome runView(const ViewerOptions& options) {
     VOXTACT_TRY(checkViewerOptions(options));
-    Result<Opened> opened = openDocument(options);
-    VOXTACT_TRY(opened);
     Outcome invalid;
-    VOXTACT_TRY(show(options, std::move(*opened), invalid));
+    VOXTACT_TRY(show(options, invalid));
     return invalid;
 }
 

@@ -80,16 +80,26 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
     return document;
 }
 
+std::string nameOf(const std::string& source) {
+    const std::string name = std::filesystem::path(source).filename().string();
+    return name.empty() ? source : name;
+}
+
 /// The files of a document.
-Result<void> load(const view::Sources& sources, Opened& opened) {
-    Result<VolumeData> volume = loadVolume(sources.volume);
+Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& progress) {
+    VOXTACT_TRY(progress.begin("reading " + nameOf(sources.volume)));
+    Result<VolumeData> volume = loadVolume(sources.volume, [&progress](std::uint64_t done, std::uint64_t all) {
+        return progress.tell(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all));
+    });
     VOXTACT_TRY(volume);
     const Result<ValueRange> values = checkVolume(volume->view());
     VOXTACT_TRY(values);
+    VOXTACT_TRY(progress.begin("reading " + nameOf(sources.mesh)));
     Result<MeshData> mesh =
         loadMesh(sources.mesh, {.sources = {}, .space = sources.meshSpace, .scale = sources.meshScale});
     VOXTACT_TRY(mesh);
     if (!sources.labels.empty()) {
+        VOXTACT_TRY(progress.begin("reading " + nameOf(sources.labels)));
         Result<NamedLabels> named = loadNamedLabels(sources.labels, sources.labelNames);
         VOXTACT_TRY(named);
         opened.labels = view::Labels{std::move(named->labels), std::move(named->names)};
@@ -130,6 +140,11 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
     addWholeNumber(
         parser, "--frames", [&options](std::uint32_t frames) { options.frames = frames; }, {.least = 1},
         "ends by itself after so many frames; default: when it is closed", 0);
+    addWholeNumber(
+        parser, "--volume-side", [&options](std::uint32_t side) { options.mostSide = side; }, {.least = 2},
+        "most voxels along a side of a volume; a coarser copy of a larger one is offered; default: what the device "
+        "takes",
+        0);
     addSize(
         parser, [&options](const VkExtent2D& size) { options.size = size; }, "of the window, in points");
 }
@@ -166,39 +181,45 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
     return checkOutputs({{"--report-state", options.reportState}}, paths);
 }
 
-Result<Opened> openDocument(const ViewerOptions& options) {
+Result<view::Document> sessionOf(const ViewerOptions& options) {
+    Result<view::Document> document = view::readSession(options.session);
+    VOXTACT_TRY(document);
+    if (options.method.count || options.method.projection || options.device.wanted == "cpu") {
+        document->method = methodOf(options);
+    }
+    return document;
+}
+
+Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progress) {
     Opened opened;
     if (!options.session.empty()) {
-        Result<view::Document> document = view::readSession(options.session);
+        Result<view::Document> document = sessionOf(options);
         VOXTACT_TRY(document);
         opened.document = std::move(*document);
-        if (options.method.count || options.method.projection || options.device.wanted == "cpu") {
-            opened.document.method = methodOf(options);
-        }
+        VOXTACT_TRY(load(opened.document.sources, opened, progress));
+        return opened;
     }
-    view::Sources sources = opened.document.sources;
-    if (options.session.empty()) {
-        sources.volume = options.volumes.empty() ? "builtin:head" : options.volumes.front();
-        sources.mesh = options.meshes.sources.empty() ? "builtin:scalpel" : options.meshes.sources.front();
-        sources.meshSpace = options.meshes.space;
-        sources.meshScale = options.meshes.scale;
-        sources.labels = options.labels.string();
-        sources.labelNames = options.labelNames.string();
-    }
-    VOXTACT_TRY(load(sources, opened));
-    if (options.session.empty()) {
-        Result<view::Document> document = documentOf(options, opened.volume.type, opened.values);
-        VOXTACT_TRY(document);
-        opened.document = std::move(*document);
-        opened.document.sources = sources;
-    }
+    view::Sources sources;
+    sources.volume = options.volumes.empty() ? "builtin:head" : options.volumes.front();
+    sources.mesh = options.meshes.sources.empty() ? "builtin:scalpel" : options.meshes.sources.front();
+    sources.meshSpace = options.meshes.space;
+    sources.meshScale = options.meshes.scale;
+    sources.labels = options.labels.string();
+    sources.labelNames = options.labelNames.string();
+    VOXTACT_TRY(load(sources, opened, progress));
+    Result<view::Document> document = documentOf(options, opened.volume.type, opened.values);
+    VOXTACT_TRY(document);
+    opened.document = std::move(*document);
+    opened.document.sources = sources;
     return opened;
 }
 
-Result<Opened> openWanted(const view::Wanted& wanted) {
+Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress) {
     Opened opened;
     opened.document = wanted.document;
-    VOXTACT_TRY(load(wanted.document.sources, opened));
+    view::Sources& sources = opened.document.sources;
+    sources.mesh = sources.mesh.empty() ? "builtin:scalpel" : sources.mesh; // a volume was opened beside nothing
+    VOXTACT_TRY(load(sources, opened, progress));
     if (wanted.kind == view::FileKind::Volume) {
         opened.document.domain = tableDomain({}, opened.volume.type, opened.values);
         opened.document.edit.curve = defaultRamp(opened.document.domain);

@@ -4,6 +4,7 @@
 #include "app/options/shared_options.h"
 #include "view/model/document.h"
 #include "view/model/labels.h"
+#include "view/model/progress.h"
 #include "view/state.h"
 
 namespace voxtact::app {
@@ -22,6 +23,7 @@ struct ViewerOptions {
     std::filesystem::path session;
     std::filesystem::path reportState;
     std::optional<std::uint32_t> frames;
+    std::uint32_t mostSide = 0; ///< voxels along a side of the volume; 0: what the device takes
     VkExtent2D size{1280, 800};
 };
 
@@ -37,8 +39,10 @@ struct Opened {
     std::optional<view::Labels> labels;
     ValueRange values;
 };
-[[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options);
-/// The same of what is wanted while the window is there.
-[[nodiscard]] Result<Opened> openWanted(const view::Wanted& wanted);
+[[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progress);
+/// The session alone, answered as the options say.
+[[nodiscard]] Result<view::Document> sessionOf(const ViewerOptions& options);
+/// The same as openDocument() of what is wanted while the window is there.
+[[nodiscard]] Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress);
 
 } // namespace voxtact::app

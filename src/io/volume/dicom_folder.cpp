@@ -208,10 +208,11 @@ std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const 
 
 } // namespace
 
-Result<StoredImage> readDicomFolder(const fs::path& folder, std::string_view wanted, std::vector<std::string>& notes) {
+Result<StoredImage> readDicomFolder(const fs::path& folder, const VolumeReadOptions& options,
+                                    std::vector<std::string>& notes) {
     Result<Survey> found = survey(folder);
     VOXTACT_TRY(found);
-    VOXTACT_TRY(chooseSeries(folder, wanted, found->images));
+    VOXTACT_TRY(chooseSeries(folder, options.series, found->images));
     const std::vector<DicomFile>& files = found->images;
     Result<Stack> stack = stackOf(folder, files);
     VOXTACT_TRY(stack);
@@ -220,7 +221,8 @@ Result<StoredImage> readDicomFolder(const fs::path& folder, std::string_view wan
     StoredImage image;
     image.grid = *grid;
     image.type = dicomType(stack->images, stack->slices);
-    Result<std::vector<std::byte>> voxels = dicomVoxels(files, stack->images, stack->slices, image.type);
+    Result<std::vector<std::byte>> voxels =
+        dicomVoxels(files, stack->images, stack->slices, image.type, options.progress);
     VOXTACT_TRY(voxels);
     image.voxels = std::move(*voxels);
     notes = notesOf(*found, *stack, image);

@@ -103,7 +103,8 @@ std::string rescaleNote(const std::vector<DicomSlice>& slices, StoredType type) 
 }
 
 Result<std::vector<std::byte>> dicomVoxels(const std::vector<DicomFile>& files, const std::vector<DicomImage>& images,
-                                           const std::vector<DicomSlice>& slices, StoredType type) {
+                                           const std::vector<DicomSlice>& slices, StoredType type,
+                                           const ReadProgress& progress) {
     // Where in the stack each frame of each file goes.
     std::vector<std::vector<std::size_t>> places(files.size());
     for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -120,6 +121,9 @@ Result<std::vector<std::byte>> dicomVoxels(const std::vector<DicomFile>& files, 
                 fillAs(type, images[file], slices[place], cells, voxels.data() + place * sliceBytes);
             });
         VOXTACT_TRY(read);
+        if (progress && !progress(file + 1, files.size())) {
+            return Error{ErrorCode::Cancelled, 0, "reading the DICOM series was cancelled"};
+        }
     }
     return voxels;
 }

@@ -3,6 +3,7 @@
 
 #include "io/volume/dicom_slice.h"
 #include "io/volume/stored_image.h"
+#include "voxtact/io.h"
 
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace voxtact::io {
 /// Decodes all files into the stack, rescaled.
 [[nodiscard]] Result<std::vector<std::byte>> dicomVoxels(const std::vector<DicomFile>& files,
                                                          const std::vector<DicomImage>& images,
-                                                         const std::vector<DicomSlice>& slices, StoredType type);
+                                                         const std::vector<DicomSlice>& slices, StoredType type,
+                                                         const ReadProgress& progress);
 
 } // namespace voxtact::io

@@ -48,7 +48,7 @@ Result<ByteReader> VolumeSource::open(const std::filesystem::path& path) const {
     if (content_ && path != name_) {
         return cannotRead(path, "only one file is in memory; read the volume from its folder", ErrorCode::File);
     }
-    Result<ByteReader> reader = content_ ? ByteReader::ofMemory(name_, *content_) : ByteReader::ofFile(path);
+    Result<ByteReader> reader = content_ ? ByteReader::ofMemory(name_, *content_) : ByteReader::ofFile(path, progress_);
     if (reader.ok() && reader->stored() == 0) {
         return cannotRead(path, "the file is empty");
     }

@@ -23,7 +23,7 @@ enum class VolumeFormat { Nifti, Nrrd, Meta };
 /// Where the files of a volume are: on the disk, or one of them in memory.
 class VolumeSource {
   public:
-    VolumeSource() = default;
+    explicit VolumeSource(ReadProgress progress = {}) : progress_(std::move(progress)) {}
     VolumeSource(std::filesystem::path name, std::span<const std::byte> content)
         : name_(std::move(name)), content_(content) {}
 
@@ -34,6 +34,7 @@ class VolumeSource {
     [[nodiscard]] Result<ByteReader> openBeside(const std::filesystem::path& header, std::string_view name) const;
 
   private:
+    ReadProgress progress_;
     std::filesystem::path name_;
     std::optional<std::span<const std::byte>> content_; ///< none: the disk
 };

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<VolumeData> readFolder(const fs::path& path, const VolumeReadOptions& options, std::vector<std::string>& notes) {
-    Result<StoredImage> image = readDicomFolder(path, options.series, notes);
+    Result<StoredImage> image = readDicomFolder(path, options, notes);
     return image.ok() ? toScalars(std::move(*image), path) : Result<VolumeData>(image.error());
 }
 
@@ -50,8 +50,9 @@ Result<VolumeData> readVolume(const fs::path& path, const VolumeReadOptions& opt
     return guard([&]() -> Result<VolumeData> {
         std::error_code ignored;
         std::vector<std::string> notes;
-        Result<VolumeData> volume = fs::is_directory(path, ignored) ? readFolder(path, options, notes)
-                                                                    : readOne(VolumeSource(), path, options, notes);
+        Result<VolumeData> volume = fs::is_directory(path, ignored)
+                                        ? readFolder(path, options, notes)
+                                        : readOne(VolumeSource(options.progress), path, options, notes);
         return checked(std::move(volume), path, std::move(notes));
     });
 }

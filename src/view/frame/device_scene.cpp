@@ -36,17 +36,14 @@ double diagonalOf(const Grid& grid) {
 } // namespace
 
 Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& session, const State& state,
-                                                         const Lighting& light) {
+                                                         Volume volume, const Lighting& light) {
     std::unique_ptr<DeviceScene> scene(new DeviceScene);
     const QueueAccess queue = session.device.queueAccess();
     scene->light_ = light;
     Result<BlockingRenderer> blocking = BlockingRenderer::create(session.context, queue);
     VOXTACT_TRY(blocking);
     scene->blocking_ = std::move(*blocking);
-    Result<Volume> volume =
-        Volume::upload(session.context, queue, state.volume.view(), {.bricks = true, .editable = true});
-    VOXTACT_TRY(volume);
-    scene->volume_ = std::move(*volume);
+    scene->volume_ = std::move(volume);
     Result<RenderBricks> bricks = RenderBricks::create(scene->renderer(), *scene->volume_);
     VOXTACT_TRY(bricks);
     scene->bricks_ = std::move(*bricks);

@@ -14,9 +14,9 @@ namespace voxtact::view {
 /// Everything of voxtact's on the device: one upload for pictures, slices and answers.
 class DeviceScene {
   public:
-    /// Uploads, and waits. `light`: of the fine picture.
+    /// Takes the volume, which has bricks and is editable; uploads the rest, and waits. `light`: of the fine picture.
     [[nodiscard]] static Result<std::unique_ptr<DeviceScene>> create(const device::Session& session, const State& state,
-                                                                     const Lighting& light);
+                                                                     Volume volume, const Lighting& light);
 
     /// Records holes, and the tables of a new transfer function, where there are others than before.
     [[nodiscard]] Result<void> cmdUpdate(VkCommandBuffer commands, const State& state);

@@ -7,6 +7,9 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace voxtact::view {
 
 namespace {
@@ -20,34 +23,16 @@ std::array<Extent, 3> extentsOf(const State& state) {
 
 } // namespace
 
-Result<std::unique_ptr<Frames>> Frames::create(const device::Session& session, VkSurfaceKHR surface, State& state,
-                                               const Lighting& light, const std::function<void()>& wake) {
+Result<std::unique_ptr<Frames>> Frames::create(const device::Session& session, VkSurfaceKHR surface) {
     std::unique_ptr<Frames> frames(new Frames(session));
     Result<Swapchain> swapchain = Swapchain::create(session.device, surface);
     VOXTACT_TRY(swapchain);
     frames->swapchain_.emplace(std::move(*swapchain));
-    Result<std::unique_ptr<DeviceScene>> scene = DeviceScene::create(session, state, light);
-    VOXTACT_TRY(scene);
-    frames->scene_ = std::move(*scene);
-    Result<DeviceAnswers> answers = DeviceAnswers::create(session, *frames->scene_);
-    VOXTACT_TRY(answers);
-    frames->device_ = std::move(*answers);
-    Result<std::unique_ptr<HostAnswers>> host = HostAnswers::create(state, wake);
-    VOXTACT_TRY(host);
-    frames->host_ = std::move(*host);
     Result<Gui> gui = Gui::create(session, frames->swapchain_->format());
     VOXTACT_TRY(gui);
     frames->gui_ = std::move(*gui);
-    Result<Pictures> pictures = Pictures::create(session, frames->scene_->renderer());
-    VOXTACT_TRY(pictures);
-    frames->pictures_.emplace(std::move(*pictures));
-    Result<SlicePass> slices = SlicePass::create(session, frames->scene_->volume());
-    VOXTACT_TRY(slices);
-    frames->slices_ = std::move(*slices);
     VOXTACT_TRY(frames->makeSlots());
-    VOXTACT_TRY(frames->makeTextures(state));
-    state.methods = DeviceAnswers::choices(session.context);
-    frames->answering_ = state.method;
+    VOXTACT_TRY(frames->makeTextures());
     return frames;
 }
 
@@ -82,42 +67,80 @@ Result<void> Frames::makeSlots() {
     return {};
 }
 
-Result<void> Frames::makeTextures(State& state) {
+Result<void> Frames::makeTextures() {
     std::array<VkDescriptorSet, 5> sets{};
     for (VkDescriptorSet& set : sets) {
         const Result<VkDescriptorSet> texture = gui_->addTexture();
         VOXTACT_TRY(texture);
         set = *texture;
     }
+    std::copy_n(sets.begin(), sliceSets_.size(), sliceSets_.begin());
     coarse_ = sets[3];
     fine_ = sets[4];
-    for (std::size_t slice = 0; slice < state.slices.size(); ++slice) {
-        state.slices[slice].texture = sets[slice];
-    }
-    setTextures(state);
     return {};
 }
 
-void Frames::setTextures(const State& state) {
-    gui_->setTexture(coarse_, pictures_->coarse(), VK_IMAGE_LAYOUT_GENERAL);
-    gui_->setTexture(fine_, pictures_->fine(), VK_IMAGE_LAYOUT_GENERAL);
-    for (std::size_t slice = 0; slice < state.slices.size(); ++slice) {
-        gui_->setTexture(static_cast<VkDescriptorSet>(state.slices[slice].texture), slices_->view(slice),
-                         VK_IMAGE_LAYOUT_GENERAL);
+void Frames::setTextures(State& state) {
+    gui_->setTexture(coarse_, stage_->pictures->coarse(), VK_IMAGE_LAYOUT_GENERAL);
+    gui_->setTexture(fine_, stage_->pictures->fine(), VK_IMAGE_LAYOUT_GENERAL);
+    for (std::size_t slice = 0; slice < sliceSets_.size(); ++slice) {
+        gui_->setTexture(sliceSets_[slice], stage_->slices->view(slice), VK_IMAGE_LAYOUT_GENERAL);
+        state.slices[slice].texture = sliceSets_[slice];
     }
 }
 
 Frames::~Frames() {
     const VolkDeviceTable& table = session_->device.table();
     VkDevice device = session_->device.handle();
-    host_.reset();
     // Of a lost device too it returns.
-    table.vkDeviceWaitIdle(device);
+    static_cast<void>(waitForDevice());
     for (const Slot& slot : slots_) {
         table.vkDestroySemaphore(device, slot.acquired, nullptr);
         table.vkDestroyFence(device, slot.done, nullptr);
         table.vkDestroyCommandPool(device, slot.pool, nullptr);
     }
+}
+
+Result<void> Frames::waitForDevice() {
+    const auto lock = session_->device.lockQueue();
+    const VkResult result = session_->device.table().vkDeviceWaitIdle(session_->device.handle());
+    return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "waiting for the frames of the window");
+}
+
+/// Not for what other threads have on the device.
+Result<void> Frames::waitForFrames() {
+    for (const Slot& slot : slots_) {
+        const VkResult result =
+            slot.used ? session_->device.table().vkWaitForFences(session_->device.handle(), 1, &slot.done, VK_TRUE,
+                                                                 std::numeric_limits<std::uint64_t>::max())
+                      : VK_SUCCESS;
+        if (result != VK_SUCCESS) {
+            return vulkanError(result, "waiting for the frames of the window");
+        }
+    }
+    return {};
+}
+
+Result<std::unique_ptr<Stage>> Frames::put(std::unique_ptr<Stage> stage, State& state) {
+    VOXTACT_TRY(waitForFrames());
+    std::unique_ptr<Stage> before = std::exchange(stage_, std::move(stage));
+    setTextures(state);
+    state.picture.texture = coarse_;
+    state.methods = DeviceAnswers::choices(session_->context);
+    answering_ = state.method;
+    asked_ = 0;
+    return before;
+}
+
+Result<void> Frames::renewSurface(const std::function<Result<VkSurfaceKHR>()>& make) {
+    VOXTACT_TRY(waitForDevice());
+    swapchain_.reset(); // with the surface, of which a window has one at a time
+    const Result<VkSurfaceKHR> surface = make();
+    VOXTACT_TRY(surface);
+    Result<Swapchain> swapchain = Swapchain::create(session_->device, *surface);
+    VOXTACT_TRY(swapchain);
+    swapchain_.emplace(std::move(*swapchain));
+    return {};
 }
 
 bool Frames::ready() const {
@@ -128,22 +151,31 @@ bool Frames::ready() const {
 
 Result<void> Frames::collect(State& state) {
     Slot& next = slot();
-    if (next.used) {
+    const bool frame = next.used;
+    double wall = 0;
+    if (frame) {
         const VkResult result = session_->device.table().vkGetFenceStatus(session_->device.handle(), next.done);
         if (result != VK_SUCCESS) {
             return vulkanError(result, "a frame of the window failed");
         }
         next.used = false;
-        const double wall = std::chrono::duration<double, std::milli>(State::Clock::now() - next.submitted).count();
-        pictures_->collect(slot_, wall);
-        if (std::optional<Result<LiveAnswer>> answer = device_->collect(slot_, wall)) {
+        wall = std::chrono::duration<double, std::milli>(State::Clock::now() - next.submitted).count();
+    }
+    return stage_ ? collectAnswers(state, wall, frame) : Result<void>();
+}
+
+/// Of the slot's frame, where there was one, and of the host.
+Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool frame) {
+    if (frame) {
+        stage_->pictures->collect(slot_, wallMilliseconds);
+        if (std::optional<Result<LiveAnswer>> answer = stage_->device->collect(slot_, wallMilliseconds)) {
             take(state, std::move(*answer));
         }
     }
-    if (std::optional<Result<LiveAnswer>> answer = host_->take()) {
+    if (std::optional<Result<LiveAnswer>> answer = stage_->host->take()) {
         take(state, std::move(*answer));
     }
-    if (std::optional<Result<LiveClearance>> clearance = host_->takeClearance()) {
+    if (std::optional<Result<LiveClearance>> clearance = stage_->host->takeClearance()) {
         if (clearance->ok()) {
             state.clearance = **clearance;
         } else if (clearance->error().code != ErrorCode::Cancelled) {
@@ -177,26 +209,27 @@ void Frames::take(State& state, Result<LiveAnswer> answer) {
 }
 
 Result<void> Frames::fitSizes(State& state, VkExtent2D window) {
-    const bool windowFits = !swapchain_->stale() && swapchain_->extent().width == window.width &&
-                            swapchain_->extent().height == window.height;
-    const bool pictureFits = pictures_->fits(state.picture.extent);
-    const bool slicesFit = slices_->fits(extentsOf(state));
-    if (windowFits && pictureFits && slicesFit) {
-        return {};
-    }
-    const VkResult result = session_->device.table().vkDeviceWaitIdle(session_->device.handle());
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "waiting for the frames of the window");
-    }
-    if (!windowFits) {
+    const VkExtent2D extent = swapchain_->extent();
+    if (swapchain_->stale() || extent.width != window.width || extent.height != window.height) {
+        VOXTACT_TRY(waitForDevice()); // that shows the images, too
         VOXTACT_TRY(swapchain_->resize(window));
     }
+    return stage_ ? fitStage(state) : Result<void>();
+}
+
+Result<void> Frames::fitStage(State& state) {
+    const bool pictureFits = stage_->pictures->fits(state.picture.extent);
+    const bool slicesFit = stage_->slices->fits(extentsOf(state));
+    if (pictureFits && slicesFit) {
+        return {};
+    }
+    VOXTACT_TRY(waitForFrames());
     if (!pictureFits) {
-        VOXTACT_TRY(pictures_->resize(scene_->renderer(), state.picture.extent));
+        VOXTACT_TRY(stage_->pictures->resize(stage_->scene->renderer(), state.picture.extent));
         state.fineShare = 0;
     }
     if (!slicesFit) {
-        VOXTACT_TRY(slices_->resize(extentsOf(state)));
+        VOXTACT_TRY(stage_->slices->resize(extentsOf(state)));
     }
     setTextures(state);
     return {};
@@ -209,8 +242,8 @@ Result<void> Frames::ask(State& state) {
     }
     asked_ = state.revision;
     const bool host = rowOf(state.method.count).host;
-    host_->ask({state.revision, state.document.edit, state.method.projection, host}, state.writes);
-    return host ? Result<void>() : device_->record(slot().commands, *scene_, state, slot_);
+    stage_->host->ask({state.revision, state.document.edit, state.method.projection, host}, state.writes);
+    return host ? Result<void>() : stage_->device->record(slot().commands, *stage_->scene, state, slot_);
 }
 
 Result<void> Frames::begin() {
@@ -225,8 +258,7 @@ Result<void> Frames::begin() {
 
 /// The transfer function and the question. A method that cannot answer is told of, and the one before comes back.
 Result<void> Frames::recordAnswer(State& state) {
-    VOXTACT_TRY(begin());
-    VOXTACT_TRY(scene_->cmdUpdate(slot().commands, state));
+    VOXTACT_TRY(stage_->scene->cmdUpdate(slot().commands, state));
     if (const Result<void> asked = ask(state); !asked.ok()) {
         if (asked.error().code == ErrorCode::DeviceLost || state.method == answering_) {
             return asked.error();
@@ -234,20 +266,28 @@ Result<void> Frames::recordAnswer(State& state) {
         state.complain(asked.error().text);
         state.method = answering_;
         // What was recorded so far is not to be submitted.
-        scene_->forgetUpdate();
+        stage_->scene->forgetUpdate();
         VOXTACT_TRY(begin());
-        return scene_->cmdUpdate(slot().commands, state);
+        return stage_->scene->cmdUpdate(slot().commands, state);
     }
+    return {};
+}
+
+Result<void> Frames::recordStage(State& state) {
+    VOXTACT_TRY(recordAnswer(state));
+    stage_->scene->paint(state, slot_);
+    VOXTACT_TRY(stage_->pictures->record(slot().commands, *stage_->scene, state, slot_));
+    stage_->slices->record(slot().commands, state);
     return {};
 }
 
 Result<void> Frames::record(State& state, const ImDrawData& panels, std::uint32_t image) {
     const VolkDeviceTable& table = session_->device.table();
     VkCommandBuffer commands = slot().commands;
-    VOXTACT_TRY(recordAnswer(state));
-    scene_->paint(state, slot_);
-    VOXTACT_TRY(pictures_->record(commands, *scene_, state, slot_));
-    slices_->record(commands, state);
+    VOXTACT_TRY(begin());
+    if (stage_) {
+        VOXTACT_TRY(recordStage(state));
+    }
     memoryBarrier(session_->device, commands,
                   {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
                   {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
@@ -289,6 +329,7 @@ Result<void> Frames::submit(std::uint32_t image) {
     const VolkDeviceTable& table = session_->device.table();
     VkResult result = table.vkResetFences(session_->device.handle(), 1, &slot().done);
     if (result == VK_SUCCESS) {
+        const auto lock = session_->device.lockQueue();
         result = table.vkQueueSubmit2(session_->device.queueAccess().queue, 1, &info, slot().done);
     }
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "submitting a frame of the window");
@@ -310,19 +351,21 @@ Result<void> Frames::show(State& state, const ImDrawData& panels, VkExtent2D win
     slot().used = true;
     slot().submitted = State::Clock::now();
     slot_ = (slot_ + 1) % kFramesInFlight;
-    const bool fine = state.fineShare >= 1;
-    const Extent full = state.picture.extent;
-    const Extent coarse = pictures_->coarseExtent();
-    state.picture.texture = fine ? fine_ : coarse_;
-    state.picture.used =
-        fine ? Point2{1, 1}
-             : Point2{static_cast<double>(coarse.width) / full.width, static_cast<double>(coarse.height) / full.height};
+    if (stage_) {
+        const bool fine = state.fineShare >= 1;
+        const Extent full = state.picture.extent;
+        const Extent coarse = stage_->pictures->coarseExtent();
+        state.picture.texture = fine ? fine_ : coarse_;
+        state.picture.used = fine ? Point2{1, 1}
+                                  : Point2{static_cast<double>(coarse.width) / full.width,
+                                           static_cast<double>(coarse.height) / full.height};
+    }
+    const auto lock = session_->device.lockQueue();
     return swapchain_->present(session_->device.queueAccess().queue, image);
 }
 
-Result<Picture> Frames::screenshot(const State& state, const Extent& extent) {
-    // The frames before may still read the objects: so does the picture, and writes only its own.
-    return scene_->blocking().render(scene_->scene(state, slot_, true, extent), {extent.width, extent.height});
+std::pair<Scene, BlockingRenderer*> Frames::screenshot(const State& state, const Extent& extent) {
+    return {stage_->scene->scene(state, slot_, true, extent), &stage_->scene->blocking()};
 }
 
 } // namespace voxtact::view

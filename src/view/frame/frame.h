@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "view/frame/device_answers.h"
 #include "view/frame/gui.h"
-#include "view/frame/host_answers.h"
-#include "view/frame/pictures.h"
-#include "view/frame/slice_pass.h"
+#include "view/frame/stage.h"
 #include "view/frame/swapchain.h"
 
 namespace voxtact::view {
 
 /// Makes the window's frames: answer, picture, slices and panels in one submission, two of them in flight. Nothing
-/// waits for the device but a change of a size.
+/// waits for the device but a change of a size, and another stage. Without a stage there are panels only.
 class Frames {
   public:
-    /// Takes the surface. `wake`: called from another thread when the host has an answer.
-    [[nodiscard]] static Result<std::unique_ptr<Frames>> create(const device::Session& session, VkSurfaceKHR surface,
-                                                                State& state, const Lighting& light,
-                                                                const std::function<void()>& wake);
+    /// Takes the surface.
+    [[nodiscard]] static Result<std::unique_ptr<Frames>> create(const device::Session& session, VkSurfaceKHR surface);
     /// Waits for the device.
     ~Frames();
 
@@ -27,8 +22,13 @@ class Frames {
     [[nodiscard]] Result<void> collect(State& state);
     /// After the panels. `window`: pixels; nothing is shown where one is 0.
     [[nodiscard]] Result<void> show(State& state, const ImDrawData& panels, VkExtent2D window);
-    /// The picture of the state at a size: blocks.
-    [[nodiscard]] Result<Picture> screenshot(const State& state, const Extent& extent);
+    /// Shows another stage, which `state` belongs to, from the next frame on; the one before, or null, comes back.
+    [[nodiscard]] Result<std::unique_ptr<Stage>> put(std::unique_ptr<Stage> stage, State& state);
+    /// The window's images on another surface, which it takes, after a frame was refused with SURFACE_LOST.
+    [[nodiscard]] Result<void> renewSurface(const std::function<Result<VkSurfaceKHR>()>& make);
+    /// What a picture of the state shows at a size, and who makes it, on any one thread, as long as the stage is there.
+    /// Only where there is one.
+    [[nodiscard]] std::pair<Scene, BlockingRenderer*> screenshot(const State& state, const Extent& extent);
 
   private:
     struct Slot {
@@ -42,9 +42,14 @@ class Frames {
 
     explicit Frames(const device::Session& session) : session_(&session) {}
     [[nodiscard]] Result<void> makeSlots();
-    [[nodiscard]] Result<void> makeTextures(State& state);
+    [[nodiscard]] Result<void> makeTextures();
+    [[nodiscard]] Result<void> waitForFrames();
+    [[nodiscard]] Result<void> waitForDevice();
+    [[nodiscard]] Result<void> collectAnswers(State& state, double wallMilliseconds, bool frame);
+    [[nodiscard]] Result<void> fitStage(State& state);
+    [[nodiscard]] Result<void> recordStage(State& state);
     [[nodiscard]] Result<void> fitSizes(State& state, VkExtent2D window);
-    void setTextures(const State& state);
+    void setTextures(State& state);
     [[nodiscard]] Result<void> ask(State& state);
     [[nodiscard]] Result<void> begin();
     [[nodiscard]] Result<void> recordAnswer(State& state);
@@ -54,17 +59,14 @@ class Frames {
     [[nodiscard]] Slot& slot() { return slots_[slot_]; }
 
     const device::Session* session_;
-    std::unique_ptr<DeviceScene> scene_;
-    std::optional<DeviceAnswers> device_;
-    std::unique_ptr<HostAnswers> host_;
+    std::unique_ptr<Stage> stage_;
     std::optional<Swapchain> swapchain_;
     std::optional<Gui> gui_;
-    std::optional<Pictures> pictures_;
-    std::optional<SlicePass> slices_;
     std::array<Slot, kFramesInFlight> slots_{};
     std::uint32_t slot_ = 0;  ///< of the next frame
     std::uint64_t asked_ = 0; ///< State::revision of the last question
     MethodChoice answering_;  ///< the last that gave an answer
+    std::array<VkDescriptorSet, 3> sliceSets_{};
     VkDescriptorSet coarse_ = VK_NULL_HANDLE;
     VkDescriptorSet fine_ = VK_NULL_HANDLE;
 };

@@ -24,7 +24,7 @@ double tickOf(const device::VulkanDevice& device) {
 
 } // namespace
 
-Result<Pictures> Pictures::create(const device::Session& session, const Renderer& renderer) {
+Result<Pictures> Pictures::create(const device::Session& session, const Renderer& renderer, const Extent& extent) {
     Pictures out(session);
     const device::VulkanDevice& device = session.device;
     if (device.hasTimestamps()) {
@@ -39,7 +39,7 @@ Result<Pictures> Pictures::create(const device::Session& session, const Renderer
         }
         out.tick_ = tickOf(device);
     }
-    VOXTACT_TRY(out.resize(renderer, {16, 16}));
+    VOXTACT_TRY(out.resize(renderer, extent));
     return out;
 }
 

@@ -10,7 +10,8 @@ namespace voxtact::view {
 /// rows a frame. Its images are in the layout GENERAL.
 class Pictures {
   public:
-    [[nodiscard]] static Result<Pictures> create(const device::Session& session, const Renderer& renderer);
+    [[nodiscard]] static Result<Pictures> create(const device::Session& session, const Renderer& renderer,
+                                                 const Extent& extent);
     Pictures(Pictures&& other) noexcept;
     Pictures& operator=(Pictures&&) = delete;
     ~Pictures();

@@ -54,8 +54,13 @@ std::string copyAsCommand(const Document& document, const MethodChoice& method, 
                                 : holes == 1 ? "# of the volume as it was read, without the hole that was drilled\n"
                                              : "# of the volume as it was read, without the " + std::to_string(holes) +
                                                    " holes that were drilled\n";
-    std::string text = without + "echo '" + poseText(document.edit.world_from_object) + "' | voxtact detect --volume " +
-                       sourceWord(sources.volume) + " --mesh " + sourceWord(sources.mesh);
+    const std::string copy = sources.coarser == 1 ? ""
+                                                  : "# of the volume as it is in the file, not of its copy that is "
+                                                    "coarser by " +
+                                                        std::to_string(sources.coarser) + "\n";
+    std::string text = copy + without + "echo '" + poseText(document.edit.world_from_object) +
+                       "' | voxtact detect --volume " + sourceWord(sources.volume) + " --mesh " +
+                       sourceWord(sources.mesh);
     if (sources.meshSpace != "lps") {
         text += " --mesh-space " + sources.meshSpace;
     }

@@ -3,6 +3,7 @@
 
 #include "view/model/camera.h"
 #include "view/model/curve.h"
+#include "view/model/gizmo.h"
 #include "voxtact/methods.h"
 
 #include <optional>
@@ -18,8 +19,9 @@ struct Sources {
     std::string mesh;
     std::string meshSpace = "lps";
     double meshScale = 1;
-    std::string labels;     ///< a label map; empty: none
-    std::string labelNames; ///< what its labels are called; empty: the file beside it, where it is there
+    std::string labels;        ///< a label map; empty: none
+    std::string labelNames;    ///< what its labels are called; empty: the file beside it, where it is there
+    std::uint32_t coarser = 1; ///< the volume that is shown has a voxel for so many along each axis
 };
 
 /// What commands change, and undo gives back.
@@ -27,7 +29,7 @@ struct Edit {
     Curve curve;
     double threshold = kDefaultThreshold;
     Mat4 world_from_object = identity();
-    std::size_t holes = 0; ///< that are drilled; a session file does not hold them
+    std::size_t holes = 0; ///< that are drilled, of those that are known
 
     [[nodiscard]] bool operator==(const Edit& other) const {
         return threshold == other.threshold && holes == other.holes && world_from_object == other.world_from_object &&
@@ -43,6 +45,22 @@ struct MethodChoice {
     [[nodiscard]] bool operator==(const MethodChoice&) const = default;
 };
 
+/// Panes that can have the whole middle of the window.
+enum class Maximised { None, Picture, Slice0, Slice1, Slice2 };
+
+/// What is on, and how far a step goes.
+struct Shown {
+    GizmoAxes handleAxes = GizmoAxes::World;
+    bool handles = true;
+    bool contacts = true;
+    bool logHistogram = true;
+    Maximised maximised = Maximised::None;
+    double stepMillimetres = 1;
+    double stepDegrees = 5;
+    double drillRadius = 5;                          ///< mm
+    std::optional<ValueRange> window = std::nullopt; ///< of the slices: black and white; nothing: all values
+};
+
 struct Document {
     Sources sources;
     Edit edit;
@@ -53,6 +71,8 @@ struct Document {
     std::size_t pose = 0;               ///< the one of the list that was taken last
     std::optional<MethodChoice> method; ///< nothing: what the machine is best at
     std::optional<Camera> camera;       ///< nothing: framing the volume
+    std::optional<Shown> shown;         ///< nothing: as the window has it
+    std::vector<Ball> holes;            ///< in the order in which they were drilled, at least edit.holes
     std::optional<Vec3> cursor;         ///< world, mm: where the slices are; nothing: the middle of the volume
 };
 

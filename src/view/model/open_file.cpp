@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -34,6 +35,7 @@ Result<void> openFunction(const std::filesystem::path& path, State& state) {
     }
     state.command([&](Edit& edit) { edit.curve = *points; });
     state.curvePoint.reset();
+    state.taken.push_back(path.string());
     return {};
 }
 
@@ -43,6 +45,7 @@ Result<void> openPoses(const std::filesystem::path& path, State& state) {
     state.document.poses = std::move(*poses);
     state.takePose(0);
     state.history.end();
+    state.taken.push_back(path.string());
     return {};
 }
 
@@ -60,8 +63,11 @@ Document withFile(Document document, FileKind kind, const std::string& path) {
         sources.labelNames.clear();
         document.camera.reset();
         document.cursor.reset();
+        document.shown.reset();
+        document.edit.holes = 0;
+        document.holes.clear();
+        sources.coarser = 1;
     }
-    document.edit.holes = 0;
     return document;
 }
 
@@ -83,6 +89,10 @@ Result<FileKind> kindOfFile(const std::filesystem::path& path) {
 Result<void> openFile(const std::filesystem::path& path, State& state) {
     const Result<FileKind> kind = kindOfFile(path);
     VOXTACT_TRY(kind);
+    if (state.blank && *kind != FileKind::Session && *kind != FileKind::Volume) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "'" + path.string() + "' needs a volume to be shown with; open a volume or a session first"};
+    }
     if (*kind == FileKind::Function) {
         return openFunction(path, state);
     }
@@ -92,11 +102,21 @@ Result<void> openFile(const std::filesystem::path& path, State& state) {
     if (*kind == FileKind::Session) {
         Result<Document> session = readSession(path);
         VOXTACT_TRY(session);
-        state.wanted = Wanted{*kind, std::move(*session)};
+        state.wanted = Wanted{*kind, std::move(*session), path.string()};
     } else {
-        state.wanted = Wanted{*kind, withFile(state.saved(), *kind, path.string())};
+        state.wanted = Wanted{*kind, withFile(state.saved(), *kind, path.string()), path.string()};
     }
     return {};
+}
+
+void takeDropped(State& state) {
+    for (const std::string& path : std::exchange(state.dropped, {})) {
+        state.say("opened: " + path);
+        if (const Result<void> opened = openFile(path, state); !opened.ok()) {
+            state.say({});
+            state.complain(opened.error().text);
+        }
+    }
 }
 
 } // namespace voxtact::view

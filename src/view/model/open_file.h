@@ -16,4 +16,8 @@ namespace voxtact::view {
 /// left in State::wanted; a session is read for it. Nothing changes where there is an error.
 [[nodiscard]] Result<void> openFile(const std::filesystem::path& path, State& state);
 
+/// Opens all that was dropped on the window since the last call, one after the other; of what cannot be opened the last
+/// is complained of.
+void takeDropped(State& state);
+
 } // namespace voxtact::view

@@ -31,17 +31,15 @@ Json clearanceJson(const LiveClearance* live, std::uint64_t revision) {
     return json;
 }
 
-} // namespace
-
-std::string reportText(const StateReport& report) {
+/// What only an answer has.
+void addAnswer(Json& json, const StateReport& report) {
     const LiveAnswer& answer = *report.answer;
-    nlohmann::ordered_json json;
     json["hit"] = hitNumber(answer.pair);
     json["count"] = answer.pair.count;
     json["exact"] = answer.pair.exactness == Exactness::Exact ? 1 : 0;
     json["method"] = toString(answer.pair.method);
     json["projection"] = toString(answer.pair.projection);
-    json["pose"] = nlohmann::ordered_json::array();
+    json["pose"] = Json::array();
     for (std::size_t i = 0; i < answer.world_from_object.size(); ++i) {
         json["pose"].push_back(answer.world_from_object[4 * (i % 4) + i / 4]);
     }
@@ -49,7 +47,7 @@ std::string reportText(const StateReport& report) {
     json["contacts"] = answer.contactsFound;
     json["clearance"] = clearanceJson(report.clearance, answer.revision);
     if (report.labels != nullptr) {
-        json["labels"] = nlohmann::ordered_json::array();
+        json["labels"] = Json::array();
         for (const LabelCount& touched : answer.labels) {
             json["labels"].push_back(
                 {{"label", touched.label}, {"name", nameOf(*report.labels, touched.label)}, {"count", touched.count}});
@@ -60,9 +58,43 @@ std::string reportText(const StateReport& report) {
     json["p50_ms"] = report.times->percentile(0.5);
     json["p99_ms"] = report.times->percentile(0.99);
     json["answers"] = answer.revision;
+}
+
+Json loadingJson(const Loading* loading) {
+    if (loading == nullptr) {
+        return nullptr;
+    }
+    Json json{{"seconds", loading->seconds}, {"frames", loading->frames}, {"longest_frame_ms", loading->longestFrame}};
+    if (!loading->step.empty()) {
+        json["step"] = loading->step;
+    }
+    return json;
+}
+
+Json questionJson(const Question* question) {
+    if (question == nullptr) {
+        return nullptr;
+    }
+    Json json{{"title", question->title}, {"text", question->text}, {"buttons", question->buttons}};
+    json["files"] = Json::array();
+    for (const MissingFile& file : question->files) {
+        json["files"].push_back({{"name", file.name}, {"path", file.path}});
+    }
+    return json;
+}
+
+} // namespace
+
+std::string reportText(const StateReport& report) {
+    Json json;
+    json["hit"] = nullptr;
+    if (report.answer != nullptr) {
+        addAnswer(json, report);
+    }
     json["holes"] = report.document->edit.holes;
+    json["coarser"] = report.document->sources.coarser;
     json["threshold"] = report.document->edit.threshold;
-    json["points"] = nlohmann::ordered_json::array();
+    json["points"] = Json::array();
     for (const ControlPoint& point : report.document->edit.curve) {
         json["points"].push_back({point.value, point.opacity});
     }
@@ -71,8 +103,12 @@ std::string reportText(const StateReport& report) {
     json["picture"] = report.picture;
     json["settled"] = report.settled;
     json["error"] = report.error;
+    json["question"] = questionJson(report.question);
+    json["loading"] = loadingJson(report.loading);
+    json["loaded"] = loadingJson(report.loaded);
+    json["status"] = report.status;
     json["command"] = report.command;
-    return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace voxtact::view

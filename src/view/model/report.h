@@ -4,6 +4,8 @@
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
 #include "view/model/live_clearance.h"
+#include "view/model/loading.h"
+#include "view/model/question.h"
 
 #include <array>
 #include <string>
@@ -12,7 +14,7 @@ namespace voxtact::view {
 
 /// What --report-state writes.
 struct StateReport {
-    const LiveAnswer* answer = nullptr;       ///< must be given
+    const LiveAnswer* answer = nullptr;       ///< null where there is none yet
     const Times* times = nullptr;             ///< must be given
     const Document* document = nullptr;       ///< must be given
     const LiveClearance* clearance = nullptr; ///< null where there is none yet
@@ -21,6 +23,10 @@ struct StateReport {
     std::string device;                       ///< that answered; "host" for cpu
     std::string command;                      ///< copyAsCommand() of what was answered
     std::string error;                        ///< of the dialog that is open; empty: none
+    const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
+    const Loading* loading = nullptr;         ///< null: nothing is being loaded
+    const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
+    std::string status;                       ///< what was done last
     std::uint64_t frame = 0;                  ///< frames shown until then
     double frameMilliseconds = 0;             ///< from one frame to the next, the median of the last ones
     bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there

@@ -2,9 +2,9 @@
 #include "view/model/session_file.h"
 
 #include "core/base/try.h"
+#include "view/model/session_reader.h"
+#include "view/model/session_shown.h"
 #include "voxtact/io.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -14,90 +14,14 @@ namespace voxtact::view {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = SessionReader::Json;
 
 constexpr int kVersion = 1;
 constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
 
-/// Reads members, and keeps what was wrong first; what is read after that means nothing.
-class Reader {
-  public:
-    explicit Reader(const Json& root) : root_(&root) {}
-
-    [[nodiscard]] const std::string& wrong() const { return wrong_; }
-    void refuse(const std::string& member, const std::string& why) {
-        wrong_ = wrong_.empty() ? member + ": " + why : wrong_;
-    }
-
-    /// The member "a.b", or null.
-    [[nodiscard]] const Json* find(const std::string& path) {
-        const Json* at = root_;
-        for (std::size_t begin = 0; begin <= path.size();) {
-            const std::size_t end = std::min(path.find('.', begin), path.size());
-            if (!at->is_object()) {
-                refuse(path.substr(0, begin == 0 ? 0 : begin - 1), "is not an object");
-                return nullptr;
-            }
-            const auto member = at->find(path.substr(begin, end - begin));
-            if (member == at->end() || member->is_null()) {
-                return nullptr;
-            }
-            at = &*member;
-            begin = end + 1;
-        }
-        return at;
-    }
-    std::string text(const std::string& path, const std::string& standard) {
-        const Json* json = find(path);
-        if (json != nullptr && !json->is_string()) {
-            refuse(path, "is not a text");
-            return standard;
-        }
-        return json == nullptr ? standard : json->get<std::string>();
-    }
-    double number(const std::string& path, const Json* json) {
-        if (json == nullptr || !json->is_number()) {
-            refuse(path, json == nullptr ? "is missing" : "is not a number");
-            return 0;
-        }
-        return json->get<double>();
-    }
-    double number(const std::string& path, double standard) {
-        const Json* json = find(path);
-        return json == nullptr ? standard : number(path, json);
-    }
-    /// So many numbers.
-    template <std::size_t N> std::array<double, N> numbers(const std::string& path, const Json& json) {
-        std::array<double, N> out{};
-        if (!json.is_array() || json.size() != N) {
-            refuse(path, "is not an array of " + std::to_string(N) + " numbers");
-            return out;
-        }
-        for (std::size_t i = 0; i < N; ++i) {
-            out[i] = number(path + "[" + std::to_string(i) + "]", &json[i]);
-        }
-        return out;
-    }
-    /// Calls `use` with the name and value of each element of an array that may be missing.
-    template <class Use> void each(const std::string& path, Use&& use) {
-        const Json* json = find(path);
-        if (json != nullptr && !json->is_array()) {
-            refuse(path, "is not an array");
-            return;
-        }
-        for (std::size_t i = 0; json != nullptr && i < json->size() && wrong_.empty(); ++i) {
-            use(path + "[" + std::to_string(i) + "]", (*json)[i]);
-        }
-    }
-
-  private:
-    const Json* root_;
-    std::string wrong_;
-};
-
 /// Row by row, as pose files have them.
-Mat4 readPose(Reader& reader, const std::string& name, const Json& json) {
+Mat4 readPose(SessionReader& reader, const std::string& name, const Json& json) {
     const std::array<double, 16> rows = reader.numbers<16>(name, json);
     Mat4 pose{};
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -119,11 +43,18 @@ Json poseJson(const Mat4& pose) {
     return rows;
 }
 
-void readSources(Reader& reader, Sources& sources) {
+void readSources(SessionReader& reader, Sources& sources) {
     sources.volume = reader.text("volume", "");
     sources.mesh = reader.text("mesh", "");
     sources.meshSpace = reader.text("mesh_space", "lps");
     sources.meshScale = reader.number("mesh_scale", 1.0);
+    const double coarser = reader.number("volume_coarser", 1.0);
+    constexpr double kMostCoarser = 1024;
+    if (!(coarser >= 1 && coarser <= kMostCoarser && coarser == std::floor(coarser))) {
+        reader.refuse("volume_coarser", "is not a whole number from 1 to 1024");
+        return;
+    }
+    sources.coarser = static_cast<std::uint32_t>(coarser);
     sources.labels = reader.text("labels", "");
     sources.labelNames = reader.text("label_names", "");
     if (sources.labels.empty() && !sources.labelNames.empty()) {
@@ -142,7 +73,7 @@ void readSources(Reader& reader, Sources& sources) {
     }
 }
 
-void readFunction(Reader& reader, Document& document) {
+void readFunction(SessionReader& reader, Document& document) {
     const std::string name = "transfer_function";
     reader.each(name + ".points", [&](const std::string& at, const Json& json) {
         const auto [value, opacity] = reader.numbers<2>(at, json);
@@ -185,7 +116,7 @@ void readFunction(Reader& reader, Document& document) {
     }
 }
 
-void readInstrument(Reader& reader, Document& document) {
+void readInstrument(SessionReader& reader, Document& document) {
     if (const Json* json = reader.find("instrument.pose"); json != nullptr) {
         document.edit.world_from_object = readPose(reader, "instrument.pose", *json);
     }
@@ -200,7 +131,7 @@ void readInstrument(Reader& reader, Document& document) {
     document.pose = static_cast<std::size_t>(number);
 }
 
-void readMethod(Reader& reader, Document& document) {
+void readMethod(SessionReader& reader, Document& document) {
     const std::string count = reader.text("method.count", "auto");
     const std::string projection = reader.text("method.projection", "conservative");
     const auto method = countingMethodFromName(count);
@@ -214,7 +145,7 @@ void readMethod(Reader& reader, Document& document) {
     }
 }
 
-void readCamera(Reader& reader, Document& document) {
+void readCamera(SessionReader& reader, Document& document) {
     if (const Json* cursor = reader.find("cursor"); cursor != nullptr) {
         document.cursor = reader.numbers<3>("cursor", *cursor);
     }
@@ -242,7 +173,7 @@ Result<Document> parseSession(std::string_view text, const std::string& name) {
     if (json.is_discarded()) {
         return wrong("it is not JSON");
     }
-    Reader reader(json);
+    SessionReader reader(json);
     const Json* mark = json.is_object() ? reader.find(kMark) : nullptr;
     if (mark == nullptr || !mark->is_number_integer()) {
         return wrong(std::string("it has no number '") + kMark + "', by which a session is known");
@@ -256,6 +187,8 @@ Result<Document> parseSession(std::string_view text, const std::string& name) {
     readInstrument(reader, document);
     readMethod(reader, document);
     readCamera(reader, document);
+    readHoles(reader, document);
+    readShown(reader, document);
     return reader.wrong().empty() ? Result<Document>(std::move(document)) : wrong(reader.wrong());
 }
 
@@ -263,6 +196,9 @@ std::string sessionText(const Document& document) {
     Json json;
     json[kMark] = kVersion;
     json["volume"] = document.sources.volume;
+    if (document.sources.coarser != 1) {
+        json["volume_coarser"] = document.sources.coarser;
+    }
     json["mesh"] = document.sources.mesh;
     json["mesh_space"] = document.sources.meshSpace;
     json["mesh_scale"] = document.sources.meshScale;
@@ -304,6 +240,7 @@ std::string sessionText(const Document& document) {
                           {"elevation", document.camera->direction.elevation},
                           {"half_height", document.camera->halfHeight}};
     }
+    writeShown(json, document);
     // What is no UTF-8, which a path may be, would otherwise throw.
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -8,6 +8,7 @@
 
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <array>
 #include <ostream>
 #include <utility>
@@ -24,6 +25,35 @@ Result<void> savePose(const std::filesystem::path& path, const State& state) {
 }
 
 constexpr const char* kOpen = "Open";
+constexpr const char* kSession = "Save session";
+constexpr const char* kPicture = "Save picture";
+
+/// As wide and high as it was asked for last; 0: nobody asked yet.
+std::array<int, 2>& pictureSides() {
+    static std::array<int, 2> sides{0, 0};
+    return sides;
+}
+
+Extent pictureSize() {
+    return {static_cast<std::uint32_t>(pictureSides()[0]), static_cast<std::uint32_t>(pictureSides()[1])};
+}
+
+void drawPictureSize(const State& state) {
+    constexpr int kMost = 16384;
+    std::array<int, 2>& sides = pictureSides();
+    if (sides[0] <= 0) {
+        sides = {static_cast<int>(state.picture.extent.width), static_cast<int>(state.picture.extent.height)};
+    }
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
+    ImGui::InputInt2("width x height", sides.data());
+    for (int& side : sides) {
+        side = std::clamp(side, 16, kMost);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("as in the window")) {
+        sides = {0, 0};
+    }
+}
 
 /// A dialog that asks for one path.
 struct PathDialog {
@@ -35,27 +65,31 @@ struct PathDialog {
 
 std::array<PathDialog, 5>& dialogs() {
     static std::array<PathDialog, 5> all{{
-        {"Save session", "save", "session.json",
+        {kSession, "save", "session.json",
          [](const std::filesystem::path& path, State& state) -> Result<void> {
              if (const Result<void> written = writeSession(path, state.saved()); !written.ok()) {
                  return written.error();
              }
-             state.say("the session is in " + path.string() +
-                       (state.document.edit.holes == 0 ? "" : ", without the holes that were drilled"));
+             state.say("the session is in " + path.string());
+             state.taken.push_back(path.string());
              return {};
          }},
         {"Save transfer function", "save", "curve.json",
          [](const std::filesystem::path& path, State& state) { return writeTransferFunction(path, state.document); }},
         {"Save pose", "save", "pose.txt",
          [](const std::filesystem::path& path, State& state) { return savePose(path, state); }},
-        {"Save picture", "save", "picture.png",
+        {kPicture, "save", "picture.png",
          [](const std::filesystem::path& path, State& state) -> Result<void> {
-             state.screenshot = path.string();
+             state.shot = Shot{path.string(), pictureSize()};
              return {};
          }},
         {kOpen, "open", "", openFile},
     }};
     return all;
+}
+
+const char* keyOf(const char* title) {
+    return title == kOpen ? "Ctrl+O" : title == kSession ? "Ctrl+S" : title == kPicture ? "Ctrl+P" : nullptr;
 }
 
 void drawPathDialog(PathDialog& dialog, State& state) {
@@ -73,7 +107,12 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         }
         ImGui::SetKeyboardFocusHere();
     }
-    bool done = ImGui::InputText("##path", &dialog.path, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool done = ImGui::InputText("##path", &dialog.path,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    if (dialog.title == kPicture) {
+        drawPictureSize(state);
+        done |= ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+    }
     done |= ImGui::Button(dialog.button);
     ImGui::SameLine();
     if (ImGui::Button("cancel")) {
@@ -98,9 +137,19 @@ const char*& asked() {
 
 void drawFileMenu(State& state) {
     for (const PathDialog& dialog : dialogs()) {
-        if (ImGui::MenuItem((std::string(dialog.title) + " ...").c_str(), dialog.title == kOpen ? "Ctrl+O" : nullptr)) {
+        const bool open = dialog.title == kOpen;
+        if (ImGui::MenuItem((std::string(dialog.title) + " ...").c_str(), keyOf(dialog.title), false,
+                            open || !state.blank)) {
             asked() = dialog.title; // opened outside of the menu, which has an ID of its own
         }
+    }
+    if (ImGui::BeginMenu("Open recent", !state.recent.empty())) {
+        for (const std::string& path : state.recent) {
+            if (ImGui::MenuItem(path.c_str())) {
+                state.dropped.push_back(path); // opened as what is dropped, after the menu
+            }
+        }
+        ImGui::EndMenu();
     }
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) {
@@ -112,17 +161,17 @@ void askForFile() {
     asked() = kOpen;
 }
 
-void takeDropped(State& state) {
-    for (const std::string& path : std::exchange(state.dropped, {})) {
-        state.say("opened: " + path);
-        if (const Result<void> opened = openFile(path, state); !opened.ok()) {
-            state.say({});
-            state.complain(opened.error().text);
-        }
-    }
+void askForSession() {
+    asked() = kSession;
+}
+
+void askForPicture() {
+    asked() = kPicture;
 }
 
 void drawDialogs(State& state) {
+    drawQuestion(state);
+    drawShooting(state);
     if (asked() != nullptr) {
         ImGui::OpenPopup(asked());
         asked() = nullptr;

@@ -85,6 +85,12 @@ void takeControlKey(State& state, const KeyPress& press) {
     case GLFW_KEY_O:
         askForFile();
         break;
+    case GLFW_KEY_S:
+        askForSession();
+        break;
+    case GLFW_KEY_P:
+        askForPicture();
+        break;
     case GLFW_KEY_Q:
         state.quit = true;
         break;
@@ -115,6 +121,7 @@ void takePlainKey(State& state, const KeyPress& press) {
         state.gizmoAxes = nextOf(state.gizmoAxes);
         break;
     case GLFW_KEY_ESCAPE:
+        state.cancelLoading = state.loading.has_value();
         state.maximised = Maximised::None;
         break;
     case GLFW_KEY_SPACE:
@@ -136,6 +143,17 @@ void takePlainKey(State& state, const KeyPress& press) {
     }
 }
 
+/// While there is nothing to move or edit.
+void takeBlankKey(State& state, const KeyPress& press) {
+    if (press.control && press.key == GLFW_KEY_O) {
+        askForFile();
+    } else if (press.control && press.key == GLFW_KEY_Q) {
+        state.quit = true;
+    } else if (press.key == GLFW_KEY_F1) {
+        state.helpOpen = !state.helpOpen;
+    }
+}
+
 void takeKey(State& state, const KeyPress& press) {
     if (press.key == GLFW_KEY_F1) {
         state.helpOpen = !state.helpOpen;
@@ -147,6 +165,16 @@ void takeKey(State& state, const KeyPress& press) {
         }
     }
     press.control ? takeControlKey(state, press) : takePlainKey(state, press);
+}
+
+void answerQuestion(Question& question, const std::vector<KeyPress>& keys) {
+    for (const KeyPress& press : keys) {
+        if (press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER) {
+            question.chosen = 0;
+        } else if (press.key == GLFW_KEY_ESCAPE) {
+            question.chosen = question.buttons.size() - 1;
+        }
+    }
 }
 
 void row(const char* key, const char* does) {
@@ -167,11 +195,15 @@ void takeKeys(State& state) {
         state.error = read ? std::string() : state.error;
         return;
     }
+    if (state.question) {
+        answerQuestion(*state.question, keys);
+        return;
+    }
     if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
         return; // they are written into a field
     }
     for (const KeyPress& press : keys) {
-        takeKey(state, press);
+        state.blank ? takeBlankKey(state, press) : takeKey(state, press);
     }
 }
 
@@ -199,7 +231,8 @@ void drawHelp(State& state) {
         row("X, C", "drill a hole at the tip, at the cursor of the slices");
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
-        row("control O", "open a file, as does dropping it on the window");
+        row("control O", "open a file, as does dropping it on the window; escape: cancel while it is loaded");
+        row("control S, control P", "save the session, a picture");
         row("control Q", "quit");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");

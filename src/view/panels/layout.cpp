@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "view/model/open_file.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ void drawMenu(State& state) {
         drawFileMenu(state);
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("Edit")) {
+    if (ImGui::BeginMenu("Edit", !state.blank)) {
         if (ImGui::MenuItem("Undo", "Ctrl+Z", false, state.history.canUndo())) {
             state.undo();
         }
@@ -29,7 +30,7 @@ void drawMenu(State& state) {
         }
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("View")) {
+    if (ImGui::BeginMenu("View", !state.blank)) {
         for (const char* name : {"front", "back", "left", "right", "top", "bottom"}) {
             if (ImGui::MenuItem(name)) {
                 state.camera.direction = directionNamed(name).value_or(state.camera.direction);
@@ -57,7 +58,9 @@ void drawMenu(State& state) {
         }
         ImGui::EndMenu();
     }
-    const std::string names = state.document.sources.volume + "   " + state.document.sources.mesh;
+    const Sources& sources = state.document.sources;
+    const std::string coarser = sources.coarser == 1 ? "" : " (coarser by " + std::to_string(sources.coarser) + ")";
+    const std::string names = sources.volume + coarser + "   " + sources.mesh;
     const float width = ImGui::CalcTextSize(names.c_str()).x + 14;
     ImGui::SameLine(std::max(ImGui::GetWindowWidth() - width, ImGui::GetCursorPosX() + 20));
     ImGui::TextColored(quietColour(), "%s", names.c_str());
@@ -124,6 +127,22 @@ void drawStatus(const State& state) {
     ImGui::TextColored(quietColour(), "%s", text);
 }
 
+/// All below the menu.
+void drawScene(State& state) {
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float gap = ImGui::GetStyle().ItemSpacing.y;
+    const float height = all.y - ImGui::GetTextLineHeightWithSpacing();
+    const float column = std::min(ImGui::GetFontSize() * 25, all.x / 2);
+    ImGui::BeginChild("left", {all.x - column - gap, height}, false, ImGuiWindowFlags_NoBackground);
+    drawPanes(state, ImGui::GetContentRegionAvail());
+    ImGui::EndChild();
+    ImGui::SameLine(0, gap);
+    ImGui::BeginChild("right", {0, height}, false, ImGuiWindowFlags_NoBackground);
+    drawColumn(state);
+    ImGui::EndChild();
+    drawStatus(state);
+}
+
 } // namespace
 
 void drawPanels(State& state) {
@@ -139,20 +158,12 @@ void drawPanels(State& state) {
                      ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar();
     drawMenu(state);
-    const ImVec2 all = ImGui::GetContentRegionAvail();
-    const float gap = ImGui::GetStyle().ItemSpacing.y;
-    const float height = all.y - ImGui::GetTextLineHeightWithSpacing();
-    const float column = std::min(ImGui::GetFontSize() * 25, all.x / 2);
-    ImGui::BeginChild("left", {all.x - column - gap, height}, false, ImGuiWindowFlags_NoBackground);
-    drawPanes(state, ImGui::GetContentRegionAvail());
-    ImGui::EndChild();
-    ImGui::SameLine(0, gap);
-    ImGui::BeginChild("right", {0, height}, false, ImGuiWindowFlags_NoBackground);
-    drawColumn(state);
-    ImGui::EndChild();
-    drawStatus(state);
+    if (!state.blank) {
+        drawScene(state);
+    }
     drawDialogs(state);
     ImGui::End();
+    drawLoading(state);
     drawHelp(state);
 }
 

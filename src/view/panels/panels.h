@@ -32,6 +32,10 @@ void drawAnswer(State& state);
 void drawInstrument(State& state);
 void drawCurve(State& state);
 void drawPicture(State& state);
+/// What lies over the picture, but for the handles.
+void drawMarks(const State& state, const Onto& onto, ImDrawList& list);
+/// A dialog while a picture is made for a file.
+void drawShooting(State& state);
 /// Handles in the picture: whether they have the mouse. After the picture's item.
 [[nodiscard]] bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size);
 void drawGizmo(const State& state, const Onto& onto, ImDrawList& list);
@@ -42,10 +46,16 @@ void drawContacts(State& state);
 /// Dialogs of files, and their menu.
 void drawFileMenu(State& state);
 void drawDialogs(State& state);
+/// How far it is what is being loaded, and a button that cancels it.
+void drawLoading(State& state);
+/// A dialog with a choice, where there is one to make.
+void drawQuestion(State& state);
 /// Opens the dialog for a file to open.
 void askForFile();
-/// Opens what was dropped on the window.
-void takeDropped(State& state);
+/// Opens the dialog for a session to save.
+void askForSession();
+/// Opens the dialog for a picture to save.
+void askForPicture();
 /// What is pressed.
 void takeKeys(State& state);
 void drawHelp(State& state);

@@ -114,9 +114,24 @@ void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
     const ImVec2 at{onto.corner.x + 12, onto.corner.y + 9};
     list.AddText(ImGui::GetFont(), size, {at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text.c_str());
     list.AddText(ImGui::GetFont(), size, at, ImGui::GetColorU32(verdictColour(answer.pair)), text.c_str());
+    if (const std::uint32_t coarser = state.document.sources.coarser; coarser > 1) {
+        const std::string copy = "of a copy that is coarser by " + std::to_string(coarser);
+        list.AddText({at.x, at.y + size * 1.2F}, IM_COL32(245, 196, 66, 255), copy.c_str());
+    }
 }
 
 } // namespace
+
+void drawMarks(const State& state, const Onto& onto, ImDrawList& list) {
+    drawPath(state, onto, list);
+    if (state.showContacts && state.answer) {
+        drawContactPoints(state, onto, list);
+    }
+    drawClosest(state, onto, list);
+    drawSides(onto, state, list);
+    drawBar(state, onto, list);
+    drawVerdict(state, onto, list);
+}
 
 void drawPicture(State& state) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -141,15 +156,8 @@ void drawPicture(State& state) {
     list.PushClipRect(corner, end, true);
     // Depth does not matter here.
     const Onto onto{clipFromWorld(state.camera, state.picture.extent, 1), corner, size};
-    drawPath(state, onto, list);
-    if (state.showContacts && state.answer) {
-        drawContactPoints(state, onto, list);
-    }
-    drawClosest(state, onto, list);
+    drawMarks(state, onto, list);
     drawGizmo(state, onto, list);
-    drawSides(onto, state, list);
-    drawBar(state, onto, list);
-    drawVerdict(state, onto, list);
     list.PopClipRect();
 }
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/frame/device_answers.h"
+#include "view/frame/host_answers.h"
+#include "view/frame/pictures.h"
+#include "view/frame/slice_pass.h"
+#include "view/model/progress.h"
+
+namespace voxtact::view {
+
+/// What a stage is made for.
+struct StageDesc {
+    std::function<Lighting(const Grid&)> light; ///< of the fine picture
+    std::function<void()> wake;                 ///< called from another thread when the host has an answer
+    Extent picture{16, 16};                     ///< pixels, for a start
+    std::array<Extent, 3> slices{{{16, 16}, {16, 16}, {16, 16}}};
+};
+
+/// All that belongs to one volume and one mesh, on the device and on the host. Made on any thread while the frames of
+/// another one go on; afterwards it is the frames' own.
+struct Stage {
+    /// The volume that stages are made of. LimitExceeded and OutOfMemory: it is too large for the device.
+    [[nodiscard]] static Result<Volume> upload(const device::Session& session, const VolumeData& volume);
+    /// Takes the volume of `state`. Waits for the device, and has drawn and answered once, so that all that is made on
+    /// the way is there.
+    [[nodiscard]] static Result<std::unique_ptr<Stage>> create(const device::Session& session, const State& state,
+                                                               Volume volume, const StageDesc& desc,
+                                                               Progress& progress);
+
+    // In the order in which they end, the last first.
+    std::unique_ptr<DeviceScene> scene;
+    std::optional<DeviceAnswers> device;
+    std::unique_ptr<HostAnswers> host;
+    std::optional<Pictures> pictures;
+    std::optional<SlicePass> slices;
+};
+
+} // namespace voxtact::view

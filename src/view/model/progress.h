@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/error.h"
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace voxtact::view {
+
+/// How far work on another thread is, and whether it is still wanted.
+/// Thread-safety: safe from any thread.
+class Progress {
+  public:
+    struct Now {
+        std::string step;            ///< what is done: "reading head.nii.gz"; empty before the first
+        std::optional<double> share; ///< of the step, 0..1; nothing where that is not known
+    };
+
+    /// The worker begins a step. Cancelled where the work is not wanted any more.
+    [[nodiscard]] Result<void> begin(std::string step);
+    /// How much of the step is done, 0..1: whether to go on.
+    [[nodiscard]] bool tell(double share);
+    [[nodiscard]] Now now() const;
+
+    /// The work ends at the next step, or where it next tells.
+    void cancel() { cancelled_ = true; }
+    [[nodiscard]] bool cancelled() const { return cancelled_; }
+
+  private:
+    mutable std::mutex mutex_;
+    Now now_;
+    std::atomic<bool> cancelled_ = false;
+};
+
+} // namespace voxtact::view

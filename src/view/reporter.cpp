@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "view/reporter.h"
+
+#include "view/model/report.h"
+#include "view/panels/panels.h"
+#include "voxtact/io.h"
+
+#include <ostream>
+
+namespace voxtact::view {
+
+Reporter::Seen Reporter::look(const State& state) {
+    Seen seen;
+    seen.revision = state.answer ? state.answer->revision : 0;
+    seen.measured = state.clearance ? state.clearance->revision : 0;
+    seen.settled = state.settled();
+    seen.error = state.error;
+    seen.question = state.question ? state.question->title : "";
+    seen.step = state.loading ? state.loading->step : "";
+    seen.loaded = state.loaded.has_value();
+    seen.status = state.status;
+    return seen;
+}
+
+Result<void> Reporter::write(const State& state) {
+    Seen seen = look(state);
+    if (path_.empty() || seen == seen_) {
+        return {};
+    }
+    seen_ = std::move(seen);
+    StateReport report;
+    report.answer = state.answer ? &*state.answer : nullptr;
+    report.times = &state.times;
+    report.document = &state.document;
+    report.clearance = state.clearance ? &*state.clearance : nullptr;
+    report.labels = state.labelsOrNull();
+    report.device = state.answeredBy;
+    report.command = state.answer ? commandOf(state) : "";
+    const Pane& pane = state.picture;
+    report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
+    report.error = state.error;
+    report.question = state.question ? &*state.question : nullptr;
+    report.loading = state.loading ? &*state.loading : nullptr;
+    report.loaded = state.loaded ? &*state.loaded : nullptr;
+    report.status = state.status;
+    report.frame = state.frame;
+    report.frameMilliseconds = state.frameTimes.percentile(0.5);
+    report.settled = seen_.settled;
+    return io::writeFile(path_, [&](std::ostream& out) -> Result<void> {
+        out << reportText(report);
+        return {};
+    });
+}
+
+} // namespace voxtact::view

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/state.h"
+
+#include <filesystem>
+
+namespace voxtact::view {
+
+/// Writes --report-state when there is something new.
+class Reporter {
+  public:
+    /// An empty path: nothing is written.
+    explicit Reporter(std::filesystem::path path) : path_(std::move(path)) {}
+
+    [[nodiscard]] Result<void> write(const State& state);
+
+  private:
+    /// What a new file is written for.
+    struct Seen {
+        std::uint64_t revision = 0;
+        std::uint64_t measured = 0; ///< the clearance's revision
+        bool settled = false;
+        std::string error;
+        std::string question;
+        std::string step;    ///< of what is being loaded
+        bool loaded = false; ///< it is known how the last loading went
+        std::string status;
+
+        [[nodiscard]] bool operator==(const Seen&) const = default;
+    };
+    [[nodiscard]] static Seen look(const State& state);
+
+    std::filesystem::path path_;
+    Seen seen_;
+};
+
+} // namespace voxtact::view
