@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace voxtact::app {
 
@@ -102,16 +103,17 @@ Result<void> deliver(const fs::path& path, const std::function<Result<void>(std:
 Result<void> deliverAll(std::vector<Delivery> deliveries) {
     std::vector<io::OutputFile> files; // closed: there may be more than a process may have open
     std::string text;
-    for (const Delivery& delivery : deliveries) {
+    for (Delivery& delivery : deliveries) {
+        const auto write = std::exchange(delivery.write, {}); // what it holds goes with it
         if (isStandardOutput(delivery.path)) {
             std::ostringstream out;
-            VOXTACT_TRY(delivery.write(out));
+            VOXTACT_TRY(write(out));
             text += out.str();
             continue;
         }
         Result<io::OutputFile> file = io::OutputFile::create(delivery.path);
         VOXTACT_TRY(file);
-        VOXTACT_TRY(delivery.write(file->stream()));
+        VOXTACT_TRY(write(file->stream()));
         VOXTACT_TRY(file->close());
         files.push_back(std::move(*file));
     }
