@@ -111,9 +111,19 @@ void drawColumn(State& state) {
     const auto rows = [&style](float number) {
         return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
     };
-    card("answer", rows(state.labels ? 6.25F : 5.45F), [&] { drawAnswer(state); });
-    card("curve", rows(2.7F) + ImGui::GetFontSize() * 7.9F, [&] { drawCurve(state); });
-    card("instrument", rows(state.document.poses.empty() ? 9.45F : 10.4F), [&] { drawInstrument(state); });
+    const float answer = rows(state.labels ? 6.25F : 5.45F);
+    const float curve = rows(2.7F) + ImGui::GetFontSize() * 7.9F;
+    float instrument = rows(state.document.poses.empty() ? 9.45F : 10.4F);
+    // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without.
+    constexpr float kLeastRows = 4.4F;  // of the instrument
+    constexpr float kLeastContacts = 6; // lines, with heading and names
+    const float contacts = kLeastContacts * ImGui::GetTextLineHeightWithSpacing() + 2 * style.WindowPadding.y;
+    const float spare =
+        ImGui::GetContentRegionAvail().y - answer - curve - instrument - contacts - 3 * style.ItemSpacing.y;
+    instrument = std::max(instrument + std::min(spare, 0.0F), std::min(instrument, rows(kLeastRows)));
+    card("answer", answer, [&] { drawAnswer(state); });
+    card("curve", curve, [&] { drawCurve(state); });
+    card("instrument", instrument, [&] { drawInstrument(state); });
     card("contacts", 0, [&] { drawContacts(state); });
 }
 
