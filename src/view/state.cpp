@@ -75,7 +75,14 @@ void State::command(const std::function<void(Edit&)>& change, const std::string&
 
 /// The volume becomes that of the edit.
 void State::drillAndFill() {
-    std::ranges::move(holes_.bring(volume, document.edit.holes), std::back_inserter(writes));
+    bringHoles(document.edit.holes);
+}
+
+void State::bringHoles(std::size_t number) {
+    for (HoleWrite& write : holes_.bring(volume, number)) {
+        recount(histogram, document.domain, {volume.type, write.hole->box, write.replaced(), write.voxels()});
+        writes.push_back(std::move(write));
+    }
 }
 
 void State::drill(const Vec3& centre) {
@@ -135,14 +142,14 @@ void State::drillAll(const std::vector<Ball>& balls) {
             break;
         }
         addHole(std::move(*hole), ball);
-        std::ranges::move(holes_.bring(volume, holes_.drilled() + 1), std::back_inserter(writes));
+        bringHoles(holes_.drilled() + 1);
     }
     document.edit.holes = std::min(document.edit.holes, balls_.size());
     drillAndFill();
 }
 
 void State::drillAnew(const std::vector<Ball>& balls) {
-    std::ranges::move(holes_.bring(volume, 0), std::back_inserter(writes));
+    bringHoles(0);
     holes_ = {};
     balls_.clear();
     drillAll(balls);
@@ -156,7 +163,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
             kept.edit.curve = next.document.edit.curve;
             kept.edit.holes = 0;
             kept.holes.clear();
-            kept.colours = next.document.colours;
+            kept.edit.colours = next.document.edit.colours;
             kept.domain = next.document.domain;
             kept.tableSize = next.document.tableSize;
         } else {

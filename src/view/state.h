@@ -193,6 +193,7 @@ struct State {
     [[nodiscard]] Shown shown() const;
     void show(const Shown& what);
     void drillAndFill();
+    void bringHoles(std::size_t number);
     void addHole(Hole hole, const Ball& ball);
     void drillAll(const std::vector<Ball>& balls);
     void drillAnew(const std::vector<Ball>& balls);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/carving.h"
 #include "view/model/command_text.h"
+#include "view/model/histogram.h"
 #include "view/state.h"
 
 #include "voxtact/samples.h"
@@ -123,6 +124,24 @@ TEST(ViewCarving, IsACommandThatUndoTakesBack) {
     state.undo();
     state.update();
     EXPECT_EQ(state.volume.voxels, before);
+}
+
+TEST(ViewCarving, TheHistogramIsThatOfWhatIsLeft) {
+    State state = makeState();
+    const auto counted = [&] { return histogram(state.volume.view(), state.document.domain, state.histogram.size()); };
+    ASSERT_EQ(state.histogram, counted());
+    const std::vector<std::uint64_t> whole = state.histogram;
+    state.drillRadius = 30;
+    state.drill(middleOf(state.volume.grid));
+    state.drillRadius = 45;
+    state.drill(middleOf(state.volume.grid));
+    state.update();
+    EXPECT_EQ(state.histogram, counted());
+    EXPECT_NE(state.histogram, whole);
+    state.undo();
+    state.undo();
+    state.update();
+    EXPECT_EQ(state.histogram, whole);
 }
 
 TEST(ViewCarving, ACopiedCommandSaysThatItHasNoHoles) {

@@ -25,7 +25,7 @@ Document document() {
     out.edit.curve = {{-40.5, 0}, {1.0 / 3, 0.1}, {80, 1}};
     out.edit.threshold = 0.25;
     out.edit.world_from_object = translation({1.5, -2, 1.0 / 3});
-    out.colours = {{0, {0, 0.5, 1}}, {100, {1, 1, 1}}};
+    out.edit.colours = {{0, {0, 0.5, 1}}, {100, {1, 1, 1}}};
     out.domain = {-1024, 3071};
     out.tableSize = 512;
     out.poses = {identity(), translation({1, 2, 3})};

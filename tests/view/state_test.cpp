@@ -43,6 +43,17 @@ TEST(ViewState, ACommandIsANewQuestionAndUndoAnother) {
     EXPECT_EQ(state.document.edit.threshold, 0.5);
 }
 
+TEST(ViewState, ColoursAreOfACommandToo) {
+    State state = makeState();
+    const std::vector<ColourPoint> blue{{0, {0, 0, 1}}};
+    state.command([&](Edit& edit) { edit.colours = blue; });
+    EXPECT_TRUE(sameColours(state.document.edit.colours, blue));
+    state.undo();
+    EXPECT_TRUE(state.document.edit.colours.empty());
+    state.redo();
+    EXPECT_TRUE(sameColours(state.document.edit.colours, blue));
+}
+
 TEST(ViewState, ACameraAsksForAPictureAndNoAnswer) {
     State state = makeState();
     state.update();

@@ -64,11 +64,11 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
         options.preset.empty() ? Look{defaultRamp(document.domain), plainColours()} : lookNamed(options.preset, values);
     VOXTACT_TRY(look);
     document.edit.curve = points->empty() ? look->opacity : *points;
-    document.colours = look->colours;
+    document.edit.colours = look->colours;
     if (!options.transferFunction.path.empty()) {
         const Result<std::vector<ColourPoint>> colours = io::readColours(options.transferFunction.path);
         VOXTACT_TRY(colours);
-        document.colours = colours->empty() ? document.colours : *colours;
+        document.edit.colours = colours->empty() ? document.edit.colours : *colours;
     }
     if (!options.poses.empty()) {
         const Result<std::vector<Mat4>> poses = loadPoses(options.poses);
@@ -223,7 +223,7 @@ Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress) 
     if (wanted.kind == view::FileKind::Volume) {
         opened.document.domain = tableDomain({}, opened.volume.type, opened.values);
         opened.document.edit.curve = defaultRamp(opened.document.domain);
-        opened.document.colours = plainColours();
+        opened.document.edit.colours = plainColours();
     }
     return opened;
 }

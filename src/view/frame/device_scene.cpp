@@ -20,7 +20,7 @@ RenderTransferFunctionDesc renderDesc(const State& state, bool fine) {
     const Document& document = state.document;
     RenderTransferFunctionDesc desc;
     desc.opacity = {document.edit.curve, document.domain, document.tableSize};
-    desc.colours = document.colours;
+    desc.colours = document.edit.colours;
     desc.step = *std::ranges::min_element(state.volume.grid.spacing) * (fine ? 0.5 : 1);
     return desc;
 }
@@ -60,6 +60,7 @@ Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& 
 Result<void> DeviceScene::uploadFunctions(const device::Session& session, const State& state) {
     const QueueAccess queue = session.device.queueAccess();
     curve_ = state.document.edit.curve;
+    colours_ = state.document.edit.colours;
     Result<TransferFunction> function =
         TransferFunction::upload(session.context, queue, renderDesc(state, true).opacity);
     VOXTACT_TRY(function);
@@ -108,13 +109,15 @@ Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state
         VOXTACT_TRY(volume_->cmdWrite(commands, write.hole->box, write.voxels()));
     }
     const Curve& curve = state.document.edit.curve;
-    if (sameCurve(curve, curve_)) {
+    const std::vector<ColourPoint>& colours = state.document.edit.colours;
+    if (sameCurve(curve, curve_) && sameColours(colours, colours_)) {
         return {};
     }
     VOXTACT_TRY(function_->cmdUpdate(commands, renderDesc(state, true).opacity));
     VOXTACT_TRY(fine_->cmdUpdate(commands, renderDesc(state, true)));
     VOXTACT_TRY(coarse_->cmdUpdate(commands, renderDesc(state, false)));
     curve_ = curve;
+    colours_ = colours;
     return {};
 }
 

@@ -58,9 +58,10 @@ class DeviceScene {
     std::size_t maskBytes_ = 0; ///< of a slot
     std::array<std::optional<PaintedTriangles>, kFramesInFlight> painted_;
 
-    std::size_t written_ = 0;       ///< of State::writes
-    std::size_t writtenBefore_ = 0; ///< the last cmdUpdate()
-    Curve curve_;                   ///< that the tables are of
+    std::size_t written_ = 0;          ///< of State::writes
+    std::size_t writtenBefore_ = 0;    ///< the last cmdUpdate()
+    Curve curve_;                      ///< that the tables are of
+    std::vector<ColourPoint> colours_; ///< the same
     Lighting light_;
     Scene scene_;
     BatchItem item_;

@@ -23,6 +23,8 @@ struct HoleWrite {
     bool filled = false; ///< what was there before, instead of the hole
 
     [[nodiscard]] const std::vector<std::byte>& voxels() const { return filled ? hole->before : hole->after; }
+    /// What was there until then.
+    [[nodiscard]] const std::vector<std::byte>& replaced() const { return filled ? hole->after : hole->before; }
 };
 
 /// Voxels of a hole's box, at most.

@@ -46,6 +46,12 @@ bool sameCurve(const Curve& a, const Curve& b) noexcept {
     });
 }
 
+bool sameColours(const std::vector<ColourPoint>& a, const std::vector<ColourPoint>& b) noexcept {
+    return std::ranges::equal(a, b, [](const ColourPoint& one, const ColourPoint& other) {
+        return one.value == other.value && one.colour == other.colour;
+    });
+}
+
 double opacityAt(const Curve& curve, double value) noexcept {
     const auto next = std::ranges::find_if(curve, [value](const ControlPoint& point) { return point.value > value; });
     if (next == curve.begin()) {

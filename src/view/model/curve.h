@@ -13,6 +13,7 @@ using Curve = std::vector<ControlPoint>;
 
 /// The same points.
 [[nodiscard]] bool sameCurve(const Curve& a, const Curve& b) noexcept;
+[[nodiscard]] bool sameColours(const std::vector<ColourPoint>& a, const std::vector<ColourPoint>& b) noexcept;
 
 /// Opacity of a value: linear between the points, constant outside. At a step that of its right side.
 [[nodiscard]] double opacityAt(const Curve& curve, double value) noexcept;

@@ -27,13 +27,14 @@ struct Sources {
 /// What commands change, and undo gives back.
 struct Edit {
     Curve curve;
+    std::vector<ColourPoint> colours; ///< of the picture
     double threshold = kDefaultThreshold;
     Mat4 world_from_object = identity();
     std::size_t holes = 0; ///< that are drilled, of those that are known
 
     [[nodiscard]] bool operator==(const Edit& other) const {
         return threshold == other.threshold && holes == other.holes && world_from_object == other.world_from_object &&
-               sameCurve(curve, other.curve);
+               sameCurve(curve, other.curve) && sameColours(colours, other.colours);
     }
 };
 
@@ -64,7 +65,6 @@ struct Shown {
 struct Document {
     Sources sources;
     Edit edit;
-    std::vector<ColourPoint> colours; ///< of the picture
     ValueRange domain{0, 255};
     std::uint32_t tableSize = kDefaultTableSize;
     std::vector<Mat4> poses;            ///< the list; may be empty

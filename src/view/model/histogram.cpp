@@ -23,6 +23,19 @@ std::vector<std::uint64_t> histogram(const VolumeView& volume, const ValueRange&
     return counts;
 }
 
+void recount(std::vector<std::uint64_t>& histogram, const ValueRange& range, const ReplacedVoxels& voxels) {
+    VolumeView box;
+    box.grid.size = voxels.box.size;
+    box.type = voxels.type;
+    box.voxels = voxels.before;
+    const std::vector<std::uint64_t> before = view::histogram(box, range, histogram.size());
+    box.voxels = voxels.after;
+    const std::vector<std::uint64_t> after = view::histogram(box, range, histogram.size());
+    for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
+        histogram[bin] += after[bin] - before[bin];
+    }
+}
+
 std::optional<double> valueAt(const VolumeView& volume, const Mat4& texture_from_world, const Vec3& world) {
     const Vec3 texture = transformPoint(texture_from_world, world);
     std::uint64_t index = 0;

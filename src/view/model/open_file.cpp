@@ -30,10 +30,10 @@ Result<void> openFunction(const std::filesystem::path& path, State& state) {
     VOXTACT_TRY(points);
     const Result<std::vector<ColourPoint>> colours = io::readColours(path);
     VOXTACT_TRY(colours);
-    if (!colours->empty()) {
-        state.document.colours = *colours;
-    }
-    state.command([&](Edit& edit) { edit.curve = *points; });
+    state.command([&](Edit& edit) {
+        edit.curve = *points;
+        edit.colours = colours->empty() ? edit.colours : *colours;
+    });
     state.curvePoint.reset();
     state.taken.push_back(path.string());
     return {};

@@ -81,14 +81,14 @@ void readFunction(SessionReader& reader, Document& document) {
     });
     reader.each(name + ".colours", [&](const std::string& at, const Json& json) {
         const auto [value, red, green, blue] = reader.numbers<4>(at, json);
-        document.colours.push_back({value, {red, green, blue}});
+        document.edit.colours.push_back({value, {red, green, blue}});
         for (const double channel : {red, green, blue}) {
             if (!(channel >= 0 && channel <= 1)) {
                 reader.refuse(at, "a colour's channel is not in 0..1");
             }
         }
-        const std::size_t count = document.colours.size();
-        if (count > 1 && !(document.colours[count - 2].value <= value)) {
+        const std::size_t count = document.edit.colours.size();
+        if (count > 1 && !(document.edit.colours[count - 2].value <= value)) {
             reader.refuse(at, "its value is below the one before");
         }
     });
@@ -214,7 +214,7 @@ std::string sessionText(const Document& document) {
         function["points"].push_back({point.value, point.opacity});
     }
     function["colours"] = Json::array();
-    for (const auto& [value, colour] : document.colours) {
+    for (const auto& [value, colour] : document.edit.colours) {
         function["colours"].push_back({value, colour[0], colour[1], colour[2]});
     }
     function["domain"] = {document.domain.lo, document.domain.hi};

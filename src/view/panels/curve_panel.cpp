@@ -154,8 +154,10 @@ void drawPresets(State& state) {
             continue;
         }
         if (Result<Look> look = lookNamed(preset.name, state.values); look.ok()) {
-            state.document.colours = look->colours;
-            state.command([&](Edit& edit) { edit.curve = look->opacity; });
+            state.command([&](Edit& edit) {
+                edit.curve = look->opacity;
+                edit.colours = look->colours;
+            });
             state.curvePoint.reset();
         } else {
             state.complain(look.error().text);
