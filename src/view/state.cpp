@@ -232,6 +232,10 @@ void State::takePose(std::size_t number) {
     command([&](Edit& edit) { edit.world_from_object = document.poses[number]; }, "poses");
 }
 
+double State::seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begun_).count();
+}
+
 bool State::atRest() const {
     return Clock::now() - changed_ >= kRest;
 }

@@ -103,6 +103,8 @@ struct State {
     void drill(const Vec3& centre);
     /// Takes a pose of the list.
     void takePose(std::size_t number);
+    /// Since it was made.
+    [[nodiscard]] double seconds() const;
     /// Nothing was changed for a moment.
     [[nodiscard]] bool atRest() const;
     /// The answer is of what is shown, and the fine picture is there.
@@ -146,6 +148,7 @@ struct State {
     std::optional<LiveAnswer> answer;
     std::optional<LiveClearance> clearance; ///< of this question or one before
     Times times;
+    Strip strip; ///< by seconds()
     std::string answeredBy;
     Pane picture;
     std::array<Pane, 3> slices;
@@ -202,6 +205,7 @@ struct State {
     std::vector<Ball> balls_; ///< of holes_
     Seen seen_;
     Clock::time_point changed_ = Clock::now();
+    Clock::time_point begun_ = Clock::now();
 };
 
 } // namespace voxtact::view

@@ -112,6 +112,36 @@ TEST(ViewTimes, PercentilesAreOfTheLastThousand) {
     EXPECT_EQ(times.percentile(1), 1000);
 }
 
+TEST(ViewStrip, AnAnswerIsInSightUntilTheNext) {
+    Strip strip;
+    EXPECT_TRUE(strip.pieces(5).empty());
+    strip.add(1, 0, 2);
+    strip.add(3, 1, 4);
+    const std::vector<Strip::Piece> two = strip.pieces(4);
+    ASSERT_EQ(two.size(), 2U);
+    EXPECT_EQ(two[0].from, 3);
+    EXPECT_EQ(two[0].to, 1);
+    EXPECT_EQ(two[0].hit, 0);
+    EXPECT_EQ(two[0].milliseconds, 2);
+    EXPECT_EQ(two[1].from, 1);
+    EXPECT_EQ(two[1].to, 0);
+    EXPECT_EQ(two[1].hit, 1);
+    // What is older than the strip is cut, and what went out of sight before is not there.
+    const std::vector<Strip::Piece> later = strip.pieces(11.5);
+    ASSERT_EQ(later.size(), 2U);
+    EXPECT_EQ(later[0].from, Strip::kSeconds);
+    EXPECT_EQ(later[0].to, 8.5);
+    const std::vector<Strip::Piece> last = strip.pieces(100);
+    ASSERT_EQ(last.size(), 1U);
+    EXPECT_EQ(last[0].hit, 1);
+    EXPECT_EQ(last[0].from, Strip::kSeconds);
+    // It forgets: what it holds does not grow.
+    for (int i = 0; i < 1000; ++i) {
+        strip.add(100 + 0.1 * i, i % 3, 1);
+    }
+    EXPECT_LE(strip.pieces(200).size(), 102U);
+}
+
 TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     BatchAnswer batch;
     batch.pairs.resize(1);

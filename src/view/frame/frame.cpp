@@ -204,6 +204,7 @@ void Frames::take(State& state, Result<LiveAnswer> answer) {
     }
     answering_ = method;
     state.times.add(answer->milliseconds);
+    state.strip.add(state.seconds(), hitNumber(answer->pair), answer->milliseconds);
     state.answeredBy = by;
     state.answer = std::move(*answer);
 }

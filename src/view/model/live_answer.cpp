@@ -52,4 +52,24 @@ double Times::percentile(double share) const {
     return sorted[at];
 }
 
+void Strip::add(double when, int hit, double milliseconds) {
+    entries_.push_back({when, hit, milliseconds});
+    // The first is in sight until the second comes.
+    while (entries_.size() > 1 && entries_[1].when <= when - kSeconds) {
+        entries_.pop_front();
+    }
+}
+
+std::vector<Strip::Piece> Strip::pieces(double now) const {
+    std::vector<Piece> out;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const double from = std::min(now - entries_[i].when, kSeconds);
+        const double to = i + 1 < entries_.size() ? std::min(now - entries_[i + 1].when, kSeconds) : 0;
+        if (from > to) {
+            out.push_back({from, to, entries_[i].hit, entries_[i].milliseconds});
+        }
+    }
+    return out;
+}
+
 } // namespace voxtact::view

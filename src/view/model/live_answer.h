@@ -48,4 +48,30 @@ class Times {
     std::deque<double> last_;
 };
 
+/// What the window said in the last seconds: an answer is in sight until the next one comes.
+class Strip {
+  public:
+    static constexpr double kSeconds = 10; ///< that it goes back
+
+    /// An answer came into sight. `when`: seconds of some clock, never less than before. `hit`: as hitNumber().
+    void add(double when, int hit, double milliseconds);
+
+    struct Piece {
+        double from = 0; ///< seconds before now, up to kSeconds
+        double to = 0;   ///< the same, less than `from`
+        int hit = 0;
+        double milliseconds = 0; ///< that the answer took
+    };
+    /// The oldest first. `now`: on the same clock.
+    [[nodiscard]] std::vector<Piece> pieces(double now) const;
+
+  private:
+    struct Entry {
+        double when = 0;
+        int hit = 0;
+        double milliseconds = 0;
+    };
+    std::deque<Entry> entries_;
+};
+
 } // namespace voxtact::view

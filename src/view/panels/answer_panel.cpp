@@ -35,6 +35,32 @@ void drawTimes(const State& state) {
                        state.times.percentile(0.5), state.times.percentile(0.99));
 }
 
+/// The verdicts of the last seconds by their colours, and how long each took: a bar, by powers of ten from 0.01 ms on.
+void drawStrip(const State& state) {
+    constexpr double kLeast = 0.01; // ms
+    constexpr double kMost = 1000;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 1.2F};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const auto xOf = [&](double ago) { return corner.x + size.x * static_cast<float>(1 - ago / Strip::kSeconds); };
+    for (const Strip::Piece& piece : state.strip.pieces(state.seconds())) {
+        ImVec4 colour = verdictColour(piece.hit);
+        constexpr float kBehind = 0.35F;
+        colour.w = kBehind;
+        const ImVec2 lower{std::max(xOf(piece.to), xOf(piece.from) + 1), corner.y + size.y};
+        list.AddRectFilled({xOf(piece.from), corner.y}, lower, ImGui::GetColorU32(colour));
+        colour.w = 1;
+        const double share = std::log(std::max(piece.milliseconds, kLeast) / kLeast) / std::log(kMost / kLeast);
+        const float height = size.y * static_cast<float>(std::min(share, 1.0));
+        list.AddRectFilled({xOf(piece.from), lower.y - height}, lower, ImGui::GetColorU32(colour));
+    }
+    ImGui::Dummy(size);
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("the last %.0f s: what was said, and how long it took (0.01 ms to 1 s)", Strip::kSeconds);
+    }
+}
+
 /// What is touched, as much of it as a line has room for; all of it under the mouse.
 void drawLabels(const State& state) {
     if (!state.labels) {
@@ -87,7 +113,7 @@ void drawAnswer(State& state) {
     }
     const LiveAnswer& answer = *state.answer;
     const bool current = answer.revision == state.revision;
-    ImVec4 colour = verdictColour(answer.pair);
+    ImVec4 colour = verdictColour(hitNumber(answer.pair));
     colour.w = current ? 1.0F : 0.5F;
     constexpr float kLarge = 1.7F;
     ImGui::SetWindowFontScale(kLarge);
@@ -112,6 +138,7 @@ void drawAnswer(State& state) {
     drawLabels(state);
     drawMethods(state);
     drawTimes(state);
+    drawStrip(state);
 }
 
 std::string commandOf(const State& state) {

@@ -19,8 +19,9 @@ void drawPanels(State& state);
 void applyTheme(float scale, std::span<const unsigned char> font);
 enum class Theme { Dark, Light };
 void setColours(Theme theme);
-/// Red, green or yellow for a verdict, and gray.
-[[nodiscard]] ImVec4 verdictColour(const PairAnswer& answer);
+/// Green, red or yellow for a hitNumber(), on a card of the theme and on a picture.
+[[nodiscard]] ImVec4 verdictColour(int hit);
+[[nodiscard]] ImVec4 verdictOnPicture(int hit);
 /// Of the closest points, and the line between them.
 [[nodiscard]] ImU32 closestColour(float alpha);
 /// Of what is secondary.

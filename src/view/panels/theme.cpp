@@ -77,8 +77,17 @@ void applyTheme(float scale, std::span<const unsigned char> font) {
                                                kFontSize * scale, &config);
 }
 
-ImVec4 verdictColour(const PairAnswer& answer) {
-    return answer.hit ? rgb(255, 104, 74) : answer.possible ? rgb(245, 196, 66) : rgb(92, 200, 130);
+ImVec4 verdictOnPicture(int hit) {
+    return hit == 0 ? rgb(92, 200, 130) : hit == 1 ? rgb(255, 104, 74) : rgb(245, 196, 66);
+}
+
+ImVec4 verdictColour(int hit) {
+    const ImVec4& card = ImGui::GetStyle().Colors[ImGuiCol_ChildBg];
+    constexpr float kHalf = 1.5F; // of three channels
+    if (card.x + card.y + card.z < kHalf) {
+        return verdictOnPicture(hit);
+    }
+    return hit == 0 ? rgb(22, 128, 61) : hit == 1 ? rgb(204, 42, 18) : rgb(158, 104, 0);
 }
 
 ImU32 closestColour(float alpha) {
