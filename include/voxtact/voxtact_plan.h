@@ -60,6 +60,7 @@ typedef struct vxt_plan_task {
     int32_t entry_label;          ///< of entry_labels
     uint32_t border_entries;      ///< 1: paths may begin where the image ends within the thing, too; default 0
     uint32_t triangle_clearances; ///< of a needle: those of vxt_plan_view, for about as long again; default 0
+    uint32_t reserved;            ///< 0
 } vxt_plan_task;
 
 /// What a planner is made for: voxtact::cpu::PlannerDesc.

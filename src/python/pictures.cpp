@@ -188,7 +188,10 @@ void Reading::read(const std::string& name, const py::handle& value) {
 
 py::array_t<double> sideViewOf(const py::object& view, const Image& volume, const std::shared_ptr<Shape>& mesh,
                                const py::object& poses, std::uint32_t width, std::uint32_t height) {
-    const Camera camera = cameraOf(view);
+    Camera camera;
+    py::dict options; // which says what is wrong with its values
+    options["view"] = view;
+    readOptions(options, [&](const std::string&, const py::handle& value) { camera = cameraOf(value); });
     if (!camera.direction) {
         refuseArgument("view is neither a name nor (azimuth, elevation)");
     }

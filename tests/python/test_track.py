@@ -86,6 +86,10 @@ def test_labels_at_any_opacity():
     assert scene.clearance(cube(), pose, labels=[4]).lo[0, 0] == np.inf, "the one is not taken for the other"
     with pytest.raises(vx.InvalidArgumentError, match="give labels="):
         scene.clearance(cube(), pose, labels_at_any_opacity=True)
+    with pytest.raises(TypeError, match="labels is a str; a sequence is needed"):
+        scene.clearance(cube(), pose, labels="4")
+    with pytest.raises(TypeError, match="labels is a dict_like; a sequence is needed"):
+        scene.clearance(cube(), pose, labels=type("dict_like", (), {"__getitem__": lambda self, key: {}[key]})())
 
 
 def test_counters_are_a_devices(device, head, knife):

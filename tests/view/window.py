@@ -91,8 +91,11 @@ class Window:
         deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline:
             state = self.state()
-            if state is not None and true_of(state):
-                return state
+            try:
+                if state is not None and true_of(state):
+                    return state
+            except KeyError:
+                pass  # what only an answer has is not there before the first of a scene
             if self.process.poll() is not None:
                 fail(f"the window ended ({self.process.returncode}) before {what}: {self.process.stderr.read()}")
             time.sleep(0.02)

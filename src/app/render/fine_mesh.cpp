@@ -65,8 +65,8 @@ class EdgeHalver {
         }
         // Those that are halved first.
         while (halved == 1 ? middles[0] == kNone : halved == 2 && middles[2] != kNone) {
-            std::ranges::rotate(corners, corners.begin() + 1);
-            std::ranges::rotate(middles, middles.begin() + 1);
+            std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            std::rotate(middles.begin(), middles.begin() + 1, middles.end());
         }
         const auto [a, b, c] = corners;
         const auto [ab, bc, ca] = middles;

@@ -49,6 +49,16 @@ def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
         raise InvalidArgumentError(f"{what} has a number that is too large") from None
 
 
+def listed(given: Any, what: str) -> list[Any]:
+    """What is in a sequence. A text is none: it would be its letters."""
+    if isinstance(given, (str, bytes)):
+        raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed: [{given!r}]")
+    try:
+        return list(given)
+    except LookupError:  # it has lengths and items, and is no sequence
+        raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed") from None
+
+
 def number(given: Any, what: str) -> float:
     """A number as float."""
     try:

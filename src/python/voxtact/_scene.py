@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._answer import Answer, Clearance
-from ._common import not_pickled, number, numbers
+from ._common import listed, not_pickled, number, numbers
 from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
 from ._files import read_opacity
@@ -379,7 +379,7 @@ class Scene:
             if self._labels is None:
                 raise InvalidArgumentError("clearances to labels need a scene with labels=")
             every = [int(label) for label in self._labels.values if label != 0]
-            wanted = every if labels is True else [self._labels.number(label) for label in labels]
+            wanted = every if labels is True else [self._labels.number(label) for label in listed(labels, "labels")]
         elif labels_at_any_opacity:
             raise InvalidArgumentError("labels_at_any_opacity is about labels: give labels=, too")
         (steps,) = _whole([most_steps], 1, "most_steps")
@@ -515,7 +515,7 @@ class Scene:
         if triangle_clearances:
             wish["triangle_clearances"] = True
         if self._labels is not None:
-            wish["avoid"] = [self._labels.number(label) for label in avoid]
+            wish["avoid"] = [self._labels.number(label) for label in listed(avoid, "avoid")]
         if entry_label is not None and self._labels is not None:
             wish["entry_label"] = self._labels.number(entry_label)
         wish["border_entries"] = bool(border_entries)
