@@ -568,18 +568,6 @@ def screenshot(program, folder):
         window.dialog("ctrl+p", f"{folder}/window.png")
         state = window.until("a picture", lambda s: s["status"].startswith("the picture is in"))
         assert png_size(f"{folder}/window.png") == tuple(int(side) for side in state["picture"][2:]), state
-        window.press("ctrl+p")
-        time.sleep(1)
-        window.type(f"{folder}/large.png")
-        for side in ("900", "1300"):
-            window.press("Tab")
-            time.sleep(0.5)
-            window.type(side)
-        window.enter()
-        window.until("a larger picture", lambda s: s["status"].endswith("large.png") and "picture is in" in s["status"])
-        assert png_size(f"{folder}/large.png") == (900, 1300), png_size(f"{folder}/large.png")
-        # It has what lies over the picture: the same without it is another file.
-        assert pathlib.Path(f"{folder}/large.png").stat().st_size > 10000
         window.dialog("ctrl+p", f"{folder}/nowhere/large.png")
         window.until("the error", lambda s: "nowhere/large.png" in s["error"])
         window.press("Return")
