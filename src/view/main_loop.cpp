@@ -207,7 +207,7 @@ void MainLoop::takeScreenshot() {
     shooting_ = std::make_shared<Shooting>();
     shooting_->shot = *std::exchange(state.shot, std::nullopt);
     shooting_->marks = marksOf(state, shooting_->shot.extent);
-    std::tie(shooting_->scene, shooting_->renderer) = frames_->screenshot(state, shooting_->shot.extent);
+    std::tie(shooting_->shown, shooting_->renderer) = frames_->screenshot(state, shooting_->shot.extent);
     state.shooting = 0;
     loader_->run([shooting = shooting_] {
         Result<void> written = shooting->make();
@@ -219,7 +219,7 @@ void MainLoop::takeScreenshot() {
 
 Result<void> MainLoop::Shooting::make() {
     return guard([this]() -> Result<void> {
-        Result<Picture> picture = renderer->render(scene, {shot.extent.width, shot.extent.height},
+        Result<Picture> picture = renderer->render(shown.scene, {shot.extent.width, shot.extent.height},
                                                    [this](std::uint32_t done, std::uint32_t rows) {
                                                        const std::lock_guard lock(mutex);
                                                        share = static_cast<double>(done) / rows;
@@ -295,7 +295,9 @@ Result<void> MainLoop::put(Loaded loaded) {
     state.loaded = loading;
     settling_ = true;
     if (!loaded.opened) { // what the command line named
-        recent_.add(state.document.sources.mesh);
+        for (const MeshSource& mesh : state.document.sources.meshes) {
+            recent_.add(mesh.path);
+        }
         recent_.add(state.document.sources.volume);
     }
     recent_.add(std::exchange(opening_, {}));

@@ -30,7 +30,7 @@ class MainLoop {
 
         Shot shot;
         Marks marks;
-        Scene scene;
+        ShownScene shown;
         BlockingRenderer* renderer = nullptr;
         std::mutex mutex; ///< of what follows
         double share = 0;

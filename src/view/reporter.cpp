@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/reporter.h"
 
+#include "view/model/command_text.h"
 #include "view/model/report.h"
-#include "view/panels/panels.h"
 #include "voxtact/io.h"
 
 #include <ostream>
@@ -13,6 +13,7 @@ Reporter::Seen Reporter::look(const State& state) {
     Seen seen;
     seen.revision = state.answer ? state.answer->revision : 0;
     seen.measured = state.clearance ? state.clearance->revision : 0;
+    seen.chosen = state.document.edit.chosen;
     seen.settled = state.settled();
     seen.error = state.error;
     seen.question = state.question ? state.question->title : "";
@@ -35,7 +36,11 @@ Result<void> Reporter::write(const State& state) {
     report.clearance = state.clearance ? &*state.clearance : nullptr;
     report.labels = state.labelsOrNull();
     report.device = state.answeredBy;
-    report.command = state.answer ? commandOf(state) : "";
+    if (state.answer) {
+        for (const Instrument& instrument : state.document.edit.instruments) {
+            report.commands.push_back(commandFor(state.document, instrument, state.method, state.deviceOption));
+        }
+    }
     const Pane& pane = state.picture;
     report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
     report.error = state.error;

@@ -25,7 +25,7 @@ Vec3 middleOf(const Grid& grid) {
 } // namespace
 
 State::State(Given opened)
-    : blank(false), volume(std::move(opened.volume)), mesh(std::move(opened.mesh)), labels(std::move(opened.labels)),
+    : blank(false), volume(std::move(opened.volume)), meshes(std::move(opened.meshes)), labels(std::move(opened.labels)),
       values(opened.values), coarserBy(opened.coarserBy), deviceOption(std::move(opened.deviceOption)),
       deviceName(std::move(opened.deviceName)), document(std::move(opened.document)), window(opened.values) {
     // The volume was checked when it was read.
@@ -173,6 +173,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
             next.history = std::move(history);
         }
         next.document = std::move(kept);
+        next.placeNewMeshes(document.sources.meshes.size());
         next.method = method;
         next.drillAnew(next.document.holes);
     }
@@ -203,7 +204,7 @@ Given State::giveBack() {
     out.document = saved();
     static_cast<void>(holes_.bring(volume, 0)); // they are drilled again
     out.volume = std::move(volume);
-    out.mesh = std::move(mesh);
+    out.meshes = std::move(meshes);
     out.labels = std::move(labels);
     out.values = values;
     out.coarserBy = coarserBy;
@@ -217,11 +218,53 @@ Given State::giveBack() {
 void State::undo() {
     history.undo(document.edit);
     curvePoint.reset();
+    gizmoDrag.reset();
 }
 
 void State::redo() {
     history.redo(document.edit);
     curvePoint.reset();
+    gizmoDrag.reset();
+}
+
+void State::choose(std::size_t number) {
+    if (number < document.edit.instruments.size()) {
+        document.edit.chosen = number;
+        gizmoDrag.reset();
+        history.end();
+    }
+}
+
+void State::remove(std::size_t number) {
+    if (number >= document.edit.instruments.size() || document.edit.instruments.size() == 1) {
+        return;
+    }
+    gizmoDrag.reset();
+    command([number](Edit& edit) {
+        edit.instruments.erase(edit.instruments.begin() + static_cast<std::ptrdiff_t>(number));
+        edit.chosen -= edit.chosen > number || edit.chosen == edit.instruments.size() ? 1 : 0;
+    });
+}
+
+/// Where the chosen instrument is.
+void State::placeNewMeshes(std::size_t known) {
+    if (known >= document.sources.meshes.size()) {
+        return;
+    }
+    command([this, known](Edit& edit) {
+        for (std::size_t mesh = known; mesh < document.sources.meshes.size(); ++mesh) {
+            edit.instruments.push_back({mesh, edit.pose(), true});
+        }
+        edit.chosen = edit.instruments.size() - 1;
+    });
+}
+
+const MeshAnswer* State::chosenAnswer() const {
+    return answer ? answer->of(document.edit.instrument().mesh) : nullptr;
+}
+
+const PairClearance* State::chosenClearance() const {
+    return clearance ? clearance->of(document.edit.instrument().mesh) : nullptr;
 }
 
 void State::takePose(std::size_t number) {
@@ -229,7 +272,7 @@ void State::takePose(std::size_t number) {
         return;
     }
     document.pose = number;
-    command([&](Edit& edit) { edit.world_from_object = document.poses[number]; }, "poses");
+    command([&](Edit& edit) { edit.pose() = document.poses[number]; }, "poses");
 }
 
 double State::seconds() const {

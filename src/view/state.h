@@ -25,7 +25,7 @@ namespace voxtact::view {
 /// What the window is opened with.
 struct Given {
     VolumeData volume;
-    MeshData mesh;
+    std::vector<MeshData> meshes; ///< of Sources::meshes
     std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
@@ -88,7 +88,8 @@ struct State {
     explicit State(Given opened);
 
     /// What another State goes on with that is shown instead of this: what belongs to the window, and for a mesh or a
-    /// volume that was opened what was edited meanwhile.
+    /// volume that was opened what was edited meanwhile. Meshes that only the other has become instruments, by a
+    /// command; the last of them is chosen.
     void passOn(State& next, std::optional<FileKind> opened);
     /// What it was opened with and what became of that, to be opened once more. Leaves nothing to show.
     [[nodiscard]] Given giveBack();
@@ -101,8 +102,16 @@ struct State {
     void redo();
     /// Drills a hole of drillRadius, with the image's smallest value. A command; what cannot be is complained of.
     void drill(const Vec3& centre);
-    /// Takes a pose of the list.
+    /// Takes a pose of the list for the chosen instrument.
     void takePose(std::size_t number);
+    /// Chooses an instrument; nothing where there is none of that number. No command, but what is moved after it is a
+    /// command of its own.
+    void choose(std::size_t number);
+    /// A command: the instrument is no longer there. Nothing for the last one.
+    void remove(std::size_t number);
+    /// Of the chosen instrument; null where there is none yet.
+    [[nodiscard]] const MeshAnswer* chosenAnswer() const;
+    [[nodiscard]] const PairClearance* chosenClearance() const;
     /// Since it was made.
     [[nodiscard]] double seconds() const;
     /// Nothing was changed for a moment.
@@ -122,7 +131,7 @@ struct State {
 
     // What it was opened with.
     VolumeData volume;
-    MeshData mesh;
+    std::vector<MeshData> meshes; ///< of Sources::meshes, also those that were removed
     std::optional<Labels> labels;
     ValueRange values;
     std::uint32_t coarserBy = 1;
@@ -198,6 +207,7 @@ struct State {
     void drillAndFill();
     void bringHoles(std::size_t number);
     void addHole(Hole hole, const Ball& ball);
+    void placeNewMeshes(std::size_t known);
     void drillAll(const std::vector<Ball>& balls);
     void drillAnew(const std::vector<Ball>& balls);
 

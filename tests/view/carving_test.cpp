@@ -28,7 +28,8 @@ Vec3 middleOf(const Grid& grid) {
 State makeState() {
     Given given;
     given.volume = head();
-    given.mesh = makeBuiltinMesh("scalpel:300").value();
+    given.meshes = {makeBuiltinMesh("scalpel:300").value()};
+    given.document.sources.meshes = {{"builtin:scalpel:300"}};
     given.values = checkVolume(given.volume.view()).value();
     given.document.edit.curve = {{40, 0}, {80, 1}};
     return State(std::move(given));

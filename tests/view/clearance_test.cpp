@@ -27,6 +27,7 @@ PairClearance clearance(double lo, double hi) {
 nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
     LiveAnswer answer;
     answer.revision = answered;
+    answer.meshes.resize(1);
     const Times times;
     const Document document;
     StateReport report;
@@ -65,7 +66,7 @@ TEST(ViewClearance, APlaneIsAsFarAsTheNearerEnd) {
 }
 
 TEST(ViewClearance, IsReportedWithItsPointsAndOnlyForTheSameQuestion) {
-    const LiveClearance live{3, clearance(7, 7.5), 1};
+    const LiveClearance live{3, {{0, clearance(7, 7.5)}}, 1};
     const nlohmann::json json = reported(live, 3);
     EXPECT_EQ(json["lo"], 7);
     EXPECT_EQ(json["hi"], 7.5);
@@ -78,7 +79,7 @@ TEST(ViewClearance, IsReportedWithItsPointsAndOnlyForTheSameQuestion) {
 }
 
 TEST(ViewClearance, WhatJsonHasNoNumberForIsAWord) {
-    const nlohmann::json json = reported({1, clearance(kInfinity, kInfinity), 1}, 1);
+    const nlohmann::json json = reported({1, {{0, clearance(kInfinity, kInfinity)}}, 1}, 1);
     EXPECT_EQ(json["lo"], "inf");
     EXPECT_EQ(json["hi"], "inf");
     EXPECT_FALSE(json.contains("mesh"));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace voxtact::test {
@@ -20,10 +21,10 @@ namespace {
 Document document() {
     Document out;
     out.sources.volume = "builtin:head:64";
-    out.sources.mesh = "builtin:scalpel:300";
+    out.sources.meshes = {{"builtin:scalpel:300"}};
     out.edit.curve = {{-40.5, 0}, {80, 0.1}};
     out.edit.threshold = 0.25;
-    out.edit.world_from_object = translation({1.5, -2, 1.0 / 3});
+    out.edit.pose() = translation({1.5, -2, 1.0 / 3});
     out.domain = {-1024, 3071};
     return out;
 }
@@ -45,11 +46,27 @@ TEST(ViewCommand, NamesTheDeviceWhereOneAnswers) {
 
 TEST(ViewCommand, FilesHaveAbsolutePathsInOneWord) {
     Document files = document();
-    files.sources = {"a head.nii", "tool's.stl", "ras", 0.5, "", ""};
+    files.sources = {"a head.nii", {{"tool's.stl", "ras", 0.5}}, "", "", 1};
     const std::string text = copyAsCommand(files, {}, "");
     const std::string here = std::filesystem::current_path().string();
     EXPECT_THAT(text, HasSubstr("--volume '" + here + "/a head.nii'"));
     EXPECT_THAT(text, HasSubstr("/tool'\\''s.stl' --mesh-space ras --mesh-scale 0.5"));
+}
+
+TEST(ViewCommand, HasALineForEachMesh) {
+    Document two = document();
+    two.sources.meshes.push_back({"/data/gone.stl"});
+    two.sources.meshes.push_back({"/data/plate.stl", "ras", 2});
+    two.edit.instruments.push_back({2, translation({0, 0, 9}), false});
+    two.edit.holes = 1;
+    const std::string text = copyAsCommand(two, {}, "");
+    EXPECT_EQ(std::ranges::count(text, '\n'), 2);
+    EXPECT_THAT(text, testing::StartsWith("# of the volume as it was read, without the hole that was drilled\necho "));
+    EXPECT_THAT(text, Not(HasSubstr("gone.stl")));
+    const std::string second = text.substr(text.rfind('\n') + 1);
+    EXPECT_THAT(second, testing::StartsWith("echo '1 0 0 0 0 1 0 0 0 0 1 9 0 0 0 1' | "));
+    EXPECT_THAT(second, HasSubstr(" --mesh /data/plate.stl --mesh-space ras --mesh-scale 2 "));
+    EXPECT_THAT(commandFor(two, two.edit.instruments[1], {}, ""), testing::EndsWith(second));
 }
 
 TEST(ViewCommand, HasTheLabelMapAndItsNames) {
@@ -78,12 +95,46 @@ TEST(ViewAnswer, TheDeepestContactsComeFirstAndAreNotTooMany) {
     }
     batch.contactsFound = batch.contacts.size();
     batch.triangles = {{0, 3, 1}, {0, 8, 2}};
-    const LiveAnswer answer = liveAnswer(batch, 7, translation({1, 2, 3}), 0.5);
+    const LiveAnswer live = liveAnswer(batch, 7, std::vector<Instrument>(1), 0.5);
+    ASSERT_EQ(live.meshes.size(), 1U);
+    const MeshAnswer& answer = live.meshes.front();
     EXPECT_EQ(answer.contacts.size(), kShownContacts);
     EXPECT_EQ(answer.contacts.front().depth, static_cast<double>(kShownContacts + 4));
     EXPECT_EQ(answer.contactsFound, kShownContacts + 5);
     EXPECT_THAT(answer.triangles, testing::ElementsAre(3, 8));
-    EXPECT_EQ(answer.revision, 7U);
+    EXPECT_EQ(live.revision, 7U);
+}
+
+TEST(ViewAnswer, EachMeshHasItsOwn) {
+    BatchAnswer batch;
+    batch.pairs.resize(2);
+    batch.pairs[1].hit = true;
+    batch.pairs[1].count = 5;
+    batch.contacts.resize(3);
+    batch.contacts[0].pair = 0;
+    batch.contacts[1].pair = batch.contacts[2].pair = 1;
+    batch.contacts[2].depth = 2;
+    batch.contactsFound = 3;
+    batch.triangles = {{0, 3, 1}, {1, 4, 2}, {1, 8, 3}};
+    batch.labels = {{0, 7, 1}, {1, 7, 2}, {1, 9, 3}};
+    const std::vector<Instrument> instruments{{4, identity(), true}, {2, translation({1, 2, 3}), false}};
+    const LiveAnswer live = liveAnswer(batch, 1, instruments, 0.5);
+    ASSERT_EQ(live.meshes.size(), 2U);
+    EXPECT_EQ(live.of(0), nullptr);
+    EXPECT_EQ(live.of(4), &live.meshes[0]);
+    const MeshAnswer& second = *live.of(2);
+    EXPECT_TRUE(second.pair.hit);
+    EXPECT_EQ(second.instrument, instruments[1]);
+    EXPECT_THAT(second.triangles, testing::ElementsAre(4, 8));
+    ASSERT_EQ(second.contacts.size(), 2U);
+    EXPECT_EQ(second.contacts.front().depth, 2);
+    EXPECT_EQ(second.contactsFound, 2U);
+    ASSERT_EQ(second.labels.size(), 2U);
+    EXPECT_EQ(second.labels.front().label, 9);
+    EXPECT_EQ(live.meshes[0].contactsFound, 1U);
+    // Of a list that was cut nobody knows whose are missing: there is a contact for each survivor.
+    batch.contactsFound = 6;
+    EXPECT_EQ(liveAnswer(batch, 1, instruments, 0.5).of(2)->contactsFound, 5U);
 }
 
 TEST(ViewAnswer, VerdictsAreThoseOfDetect) {
@@ -146,21 +197,43 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     BatchAnswer batch;
     batch.pairs.resize(1);
     batch.pairs[0] = {.hit = true, .count = 42, .method = CountingMethod::Cpu, .projection = Projection::Conservative};
-    const LiveAnswer answer = liveAnswer(batch, 1, translation({5, 6, 7}), 0.5);
+    batch.pairs.push_back({.pair = 1, .count = 0, .method = CountingMethod::Cpu});
+    Document shown = document();
+    shown.sources.meshes.push_back({"/data/plate.stl"});
+    shown.edit.instruments.front().world_from_object = translation({5, 6, 7});
+    shown.edit.instruments.push_back({1, identity(), false});
+    const LiveAnswer answer = liveAnswer(batch, 1, shown.edit.instruments, 0.5);
+    const LiveClearance clearance{1, {{1, {}}}, 0};
     Times times;
-    const Document shown = document();
     StateReport report;
     report.answer = &answer;
     report.times = &times;
     report.document = &shown;
-    report.command = "voxtact \"detect\"";
+    report.clearance = &clearance;
+    report.commands = {"voxtact \"detect\"", "other"};
     const auto json = nlohmann::json::parse(reportText(report));
     EXPECT_EQ(json["hit"], 1);
     EXPECT_EQ(json["count"], 42);
     EXPECT_EQ(json["method"], "cpu");
     EXPECT_EQ(json["projection"], "conservative");
     EXPECT_EQ(json["pose"], (nlohmann::json{1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1}));
-    EXPECT_EQ(json["command"], report.command);
+    EXPECT_EQ(json["command"], report.commands[0]);
+    EXPECT_TRUE(json["clearance"].is_null());
+    EXPECT_EQ(json["chosen"], 0);
+    ASSERT_EQ(json["meshes"].size(), 2U);
+    EXPECT_EQ(json["meshes"][0]["mesh"], "builtin:scalpel:300");
+    EXPECT_EQ(json["meshes"][0]["count"], 42);
+    EXPECT_EQ(json["meshes"][0]["shown"], true);
+    EXPECT_EQ(json["meshes"][1]["hit"], 0);
+    EXPECT_EQ(json["meshes"][1]["shown"], false);
+    EXPECT_EQ(json["meshes"][1]["command"], "other");
+    EXPECT_TRUE(json["meshes"][1]["clearance"].is_object());
+    // Of the other one, where that is chosen.
+    shown.edit.chosen = 1;
+    const auto other = nlohmann::json::parse(reportText(report));
+    EXPECT_EQ(other["hit"], 0);
+    EXPECT_EQ(other["command"], "other");
+    EXPECT_TRUE(other["clearance"].is_object());
 }
 
 } // namespace voxtact::test

@@ -80,7 +80,7 @@ TEST_F(ViewKeptFiles, TheFolderIsThatOfTheSpecification) {
 TEST_F(ViewKeptFiles, MissingFilesAreNamedAndLookedForBesideTheSession) {
     Sources sources;
     sources.volume = "/gone/ct.nii";
-    sources.mesh = file("tool.stl");
+    sources.meshes = {{file("tool.stl")}};
     sources.labels = "/gone/atlas.nii";
     const std::string beside = file("ct.nii");
     const std::vector<MissingFile> files = missingFiles(sources, folder_ / "session.json");
@@ -91,12 +91,21 @@ TEST_F(ViewKeptFiles, MissingFilesAreNamedAndLookedForBesideTheSession) {
     EXPECT_EQ(files[1].path, "/gone/atlas.nii");
     const Sources now = found(sources, files);
     EXPECT_EQ(now.volume, beside);
-    EXPECT_EQ(now.mesh, sources.mesh);
+    EXPECT_EQ(now.meshes.at(0).path, sources.meshes.at(0).path);
     EXPECT_EQ(missingFiles(now, {}).size(), 1U);
+    // Of several meshes each has a name of its own.
+    sources.meshes = {{"/gone/a.stl"}, {file("tool.stl")}, {"/gone/b.stl"}};
+    std::vector<MissingFile> gone = missingFiles(sources, {});
+    ASSERT_EQ(gone.size(), 4U);
+    EXPECT_EQ(gone[1].name, "mesh 1");
+    EXPECT_EQ(gone[2].name, "mesh 3");
+    gone[2].path = beside;
+    EXPECT_EQ(found(sources, gone).meshes[2].path, beside);
+    EXPECT_EQ(found(sources, gone).meshes[0].path, "/gone/a.stl");
     // An image of several in a file, and what is builtin.
     sources = {};
     sources.volume = file("several.nii") + "#3";
-    sources.mesh = "builtin:scalpel";
+    sources.meshes = {{"builtin:scalpel"}};
     EXPECT_THAT(missingFiles(sources, {}), IsEmpty());
 }
 

@@ -68,9 +68,9 @@ TEST(ViewLabels, AreInTheReportWhereThereIsAMap) {
     BatchAnswer batch;
     batch.pairs.resize(1);
     batch.labels = {count(3, 2), count(7, 5)};
-    const LiveAnswer answer = liveAnswer(batch, 1, identity(), 0);
-    const Times times;
     const Document document;
+    const LiveAnswer answer = liveAnswer(batch, 1, document.edit.instruments, 0);
+    const Times times;
     StateReport report;
     report.answer = &answer;
     report.times = &times;

@@ -31,9 +31,9 @@ class ViewOpen : public testing::Test {
     static Given given() {
         Given out;
         out.volume = makeBuiltinVolume("head:16").value();
-        out.mesh = makeBuiltinMesh("scalpel:300").value();
+        out.meshes = {makeBuiltinMesh("scalpel:300").value()};
         out.values = checkVolume(out.volume.view()).value();
-        out.document.sources = {"builtin:head:16", "builtin:scalpel:300", "ras", 2, "atlas.nii", "names.txt"};
+        out.document.sources = {"builtin:head:16", {{"builtin:scalpel:300", "ras", 2}}, "atlas.nii", "names.txt", 1};
         out.document.edit.curve = {{40, 0}, {80, 1}};
         return out;
     }
@@ -64,7 +64,7 @@ TEST_F(ViewOpen, TheEndingSaysWhatItIs) {
 
 TEST_F(ViewOpen, PosesAndFunctionsAreCommands) {
     ASSERT_TRUE(openFile(file("p.txt", "1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1\n"), state_).ok());
-    EXPECT_EQ(state_.document.edit.world_from_object, translation({5, 6, 7}));
+    EXPECT_EQ(state_.document.edit.pose(), translation({5, 6, 7}));
     ASSERT_TRUE(openFile(file("f.json", "{\"points\": [[10, 0], [20, 0.5], [30, 1]]}"), state_).ok());
     EXPECT_EQ(state_.document.edit.curve.size(), 3U);
     EXPECT_FALSE(state_.wanted.has_value());
@@ -72,7 +72,7 @@ TEST_F(ViewOpen, PosesAndFunctionsAreCommands) {
     EXPECT_EQ(state_.document.edit.curve.size(), 2U);
 }
 
-TEST_F(ViewOpen, AnotherMeshKeepsTheRest) {
+TEST_F(ViewOpen, AMeshMoreKeepsTheRest) {
     state_.drillRadius = 40;
     state_.drill({0, 0, 0});
     state_.update();
@@ -80,9 +80,12 @@ TEST_F(ViewOpen, AnotherMeshKeepsTheRest) {
     ASSERT_TRUE(state_.wanted.has_value());
     EXPECT_EQ(state_.wanted->kind, FileKind::Mesh);
     const Sources& sources = state_.wanted->document.sources;
-    EXPECT_EQ(sources.mesh, "/data/tool.stl");
-    EXPECT_EQ(sources.meshSpace, "lps");
-    EXPECT_EQ(sources.meshScale, 1);
+    ASSERT_EQ(sources.meshes.size(), 2U);
+    EXPECT_EQ(sources.meshes[0].path, "builtin:scalpel:300");
+    EXPECT_EQ(sources.meshes[0].space, "ras");
+    EXPECT_EQ(sources.meshes[1].path, "/data/tool.stl");
+    EXPECT_EQ(sources.meshes[1].space, "lps");
+    EXPECT_EQ(sources.meshes[1].scale, 1);
     EXPECT_EQ(sources.volume, "builtin:head:16");
     EXPECT_EQ(sources.labels, "atlas.nii");
     EXPECT_TRUE(state_.wanted->document.camera.has_value());
@@ -127,7 +130,7 @@ TEST_F(ViewOpen, WhatIsDroppedIsOpenedOneAfterTheOther) {
     state_.drop(2, first.data());
     state_.drop(1, &second);
     takeDropped(state_);
-    EXPECT_EQ(state_.document.edit.world_from_object, translation({5, 0, 0}));
+    EXPECT_EQ(state_.document.edit.pose(), translation({5, 0, 0}));
     EXPECT_EQ(state_.document.edit.curve.front().value, 1);
     ASSERT_TRUE(state_.wanted.has_value());
     EXPECT_EQ(state_.wanted->path, "/data/tool.stl");
@@ -141,6 +144,19 @@ TEST_F(ViewOpen, WhatIsDroppedIsOpenedOneAfterTheOther) {
     takeDropped(state_);
     EXPECT_THAT(state_.error, HasSubstr("broken.json"));
     EXPECT_EQ(state_.document.edit.curve.front().value, 1);
+}
+
+TEST_F(ViewOpen, OfSeveralFilesAtOnceNoneIsLost) {
+    const std::array<const char*, 3> paths{"/data/a.stl", "/data/other.nrrd", "/data/b.stl"};
+    state_.drop(3, paths.data());
+    takeDropped(state_);
+    ASSERT_TRUE(state_.wanted.has_value());
+    EXPECT_EQ(state_.wanted->kind, FileKind::Volume);
+    const Sources& sources = state_.wanted->document.sources;
+    EXPECT_EQ(sources.volume, "/data/other.nrrd");
+    ASSERT_EQ(sources.meshes.size(), 3U);
+    EXPECT_EQ(sources.meshes[1].path, "/data/a.stl");
+    EXPECT_EQ(sources.meshes[2].path, "/data/b.stl");
 }
 
 TEST_F(ViewOpen, WithNothingToShowItNeedsAVolume) {

@@ -21,10 +21,10 @@ namespace {
 
 Document document() {
     Document out;
-    out.sources = {"head.nii.gz", "tool.stl", "ras", 0.001, "atlas.nii.gz", "atlas names.txt"};
+    out.sources = {"head.nii.gz", {{"tool.stl", "ras", 0.001}}, "atlas.nii.gz", "atlas names.txt", 1};
     out.edit.curve = {{-40.5, 0}, {1.0 / 3, 0.1}, {80, 1}};
     out.edit.threshold = 0.25;
-    out.edit.world_from_object = translation({1.5, -2, 1.0 / 3});
+    out.edit.pose() = translation({1.5, -2, 1.0 / 3});
     out.edit.colours = {{0, {0, 0.5, 1}}, {100, {1, 1, 1}}};
     out.domain = {-1024, 3071};
     out.tableSize = 512;
@@ -40,9 +40,19 @@ Document document() {
     return out;
 }
 
+/// The same with three meshes of four that were opened.
+Document several() {
+    Document out = document();
+    out.sources.meshes = {{"tool.stl", "ras", 0.001}, {"gone.stl"}, {"screw.ply"}, {"plate.obj", "lps", 2}};
+    out.edit.instruments = {
+        {3, translation({3, 0, 0}), true}, {0, translation({0, 1, 0}), false}, {2, translation({2, 0, 1.0 / 3}), true}};
+    out.edit.chosen = 2;
+    return out;
+}
+
 /// The session with one member changed: the error's text.
-std::string refused(const std::string& pointer, const nlohmann::json& value) {
-    nlohmann::json json = nlohmann::json::parse(sessionText(document()));
+std::string refused(const std::string& pointer, const nlohmann::json& value, const Document& of = document()) {
+    nlohmann::json json = nlohmann::json::parse(sessionText(of));
     json[nlohmann::json::json_pointer(pointer)] = value;
     const Result<Document> parsed = parseSession(json.dump(), "s.json");
     return parsed.ok() ? "" : parsed.error().text;
@@ -71,7 +81,7 @@ TEST(ViewSession, ComesBackAsItWas) {
     EXPECT_EQ(after->poses, before.poses);
     EXPECT_EQ(after->method, before.method);
     EXPECT_EQ(after->cursor, before.cursor);
-    EXPECT_EQ(after->sources.meshSpace, "ras");
+    EXPECT_EQ(after->sources.meshes.at(0).space, "ras");
     EXPECT_EQ(after->sources.labels, "atlas.nii.gz");
     EXPECT_EQ(after->sources.coarser, 2U);
     ASSERT_EQ(after->holes.size(), 2U);
@@ -85,6 +95,44 @@ TEST(ViewSession, ComesBackAsItWas) {
     EXPECT_EQ(after->shown->window->hi, 300);
     EXPECT_EQ(after->sources.labelNames, "atlas names.txt");
     EXPECT_EQ(after->camera->halfHeight, 77);
+}
+
+TEST(ViewSession, HasAllMeshesThatAreThere) {
+    const Result<Document> after = parseSession(sessionText(several()), "s.json");
+    ASSERT_TRUE(after.ok()) << after.error().text;
+    EXPECT_EQ(sessionText(*after), sessionText(several()));
+    ASSERT_EQ(after->sources.meshes.size(), 3U);
+    EXPECT_EQ(after->sources.meshes[0].path, "plate.obj");
+    EXPECT_EQ(after->sources.meshes[0].scale, 2);
+    EXPECT_EQ(after->sources.meshes[1].space, "ras");
+    ASSERT_EQ(after->edit.instruments.size(), 3U);
+    EXPECT_FALSE(after->edit.instruments[1].shown);
+    EXPECT_EQ(after->edit.chosen, 2U);
+    EXPECT_EQ(after->edit.pose(), several().edit.pose());
+    // A program that knows of one mesh has the chosen one.
+    nlohmann::json json = nlohmann::json::parse(sessionText(several()));
+    EXPECT_EQ(json["mesh"], "screw.ply");
+    json.erase("meshes");
+    const Result<Document> one = parseSession(json.dump(), "s.json");
+    ASSERT_TRUE(one.ok()) << one.error().text;
+    EXPECT_EQ(one->edit.instruments.size(), 1U);
+    EXPECT_EQ(one->edit.pose(), several().edit.pose());
+    EXPECT_FALSE(nlohmann::json::parse(sessionText(document())).contains("meshes"));
+}
+
+TEST(ViewSession, WhatIsWrongWithAMeshIsNamed) {
+    using Json = nlohmann::json;
+    EXPECT_EQ(refused("/meshes/0/mesh_space", "lps", several()), "");
+    EXPECT_THAT(refused("/meshes", Json::array(), several()), HasSubstr("meshes: is empty"));
+    EXPECT_THAT(refused("/meshes", 3, several()), HasSubstr("meshes: is not an array"));
+    EXPECT_THAT(refused("/meshes/1", 3, several()), HasSubstr("meshes[1]: "));
+    EXPECT_THAT(refused("/meshes/1/mesh", Json(), several()), HasSubstr("meshes[1]: mesh: is missing"));
+    EXPECT_THAT(refused("/meshes/1/mesh_scale", 0, several()), HasSubstr("meshes[1]: mesh_scale: "));
+    EXPECT_THAT(refused("/meshes/2/pose", Json(), several()), HasSubstr("meshes[2]: pose: is missing"));
+    EXPECT_THAT(refused("/meshes/2/pose/12", 1, several()), HasSubstr("meshes[2]: pose: "));
+    EXPECT_THAT(refused("/meshes/0/shown", 1, several()), HasSubstr("meshes[0]: shown: "));
+    EXPECT_THAT(refused("/chosen", 3, several()), HasSubstr("chosen: is not the number"));
+    EXPECT_THAT(refused("/chosen", 0.5, several()), HasSubstr("chosen: is not the number"));
 }
 
 TEST(ViewSession, ComesBackFromAFile) {

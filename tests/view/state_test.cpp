@@ -18,8 +18,9 @@ namespace {
 State makeState() {
     Given given;
     given.volume = makeBuiltinVolume("head:16").value();
-    given.mesh = makeBuiltinMesh("scalpel:300").value();
+    given.meshes = {makeBuiltinMesh("scalpel:300").value()};
     given.values = checkVolume(given.volume.view()).value();
+    given.document.sources.meshes = {{"tool.stl"}};
     given.document.edit.curve = {{40, 0}, {80, 1}};
     given.document.poses = {identity(), translation({0, 0, 50})};
     return State(std::move(given));
@@ -84,7 +85,7 @@ TEST(ViewState, IsSettledWithTheAnswerOfWhatIsShownAndTheFinePicture) {
     state.update();
     state.fineShare = 1;
     EXPECT_TRUE(state.settled());
-    state.command([](Edit& edit) { edit.world_from_object = translation({1, 2, 3}); });
+    state.command([](Edit& edit) { edit.pose() = translation({1, 2, 3}); });
     state.update();
     EXPECT_FALSE(state.settled());
     EXPECT_EQ(state.fineShare, 0);
@@ -93,11 +94,58 @@ TEST(ViewState, IsSettledWithTheAnswerOfWhatIsShownAndTheFinePicture) {
 TEST(ViewState, PosesOfTheListAreTaken) {
     State state = makeState();
     state.takePose(1);
-    EXPECT_EQ(state.document.edit.world_from_object, translation({0, 0, 50}));
+    EXPECT_EQ(state.document.edit.pose(), translation({0, 0, 50}));
     EXPECT_EQ(state.document.pose, 1U);
     state.takePose(7);
     EXPECT_EQ(state.document.pose, 1U);
     EXPECT_TRUE(state.history.canUndo());
+}
+
+TEST(ViewState, EachMeshHasAPoseOfItsOwnThatUndoGivesBack) {
+    State state = makeState();
+    state.document.edit.instruments.push_back({1, identity(), true});
+    state.update();
+    const std::uint64_t revision = state.revision;
+    state.choose(1);
+    state.update();
+    EXPECT_EQ(state.revision, revision); // all are answered for anyway
+    EXPECT_FALSE(state.history.canUndo());
+    // The same kind of move of one and of the other are two commands.
+    state.command([](Edit& edit) { edit.pose() = translation({1, 0, 0}); }, "nudge");
+    state.choose(0);
+    state.command([](Edit& edit) { edit.pose() = translation({2, 0, 0}); }, "nudge");
+    state.update();
+    EXPECT_EQ(state.revision, revision + 1);
+    EXPECT_EQ(state.document.edit.instruments[0].world_from_object, translation({2, 0, 0}));
+    EXPECT_EQ(state.document.edit.instruments[1].world_from_object, translation({1, 0, 0}));
+    state.undo();
+    EXPECT_EQ(state.document.edit.instruments[0].world_from_object, identity());
+    EXPECT_EQ(state.document.edit.instruments[1].world_from_object, translation({1, 0, 0}));
+    state.undo();
+    EXPECT_EQ(state.document.edit.instruments[1].world_from_object, identity());
+    state.choose(2);
+    EXPECT_LT(state.document.edit.chosen, 2U);
+}
+
+TEST(ViewState, TheLastMeshIsNotRemovedAndUndoBringsTheOthersBack) {
+    State state = makeState();
+    state.document.edit.instruments = {{0, identity(), true}, {1, translation({1, 0, 0}), true}, {2, identity(), false}};
+    state.choose(1);
+    state.remove(0);
+    EXPECT_EQ(state.document.edit.instrument().mesh, 1U); // the choice goes with its mesh
+    state.remove(0);
+    EXPECT_EQ(state.document.edit.instrument().mesh, 2U);
+    state.remove(0);
+    EXPECT_EQ(state.document.edit.instruments.size(), 1U);
+    state.undo();
+    EXPECT_EQ(state.document.edit.instruments.size(), 2U);
+    EXPECT_EQ(state.document.edit.instrument().mesh, 1U);
+    EXPECT_EQ(state.document.edit.pose(), translation({1, 0, 0}));
+    state.undo();
+    EXPECT_EQ(state.document.edit.instruments.size(), 3U);
+    state.choose(2);
+    state.remove(2);
+    EXPECT_EQ(state.document.edit.instrument().mesh, 1U);
 }
 
 TEST(ViewState, WhatIsSavedHasCameraMethodAndCursor) {
@@ -162,26 +210,33 @@ TEST(ViewState, WhatIsDoneWhileAMeshIsLoadedStays) {
     state.update();
     Given given;
     given.volume = makeBuiltinVolume("head:16").value();
-    given.mesh = makeBuiltinMesh("scalpel:600").value();
+    given.meshes = {makeBuiltinMesh("scalpel:600").value()};
     given.values = state.values;
     given.document = state.saved();
-    given.document.sources.mesh = "other.stl";
+    given.document.sources.meshes.push_back({"other.stl"});
+    given.meshes = {state.meshes.front(), given.meshes.front()};
     State next(std::move(given));
     ASSERT_EQ(next.volume.voxels, state.volume.voxels);
     // Meanwhile: the hole is filled, another one drilled, and the instrument moved.
     state.undo();
     state.update();
     state.drill({0, 0, 40});
-    state.command([](Edit& edit) { edit.world_from_object = translation({7, 0, 0}); });
+    state.command([](Edit& edit) { edit.pose() = translation({7, 0, 0}); });
     state.update();
     state.stepMillimetres = 3;
     const std::vector<std::byte> drilled = state.volume.voxels;
     state.passOn(next, FileKind::Mesh);
     EXPECT_EQ(next.volume.voxels, drilled);
     EXPECT_FALSE(next.writes.empty()); // the copy on the device is that of before
-    EXPECT_EQ(next.document.sources.mesh, "other.stl");
-    EXPECT_EQ(next.document.edit.world_from_object, translation({7, 0, 0}));
+    EXPECT_EQ(next.document.sources.meshes.at(1).path, "other.stl");
+    EXPECT_EQ(next.document.edit.instrument().mesh, 1U);
+    EXPECT_EQ(next.document.edit.pose(), translation({7, 0, 0}));
     EXPECT_EQ(next.stepMillimetres, 3);
+    next.undo(); // of the mesh, which redo brings back
+    EXPECT_EQ(next.document.edit.instruments.size(), 1U);
+    next.redo();
+    EXPECT_EQ(next.document.edit.instruments.size(), 2U);
+    next.undo();
     next.undo();
     next.undo();
     next.update();
@@ -194,18 +249,19 @@ TEST(ViewState, AnotherVolumeHasItsOwnCurveAndNoHoles) {
     state.drillRadius = 30;
     state.drill({0, 0, 0});
     state.update();
-    state.command([](Edit& edit) { edit.world_from_object = translation({7, 0, 0}); });
+    state.command([](Edit& edit) { edit.pose() = translation({7, 0, 0}); });
     Given given;
     given.volume = makeBuiltinVolume("head:16").value();
-    given.mesh = makeBuiltinMesh("scalpel:300").value();
+    given.meshes = {makeBuiltinMesh("scalpel:300").value()};
     given.values = state.values;
+    given.document.sources = state.document.sources;
     given.document.edit.curve = {{1, 0}, {2, 1}};
     State next(std::move(given));
     state.passOn(next, FileKind::Volume);
     EXPECT_EQ(next.document.edit.curve.front().value, 1);
     EXPECT_EQ(next.document.edit.holes, 0U);
     EXPECT_TRUE(next.saved().holes.empty());
-    EXPECT_EQ(next.document.edit.world_from_object, translation({7, 0, 0}));
+    EXPECT_EQ(next.document.edit.pose(), translation({7, 0, 0}));
     EXPECT_FALSE(next.history.canUndo());
 }
 

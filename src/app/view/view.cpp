@@ -43,7 +43,7 @@ void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std:
                                                         const device::Session& session) -> Result<view::Given> {
         VOXTACT_TRY(files);
         view::Given out{std::move(files->volume),
-                        std::move(files->mesh),
+                        std::move(files->meshes),
                         std::move(files->labels),
                         files->values,
                         files->document,

@@ -16,8 +16,8 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kFooter =
-    R"(A window with the volume, the mesh in it, three slices, and the answer to whether they touch, which follows every
-change of pose and transfer function. F1 shows keys and mouse. Without --volume and --session: the builtin head and
+    R"(A window with the volume, meshes in it, three slices, and the answer to whether they touch, which follows every change
+of pose and transfer function. --mesh may be repeated: each mesh has a pose of its own, at first the first of --poses. F1 shows keys and mouse. Without --volume and --session: the builtin head and
 scalpel. Needs a display (X11) and a Vulkan driver that can show pictures on it.
 
 --device cpu: the host engine answers, whatever draws. By default the GPU answers where there is one that can, else the
@@ -74,7 +74,7 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
         const Result<std::vector<Mat4>> poses = loadPoses(options.poses);
         VOXTACT_TRY(poses);
         document.poses = *poses;
-        document.edit.world_from_object = poses->front();
+        document.edit.pose() = poses->front();
     }
     document.method = methodOf(options);
     return document;
@@ -94,10 +94,12 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
     VOXTACT_TRY(volume);
     const Result<ValueRange> values = checkVolume(volume->view());
     VOXTACT_TRY(values);
-    VOXTACT_TRY(progress.begin("reading " + nameOf(sources.mesh)));
-    Result<MeshData> mesh =
-        loadMesh(sources.mesh, {.sources = {}, .space = sources.meshSpace, .scale = sources.meshScale});
-    VOXTACT_TRY(mesh);
+    for (const view::MeshSource& source : sources.meshes) {
+        VOXTACT_TRY(progress.begin("reading " + nameOf(source.path)));
+        Result<MeshData> mesh = loadMesh(source.path, {.sources = {}, .space = source.space, .scale = source.scale});
+        VOXTACT_TRY(mesh);
+        opened.meshes.push_back(std::move(*mesh));
+    }
     if (!sources.labels.empty()) {
         VOXTACT_TRY(progress.begin("reading " + nameOf(sources.labels)));
         Result<NamedLabels> named = loadNamedLabels(sources.labels, sources.labelNames);
@@ -105,7 +107,6 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
         opened.labels = view::Labels{std::move(named->labels), std::move(named->names)};
     }
     opened.volume = std::move(*volume);
-    opened.mesh = std::move(*mesh);
     opened.values = *values;
     return {};
 }
@@ -150,9 +151,8 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
 }
 
 Result<void> checkViewerOptions(const ViewerOptions& options) {
-    if (options.volumes.size() > 1 || options.meshes.sources.size() > 1) {
-        return badArgument(std::string(options.volumes.size() > 1 ? "--volume" : "--mesh") +
-                           ": the window shows one; leave out the others");
+    if (options.volumes.size() > 1) {
+        return badArgument("--volume: the window shows one; leave out the others");
     }
     const view::MethodChoice method = methodOf(options).value_or(view::MethodChoice{});
     if (rowOf(method.projection).certified && !rowOf(method.count).certified) {
@@ -201,9 +201,12 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     }
     view::Sources sources;
     sources.volume = options.volumes.empty() ? "builtin:head" : options.volumes.front();
-    sources.mesh = options.meshes.sources.empty() ? "builtin:scalpel" : options.meshes.sources.front();
-    sources.meshSpace = options.meshes.space;
-    sources.meshScale = options.meshes.scale;
+    for (const std::string& mesh : options.meshes.sources) {
+        sources.meshes.push_back({mesh, options.meshes.space, options.meshes.scale});
+    }
+    if (sources.meshes.empty()) {
+        sources.meshes.push_back({"builtin:scalpel", options.meshes.space, options.meshes.scale});
+    }
     sources.labels = options.labels.string();
     sources.labelNames = options.labelNames.string();
     VOXTACT_TRY(load(sources, opened, progress));
@@ -211,6 +214,9 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     VOXTACT_TRY(document);
     opened.document = std::move(*document);
     opened.document.sources = sources;
+    for (std::size_t mesh = 1; mesh < sources.meshes.size(); ++mesh) {
+        opened.document.edit.instruments.push_back({mesh, opened.document.edit.pose(), true});
+    }
     return opened;
 }
 
@@ -218,7 +224,9 @@ Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress) 
     Opened opened;
     opened.document = wanted.document;
     view::Sources& sources = opened.document.sources;
-    sources.mesh = sources.mesh.empty() ? "builtin:scalpel" : sources.mesh; // a volume was opened beside nothing
+    if (sources.meshes.empty()) { // a volume was opened beside nothing
+        sources.meshes.push_back({"builtin:scalpel", "lps", 1});
+    }
     VOXTACT_TRY(load(sources, opened, progress));
     if (wanted.kind == view::FileKind::Volume) {
         opened.document.domain = tableDomain({}, opened.volume.type, opened.values);

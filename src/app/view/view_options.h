@@ -35,7 +35,7 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options);
 struct Opened {
     view::Document document;
     VolumeData volume;
-    MeshData mesh;
+    std::vector<MeshData> meshes; ///< of Sources::meshes
     std::optional<view::Labels> labels;
     ValueRange values;
 };

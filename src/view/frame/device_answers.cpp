@@ -11,8 +11,9 @@ Result<DeviceAnswers> DeviceAnswers::create(const device::Session& session, cons
     ResultsDesc desc;
     desc.timestamps = session.device.hasTimestamps();
     desc.queueFamily = session.device.queueAccess().family;
-    desc.room = OutputRoom{.triangles = scene.triangles(),
-                           .labels = scene.labels() == nullptr ? 0 : scene.labels()->values().size()};
+    desc.maxPairs = scene.meshes();
+    const std::uint64_t labels = scene.labels() == nullptr ? 0 : scene.labels()->values().size();
+    desc.room = OutputRoom{.triangles = scene.triangles(), .labels = labels * scene.meshes()};
     for (std::uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
         Result<Results> results = Results::create(session.context, desc);
         VOXTACT_TRY(results);
@@ -51,7 +52,7 @@ Result<void> DeviceAnswers::record(VkCommandBuffer commands, DeviceScene& scene,
     }
     VOXTACT_TRY(detector->second.cmdDetect(commands, scene.batch(state), results_[slot]));
     VOXTACT_TRY(results_[slot].cmdReadBack(commands));
-    asked_[slot] = Asked{state.revision, state.document.edit.world_from_object};
+    asked_[slot] = Asked{state.revision, state.document.edit.instruments};
     return {};
 }
 
@@ -65,10 +66,11 @@ std::optional<Result<LiveAnswer>> DeviceAnswers::collect(std::uint32_t slot, dou
         VOXTACT_TRY(pairs);
         BatchAnswer batch;
         VOXTACT_TRY(results_[slot].readOutputs(batch));
-        batch.pairs = {unpack(pairs->front())};
+        for (const PairResult& pair : *pairs) {
+            batch.pairs.push_back(unpack(pair));
+        }
         const Result<double> gpu = results_[slot].gpuMilliseconds();
-        return liveAnswer(std::move(batch), asked.revision, asked.world_from_object,
-                          gpu.ok() ? *gpu : wallMilliseconds);
+        return liveAnswer(std::move(batch), asked.revision, asked.instruments, gpu.ok() ? *gpu : wallMilliseconds);
     }();
 }
 

@@ -24,7 +24,7 @@ class DeviceAnswers {
   private:
     struct Asked {
         std::uint64_t revision = 0;
-        Mat4 world_from_object{};
+        std::vector<Instrument> instruments;
     };
     explicit DeviceAnswers(const device::Session& session) : session_(&session) {}
 

@@ -35,6 +35,63 @@ double diagonalOf(const Grid& grid) {
 
 } // namespace
 
+Result<DeviceMesh> DeviceMesh::create(const device::Session& session, const Renderer& renderer, const MeshData& data) {
+    const QueueAccess queue = session.device.queueAccess();
+    // The same triangles in the same order, with sharp edges.
+    const Result<MeshData> creased = splitAtCreases(data.view());
+    VOXTACT_TRY(creased);
+    DeviceMesh out;
+    Result<Mesh> mesh = Mesh::upload(session.context, queue, creased->view(), {.clusters = true});
+    VOXTACT_TRY(mesh);
+    out.mesh_ = std::move(*mesh);
+    Result<MeshNormals> normals = MeshNormals::upload(renderer, queue, creased->view());
+    VOXTACT_TRY(normals);
+    out.normals_ = std::move(*normals);
+    VOXTACT_TRY(out.makeMasks(session, renderer));
+    return out;
+}
+
+Result<void> DeviceMesh::makeMasks(const device::Session& session, const Renderer& renderer) {
+    const std::size_t words = (std::size_t{mesh_->triangles()} + 31) / 32;
+    maskBytes_ = (words * sizeof(std::uint32_t) + kAlignment - 1) / kAlignment * kAlignment;
+    Result<HostBuffer> masks =
+        HostBuffer::create(session.device, kFramesInFlight * maskBytes_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    VOXTACT_TRY(masks);
+    masks_ = std::move(*masks);
+    std::ranges::fill(masks_.bytes(), std::byte{});
+    for (std::uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
+        Result<PaintedTriangles> painted =
+            PaintedTriangles::wrap(renderer, {masks_.handle(), slot * maskBytes_, maskBytes_});
+        if (painted.ok()) { // else, without geometry shaders, nothing is painted
+            painted_[slot] = std::move(*painted);
+        }
+    }
+    return {};
+}
+
+void DeviceMesh::paint(std::span<const std::uint32_t> triangles, std::uint32_t slot) {
+    const std::span<std::byte> mask = masks_.bytes().subspan(slot * maskBytes_, maskBytes_);
+    std::ranges::fill(mask, std::byte{});
+    for (const std::uint32_t triangle : triangles) {
+        // Lowest bits first, in words of the machine's order: in bytes too, on machines that Vulkan runs on.
+        mask[triangle / 8] |= std::byte{1} << (triangle % 8);
+    }
+}
+
+SceneMesh DeviceMesh::shown(const Instrument& instrument, std::uint32_t slot) const {
+    SceneMesh out;
+    out.mesh = &*mesh_;
+    out.normals = &*normals_;
+    out.world_from_object = instrument.world_from_object;
+    out.meshColour = meshColour(instrument.mesh);
+    if (painted_[slot]) {
+        out.paint.what = Paint::Triangles;
+        out.paint.triangles = &*painted_[slot];
+        out.paint.through = 0.45;
+    }
+    return out;
+}
+
 Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& session, const State& state,
                                                          Volume volume, const Lighting& light) {
     std::unique_ptr<DeviceScene> scene(new DeviceScene);
@@ -53,7 +110,11 @@ Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& 
         scene->labels_ = std::move(*labels);
     }
     VOXTACT_TRY(scene->uploadFunctions(session, state));
-    VOXTACT_TRY(scene->uploadMesh(session, state));
+    for (const MeshData& data : state.meshes) {
+        Result<DeviceMesh> mesh = DeviceMesh::create(session, scene->renderer(), data);
+        VOXTACT_TRY(mesh);
+        scene->meshes_.push_back(std::move(*mesh));
+    }
     return scene;
 }
 
@@ -71,34 +132,6 @@ Result<void> DeviceScene::uploadFunctions(const device::Session& session, const 
     Result<RenderTransferFunction> coarse = RenderTransferFunction::upload(renderer(), queue, renderDesc(state, false));
     VOXTACT_TRY(coarse);
     coarse_ = std::move(*coarse);
-    return {};
-}
-
-Result<void> DeviceScene::uploadMesh(const device::Session& session, const State& state) {
-    const QueueAccess queue = session.device.queueAccess();
-    // The same triangles in the same order, with sharp edges.
-    const Result<MeshData> creased = splitAtCreases(state.mesh.view());
-    VOXTACT_TRY(creased);
-    Result<Mesh> mesh = Mesh::upload(session.context, queue, creased->view(), {.clusters = true});
-    VOXTACT_TRY(mesh);
-    mesh_ = std::move(*mesh);
-    Result<MeshNormals> normals = MeshNormals::upload(renderer(), queue, creased->view());
-    VOXTACT_TRY(normals);
-    normals_ = std::move(*normals);
-    const std::size_t words = (std::size_t{mesh_->triangles()} + 31) / 32;
-    maskBytes_ = (words * sizeof(std::uint32_t) + kAlignment - 1) / kAlignment * kAlignment;
-    Result<HostBuffer> masks =
-        HostBuffer::create(session.device, kFramesInFlight * maskBytes_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    VOXTACT_TRY(masks);
-    masks_ = std::move(*masks);
-    std::ranges::fill(masks_.bytes(), std::byte{});
-    for (std::uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
-        Result<PaintedTriangles> painted =
-            PaintedTriangles::wrap(renderer(), {masks_.handle(), slot * maskBytes_, maskBytes_});
-        if (painted.ok()) { // else, without geometry shaders, nothing is painted
-            painted_[slot] = std::move(*painted);
-        }
-    }
     return {};
 }
 
@@ -122,44 +155,59 @@ Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state
 }
 
 void DeviceScene::paint(const State& state, std::uint32_t slot) {
-    const std::span<std::byte> mask = masks_.bytes().subspan(slot * maskBytes_, maskBytes_);
-    std::ranges::fill(mask, std::byte{});
-    if (!state.answer) {
-        return;
-    }
-    for (const std::uint32_t triangle : state.answer->triangles) {
-        // Lowest bits first, in words of the machine's order: in bytes too, on machines that Vulkan runs on.
-        mask[triangle / 8] |= std::byte{1} << (triangle % 8);
+    for (std::size_t mesh = 0; mesh < meshes_.size(); ++mesh) {
+        const MeshAnswer* answer = state.answer ? state.answer->of(mesh) : nullptr;
+        meshes_[mesh].paint(answer == nullptr ? std::span<const std::uint32_t>() : answer->triangles, slot);
     }
 }
 
-const Scene& DeviceScene::scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) {
-    scene_ = {};
-    scene_.mesh = &*mesh_;
-    scene_.normals = &*normals_;
-    scene_.world_from_object = state.document.edit.world_from_object;
-    if (painted_[slot]) {
-        scene_.paint.what = Paint::Triangles;
-        scene_.paint.triangles = &*painted_[slot];
-        scene_.paint.through = 0.45;
+ShownScene DeviceScene::scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) const {
+    ShownScene out;
+    for (const Instrument& instrument : state.document.edit.instruments) {
+        if (!instrument.shown) {
+            continue;
+        }
+        const SceneMesh mesh = meshes_[instrument.mesh].shown(instrument, slot);
+        if (out.scene.mesh == nullptr) {
+            static_cast<SceneMesh&>(out.scene) = mesh;
+        } else {
+            out.others.push_back(mesh);
+        }
     }
-    scene_.volume = &*volume_;
-    scene_.bricks = &*bricks_;
-    scene_.transferFunction = fine ? &*fine_ : &*coarse_;
-    scene_.lighting = light_;
+    out.scene.others = out.others;
+    out.scene.volume = &*volume_;
+    out.scene.bricks = &*bricks_;
+    out.scene.transferFunction = fine ? &*fine_ : &*coarse_;
+    out.scene.lighting = light_;
     if (!fine) {
-        scene_.lighting.occlusion = 0;
+        out.scene.lighting.occlusion = 0;
     }
-    scene_.clip_from_world = clipFromWorld(state.camera, extent, 2 * diagonalOf(state.volume.grid));
-    scene_.background = kBackground;
-    return scene_;
+    out.scene.clip_from_world = clipFromWorld(state.camera, extent, 2 * diagonalOf(state.volume.grid));
+    out.scene.background = kBackground;
+    return out;
+}
+
+std::uint64_t DeviceScene::triangles() const {
+    std::uint64_t sum = 0;
+    for (const DeviceMesh& mesh : meshes_) {
+        sum += mesh.mesh().triangles();
+    }
+    return sum;
 }
 
 Batch DeviceScene::batch(const State& state) {
-    pose_ = state.document.edit.world_from_object;
-    item_ = {&*mesh_, &*volume_, &*function_, {&pose_, 1}, labels()};
+    const std::vector<Instrument>& instruments = state.document.edit.instruments;
+    poses_.clear();
+    for (const Instrument& instrument : instruments) {
+        poses_.push_back(instrument.world_from_object);
+    }
+    items_.clear();
+    for (std::size_t i = 0; i < instruments.size(); ++i) {
+        const Mesh& mesh = meshes_[instruments[i].mesh].mesh();
+        items_.push_back({&mesh, &*volume_, &*function_, {&poses_[i], 1}, labels()});
+    }
     Batch batch;
-    batch.items = {&item_, 1};
+    batch.items = items_;
     batch.view = {framingCamera(state.volume.grid, kAnswerSide, kAnswerSide), kAnswerSide, kAnswerSide};
     batch.threshold = state.document.edit.threshold;
     return batch;

@@ -11,6 +11,34 @@
 
 namespace voxtact::view {
 
+/// A mesh on the device, with what paints its triangles.
+class DeviceMesh {
+  public:
+    [[nodiscard]] static Result<DeviceMesh> create(const device::Session& session, const Renderer& renderer,
+                                                   const MeshData& data);
+
+    /// These triangles and no others, in the pictures of a slot whose last use is done.
+    void paint(std::span<const std::uint32_t> triangles, std::uint32_t slot);
+    /// What a picture shows of it. Valid as long as this.
+    [[nodiscard]] SceneMesh shown(const Instrument& instrument, std::uint32_t slot) const;
+    [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+
+  private:
+    [[nodiscard]] Result<void> makeMasks(const device::Session& session, const Renderer& renderer);
+
+    std::optional<Mesh> mesh_;
+    std::optional<MeshNormals> normals_;
+    HostBuffer masks_;
+    std::size_t maskBytes_ = 0; ///< of a slot
+    std::array<std::optional<PaintedTriangles>, kFramesInFlight> painted_;
+};
+
+/// What a picture shows: the scene, whose other meshes are here. To be moved, not copied.
+struct ShownScene {
+    Scene scene;
+    std::vector<SceneMesh> others;
+};
+
 /// Everything of voxtact's on the device: one upload for pictures, slices and answers.
 class DeviceScene {
   public:
@@ -25,11 +53,11 @@ class DeviceScene {
         curve_.clear();
         written_ = writtenBefore_;
     }
-    /// Paints the triangles of the last answer, in the pictures of a slot whose last use is done.
+    /// Paints the triangles of the last answer on all meshes, in the pictures of a slot whose last use is done.
     void paint(const State& state, std::uint32_t slot);
-    /// What a picture shows. Valid until the next call.
-    [[nodiscard]] const Scene& scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent);
-    /// The pair that an answer is about. Valid until the next call.
+    /// What a picture shows: of the meshes those that are shown. Valid as long as this.
+    [[nodiscard]] ShownScene scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) const;
+    /// The pairs that an answer is about: one for each instrument. Valid until the next call.
     [[nodiscard]] Batch batch(const State& state);
 
     [[nodiscard]] const Volume& volume() const { return *volume_; }
@@ -37,12 +65,13 @@ class DeviceScene {
     [[nodiscard]] BlockingRenderer& blocking() { return *blocking_; }
     /// Null where there is no label map.
     [[nodiscard]] const LabelMap* labels() const { return labels_ ? &*labels_ : nullptr; }
-    [[nodiscard]] std::uint32_t triangles() const { return mesh_->triangles(); }
+    /// How many meshes there are, and their triangles together.
+    [[nodiscard]] std::uint32_t meshes() const { return static_cast<std::uint32_t>(meshes_.size()); }
+    [[nodiscard]] std::uint64_t triangles() const;
 
   private:
     DeviceScene() = default;
     [[nodiscard]] Result<void> uploadFunctions(const device::Session& session, const State& state);
-    [[nodiscard]] Result<void> uploadMesh(const device::Session& session, const State& state);
 
     // In the order in which they end, the last first.
     std::optional<BlockingRenderer> blocking_;
@@ -52,20 +81,15 @@ class DeviceScene {
     std::optional<RenderTransferFunction> fine_;
     std::optional<RenderTransferFunction> coarse_;
     std::optional<LabelMap> labels_;
-    std::optional<Mesh> mesh_;
-    std::optional<MeshNormals> normals_;
-    HostBuffer masks_;
-    std::size_t maskBytes_ = 0; ///< of a slot
-    std::array<std::optional<PaintedTriangles>, kFramesInFlight> painted_;
+    std::vector<DeviceMesh> meshes_; ///< by their numbers in Sources::meshes
 
     std::size_t written_ = 0;          ///< of State::writes
     std::size_t writtenBefore_ = 0;    ///< the last cmdUpdate()
     Curve curve_;                      ///< that the tables are of
     std::vector<ColourPoint> colours_; ///< the same
     Lighting light_;
-    Scene scene_;
-    BatchItem item_;
-    Mat4 pose_{};
+    std::vector<BatchItem> items_;
+    std::vector<Mat4> poses_; ///< of items_
 };
 
 } // namespace voxtact::view

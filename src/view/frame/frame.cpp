@@ -196,17 +196,20 @@ void Frames::take(State& state, Result<LiveAnswer> answer) {
     if (state.answer && state.answer->revision >= answer->revision) {
         return;
     }
-    const bool host = rowOf(answer->pair.method).host;
+    const PairAnswer& any = answer->meshes.front().pair; // all are answered in one way
+    const bool host = rowOf(any.method).host;
     const std::string by = host ? "host" : session_->device.physical().name;
-    const MethodChoice method{answer->pair.method, answer->pair.projection};
+    const MethodChoice method{any.method, any.projection};
     if (!(method == answering_)) {
         state.times = {}; // of one method at a time
     }
     answering_ = method;
     state.times.add(answer->milliseconds);
-    state.strip.add(state.seconds(), hitNumber(answer->pair), answer->milliseconds);
     state.answeredBy = by;
     state.answer = std::move(*answer);
+    if (const MeshAnswer* chosen = state.chosenAnswer()) {
+        state.strip.add(state.seconds(), hitNumber(chosen->pair), state.answer->milliseconds);
+    }
 }
 
 Result<void> Frames::fitSizes(State& state, VkExtent2D window) {
@@ -365,7 +368,7 @@ Result<void> Frames::show(State& state, const ImDrawData& panels, VkExtent2D win
     return swapchain_->present(session_->device.queueAccess().queue, image);
 }
 
-std::pair<Scene, BlockingRenderer*> Frames::screenshot(const State& state, const Extent& extent) {
+std::pair<ShownScene, BlockingRenderer*> Frames::screenshot(const State& state, const Extent& extent) {
     return {stage_->scene->scene(state, slot_, true, extent), &stage_->scene->blocking()};
 }
 

@@ -28,7 +28,7 @@ class Frames {
     [[nodiscard]] Result<void> renewSurface(const std::function<Result<VkSurfaceKHR>()>& make);
     /// What a picture of the state shows at a size, and who makes it, on any one thread, as long as the stage is there.
     /// Only where there is one.
-    [[nodiscard]] std::pair<Scene, BlockingRenderer*> screenshot(const State& state, const Extent& extent);
+    [[nodiscard]] std::pair<ShownScene, BlockingRenderer*> screenshot(const State& state, const Extent& extent);
 
   private:
     struct Slot {

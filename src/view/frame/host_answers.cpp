@@ -19,13 +19,19 @@ double since(State::Clock::time_point begun) {
 Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std::function<void()> wake) {
     Result<cpu::Volume> volume = cpu::Volume::create(state.volume.view());
     VOXTACT_TRY(volume);
-    Result<cpu::Mesh> mesh = cpu::Mesh::create(state.mesh.view());
-    VOXTACT_TRY(mesh);
-    return std::unique_ptr<HostAnswers>(new HostAnswers(std::move(*volume), std::move(*mesh), state, std::move(wake)));
+    std::vector<cpu::Mesh> meshes;
+    for (const MeshData& data : state.meshes) {
+        Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
+        VOXTACT_TRY(mesh);
+        meshes.push_back(std::move(*mesh));
+    }
+    return std::unique_ptr<HostAnswers>(
+        new HostAnswers(std::move(*volume), std::move(meshes), state, std::move(wake)));
 }
 
-HostAnswers::HostAnswers(cpu::Volume volume, cpu::Mesh mesh, const State& state, std::function<void()> wake)
-    : volume_(std::move(volume)), mesh_(std::move(mesh)),
+HostAnswers::HostAnswers(cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,
+                         std::function<void()> wake)
+    : volume_(std::move(volume)), meshes_(std::move(meshes)),
       labels_(state.labels ? std::optional(state.labels->map) : std::nullopt), domain_(state.document.domain),
       tableSize_(state.document.tableSize), view_{framingCamera(state.volume.grid, kAnswerSide, kAnswerSide),
                                                   kAnswerSide, kAnswerSide},
@@ -103,10 +109,18 @@ Result<cpu::Batch> HostAnswers::batchOf(const Question& question, const std::ato
         function_ = std::move(*made);
         functionOf_ = question.edit.curve;
     }
-    pose_ = question.edit.world_from_object;
-    item_ = {&mesh_, &volume_, &*function_, {&pose_, 1}, labels_ ? &*labels_ : nullptr};
+    const std::vector<Instrument>& instruments = question.edit.instruments;
+    poses_.clear();
+    for (const Instrument& instrument : instruments) {
+        poses_.push_back(instrument.world_from_object);
+    }
+    items_.clear();
+    for (std::size_t i = 0; i < instruments.size(); ++i) {
+        const cpu::Mesh& mesh = meshes_[instruments[i].mesh];
+        items_.push_back({&mesh, &volume_, &*function_, {&poses_[i], 1}, labels_ ? &*labels_ : nullptr});
+    }
     cpu::Batch batch;
-    batch.items = {&item_, 1};
+    batch.items = items_;
     batch.view = view_;
     batch.threshold = question.edit.threshold;
     batch.cancel = &cancel;
@@ -128,7 +142,7 @@ Result<LiveAnswer> HostAnswers::answer(const Question& question) {
     VOXTACT_TRY(batch);
     Result<BatchAnswer> found = detector->second.detect(*batch);
     VOXTACT_TRY(found);
-    return liveAnswer(std::move(*found), question.revision, question.edit.world_from_object, since(begun));
+    return liveAnswer(std::move(*found), question.revision, question.edit.instruments, since(begun));
 }
 
 Result<LiveClearance> HostAnswers::measure(const Question& question) {
@@ -142,7 +156,11 @@ Result<LiveClearance> HostAnswers::measure(const Question& question) {
     VOXTACT_TRY(batch);
     const Result<ClearanceAnswer> found = meter_->measure(*batch);
     VOXTACT_TRY(found);
-    return LiveClearance{question.revision, found->pairs.front(), since(begun)};
+    LiveClearance out{question.revision, {}, since(begun)};
+    for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+        out.meshes.push_back({question.edit.instruments[i].mesh, found->pairs[i]});
+    }
+    return out;
 }
 
 } // namespace voxtact::view

@@ -36,7 +36,7 @@ class HostAnswers {
     [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();
 
   private:
-    HostAnswers(cpu::Volume volume, cpu::Mesh mesh, const State& state, std::function<void()> wake);
+    HostAnswers(cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state, std::function<void()> wake);
     void work();
     template <class Found> void give(std::optional<Result<Found>>& to, Result<Found> found);
     /// Valid until the next call.
@@ -45,7 +45,7 @@ class HostAnswers {
     [[nodiscard]] Result<LiveClearance> measure(const Question& question);
 
     cpu::Volume volume_;
-    cpu::Mesh mesh_;
+    std::vector<cpu::Mesh> meshes_; ///< by their numbers in Sources::meshes
     std::optional<LabelData> labels_;
     ValueRange domain_;
     std::uint32_t tableSize_;
@@ -55,8 +55,8 @@ class HostAnswers {
     std::optional<cpu::ClearanceMeter> meter_;
     std::optional<cpu::TransferFunction> function_;
     Curve functionOf_; ///< what function_ was made from
-    Mat4 pose_{};
-    cpu::BatchItem item_;
+    std::vector<Mat4> poses_;
+    std::vector<cpu::BatchItem> items_;
 
     std::mutex mutex_;
     std::condition_variable asked_;

@@ -123,7 +123,7 @@ Result<void> Pictures::record(VkCommandBuffer commands, DeviceScene& scene, Stat
                   {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT});
     const Extent shape = coarse ? shown_ : full_;
-    VOXTACT_TRY(scene.renderer().cmdRender(commands, scene.scene(state, slot, fine, shape), target));
+    VOXTACT_TRY(scene.renderer().cmdRender(commands, scene.scene(state, slot, fine, shape).scene, target));
     if (made_[slot].timed) {
         table.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_, stamp + 1);
     }

@@ -15,7 +15,7 @@ Result<void> rehearse(const device::Session& session, const State& state, Stage&
     constexpr Extent kShape{16, 16};
     for (const bool fine : {false, true}) {
         const Result<Picture> picture =
-            stage.scene->blocking().render(stage.scene->scene(state, 0, fine, kShape), kSmall);
+            stage.scene->blocking().render(stage.scene->scene(state, 0, fine, kShape).scene, kSmall);
         VOXTACT_TRY(picture);
     }
     Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);

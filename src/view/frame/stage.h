@@ -17,7 +17,7 @@ struct StageDesc {
     std::array<Extent, 3> slices{{{16, 16}, {16, 16}, {16, 16}}};
 };
 
-/// All that belongs to one volume and one mesh, on the device and on the host. Made on any thread while the frames of
+/// All that belongs to one volume and its meshes, on the device and on the host. Made on any thread while the frames of
 /// another one go on; afterwards it is the frames' own.
 struct Stage {
     /// The volume that stages are made of. LimitExceeded and OutOfMemory: it is too large for the device.

@@ -20,6 +20,56 @@ std::string sourceWord(const std::string& source) {
     return shellWord(builtin || failed ? source : absolute.string());
 }
 
+/// What the command's answer is not about.
+std::string commentsOf(const Document& document) {
+    const std::size_t holes = document.edit.holes;
+    const std::string without = holes == 0   ? ""
+                                : holes == 1 ? "# of the volume as it was read, without the hole that was drilled\n"
+                                             : "# of the volume as it was read, without the " + std::to_string(holes) +
+                                                   " holes that were drilled\n";
+    const std::uint32_t coarser = document.sources.coarser;
+    const std::string copy = coarser == 1 ? ""
+                                          : "# of the volume as it is in the file, not of its copy that is coarser by " +
+                                                std::to_string(coarser) + "\n";
+    return copy + without;
+}
+
+std::string filesText(const Sources& sources, const MeshSource& mesh) {
+    std::string text = " --volume " + sourceWord(sources.volume) + " --mesh " + sourceWord(mesh.path);
+    if (mesh.space != "lps") {
+        text += " --mesh-space " + mesh.space;
+    }
+    if (mesh.scale != 1) {
+        text += " --mesh-scale " + number(mesh.scale);
+    }
+    if (!sources.labels.empty()) {
+        text += " --labels " + sourceWord(sources.labels);
+    }
+    if (!sources.labelNames.empty()) {
+        text += " --label-names " + sourceWord(sources.labelNames);
+    }
+    return text;
+}
+
+std::string lineFor(const Document& document, const Instrument& instrument, const MethodChoice& method,
+                    const std::string& device) {
+    std::string curve;
+    for (const ControlPoint& point : document.edit.curve) {
+        curve += (curve.empty() ? "" : ",") + number(point.value) + ":" + number(point.opacity);
+    }
+    std::string text = "echo '" + poseText(instrument.world_from_object) + "' | voxtact detect" +
+                       filesText(document.sources, document.sources.meshes[instrument.mesh]);
+    // With '=': a value may begin with a minus sign.
+    text += " --poses - --opacity=" + curve + " --tf-domain=" + number(document.domain.lo) + ":" +
+            number(document.domain.hi) + " --tf-size " + std::to_string(document.tableSize) + " --threshold " +
+            number(document.edit.threshold) + " --projection " + toString(method.projection) + " --count " +
+            toString(method.count);
+    if (!device.empty() && method.count != CountingMethod::Cpu) {
+        text += " --device " + shellWord(device);
+    }
+    return text;
+}
+
 } // namespace
 
 std::string shellWord(const std::string& text) {
@@ -43,45 +93,17 @@ std::string poseText(const Mat4& world_from_object) {
     return text;
 }
 
+std::string commandFor(const Document& document, const Instrument& instrument, const MethodChoice& method,
+                       const std::string& device) {
+    return commentsOf(document) + lineFor(document, instrument, method, device);
+}
+
 std::string copyAsCommand(const Document& document, const MethodChoice& method, const std::string& device) {
-    const Sources& sources = document.sources;
-    std::string curve;
-    for (const ControlPoint& point : document.edit.curve) {
-        curve += (curve.empty() ? "" : ",") + number(point.value) + ":" + number(point.opacity);
+    std::string text;
+    for (const Instrument& instrument : document.edit.instruments) {
+        text += (text.empty() ? "" : "\n") + lineFor(document, instrument, method, device);
     }
-    const std::size_t holes = document.edit.holes;
-    const std::string without = holes == 0   ? ""
-                                : holes == 1 ? "# of the volume as it was read, without the hole that was drilled\n"
-                                             : "# of the volume as it was read, without the " + std::to_string(holes) +
-                                                   " holes that were drilled\n";
-    const std::string copy = sources.coarser == 1 ? ""
-                                                  : "# of the volume as it is in the file, not of its copy that is "
-                                                    "coarser by " +
-                                                        std::to_string(sources.coarser) + "\n";
-    std::string text = copy + without + "echo '" + poseText(document.edit.world_from_object) +
-                       "' | voxtact detect --volume " + sourceWord(sources.volume) + " --mesh " +
-                       sourceWord(sources.mesh);
-    if (sources.meshSpace != "lps") {
-        text += " --mesh-space " + sources.meshSpace;
-    }
-    if (sources.meshScale != 1) {
-        text += " --mesh-scale " + number(sources.meshScale);
-    }
-    if (!sources.labels.empty()) {
-        text += " --labels " + sourceWord(sources.labels);
-    }
-    if (!sources.labelNames.empty()) {
-        text += " --label-names " + sourceWord(sources.labelNames);
-    }
-    // With '=': a value may begin with a minus sign.
-    text += " --poses - --opacity=" + curve + " --tf-domain=" + number(document.domain.lo) + ":" +
-            number(document.domain.hi) + " --tf-size " + std::to_string(document.tableSize) + " --threshold " +
-            number(document.edit.threshold) + " --projection " + toString(method.projection) + " --count " +
-            toString(method.count);
-    if (!device.empty() && method.count != CountingMethod::Cpu) {
-        text += " --device " + shellWord(device);
-    }
-    return text;
+    return commentsOf(document) + text;
 }
 
 } // namespace voxtact::view

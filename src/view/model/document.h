@@ -13,15 +13,29 @@
 /// All that the window shows, as plain data: what a session file holds.
 namespace voxtact::view {
 
-/// Where volume and mesh come from, as the command line takes them.
+/// Where a mesh comes from, as the command line takes it.
+struct MeshSource {
+    std::string path;
+    std::string space = "lps"; ///< what its coordinates mean
+    double scale = 1;          ///< mm of its unit
+};
+
+/// Where volume and meshes come from, as the command line takes them.
 struct Sources {
     std::string volume;
-    std::string mesh;
-    std::string meshSpace = "lps";
-    double meshScale = 1;
+    std::vector<MeshSource> meshes; ///< all that were opened; those that were removed too, so that undo has them
     std::string labels;        ///< a label map; empty: none
     std::string labelNames;    ///< what its labels are called; empty: the file beside it, where it is there
     std::uint32_t coarser = 1; ///< the volume that is shown has a voxel for so many along each axis
+};
+
+/// A mesh that is there, and where.
+struct Instrument {
+    std::size_t mesh = 0; ///< its number in Sources::meshes; no two have the same
+    Mat4 world_from_object = identity();
+    bool shown = true; ///< in picture and slices; it is answered for in any case
+
+    [[nodiscard]] bool operator==(const Instrument&) const = default;
 };
 
 /// What commands change, and undo gives back.
@@ -29,11 +43,18 @@ struct Edit {
     Curve curve;
     std::vector<ColourPoint> colours; ///< of the picture
     double threshold = kDefaultThreshold;
-    Mat4 world_from_object = identity();
-    std::size_t holes = 0; ///< that are drilled, of those that are known
+    std::vector<Instrument> instruments{1}; ///< at least one
+    std::size_t chosen = 0;                 ///< of them: what is moved. Undo gives it back, but it is no command
+    std::size_t holes = 0;                  ///< that are drilled, of those that are known
 
+    [[nodiscard]] const Instrument& instrument() const { return instruments[chosen]; }
+    /// `world_from_object` of the chosen instrument.
+    [[nodiscard]] const Mat4& pose() const { return instruments[chosen].world_from_object; }
+    [[nodiscard]] Mat4& pose() { return instruments[chosen].world_from_object; }
+
+    /// Whatever is chosen.
     [[nodiscard]] bool operator==(const Edit& other) const {
-        return threshold == other.threshold && holes == other.holes && world_from_object == other.world_from_object &&
+        return threshold == other.threshold && holes == other.holes && instruments == other.instruments &&
                sameCurve(curve, other.curve) && sameColours(colours, other.colours);
     }
 };

@@ -5,23 +5,57 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace voxtact::view {
 
-LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, const Mat4& world_from_object, double milliseconds) {
+namespace {
+
+/// How many contacts a pair has, of which the batch lists `listed`.
+std::uint64_t contactsOf(const BatchAnswer& batch, const PairAnswer& pair, std::size_t listed) {
+    if (batch.pairs.size() == 1) {
+        return batch.contactsFound;
+    }
+    const bool cut = batch.contactsFound > batch.contacts.size();
+    return cut ? std::max<std::uint64_t>(pair.count, listed) : listed;
+}
+
+MeshAnswer meshAnswer(const BatchAnswer& batch, const PairAnswer& pair, std::uint32_t number,
+                      const Instrument& instrument) {
+    MeshAnswer out;
+    out.instrument = instrument;
+    out.pair = pair;
+    for (const TouchedTriangle& touched : batch.triangles) {
+        if (touched.pair == number) {
+            out.triangles.push_back(touched.triangle);
+        }
+    }
+    const auto own = [number](const auto& one) { return one.pair == number; };
+    std::ranges::copy_if(batch.contacts, std::back_inserter(out.contacts), own);
+    out.contactsFound = contactsOf(batch, pair, out.contacts.size());
+    std::ranges::stable_sort(out.contacts, [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
+    out.contacts.resize(std::min(out.contacts.size(), kShownContacts));
+    std::vector<LabelCount> labels;
+    std::ranges::copy_if(batch.labels, std::back_inserter(labels), own);
+    out.labels = touchedLabels(std::move(labels));
+    return out;
+}
+
+} // namespace
+
+const MeshAnswer* LiveAnswer::of(std::size_t mesh) const noexcept {
+    const auto at = std::ranges::find_if(meshes, [mesh](const MeshAnswer& one) { return one.instrument.mesh == mesh; });
+    return at == meshes.end() ? nullptr : &*at;
+}
+
+LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, std::span<const Instrument> instruments,
+                      double milliseconds) {
     LiveAnswer out;
     out.revision = revision;
-    out.world_from_object = world_from_object;
-    out.pair = batch.pairs.front();
     out.milliseconds = milliseconds;
-    out.contactsFound = batch.contactsFound;
-    for (const TouchedTriangle& touched : batch.triangles) {
-        out.triangles.push_back(touched.triangle);
+    for (std::size_t i = 0; i < std::min(instruments.size(), batch.pairs.size()); ++i) {
+        out.meshes.push_back(meshAnswer(batch, batch.pairs[i], static_cast<std::uint32_t>(i), instruments[i]));
     }
-    std::ranges::stable_sort(batch.contacts, [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
-    batch.contacts.resize(std::min(batch.contacts.size(), kShownContacts));
-    out.contacts = std::move(batch.contacts);
-    out.labels = touchedLabels(std::move(batch.labels));
     return out;
 }
 

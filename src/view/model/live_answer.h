@@ -6,27 +6,36 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
-/// What the window says of the pair that it shows.
+/// What the window says of the pairs that it shows: of each mesh and the volume.
 namespace voxtact::view {
 
 /// Contacts that are shown and listed, at most.
 inline constexpr std::size_t kShownContacts = 2000;
 
-struct LiveAnswer {
-    std::uint64_t revision = 0; ///< of the question
-    Mat4 world_from_object = identity();
+/// What is said of one mesh.
+struct MeshAnswer {
+    Instrument instrument; ///< that was asked about
     PairAnswer pair;
-    std::vector<std::uint32_t> triangles; ///< with survivors
+    std::vector<std::uint32_t> triangles; ///< with survivors, by their numbers
     std::vector<Contact> contacts;        ///< the deepest first, at most kShownContacts
-    std::uint64_t contactsFound = 0;
-    std::vector<LabelCount> labels; ///< that are touched, those with the most survivors first
-    double milliseconds = 0;        ///< the host: wall clock; a device: its own clock, where it has one
+    std::uint64_t contactsFound = 0;      ///< of a list of the batch that was cut: the pair's count
+    std::vector<LabelCount> labels;       ///< that are touched, those with the most survivors first
 };
 
-/// Of a batch with one pair.
-[[nodiscard]] LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, const Mat4& world_from_object,
+struct LiveAnswer {
+    std::uint64_t revision = 0;     ///< of the question
+    std::vector<MeshAnswer> meshes; ///< in the order of the question
+    double milliseconds = 0;        ///< of all of it. The host: wall clock; a device: its own clock, where it has one
+
+    /// Of a mesh by its number in Sources::meshes. Null where it was not asked about.
+    [[nodiscard]] const MeshAnswer* of(std::size_t mesh) const noexcept;
+};
+
+/// Of a batch with one pair for each instrument, in their order.
+[[nodiscard]] LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, std::span<const Instrument> instruments,
                                     double milliseconds);
 
 /// "yes", "no" or "possible".

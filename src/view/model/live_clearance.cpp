@@ -7,6 +7,11 @@
 
 namespace voxtact::view {
 
+const PairClearance* LiveClearance::of(std::size_t mesh) const noexcept {
+    const auto at = std::ranges::find_if(meshes, [mesh](const MeshClearance& one) { return one.mesh == mesh; });
+    return at == meshes.end() ? nullptr : &at->pair;
+}
+
 std::string clearanceText(const PairClearance& clearance) {
     const auto& [lo, hi] = clearance.bounds;
     if (std::isinf(lo)) {

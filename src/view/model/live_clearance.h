@@ -7,14 +7,23 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
-/// How near the pair is, as the host measures it beside the answer.
+/// How near each mesh is, as the host measures it beside the answer.
 namespace voxtact::view {
 
-struct LiveClearance {
-    std::uint64_t revision = 0; ///< of the question
+struct MeshClearance {
+    std::size_t mesh = 0; ///< its number in Sources::meshes
     PairClearance pair;
-    double milliseconds = 0; ///< wall clock
+};
+
+struct LiveClearance {
+    std::uint64_t revision = 0;        ///< of the question
+    std::vector<MeshClearance> meshes; ///< in the order of the question
+    double milliseconds = 0;           ///< of all of it, wall clock
+
+    /// Of a mesh by its number. Null where it was not asked about.
+    [[nodiscard]] const PairClearance* of(std::size_t mesh) const noexcept;
 };
 
 /// "12.34 to 12.35 mm away", "touches", "nothing is opaque".

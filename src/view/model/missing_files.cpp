@@ -2,7 +2,6 @@
 #include "view/model/missing_files.h"
 
 #include <algorithm>
-#include <array>
 
 namespace voxtact::view {
 
@@ -11,13 +10,19 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Member {
-    const char* name;
-    std::string Sources::*path;
+    std::string name;
+    std::string* path;
 };
-constexpr std::array<Member, 4> kMembers{{{"volume", &Sources::volume},
-                                          {"mesh", &Sources::mesh},
-                                          {"label map", &Sources::labels},
-                                          {"label names", &Sources::labelNames}}};
+
+std::vector<Member> membersOf(Sources& sources) {
+    std::vector<Member> out{{"volume", &sources.volume}};
+    for (std::size_t i = 0; i < sources.meshes.size(); ++i) {
+        out.push_back({sources.meshes.size() == 1 ? "mesh" : "mesh " + std::to_string(i + 1), &sources.meshes[i].path});
+    }
+    out.push_back({"label map", &sources.labels});
+    out.push_back({"label names", &sources.labelNames});
+    return out;
+}
 
 bool isThere(const std::string& path) {
     std::error_code ignored;
@@ -27,10 +32,10 @@ bool isThere(const std::string& path) {
 
 } // namespace
 
-std::vector<MissingFile> missingFiles(const Sources& sources, const fs::path& session) {
+std::vector<MissingFile> missingFiles(Sources sources, const fs::path& session) {
     std::vector<MissingFile> out;
-    for (const Member& member : kMembers) {
-        const std::string& path = sources.*member.path;
+    for (const Member& member : membersOf(sources)) {
+        const std::string& path = *member.path;
         if (path.empty() || path.starts_with("builtin:") || isThere(path)) {
             continue;
         }
@@ -41,11 +46,11 @@ std::vector<MissingFile> missingFiles(const Sources& sources, const fs::path& se
 }
 
 Sources found(Sources sources, const std::vector<MissingFile>& files) {
+    const std::vector<Member> members = membersOf(sources);
     for (const MissingFile& file : files) {
-        const auto* const member =
-            std::ranges::find_if(kMembers, [&file](const Member& one) { return file.name == one.name; });
-        if (member != kMembers.end()) {
-            sources.*member->path = file.path;
+        const auto member = std::ranges::find(members, file.name, &Member::name);
+        if (member != members.end()) {
+            *member->path = file.path;
         }
     }
     return sources;

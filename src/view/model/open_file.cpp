@@ -49,13 +49,11 @@ Result<void> openPoses(const std::filesystem::path& path, State& state) {
     return {};
 }
 
-/// The document with another volume or mesh.
+/// The document with another volume, or with a mesh more: what is shown makes an instrument of it when it is there.
 Document withFile(Document document, FileKind kind, const std::string& path) {
     Sources& sources = document.sources;
     if (kind == FileKind::Mesh) {
-        sources.mesh = path;
-        sources.meshSpace = Sources{}.meshSpace;
-        sources.meshScale = Sources{}.meshScale;
+        sources.meshes.push_back({path, "lps", 1});
     } else {
         // Labels, curve and camera were those of the volume before.
         sources.volume = path;
@@ -69,6 +67,14 @@ Document withFile(Document document, FileKind kind, const std::string& path) {
         sources.coarser = 1;
     }
     return document;
+}
+
+/// Of several files at once none takes the place of another.
+void want(State& state, FileKind kind, const std::string& path) {
+    const bool also = state.wanted && state.wanted->kind != FileKind::Session;
+    const FileKind before = also ? state.wanted->kind : kind;
+    Document document = withFile(also ? state.wanted->document : state.saved(), kind, path);
+    state.wanted = Wanted{before == FileKind::Volume ? before : kind, std::move(document), path};
 }
 
 } // namespace
@@ -104,7 +110,7 @@ Result<void> openFile(const std::filesystem::path& path, State& state) {
         VOXTACT_TRY(session);
         state.wanted = Wanted{*kind, std::move(*session), path.string()};
     } else {
-        state.wanted = Wanted{*kind, withFile(state.saved(), *kind, path.string()), path.string()};
+        want(state, *kind, path.string());
     }
     return {};
 }

@@ -16,43 +16,74 @@ Json millimetres(double value) {
     return std::isinf(value) ? Json("inf") : Json(value);
 }
 
-/// Null where it is of another question than the answer.
-Json clearanceJson(const LiveClearance* live, std::uint64_t revision) {
-    if (live == nullptr || live->revision != revision) {
+/// Null where it is of another question than the answer, or not of that mesh.
+Json clearanceJson(const StateReport& report, std::size_t mesh) {
+    const LiveClearance* live = report.clearance;
+    const PairClearance* pair = live != nullptr && live->revision == report.answer->revision ? live->of(mesh) : nullptr;
+    if (pair == nullptr) {
         return nullptr;
     }
-    const PairClearance& pair = live->pair;
-    Json json{{"lo", millimetres(pair.bounds.lo)}, {"hi", millimetres(pair.bounds.hi)}, {"end", toString(pair.end)}};
-    if (pair.closest) {
-        json["triangle"] = pair.closest->triangle;
-        json["mesh"] = pair.closest->mesh;
-        json["volume"] = pair.closest->volume;
+    Json json{{"lo", millimetres(pair->bounds.lo)}, {"hi", millimetres(pair->bounds.hi)}, {"end", toString(pair->end)}};
+    if (pair->closest) {
+        json["triangle"] = pair->closest->triangle;
+        json["mesh"] = pair->closest->mesh;
+        json["volume"] = pair->closest->volume;
     }
     return json;
 }
 
-/// What only an answer has.
-void addAnswer(Json& json, const StateReport& report) {
-    const LiveAnswer& answer = *report.answer;
+Json labelsJson(const Labels& labels, const MeshAnswer& answer) {
+    Json json = Json::array();
+    for (const LabelCount& touched : answer.labels) {
+        json.push_back({{"label", touched.label}, {"name", nameOf(labels, touched.label)}, {"count", touched.count}});
+    }
+    return json;
+}
+
+/// What is said of one mesh.
+void addMesh(Json& json, const StateReport& report, const MeshAnswer& answer) {
     json["hit"] = hitNumber(answer.pair);
     json["count"] = answer.pair.count;
     json["exact"] = answer.pair.exactness == Exactness::Exact ? 1 : 0;
     json["method"] = toString(answer.pair.method);
     json["projection"] = toString(answer.pair.projection);
+    const Mat4& pose = answer.instrument.world_from_object;
     json["pose"] = Json::array();
-    for (std::size_t i = 0; i < answer.world_from_object.size(); ++i) {
-        json["pose"].push_back(answer.world_from_object[4 * (i % 4) + i / 4]);
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+        json["pose"].push_back(pose[4 * (i % 4) + i / 4]);
     }
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
-    json["clearance"] = clearanceJson(report.clearance, answer.revision);
+    json["clearance"] = clearanceJson(report, answer.instrument.mesh);
     if (report.labels != nullptr) {
-        json["labels"] = Json::array();
-        for (const LabelCount& touched : answer.labels) {
-            json["labels"].push_back(
-                {{"label", touched.label}, {"name", nameOf(*report.labels, touched.label)}, {"count", touched.count}});
-        }
+        json["labels"] = labelsJson(*report.labels, answer);
     }
+}
+
+/// All instruments, as they are now; with what only an answer has, where there is one.
+Json meshesJson(const StateReport& report) {
+    Json out = Json::array();
+    const Document& document = *report.document;
+    for (std::size_t i = 0; i < document.edit.instruments.size(); ++i) {
+        const Instrument& instrument = document.edit.instruments[i];
+        if (instrument.mesh >= document.sources.meshes.size()) {
+            continue; // there is nothing to show yet
+        }
+        Json json{{"mesh", document.sources.meshes[instrument.mesh].path}, {"shown", instrument.shown}, {"hit", nullptr}};
+        const MeshAnswer* answer = report.answer == nullptr ? nullptr : report.answer->of(instrument.mesh);
+        if (answer != nullptr) {
+            addMesh(json, report, *answer);
+        }
+        json["command"] = i < report.commands.size() ? report.commands[i] : "";
+        out.push_back(std::move(json));
+    }
+    return out;
+}
+
+/// What only an answer has.
+void addAnswer(Json& json, const StateReport& report, const MeshAnswer& chosen) {
+    addMesh(json, report, chosen);
+    const LiveAnswer& answer = *report.answer;
     json["device"] = report.device;
     json["milliseconds"] = answer.milliseconds;
     json["p50_ms"] = report.times->percentile(0.5);
@@ -88,14 +119,17 @@ Json questionJson(const Question* question) {
 std::string reportText(const StateReport& report) {
     Json json;
     json["hit"] = nullptr;
-    if (report.answer != nullptr) {
-        addAnswer(json, report);
+    const Edit& edit = report.document->edit;
+    if (const MeshAnswer* chosen = report.answer == nullptr ? nullptr : report.answer->of(edit.instrument().mesh)) {
+        addAnswer(json, report, *chosen);
     }
-    json["holes"] = report.document->edit.holes;
+    json["chosen"] = edit.chosen;
+    json["meshes"] = meshesJson(report);
+    json["holes"] = edit.holes;
     json["coarser"] = report.document->sources.coarser;
-    json["threshold"] = report.document->edit.threshold;
+    json["threshold"] = edit.threshold;
     json["points"] = Json::array();
-    for (const ControlPoint& point : report.document->edit.curve) {
+    for (const ControlPoint& point : edit.curve) {
         json["points"].push_back({point.value, point.opacity});
     }
     json["frame"] = report.frame;
@@ -107,7 +141,7 @@ std::string reportText(const StateReport& report) {
     json["loading"] = loadingJson(report.loading);
     json["loaded"] = loadingJson(report.loaded);
     json["status"] = report.status;
-    json["command"] = report.command;
+    json["command"] = edit.chosen < report.commands.size() ? report.commands[edit.chosen] : "";
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace voxtact::view {
 
@@ -17,11 +18,11 @@ struct StateReport {
     const LiveAnswer* answer = nullptr;       ///< null where there is none yet
     const Times* times = nullptr;             ///< must be given
     const Document* document = nullptr;       ///< must be given
+    std::vector<std::string> commands;        ///< commandFor() of each of its instruments; empty without an answer
     const LiveClearance* clearance = nullptr; ///< null where there is none yet
     const Labels* labels = nullptr;           ///< null where there is no label map
     std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
     std::string device;                       ///< that answered; "host" for cpu
-    std::string command;                      ///< copyAsCommand() of what was answered
     std::string error;                        ///< of the dialog that is open; empty: none
     const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
     const Loading* loading = nullptr;         ///< null: nothing is being loaded

@@ -45,9 +45,6 @@ Json poseJson(const Mat4& pose) {
 
 void readSources(SessionReader& reader, Sources& sources) {
     sources.volume = reader.text("volume", "");
-    sources.mesh = reader.text("mesh", "");
-    sources.meshSpace = reader.text("mesh_space", "lps");
-    sources.meshScale = reader.number("mesh_scale", 1.0);
     const double coarser = reader.number("volume_coarser", 1.0);
     constexpr double kMostCoarser = 1024;
     if (!(coarser >= 1 && coarser <= kMostCoarser && coarser == std::floor(coarser))) {
@@ -60,17 +57,33 @@ void readSources(SessionReader& reader, Sources& sources) {
     if (sources.labels.empty() && !sources.labelNames.empty()) {
         reader.refuse("label_names", "names the labels of a label map, and labels is missing");
     }
-    for (const auto& [name, source] : {std::pair("volume", &sources.volume), std::pair("mesh", &sources.mesh)}) {
-        if (source->empty()) {
-            reader.refuse(name, "is missing");
-        }
+    if (sources.volume.empty()) {
+        reader.refuse("volume", "is missing");
     }
-    if (sources.meshSpace != "lps" && sources.meshSpace != "ras") {
-        reader.refuse("mesh_space", "is neither lps nor ras");
+}
+
+/// Of an object with the members mesh, mesh_space and mesh_scale; `at`: its name with a dot, or nothing.
+MeshSource readMesh(SessionReader& reader, const std::string& at) {
+    MeshSource mesh;
+    mesh.path = reader.text(at + "mesh", "");
+    mesh.space = reader.text(at + "mesh_space", "lps");
+    mesh.scale = reader.number(at + "mesh_scale", 1.0);
+    if (mesh.path.empty()) {
+        reader.refuse(at + "mesh", "is missing");
     }
-    if (!(sources.meshScale > 0) || !std::isfinite(sources.meshScale)) {
-        reader.refuse("mesh_scale", "is not a positive number");
+    if (mesh.space != "lps" && mesh.space != "ras") {
+        reader.refuse(at + "mesh_space", "is neither lps nor ras");
     }
+    if (!(mesh.scale > 0) || !std::isfinite(mesh.scale)) {
+        reader.refuse(at + "mesh_scale", "is not a positive number");
+    }
+    return mesh;
+}
+
+void writeMesh(Json& json, const MeshSource& mesh) {
+    json["mesh"] = mesh.path;
+    json["mesh_space"] = mesh.space;
+    json["mesh_scale"] = mesh.scale;
 }
 
 void readFunction(SessionReader& reader, Document& document) {
@@ -116,9 +129,11 @@ void readFunction(SessionReader& reader, Document& document) {
     }
 }
 
+/// The one of a session with one mesh; of one with several that is the chosen one, for programs that know of one.
 void readInstrument(SessionReader& reader, Document& document) {
+    document.sources.meshes = {readMesh(reader, "")};
     if (const Json* json = reader.find("instrument.pose"); json != nullptr) {
-        document.edit.world_from_object = readPose(reader, "instrument.pose", *json);
+        document.edit.pose() = readPose(reader, "instrument.pose", *json);
     }
     reader.each("instrument.poses",
                 [&](const std::string& at, const Json& json) { document.poses.push_back(readPose(reader, at, json)); });
@@ -129,6 +144,70 @@ void readInstrument(SessionReader& reader, Document& document) {
         return;
     }
     document.pose = static_cast<std::size_t>(number);
+}
+
+/// An element of `meshes`, whose members are looked for in it alone.
+Instrument readMember(SessionReader& reader, const std::string& at, const Json& json, Document& document) {
+    SessionReader member(json);
+    Instrument out;
+    out.mesh = document.sources.meshes.size();
+    document.sources.meshes.push_back(readMesh(member, ""));
+    if (const Json* pose = member.find("pose"); pose != nullptr) {
+        out.world_from_object = readPose(member, "pose", *pose);
+    } else {
+        member.refuse("pose", "is missing");
+    }
+    const Json* shown = member.find("shown");
+    if (shown != nullptr && !shown->is_boolean()) {
+        member.refuse("shown", "is neither true nor false");
+    } else {
+        out.shown = shown == nullptr || shown->get<bool>();
+    }
+    if (!member.wrong().empty()) {
+        reader.refuse(at, member.wrong());
+    }
+    return out;
+}
+
+/// Where there are several, they are instead of the one.
+void readInstruments(SessionReader& reader, Document& document) {
+    const Json* meshes = reader.find("meshes");
+    if (meshes == nullptr || !reader.wrong().empty()) {
+        return;
+    }
+    document.sources.meshes.clear();
+    document.edit.instruments.clear();
+    reader.each("meshes", [&](const std::string& at, const Json& json) {
+        document.edit.instruments.push_back(readMember(reader, at, json, document));
+    });
+    if (document.edit.instruments.empty()) {
+        reader.refuse("meshes", "is empty");
+        return;
+    }
+    const double chosen = reader.number("chosen", 0.0);
+    if (!(chosen >= 0 && chosen == std::floor(chosen) &&
+          chosen < static_cast<double>(document.edit.instruments.size()))) {
+        reader.refuse("chosen", "is not the number of one of meshes");
+        return;
+    }
+    document.edit.chosen = static_cast<std::size_t>(chosen);
+}
+
+/// Where it is not one that is shown.
+void writeInstruments(Json& json, const Document& document) {
+    const Edit& edit = document.edit;
+    if (edit.instruments.size() == 1 && edit.instrument().shown) {
+        return;
+    }
+    json["meshes"] = Json::array();
+    for (const Instrument& instrument : edit.instruments) {
+        Json one;
+        writeMesh(one, document.sources.meshes[instrument.mesh]);
+        one["pose"] = poseJson(instrument.world_from_object);
+        one["shown"] = instrument.shown;
+        json["meshes"].push_back(std::move(one));
+    }
+    json["chosen"] = edit.chosen;
 }
 
 void readMethod(SessionReader& reader, Document& document) {
@@ -185,6 +264,7 @@ Result<Document> parseSession(std::string_view text, const std::string& name) {
     readSources(reader, document.sources);
     readFunction(reader, document);
     readInstrument(reader, document);
+    readInstruments(reader, document);
     readMethod(reader, document);
     readCamera(reader, document);
     readHoles(reader, document);
@@ -199,9 +279,7 @@ std::string sessionText(const Document& document) {
     if (document.sources.coarser != 1) {
         json["volume_coarser"] = document.sources.coarser;
     }
-    json["mesh"] = document.sources.mesh;
-    json["mesh_space"] = document.sources.meshSpace;
-    json["mesh_scale"] = document.sources.meshScale;
+    writeMesh(json, document.sources.meshes[document.edit.instrument().mesh]);
     if (!document.sources.labels.empty()) {
         json["labels"] = document.sources.labels;
     }
@@ -221,12 +299,13 @@ std::string sessionText(const Document& document) {
     function["size"] = document.tableSize;
     function["threshold"] = document.edit.threshold;
     Json& instrument = json["instrument"];
-    instrument["pose"] = poseJson(document.edit.world_from_object);
+    instrument["pose"] = poseJson(document.edit.pose());
     instrument["poses"] = Json::array();
     for (const Mat4& pose : document.poses) {
         instrument["poses"].push_back(poseJson(pose));
     }
     instrument["pose_number"] = document.pose;
+    writeInstruments(json, document);
     if (document.method) {
         json["method"] = {{"count", toString(document.method->count)},
                           {"projection", toString(document.method->projection)}};

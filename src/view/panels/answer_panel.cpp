@@ -71,7 +71,7 @@ void drawLabels(const State& state) {
     };
     std::string line;
     std::string all;
-    for (const LabelCount& touched : state.answer->labels) {
+    for (const LabelCount& touched : state.chosenAnswer()->labels) {
         line += (line.empty() ? "" : "   ") + text(touched);
         all += (all.empty() ? "" : "\n") + text(touched);
     }
@@ -87,17 +87,18 @@ void drawLabels(const State& state) {
 }
 
 void drawClearance(const State& state) {
-    if (!state.clearance) {
+    const PairClearance* clearance = state.chosenClearance();
+    if (clearance == nullptr) {
         ImGui::TextColored(quietColour(), "measuring ...");
         return;
     }
     ImVec4 colour = ImGui::GetStyle().Colors[ImGuiCol_Text];
     colour.w = state.clearance->revision == state.revision ? 1.0F : 0.5F;
-    const std::string text = clearanceText(state.clearance->pair);
+    const std::string text = clearanceText(*clearance);
     ImGui::TextColored(colour, "%s", text.c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("The clearance, certified: between these bounds lies the least distance between\n"
-                          "the mesh and what is opaque. By the host, in %.1f ms.",
+                          "the mesh and what is opaque. By the host, in %.1f ms for all meshes.",
                           state.clearance->milliseconds);
     }
 }
@@ -106,13 +107,13 @@ void drawClearance(const State& state) {
 
 void drawAnswer(State& state) {
     heading("Does it touch?");
-    if (!state.answer) {
+    if (state.chosenAnswer() == nullptr) {
         ImGui::TextColored(quietColour(), "asking ...");
         drawMethods(state);
         return;
     }
-    const LiveAnswer& answer = *state.answer;
-    const bool current = answer.revision == state.revision;
+    const MeshAnswer& answer = *state.chosenAnswer();
+    const bool current = state.answer->revision == state.revision;
     ImVec4 colour = verdictColour(hitNumber(answer.pair));
     colour.w = current ? 1.0F : 0.5F;
     constexpr float kLarge = 1.7F;
@@ -121,7 +122,7 @@ void drawAnswer(State& state) {
     ImGui::SetWindowFontScale(1);
     ImGui::SameLine();
     ImGui::BeginGroup();
-    const char* kind = state.answer->pair.projection == Projection::Conservative ? "certified cells" : "fragments";
+    const char* kind = answer.pair.projection == Projection::Conservative ? "certified cells" : "fragments";
     const char* exact = answer.pair.exactness == Exactness::Exact ? "" : "at least ";
     ImGui::Text("%s%llu %s", exact, static_cast<unsigned long long>(answer.pair.count), kind);
     if (answer.contacts.empty()) {
@@ -153,8 +154,9 @@ void copyCommand(State& state) {
 }
 
 void drawContacts(State& state) {
-    const std::size_t shown = state.answer ? state.answer->contacts.size() : 0;
-    const unsigned long long found = state.answer ? state.answer->contactsFound : 0;
+    const MeshAnswer* answer = state.chosenAnswer();
+    const std::size_t shown = answer == nullptr ? 0 : answer->contacts.size();
+    const unsigned long long found = answer == nullptr ? 0 : answer->contactsFound;
     heading("Contacts");
     ImGui::SameLine();
     ImGui::TextColored(quietColour(), shown < found ? "%llu, the deepest %d listed" : "%llu", found,
@@ -174,7 +176,7 @@ void drawContacts(State& state) {
     clipper.Begin(static_cast<int>(shown));
     while (clipper.Step()) {
         for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
-            const Contact& contact = state.answer->contacts[static_cast<std::size_t>(row)];
+            const Contact& contact = answer->contacts[static_cast<std::size_t>(row)];
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
             ImGui::PushID(row);

@@ -19,7 +19,7 @@ namespace {
 
 Result<void> savePose(const std::filesystem::path& path, const State& state) {
     return io::writeFile(path, [&state](std::ostream& out) -> Result<void> {
-        out << poseText(state.document.edit.world_from_object) << "\n";
+        out << poseText(state.document.edit.pose()) << "\n";
         return {};
     });
 }

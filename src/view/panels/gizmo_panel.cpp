@@ -54,7 +54,7 @@ void drawArrow(const Gizmo& gizmo, std::size_t axis, const Onto& onto, ImU32 col
 
 Gizmo shownGizmo(const State& state, float height) {
     const double mmOfPoint = 2 * state.camera.halfHeight / static_cast<double>(height);
-    return gizmoOf(state.document.edit.world_from_object, state.camera, state.gizmoAxes,
+    return gizmoOf(state.document.edit.pose(), state.camera, state.gizmoAxes,
                    mmOfPoint * static_cast<double>(kLength * ImGui::GetFontSize()));
 }
 
@@ -72,7 +72,7 @@ void drag(State& state, const Ray& ray) {
     const GizmoDrag& begun = *state.gizmoDrag;
     state.command(
         [&](Edit& edit) {
-            edit.world_from_object = dragged(begun.world_from_object, begun.gizmo, begun.handle, begun.from, ray, snap);
+            edit.pose() = dragged(begun.world_from_object, begun.gizmo, begun.handle, begun.from, ray, snap);
         },
         "gizmo");
 }
@@ -100,7 +100,7 @@ bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size) {
         return false;
     }
     state.history.end(); // each drag is a command of its own
-    state.gizmoDrag = {state.gizmoHandle, gizmo, state.document.edit.world_from_object, ray};
+    state.gizmoDrag = {state.gizmoHandle, gizmo, state.document.edit.pose(), ray};
     return true;
 }
 

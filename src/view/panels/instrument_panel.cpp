@@ -10,17 +10,17 @@ namespace voxtact::view {
 namespace {
 
 void move(State& state, const Vec3& mm, Axes axes) {
-    state.command([&](Edit& edit) { edit.world_from_object = moved(edit.world_from_object, mm, axes); }, "nudge");
+    state.command([&](Edit& edit) { edit.pose() = moved(edit.pose(), mm, axes); }, "nudge");
 }
 
 void turn(State& state, std::size_t axis, double degrees, Axes axes) {
-    state.command([&](Edit& edit) { edit.world_from_object = turned(edit.world_from_object, axis, degrees, axes); },
+    state.command([&](Edit& edit) { edit.pose() = turned(edit.pose(), axis, degrees, axes); },
                   "nudge");
 }
 
 /// The tip in numbers: dragged or typed.
 void drawPlace(State& state) {
-    const Vec3 tip = originOf(state.document.edit.world_from_object);
+    const Vec3 tip = originOf(state.document.edit.pose());
     std::array<float, 3> numbers{static_cast<float>(tip[0]), static_cast<float>(tip[1]), static_cast<float>(tip[2])};
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("tip, mm_").x);
     if (ImGui::DragFloat3("tip, mm", numbers.data(), 0.1F, 0, 0, "%.2f")) {
@@ -31,12 +31,12 @@ void drawPlace(State& state) {
                 to[axis] = static_cast<double>(numbers[axis]);
             }
         }
-        state.command([&](Edit& edit) { edit.world_from_object = placedAt(edit.world_from_object, to); }, "tip");
+        state.command([&](Edit& edit) { edit.pose() = placedAt(edit.pose(), to); }, "tip");
     }
     if (ImGui::IsItemDeactivated()) {
         state.history.end();
     }
-    const Vec3 angles = anglesOf(state.document.edit.world_from_object);
+    const Vec3 angles = anglesOf(state.document.edit.pose());
     ImGui::TextColored(quietColour(), "turned %.1f, %.1f, %.1f degrees about x, y, z", angles[0], angles[1], angles[2]);
 }
 
@@ -106,7 +106,7 @@ void drawDrill(State& state) {
     }
     ImGui::SameLine();
     if (ImGui::Button("drill at the tip")) {
-        state.drill(originOf(state.document.edit.world_from_object));
+        state.drill(originOf(state.document.edit.pose()));
     }
     ImGui::SameLine();
     if (ImGui::Button("at the cursor")) {
@@ -138,16 +138,17 @@ void drawPoses(State& state) {
 
 void drawInstrument(State& state) {
     heading("Instrument");
+    drawMeshes(state);
     drawPlace(state);
     drawNudges(state);
     drawSteps(state);
     drawGizmoChoice(state);
     if (ImGui::Button("tip to the cursor")) {
-        state.command([&](Edit& edit) { edit.world_from_object = placedAt(edit.world_from_object, state.cursor); });
+        state.command([&](Edit& edit) { edit.pose() = placedAt(edit.pose(), state.cursor); });
     }
     ImGui::SameLine();
     if (ImGui::Button("add pose to list")) {
-        state.document.poses.push_back(state.document.edit.world_from_object);
+        state.document.poses.push_back(state.document.edit.pose());
         state.document.pose = state.document.poses.size() - 1;
     }
     ImGui::PushID("drill"); // it has a 'mm' of its own

@@ -60,11 +60,11 @@ void nudge(State& state, const Nudge& how, const KeyPress& press) {
             for (double& one : mm) {
                 one *= factor * state.stepMillimetres;
             }
-            edit.world_from_object = moved(edit.world_from_object, mm, how.axes);
+            edit.pose() = moved(edit.pose(), mm, how.axes);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 if (how.degrees[axis] != 0) {
-                    edit.world_from_object =
-                        turned(edit.world_from_object, axis, factor * state.stepDegrees * how.degrees[axis], how.axes);
+                    edit.pose() =
+                        turned(edit.pose(), axis, factor * state.stepDegrees * how.degrees[axis], how.axes);
                 }
             }
         },
@@ -106,10 +106,10 @@ void takePlainKey(State& state, const KeyPress& press) {
         state.camera = framing(state.volume.grid, state.camera.direction);
         break;
     case GLFW_KEY_G:
-        state.cursor = originOf(state.document.edit.world_from_object);
+        state.cursor = originOf(state.document.edit.pose());
         break;
     case GLFW_KEY_X:
-        state.drill(originOf(state.document.edit.world_from_object));
+        state.drill(originOf(state.document.edit.pose()));
         break;
     case GLFW_KEY_C:
         state.drill(state.cursor);
@@ -119,6 +119,15 @@ void takePlainKey(State& state, const KeyPress& press) {
         break;
     case GLFW_KEY_T:
         state.gizmoAxes = nextOf(state.gizmoAxes);
+        break;
+    case GLFW_KEY_M:
+        state.choose((state.document.edit.chosen + 1) % state.document.edit.instruments.size());
+        break;
+    case GLFW_KEY_V:
+        state.command([](Edit& edit) { edit.instruments[edit.chosen].shown ^= true; });
+        break;
+    case GLFW_KEY_DELETE:
+        state.remove(state.document.edit.chosen);
         break;
     case GLFW_KEY_ESCAPE:
         state.cancelLoading = state.loading.has_value();
@@ -225,6 +234,7 @@ void drawHelp(State& state) {
         for (const Direction& direction : kDirections) {
             row(direction.name, direction.view);
         }
+        row("M, V, delete", "of several meshes the next one; it is shown or not; it is removed");
         row("F", "frame the volume");
         row("G", "slices through the tip");
         row("H, T", "handles at the tip: shown or not; along the axes of the world, of the view, its own");

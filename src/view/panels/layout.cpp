@@ -60,7 +60,10 @@ void drawMenu(State& state) {
     }
     const Sources& sources = state.document.sources;
     const std::string coarser = sources.coarser == 1 ? "" : " (coarser by " + std::to_string(sources.coarser) + ")";
-    const std::string names = sources.volume + coarser + "   " + sources.mesh;
+    std::string names = sources.volume + coarser;
+    for (const Instrument& instrument : state.document.edit.instruments) {
+        names += state.blank ? "" : "   " + sources.meshes[instrument.mesh].path;
+    }
     const float width = ImGui::CalcTextSize(names.c_str()).x + 14;
     ImGui::SameLine(std::max(ImGui::GetWindowWidth() - width, ImGui::GetCursorPosX() + 20));
     ImGui::TextColored(quietColour(), "%s", names.c_str());
@@ -113,7 +116,7 @@ void drawColumn(State& state) {
     };
     const float answer = rows(state.labels ? 7.15F : 6.35F);
     const float curve = rows(2.7F) + ImGui::GetFontSize() * 7.9F;
-    float instrument = rows(state.document.poses.empty() ? 9.45F : 10.4F);
+    float instrument = rows((state.document.poses.empty() ? 9.45F : 10.4F) + meshRows(state));
     // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without.
     constexpr float kLeastRows = 4.4F;  // of the instrument
     constexpr float kLeastContacts = 6; // lines, with heading and names

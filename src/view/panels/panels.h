@@ -24,6 +24,8 @@ void setColours(Theme theme);
 [[nodiscard]] ImVec4 verdictOnPicture(int hit);
 /// Of the closest points, and the line between them.
 [[nodiscard]] ImU32 closestColour(float alpha);
+/// Of a mesh by its number in Sources::meshes: the colour that it has in the picture.
+[[nodiscard]] ImVec4 instrumentColour(std::size_t mesh);
 /// Of what is secondary.
 [[nodiscard]] ImVec4 quietColour();
 inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
@@ -31,6 +33,10 @@ inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
 // The parts; each inside of a window or child that the layout has begun.
 void drawAnswer(State& state);
 void drawInstrument(State& state);
+/// The list of meshes, with what is said of each; nothing where there is one, which is shown.
+void drawMeshes(State& state);
+/// How high it is, in rows of the instrument's.
+[[nodiscard]] float meshRows(const State& state);
 void drawCurve(State& state);
 void drawPicture(State& state);
 /// What lies over the picture, but for the handles.

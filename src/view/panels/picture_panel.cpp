@@ -34,9 +34,9 @@ void takeMouse(State& state, const ImVec2& corner) {
     }
 }
 
-void drawContactPoints(const State& state, const Onto& onto, ImDrawList& list) {
+void drawContactPoints(const MeshAnswer& answer, const Onto& onto, ImDrawList& list) {
     constexpr double kNormal = 4; // mm
-    for (const Contact& contact : state.answer->contacts) {
+    for (const Contact& contact : answer.contacts) {
         const ImVec2 at = onto.at(contact.position);
         const ImVec2 end = onto.at({contact.position[0] + kNormal * contact.normal[0],
                                     contact.position[1] + kNormal * contact.normal[1],
@@ -54,7 +54,8 @@ void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
 }
 
 void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
-    const auto segment = state.clearance ? closestSegment(state.clearance->pair) : std::nullopt;
+    const PairClearance* clearance = state.chosenClearance();
+    const auto segment = clearance != nullptr ? closestSegment(*clearance) : std::nullopt;
     if (!segment) {
         return;
     }
@@ -66,7 +67,7 @@ void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
     list.AddCircleFilled(from, 3.5F, colour);
     list.AddCircleFilled(to, 3.5F, colour);
     char text[32];
-    std::snprintf(text, sizeof text, "%.2f mm", state.clearance->pair.bounds.hi);
+    std::snprintf(text, sizeof text, "%.2f mm", clearance->bounds.hi);
     const ImVec2 at{(from.x + to.x) / 2 + 8, (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
     list.AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text);
     list.AddText(at, colour, text);
@@ -105,10 +106,10 @@ void drawBar(const State& state, const Onto& onto, ImDrawList& list) {
 }
 
 void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
-    if (!state.answer) {
+    if (state.chosenAnswer() == nullptr) {
         return;
     }
-    const LiveAnswer& answer = *state.answer;
+    const MeshAnswer& answer = *state.chosenAnswer();
     std::string text = answer.pair.hit ? "touches" : answer.pair.possible ? "may touch" : "does not touch";
     const float size = ImGui::GetFontSize() * 1.3F;
     const ImVec2 at{onto.corner.x + 12, onto.corner.y + 9};
@@ -125,8 +126,11 @@ void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
 
 void drawMarks(const State& state, const Onto& onto, ImDrawList& list) {
     drawPath(state, onto, list);
-    if (state.showContacts && state.answer) {
-        drawContactPoints(state, onto, list);
+    for (const Instrument& instrument : state.document.edit.instruments) {
+        const MeshAnswer* answer = state.answer ? state.answer->of(instrument.mesh) : nullptr;
+        if (state.showContacts && instrument.shown && answer != nullptr) {
+            drawContactPoints(*answer, onto, list);
+        }
     }
     drawClosest(state, onto, list);
     drawSides(onto, state, list);

@@ -48,22 +48,23 @@ struct Rect {
     }
 };
 
-void drawMesh(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
+void drawMesh(const State& state, const Instrument& instrument, std::size_t slice, const SlicePlace& place,
+              const Rect& rect, ImDrawList& list) {
     const std::size_t axis = kSlices[slice].axis;
-    static const std::vector<std::uint32_t> kNone;
-    const std::vector<std::uint32_t>& touching = state.answer ? state.answer->triangles : kNone;
-    for (const OutlinePiece& piece :
-         outline(state.mesh.view(), state.document.edit.world_from_object, axis, state.cursor[axis], place)) {
+    const MeshAnswer* answer = state.answer ? state.answer->of(instrument.mesh) : nullptr;
+    const ImU32 colour = ImGui::GetColorU32(instrumentColour(instrument.mesh));
+    for (const OutlinePiece& piece : outline(state.meshes[instrument.mesh].view(), instrument.world_from_object, axis,
+                                             state.cursor[axis], place)) {
         // An answer has them by their numbers.
-        const bool touches = std::ranges::binary_search(touching, piece.triangle);
-        list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : IM_COL32(120, 200, 255, 255),
-                     1.6F);
+        const bool touches = answer != nullptr && std::ranges::binary_search(answer->triangles, piece.triangle);
+        list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : colour, 1.6F);
     }
 }
 
 /// Where it does not go through the slice it is faint.
 void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
-    const auto segment = state.clearance ? closestSegment(state.clearance->pair) : std::nullopt;
+    const PairClearance* clearance = state.chosenClearance();
+    const auto segment = clearance != nullptr ? closestSegment(*clearance) : std::nullopt;
     if (!segment) {
         return;
     }
@@ -120,7 +121,11 @@ void drawSlice(State& state, std::size_t slice) {
     const ImU32 line = IM_COL32(110, 160, 250, 90);
     list.AddLine({corner.x, cross.y}, {end.x, cross.y}, line);
     list.AddLine({cross.x, corner.y}, {cross.x, end.y}, line);
-    drawMesh(state, slice, place, rect, list);
+    for (const Instrument& instrument : state.document.edit.instruments) {
+        if (instrument.shown) {
+            drawMesh(state, instrument, slice, place, rect, list);
+        }
+    }
     drawClosest(state, slice, place, rect, list);
     drawLetters(kind, rect, list);
     char text[64];

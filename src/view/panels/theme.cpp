@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/panels/panels.h"
 
+#include "voxtact/render.h"
+
 #include <array>
 #include <vector>
 
@@ -44,6 +46,11 @@ void darkColours(ImGuiStyle& style) {
 }
 
 } // namespace
+
+ImVec4 instrumentColour(std::size_t mesh) {
+    const Colour colour = meshColour(mesh);
+    return {static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2]), 1};
+}
 
 void setColours(Theme theme) {
     ImGuiStyle& style = ImGui::GetStyle();
