@@ -38,6 +38,8 @@ Result<void> Reporter::write(const State& state) {
     report.command = state.answer ? commandOf(state) : "";
     const Pane& pane = state.picture;
     report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
+    report.direction = state.camera.direction;
+    report.cube = state.cube;
     report.error = state.error;
     report.question = state.question ? &*state.question : nullptr;
     report.loading = state.loading ? &*state.loading : nullptr;

@@ -11,6 +11,7 @@
 #include "view/model/loading.h"
 #include "view/model/question.h"
 #include "view/model/slice.h"
+#include "view/model/view_cube.h"
 
 #include <array>
 #include <chrono>
@@ -169,6 +170,9 @@ struct State {
     GizmoAxes gizmoAxes = GizmoAxes::World;
     Handle gizmoHandle; ///< under the pointer, or held
     std::optional<GizmoDrag> gizmoDrag;
+    std::optional<ViewCube> cube;           ///< where it is; nothing: the picture is too small
+    std::optional<std::size_t> cubeSide;    ///< of kPatientSides, under the pointer
+    std::optional<std::size_t> cubePressed; ///< that the left button was pressed on
     bool helpOpen = false;
     bool quit = false;
     double stepMillimetres = 1;

@@ -101,6 +101,9 @@ std::string reportText(const StateReport& report) {
     json["frame"] = report.frame;
     json["frame_ms"] = report.frameMilliseconds;
     json["picture"] = report.picture;
+    json["azimuth"] = report.direction.azimuth;
+    json["elevation"] = report.direction.elevation;
+    json["cube"] = report.cube ? Json{report.cube->middle[0], report.cube->middle[1], report.cube->half} : Json();
     json["settled"] = report.settled;
     json["error"] = report.error;
     json["question"] = questionJson(report.question);

@@ -6,6 +6,7 @@
 #include "view/model/live_clearance.h"
 #include "view/model/loading.h"
 #include "view/model/question.h"
+#include "view/model/view_cube.h"
 
 #include <array>
 #include <string>
@@ -20,6 +21,8 @@ struct StateReport {
     const LiveClearance* clearance = nullptr; ///< null where there is none yet
     const Labels* labels = nullptr;           ///< null where there is no label map
     std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
+    ViewDirection direction;                  ///< whence the picture is seen
+    std::optional<ViewCube> cube;             ///< in the picture; null: it is too small for it
     std::string device;                       ///< that answered; "host" for cpu
     std::string command;                      ///< copyAsCommand() of what was answered
     std::string error;                        ///< of the dialog that is open; empty: none

@@ -236,6 +236,7 @@ void drawHelp(State& state) {
         row("control Q", "quit");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
+        row("cube", "click: look at a side of the patient");
         row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
         row("curve", "left: add or drag a point; right: remove it");
         ImGui::EndTable();

@@ -40,6 +40,11 @@ void drawShooting(State& state);
 /// Handles in the picture: whether they have the mouse. After the picture's item.
 [[nodiscard]] bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size);
 void drawGizmo(const State& state, const Onto& onto, ImDrawList& list);
+/// The cube of the patient's sides: whether it has the mouse. A click looks at a side of it. After the picture's item.
+[[nodiscard]] bool takeCube(State& state, const ImVec2& corner, const ImVec2& size);
+void drawCube(const State& state, const Onto& onto, ImDrawList& list);
+/// Of the letters of the patient's sides, which are large.
+[[nodiscard]] const ImFont& letterFont();
 /// Whether there are handles, and along whose axes.
 void drawGizmoChoice(State& state);
 void drawSlice(State& state, std::size_t slice);

@@ -29,7 +29,7 @@ void takeMouse(State& state, const ImVec2& corner) {
              static_cast<double>((io.MousePos.x - corner.x) * scale.x),
              static_cast<double>((io.MousePos.y - corner.y) * scale.y), extent);
     }
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    if (ImGui::IsItemHovered() && !state.cubeSide && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         state.maximised = state.maximised == Maximised::None ? Maximised::Picture : Maximised::None;
     }
 }
@@ -72,27 +72,6 @@ void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
     list.AddText(at, colour, text);
 }
 
-/// Three of the patient's sides, as they lie in the picture.
-void drawSides(const Onto& onto, const State& state, ImDrawList& list) {
-    const float length = ImGui::GetFontSize() * 2;
-    const ImVec2 middle{onto.corner.x + length * 1.6F, onto.corner.y + onto.size.y - length * 1.6F};
-    const ImVec2 target = onto.at(state.camera.target);
-    constexpr std::array<const char*, 3> kNames{"L", "P", "S"};
-    constexpr std::array<ImU32, 3> kColours{IM_COL32(235, 100, 90, 255), IM_COL32(110, 200, 110, 255),
-                                            IM_COL32(110, 160, 250, 255)};
-    const double mm = 2 * state.camera.halfHeight / static_cast<double>(onto.size.y) * static_cast<double>(length);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        Vec3 end = state.camera.target;
-        end[axis] += mm;
-        const ImVec2 at = onto.at(end);
-        const ImVec2 tip{middle.x + at.x - target.x, middle.y + at.y - target.y};
-        list.AddLine(middle, tip, kColours[axis], 2);
-        list.AddText({tip.x - ImGui::GetFontSize() * 0.3F + (tip.x - middle.x) * 0.25F,
-                      tip.y - ImGui::GetFontSize() * 0.5F + (tip.y - middle.y) * 0.25F},
-                     kColours[axis], kNames[axis]);
-    }
-}
-
 void drawBar(const State& state, const Onto& onto, ImDrawList& list) {
     const double mmOfPoint = 2 * state.camera.halfHeight / static_cast<double>(onto.size.y);
     const double length = barLength(mmOfPoint * static_cast<double>(onto.size.x) / 5);
@@ -129,9 +108,9 @@ void drawMarks(const State& state, const Onto& onto, ImDrawList& list) {
         drawContactPoints(state, onto, list);
     }
     drawClosest(state, onto, list);
-    drawSides(onto, state, list);
     drawBar(state, onto, list);
     drawVerdict(state, onto, list);
+    drawCube(state, onto, list);
 }
 
 void drawPicture(State& state) {
@@ -145,7 +124,11 @@ void drawPicture(State& state) {
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    if (!takeGizmo(state, corner, size)) {
+    const bool onCube = takeCube(state, corner, size);
+    if (onCube) {
+        state.gizmoHandle = {};
+    }
+    if (onCube || !takeGizmo(state, corner, size)) {
         takeMouse(state, corner);
     }
     ImDrawList& list = *ImGui::GetWindowDrawList();

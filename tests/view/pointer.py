@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The window by its pointer, as window.py is by keys: on an X server of its own, under validation.
+
+  pointer.py PROGRAM cube     the picture is turned by the cube of the patient's sides
+
+Exit status: 0 passed, 1 failed.
+"""
+import math
+import sys
+import tempfile
+import time
+
+from window import SCENE, Server, Window, poses
+
+
+def drag(window, x, y, right, down):
+    """As a hand does: slow frames see each step."""
+    for step in (("mousemove", str(x), str(y)), ("mousedown", "1"), ("mousemove", str(x + right), str(y + down)),
+                 ("mouseup", "1")):
+        window.tool(*step)
+        time.sleep(0.3)
+
+
+def until(window, act, what, true_of):
+    """The state when that is true of it, after `act`: what a frame has missed is done again."""
+    for _ in range(10):
+        act()
+        deadline = time.monotonic() + 5
+        while time.monotonic() < deadline:
+            state = window.state()
+            if true_of(state):
+                return state
+            time.sleep(0.05)
+    raise AssertionError(f"ten times, and not {what}: {window.state()}")
+
+
+def cube(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 60)]) as window:
+        window.until("the first answer", lambda s: s["settled"])
+        sides = {"L": (90, 0), "A": (0, 0), "S": (180, 90)}
+        for side, seen in sides.items():
+            window.press("1")
+            state = window.until("the front", lambda s: (s["azimuth"], s["elevation"]) == (0, 0) and s["settled"])
+            x, y, half = state["cube"]
+            # A drag on the cube turns the picture, by which three sides are seen.
+            state = until(window, lambda x=x, y=y: drag(window, round(x), round(y), -24, 24), "three sides",
+                          lambda s: 10 < s["azimuth"] < 80 and 10 < s["elevation"] < 80 and s["settled"])
+            azimuth, elevation = math.radians(state["azimuth"]), math.radians(state["elevation"])
+            right, up = {"L": (math.cos(azimuth), -math.sin(azimuth) * math.sin(elevation)),
+                         "A": (-math.sin(azimuth), -math.cos(azimuth) * math.sin(elevation)),
+                         "S": (0, math.cos(elevation))}[side]
+            at = round(x + half * right), round(y - half * up)
+            until(window, lambda at=at: drag(window, *at, 0, 0), f"side {side}",
+                  lambda s, seen=seen: (s["azimuth"], s["elevation"]) == seen and s["settled"])
+        window.press("ctrl+q")
+        window.end()
+
+
+def main(arguments):
+    checks = {"cube": cube}
+    if len(arguments) != 2 or arguments[1] not in checks:
+        print(__doc__, file=sys.stderr)
+        return 2
+    begun = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        checks[arguments[1]](arguments[0], folder)
+    print(f"{arguments[1]}: passed in {time.monotonic() - begun:.1f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
