@@ -18,6 +18,8 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.question = state.question ? state.question->title : "";
     seen.step = state.loading ? state.loading->step : "";
     seen.loaded = state.loaded.has_value();
+    seen.chartFrom = state.chartRange().lo;
+    seen.chartTo = state.chartRange().hi;
     seen.status = state.status;
     return seen;
 }
@@ -38,6 +40,8 @@ Result<void> Reporter::write(const State& state) {
     report.command = state.answer ? commandOf(state) : "";
     const Pane& pane = state.picture;
     report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
+    report.chart = {state.chart.corner[0], state.chart.corner[1], state.chart.size[0], state.chart.size[1]};
+    report.chartRange = state.chartRange();
     report.direction = state.camera.direction;
     report.cube = state.cube;
     report.error = state.error;

@@ -4,6 +4,7 @@
 #include "view/model/carving.h"
 #include "view/model/document.h"
 #include "view/model/gizmo.h"
+#include "view/model/histogram.h"
 #include "view/model/history.h"
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
@@ -112,6 +113,8 @@ struct State {
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
+    /// The values that the curve's chart shows: always a part of the domain.
+    [[nodiscard]] ValueRange chartRange() const { return zoomedRange.value_or(document.domain); }
     /// Paths are dropped on the window, as GLFW tells of them.
     void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
@@ -130,8 +133,8 @@ struct State {
     std::string deviceOption;
     std::string deviceName;
     Mat4 texture_from_world{};
-    std::vector<std::uint64_t> histogram; ///< over the transfer function's domain
-    std::vector<MethodChoice> methods;    ///< that this machine can do
+    Histogram histogram;               ///< over the transfer function's domain
+    std::vector<MethodChoice> methods; ///< that this machine can do
 
     // What is edited.
     Document document;
@@ -180,14 +183,16 @@ struct State {
     double drillRadius = 5;                ///< mm
     std::optional<std::size_t> curvePoint; ///< that is dragged or typed
     bool logHistogram = true;
-    std::optional<Wanted> wanted;     ///< until the window has looked at it
-    std::vector<std::string> dropped; ///< paths, since the last frame
-    std::vector<std::string> taken;   ///< paths of poses and transfer functions that were opened, since the last frame
-    std::optional<Shot> shot;         ///< until the window has looked at it
-    std::optional<double> shooting;   ///< how much of a picture for a file is made, 0..1
-    std::optional<Loading> loading;   ///< while something is
-    std::optional<Loading> loaded;    ///< how that went which was loaded last
-    bool cancelLoading = false;       ///< asked for
+    std::optional<ValueRange> zoomedRange; ///< of the curve's chart; nothing: all of the domain
+    Pane chart;                            ///< where the curve is in the window
+    std::optional<Wanted> wanted;          ///< until the window has looked at it
+    std::vector<std::string> dropped;      ///< paths, since the last frame
+    std::vector<std::string> taken; ///< paths of poses and transfer functions that were opened, since the last frame
+    std::optional<Shot> shot;       ///< until the window has looked at it
+    std::optional<double> shooting; ///< how much of a picture for a file is made, 0..1
+    std::optional<Loading> loading; ///< while something is
+    std::optional<Loading> loaded;  ///< how that went which was loaded last
+    bool cancelLoading = false;     ///< asked for
 
   private:
     struct Seen {

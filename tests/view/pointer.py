@@ -3,6 +3,7 @@
 """The window by its pointer, as window.py is by keys: on an X server of its own, under validation.
 
   pointer.py PROGRAM cube     the picture is turned by the cube of the patient's sides
+  pointer.py PROGRAM chart    the curve's chart is zoomed, and a point is dragged there
 
 Exit status: 0 passed, 1 failed.
 """
@@ -11,7 +12,7 @@ import sys
 import tempfile
 import time
 
-from window import SCENE, Server, Window, poses
+from window import SCENE, Server, Window, compare, poses
 
 
 def drag(window, x, y, right, down):
@@ -58,8 +59,40 @@ def cube(program, folder):
         window.end()
 
 
+def chart(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 60)]) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        x, y, width, height = state["chart"]
+        points = state["points"]
+        number, (value, opacity) = 2, points[2]
+        low, high = state["chart_range"]
+        pointer = round(x + (value - low) / (high - low) * width)
+
+        def scroll(button):
+            window.tool("mousemove", str(pointer), str(round(y + height * 0.9)))
+            window.tool("click", "--repeat", "3", "--delay", "100", button)
+        for _ in range(3):
+            low, high = until(window, lambda: scroll("4"), "nearer",
+                              lambda s, before=high - low: s["chart_range"][1] - s["chart_range"][0] < before
+                              )["chart_range"]
+        assert low < value < high < points[3][0], (low, high, points)
+        # Dragged there, it goes where the pointer goes: the value of a place is that of the zoomed axis.
+        at = round(x + (value - low) / (high - low) * width), round(y + (1 - opacity) * height)
+        state = until(window, lambda: drag(window, *at, 10, 0), "the point elsewhere",
+                      lambda s: s["points"] != points and s["settled"])
+        moved = state["points"][number][0]
+        expected = low + (at[0] + 10 - x) / width * (high - low)
+        assert len(state["points"]) == len(points) and abs(moved - expected) < 2 * (high - low) / width, \
+            (moved, expected, state)
+        compare(program, state)
+        until(window, lambda: scroll("5"), "all values", lambda s: s["chart_range"] == [0, 255])
+        window.press("ctrl+q")
+        window.end()
+
+
 def main(arguments):
-    checks = {"cube": cube}
+    checks = {"cube": cube, "chart": chart}
     if len(arguments) != 2 or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2

@@ -104,6 +104,8 @@ std::string reportText(const StateReport& report) {
     json["azimuth"] = report.direction.azimuth;
     json["elevation"] = report.direction.elevation;
     json["cube"] = report.cube ? Json{report.cube->middle[0], report.cube->middle[1], report.cube->half} : Json();
+    json["chart"] = report.chart;
+    json["chart_range"] = {report.chartRange.lo, report.chartRange.hi};
     json["settled"] = report.settled;
     json["error"] = report.error;
     json["question"] = questionJson(report.question);

@@ -23,6 +23,8 @@ struct StateReport {
     std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
     ViewDirection direction;                  ///< whence the picture is seen
     std::optional<ViewCube> cube;             ///< in the picture; null: it is too small for it
+    std::array<double, 4> chart{};            ///< where the curve's chart is, the same
+    ValueRange chartRange;                    ///< the values that it shows
     std::string device;                       ///< that answered; "host" for cpu
     std::string command;                      ///< copyAsCommand() of what was answered
     std::string error;                        ///< of the dialog that is open; empty: none

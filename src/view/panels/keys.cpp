@@ -238,7 +238,7 @@ void drawHelp(State& state) {
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
         row("cube", "click: look at a side of the patient");
         row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
-        row("curve", "left: add or drag a point; right: remove it");
+        row("curve", "left: add or drag a point; right: remove it; wheel: zoom the values; middle: move them");
         ImGui::EndTable();
     }
     ImGui::End();

@@ -112,7 +112,7 @@ void drawColumn(State& state) {
         return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
     };
     const float answer = rows(state.labels ? 7.15F : 6.35F);
-    const float curve = rows(2.7F) + ImGui::GetFontSize() * 7.9F;
+    const float curve = rows(2.8F) + ImGui::GetFontSize() * 7.9F;
     float instrument = rows(state.document.poses.empty() ? 9.45F : 10.4F);
     // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without.
     constexpr float kLeastRows = 4.4F;  // of the instrument
