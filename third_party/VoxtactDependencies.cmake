@@ -25,7 +25,7 @@ if(VOXTACT_BUILD_IO)
   find_path(VOXTACT_OPENJPEG_INCLUDE_DIR openjpeg.h PATH_SUFFIXES openjpeg-2.5 REQUIRED)
   find_library(VOXTACT_OPENJPEG_LIBRARY openjp2 REQUIRED)
   find_package(ZLIB REQUIRED)
-  find_path(VOXTACT_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED) # a header that writes PNG
+  find_path(VOXTACT_STB_INCLUDE_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED) # headers that draw letters; in tests, read PNG
 endif()
 
 # the Python package. The system's Python is asked first: that is where Debian's numpy and pybind11 are.

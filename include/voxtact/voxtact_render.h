@@ -2,6 +2,7 @@
 #ifndef VOXTACT_VOXTACT_RENDER_H
 #define VOXTACT_VOXTACT_RENDER_H
 
+#include "voxtact/voxtact_host.h"
 #include "voxtact/voxtact_vulkan.h"
 
 /// @file
@@ -238,6 +239,7 @@ typedef struct vxt_picture_scene {
     double background[3];                ///< behind everything; default black
     uint32_t jitter;                     ///< noise instead of bands; default 1
     uint32_t reserved;                   ///< 0
+    const vxt_cancel* cancel;            ///< ends vxt_blocking_renderer_render() early; may be null, the default
 } vxt_picture_scene;
 
 /// A mesh that is nowhere yet, in its own colours.
@@ -356,8 +358,8 @@ VXT_CHECKED vxt_result vxt_blocking_renderer_create(const vxt_context* context, 
                                                     vxt_blocking_renderer** renderer);
 /// The renderer that records, to make the parts of a scene with; it lives as long as this object. Null of null.
 VXT_API const vxt_renderer* vxt_blocking_renderer_renderer(const vxt_blocking_renderer* renderer);
-/// Makes a picture; one at a time. With `progress`, in bands of rows of about a fifth of a second. After a failure
-/// `picture` holds what it held.
+/// Makes a picture; one at a time. With `progress` or the scene's `cancel`, in bands of rows of about a fifth of a
+/// second; CANCELLED after a band where `cancel` is set. After a failure `picture` holds what it held.
 VXT_CHECKED vxt_result vxt_blocking_renderer_render(vxt_blocking_renderer* renderer, const vxt_picture_scene* scene,
                                                     uint32_t width, uint32_t height, vxt_picture_progress progress,
                                                     void* user, vxt_picture* picture);

@@ -20,6 +20,7 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.loaded = state.loaded.has_value();
     seen.chartFrom = state.chartRange().lo;
     seen.chartTo = state.chartRange().hi;
+    seen.saving = state.saving.has_value();
     seen.status = state.status;
     return seen;
 }
@@ -48,9 +49,10 @@ Result<void> Reporter::write(const State& state) {
     report.question = state.question ? &*state.question : nullptr;
     report.loading = state.loading ? &*state.loading : nullptr;
     report.loaded = state.loaded ? &*state.loaded : nullptr;
+    report.saving = state.saving ? std::optional(state.saving->share) : std::nullopt;
     report.status = state.status;
     report.frame = state.frame;
-    report.frameMilliseconds = state.frameTimes.percentile(0.5);
+    report.frameTimes = &state.frameTimes;
     report.settled = seen_.settled;
     return io::writeFile(path_, [&](std::ostream& out) -> Result<void> {
         out << reportText(report);

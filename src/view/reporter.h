@@ -27,6 +27,7 @@ class Reporter {
         bool loaded = false;  ///< it is known how the last loading went
         double chartFrom = 0; ///< values of the curve's chart
         double chartTo = 0;
+        bool saving = false; ///< a picture is being made
         std::string status;
 
         [[nodiscard]] bool operator==(const Seen&) const = default;

@@ -104,6 +104,7 @@ Shown State::shown() const {
     out.contacts = showContacts;
     out.logHistogram = logHistogram;
     out.maximised = maximised;
+    out.theme = theme;
     out.stepMillimetres = stepMillimetres;
     out.stepDegrees = stepDegrees;
     out.drillRadius = drillRadius;
@@ -117,6 +118,7 @@ void State::show(const Shown& what) {
     showContacts = what.contacts;
     logHistogram = what.logHistogram;
     maximised = what.maximised;
+    theme = what.theme;
     stepMillimetres = what.stepMillimetres;
     stepDegrees = what.stepDegrees;
     drillRadius = what.drillRadius;

@@ -61,6 +61,12 @@ struct Shot {
     Extent extent; ///< pixels
 };
 
+/// How far a picture for a file is.
+struct Saving {
+    double share = 0;     ///< of the rows, 0..1
+    bool writing = false; ///< all of it is drawn, and it goes to the file
+};
+
 /// A line for the person who looks: a dialog for errors, the status line for what was done.
 struct Message {
     std::string text;
@@ -167,6 +173,8 @@ struct State {
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame
     Maximised maximised = Maximised::None;
+    Theme theme = Theme::Dark;
+    std::optional<Theme> themeSet; ///< that the panels have; nothing: not known
     bool playing = false;
     bool showContacts = true;
     bool showGizmo = true;
@@ -189,7 +197,8 @@ struct State {
     std::vector<std::string> dropped;      ///< paths, since the last frame
     std::vector<std::string> taken; ///< paths of poses and transfer functions that were opened, since the last frame
     std::optional<Shot> shot;       ///< until the window has looked at it
-    std::optional<double> shooting; ///< how much of a picture for a file is made, 0..1
+    std::optional<Saving> saving;   ///< while a picture for a file is made
+    bool cancelSaving = false;      ///< asked for
     std::optional<Loading> loading; ///< while something is
     std::optional<Loading> loaded;  ///< how that went which was loaded last
     bool cancelLoading = false;     ///< asked for

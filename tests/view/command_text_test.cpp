@@ -152,6 +152,7 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     StateReport report;
     report.answer = &answer;
     report.times = &times;
+    report.frameTimes = report.times;
     report.document = &shown;
     report.command = "voxtact \"detect\"";
     const auto json = nlohmann::json::parse(reportText(report));

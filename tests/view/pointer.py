@@ -3,11 +3,15 @@
 """The window by its pointer, as window.py is by keys: on an X server of its own, under validation.
 
   pointer.py PROGRAM cube     the picture is turned by the cube of the patient's sides
+  pointer.py PROGRAM cancel   pictures that take long are cancelled, by a key and by leaving
+  pointer.py PROGRAM turning  how long frames take while a head is turned; with a number behind it, for so many seconds
   pointer.py PROGRAM chart    the curve's chart is zoomed, and a point is dragged there
 
 Exit status: 0 passed, 1 failed.
 """
 import math
+import os
+import pathlib
 import sys
 import tempfile
 import time
@@ -91,14 +95,90 @@ def chart(program, folder):
         window.end()
 
 
+def save_picture(window, folder, name, width):
+    """Asks for a picture that is so large that it takes long; the state when it is being made."""
+    window.press("ctrl+p")
+    time.sleep(1)  # until the dialog has the keyboard, which nothing tells
+    window.type(f"{folder}/{name}")
+    window.tool("key", "Tab")
+    for side in (width, width):
+        window.tool("key", "ctrl+a")
+        window.type(str(side))
+        window.tool("key", "Tab")
+    time.sleep(1)
+    window.enter()
+    return window.until("a picture that is being made", lambda s: s["saving"] is not None)
+
+
+def cancel(program, folder):
+    def files():
+        return sorted(path.name for path in pathlib.Path(folder).iterdir() if "state" not in path.name)
+
+    with Server() as server:
+        with Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses", poses(folder, 60)]) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            before = files()
+            save_picture(window, folder, "large.png", 9000)
+            window.tool("key", "Escape")
+            state = window.until("the end of it", lambda s: s["saving"] is None)
+            assert "no picture is written" in state["status"] and files() == before, (state, files())
+            # Quitting waits for none.
+            begun = time.monotonic()
+            save_picture(window, folder, "large.png", 9000)
+            asked = time.monotonic()
+            window.press("ctrl+q")
+            window.end()
+            print(f"asked for in {asked - begun:.1f} s, and left in {time.monotonic() - asked:.1f} s")
+            assert files() == before, files()
+
+
+def turning(program, folder, seconds=3):
+    """How long frames take while the real or the builtin head is turned in a picture of 512 x 512."""
+    head = "/usr/share/mricron/templates/ch2.nii.gz"
+    volume = head if pathlib.Path(head).exists() else "builtin:head:128"
+    scene = ["--volume", volume, "--mesh", "builtin:scalpel", "--preset", "mr", "--device", "cpu"]
+    with Server() as server, Window(program, server, folder, scene, validate=False) as window:
+        window.until("the first answer", lambda s: s["settled"])
+        window.press("Next")
+        window.tool("windowsize", window.id, "908", "744")
+        state = window.until("a picture of that size", lambda s: s["picture"][2:] == [512, 512] and s["settled"])
+        x, y, width, height = state["picture"]
+        window.tool("mousemove", str(round(x + 60)), str(round(y + height - 60)), "mousedown", "1")
+        # Sixty steps a second, to and fro.
+        steps = [("mousemove_relative", "--", "4" if i // 80 % 2 == 0 else "-4", "0", "sleep", "0.0167")
+                 for i in range(round(seconds * 60))]
+        load = os.getloadavg()[0]
+        begun = time.monotonic()
+        window.tool(*(word for step in steps for word in step))
+        turned = time.monotonic() - begun
+        window.tool("mouseup", "1")
+        state = window.until("the fine picture", lambda s: s["azimuth"] != state["azimuth"] and s["settled"])
+        rest = time.monotonic() - begun - turned
+        # From the last frame backwards: the fine picture's, and then those of the turn.
+        times, back = [], 0.0
+        for took in reversed(state["frame_times"]):
+            if rest < back < rest + turned:
+                times.append(took)
+            back += took / 1000
+        times.sort()
+        assert len(times) > 2 * seconds, (len(times), turned)
+        median, late = times[len(times) // 2], times[len(times) * 95 // 100]
+        print(f"{volume}: {len(times)} frames in {turned:.1f} s of turning, {len(times) / turned:.1f} a second; a frame "
+              f"takes {median:.0f} ms (median), {late:.0f} ms (95th percentile); {os.cpu_count()} processors, load "
+              f"{load:.1f} before")
+        window.press("ctrl+q")
+        window.end()
+
+
 def main(arguments):
-    checks = {"cube": cube, "chart": chart}
-    if len(arguments) != 2 or arguments[1] not in checks:
+    checks = {"cube": cube, "chart": chart, "cancel": cancel, "turning": turning}
+    timed = len(arguments) == 3 and arguments[1] == "turning" and arguments[2].isdigit()
+    if not (len(arguments) == 2 or timed) or arguments[1] not in checks:
         print(__doc__, file=sys.stderr)
         return 2
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        checks[arguments[1]](arguments[0], folder)
+        checks[arguments[1]](arguments[0], folder, *(int(number) for number in arguments[2:]))
     print(f"{arguments[1]}: passed in {time.monotonic() - begun:.1f} s")
     return 0
 

@@ -31,9 +31,10 @@ struct StateReport {
     const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
     const Loading* loading = nullptr;         ///< null: nothing is being loaded
     const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
+    std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
     std::string status;                       ///< what was done last
     std::uint64_t frame = 0;                  ///< frames shown until then
-    double frameMilliseconds = 0;             ///< from one frame to the next, the median of the last ones
+    const Times* frameTimes = nullptr;        ///< from one frame to the next, of the last ones; must be given
     bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there
 };
 

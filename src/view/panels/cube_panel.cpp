@@ -101,7 +101,7 @@ void drawCube(const State& state, const Onto& onto, ImDrawList& list) {
         const ImVec2 d = face.at(-1, 1);
         list.AddQuadFilled(a, b, c, d,
                            state.cubeSide == side.side ? IM_COL32(70, 110, 165, 245) : shadeOf(side.facing));
-        list.AddQuad(a, b, c, d, IM_COL32(214, 219, 226, 255), 1.2F);
+        list.AddQuad(a, b, c, d, IM_COL32(214, 219, 226, 255), scaled(1.2F));
         drawLetter(face, kPatientSides[side.side].letter, list);
     }
 }

@@ -72,7 +72,7 @@ void drawAxis(const Chart& chart, float height, ImDrawList& list) {
         const auto x = static_cast<float>(chart.axis.at(value));
         const float width = ImGui::GetFont()->CalcTextSizeA(size, FLT_MAX, 0, text).x;
         const float left = std::clamp(x - width / 2, chart.corner.x, std::max(chart.end().x - width, chart.corner.x));
-        list.AddLine({x, chart.end().y}, {x, chart.end().y + height * 0.2F}, colour);
+        list.AddLine({x, chart.end().y}, {x, chart.end().y + height * 0.2F}, colour, scaled(1));
         list.AddText(ImGui::GetFont(), size, {left, chart.end().y + height * 0.2F}, colour, text);
     }
 }
@@ -87,7 +87,7 @@ void drawThreshold(const State& state, const Chart& chart, ImDrawList& list) {
         list.AddRectFilled({left, chart.corner.y}, {right, bottom}, IM_COL32(242, 184, 89, 34));
     }
     const float y = chart.at({0, edit.threshold}).y;
-    list.AddLine({chart.corner.x, y}, {chart.corner.x + chart.size.x, y}, IM_COL32(242, 184, 89, 200), 1.5F);
+    list.AddLine({chart.corner.x, y}, {chart.corner.x + chart.size.x, y}, IM_COL32(242, 184, 89, 200), scaled(1.5F));
 }
 
 void drawLine(const State& state, const Chart& chart, ImDrawList& list) {
@@ -96,10 +96,10 @@ void drawLine(const State& state, const Chart& chart, ImDrawList& list) {
     ImVec2 before = chart.at({chart.domain.lo, curve.front().opacity});
     for (const ControlPoint& point : curve) {
         const ImVec2 at = chart.at(point);
-        list.AddLine(before, at, colour, 2);
+        list.AddLine(before, at, colour, scaled(2));
         before = at;
     }
-    list.AddLine(before, chart.at({chart.domain.hi, curve.back().opacity}), colour, 2);
+    list.AddLine(before, chart.at({chart.domain.hi, curve.back().opacity}), colour, scaled(2));
 }
 
 void drawPoints(const State& state, const Chart& chart, ImDrawList& list) {
@@ -111,14 +111,14 @@ void drawPoints(const State& state, const Chart& chart, ImDrawList& list) {
         if (at.x < chart.corner.x || at.x > chart.end().x) {
             continue; // not shown
         }
-        list.AddCircleFilled(at, chosen ? 6.5F : 5, chosen ? IM_COL32_WHITE : colour);
+        list.AddCircleFilled(at, scaled(chosen ? 6.5F : 5), chosen ? IM_COL32_WHITE : colour);
     }
 }
 
 std::optional<std::size_t> pointUnder(const Curve& curve, const Chart& chart, const ImVec2& mouse) {
-    constexpr float kReach = 10;
+    const float reach = scaled(10);
     std::optional<std::size_t> nearest;
-    float best = kReach * kReach;
+    float best = reach * reach;
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const ImVec2 at = chart.at(curve[i]);
         const float distance = (at.x - mouse.x) * (at.x - mouse.x) + (at.y - mouse.y) * (at.y - mouse.y);
@@ -238,7 +238,7 @@ void drawChart(State& state) {
     const Chart chart = chartOf(state, corner, size);
     takeMouse(state, chart);
     ImGui::Dummy({size.x, axis - ImGui::GetStyle().ItemSpacing.y});
-    list.AddRectFilled(chart.corner, chart.end(), ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
+    list.AddRectFilled(chart.corner, chart.end(), ImGui::GetColorU32(ImGuiCol_FrameBg), scaled(4));
     list.PushClipRect(chart.corner, chart.end(), true);
     drawHistogram(state, chart, list);
     drawThreshold(state, chart, list);

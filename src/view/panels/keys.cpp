@@ -177,6 +177,14 @@ void answerQuestion(Question& question, const std::vector<KeyPress>& keys) {
     }
 }
 
+/// While a picture is made for a file.
+void takeSavingKeys(State& state, const std::vector<KeyPress>& keys) {
+    for (const KeyPress& press : keys) {
+        state.cancelSaving |= press.key == GLFW_KEY_ESCAPE;
+        state.quit |= press.control && press.key == GLFW_KEY_Q;
+    }
+}
+
 void row(const char* key, const char* does) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -197,6 +205,10 @@ void takeKeys(State& state) {
     }
     if (state.question) {
         answerQuestion(*state.question, keys);
+        return;
+    }
+    if (state.saving) {
+        takeSavingKeys(state, keys);
         return;
     }
     if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
@@ -232,7 +244,7 @@ void drawHelp(State& state) {
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
         row("control O", "open a file, as does dropping it on the window; escape: cancel while it is loaded");
-        row("control S, control P", "save the session, a picture");
+        row("control S, control P", "save the session, a picture (escape cancels it)");
         row("control Q", "quit");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -44,11 +45,11 @@ void drawMenu(State& state) {
             state.gizmoAxes = nextOf(state.gizmoAxes);
         }
         ImGui::Separator();
-        if (ImGui::MenuItem("Dark")) {
-            setColours(Theme::Dark);
+        if (ImGui::MenuItem("Dark", nullptr, state.theme == Theme::Dark)) {
+            state.theme = Theme::Dark;
         }
-        if (ImGui::MenuItem("Light")) {
-            setColours(Theme::Light);
+        if (ImGui::MenuItem("Light", nullptr, state.theme == Theme::Light)) {
+            state.theme = Theme::Light;
         }
         ImGui::EndMenu();
     }
@@ -61,7 +62,7 @@ void drawMenu(State& state) {
     const Sources& sources = state.document.sources;
     const std::string coarser = sources.coarser == 1 ? "" : " (coarser by " + std::to_string(sources.coarser) + ")";
     const std::string names = sources.volume + coarser + "   " + sources.mesh;
-    const float width = ImGui::CalcTextSize(names.c_str()).x + 14;
+    const float width = ImGui::CalcTextSize(names.c_str()).x + scaled(14);
     ImGui::SameLine(std::max(ImGui::GetWindowWidth() - width, ImGui::GetCursorPosX() + 20));
     ImGui::TextColored(quietColour(), "%s", names.c_str());
     ImGui::EndMenuBar();
@@ -133,7 +134,7 @@ void drawStatus(const State& state) {
     const char* fine = state.fineShare >= 1 ? "fine" : "coarse";
     std::snprintf(text, sizeof text, "%s   %.0f ms a frame   %s", fine, state.frameTimes.percentile(0.5),
                   state.deviceName.c_str());
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - 12);
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - scaled(12));
     ImGui::TextColored(quietColour(), "%s", text);
 }
 
@@ -156,6 +157,9 @@ void drawScene(State& state) {
 } // namespace
 
 void drawPanels(State& state) {
+    if (std::exchange(state.themeSet, state.theme) != state.theme) {
+        setColours(state.theme);
+    }
     takeKeys(state);
     takeDropped(state);
     const ImVec2 size = ImGui::GetIO().DisplaySize;

@@ -71,6 +71,9 @@ void applyTheme(float scale, std::span<const unsigned char> font) {
     style.PopupRounding = 5;
     style.WindowBorderSize = 0;
     style.ScaleAllSizes(scale);
+    // How far a hand trembles.
+    ImGui::GetIO().MouseDragThreshold *= scale;
+    ImGui::GetIO().MouseDoubleClickMaxDist *= scale;
     // Pairs of the first and the last, ended by a zero; the atlas reads them later.
     static constexpr std::array<ImWchar, 3> kLetters{'A', 'Z', 0};
     ImFontConfig config;
@@ -80,6 +83,10 @@ void applyTheme(float scale, std::span<const unsigned char> font) {
                                                kFontSize * scale, &config);
     ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
                                                kLetterSize * scale, &config, kLetters.data());
+}
+
+float scaled(float length) {
+    return length * ImGui::GetFontSize() / kFontSize;
 }
 
 const ImFont& letterFont() {

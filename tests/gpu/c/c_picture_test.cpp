@@ -274,6 +274,37 @@ TEST_F(CPictures, TellHowFarTheyAre) {
     EXPECT_GE(heard.calls, 2U);
 }
 
+TEST_F(CPictures, EndWhereTheyAreTold) {
+    const std::vector<std::uint8_t> expected = byC();
+    const auto cancel = made<vxt_cancel>(vxt_cancel_destroy, [](auto out) { return vxt_cancel_create(out); });
+    c_.cancel = cancel.get();
+    EXPECT_EQ(byC(), expected); // it is not set
+    struct Heard {
+        vxt_cancel* cancel;
+        std::uint32_t calls = 0;
+    } heard{cancel.get()};
+    const auto stop = [](void* user, std::uint32_t, std::uint32_t) {
+        auto& to = *static_cast<Heard*>(user);
+        ++to.calls;
+        vxt_cancel_set(to.cancel, 1);
+    };
+    EXPECT_EQ(vxt_blocking_renderer_render(blocking_.get(), &c_, kWidth, kHeight, stop, &heard, picture_.get()),
+              VXT_ERROR_CANCELLED);
+    EXPECT_EQ(heard.calls, 1U);
+    EXPECT_EQ(vxt_blocking_renderer_render(blocking_.get(), &c_, kWidth, kHeight, nullptr, nullptr, picture_.get()),
+              VXT_ERROR_CANCELLED);
+    // The picture holds what it held, and the next one may be asked for.
+    const vxt_picture_view view = viewOf(*picture_);
+    EXPECT_THAT(std::vector<std::uint8_t>(view.rgba, view.rgba + view.bytes), ElementsAreArray(expected));
+    vxt_cancel_set(cancel.get(), 0);
+    EXPECT_EQ(byC(), expected);
+    const Result<Picture> cancelled =
+        cppParts_->blocking.render(cpp_, {kWidth, kHeight}, [](std::uint32_t, std::uint32_t) { return false; });
+    ASSERT_FALSE(cancelled.ok());
+    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(byCpp(), expected);
+}
+
 TEST_F(CPictures, VerticesAreRecordedOrWrapped) {
     const std::vector<Colour> colours = vertexColours();
     mesh_.paint = VXT_PAINT_VERTICES;
