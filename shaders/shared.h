@@ -77,6 +77,20 @@ struct TallyConstants {
     uint rounds; // whose headers it is to count
 };
 
+/// Push constants of the pass that makes pairs of poses: shaders/pair_setup.comp.
+struct PairSetupConstants {
+    uint firstPair; // of the dispatch
+    uint pairs;
+    uint item;
+    uint firstPose; // of the dispatch, in the item
+    uint how;       // of the results: VOXTACT_HOW_*
+    uint refused;   // the same, of poses that cannot be used
+    uint poseWord;  // of the words of the poses, where the first is
+    uint poseWords; // from one to the next
+    uint setupWord; // where what is the same for all pairs of the item is
+    uint views;     // that a pair has; 0 by the projection `conservative`
+};
+
 /// Push constants of the brick pass.
 struct BrickConstants {
     int firstX, firstY, firstZ; // the brick of work group (0, 0, 0)
@@ -214,6 +228,15 @@ struct CertifiedConstants {
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
+// Sets of the pass that makes pairs of poses, and the bindings of the first.
+#define VOXTACT_SET_SETUP 0
+#define VOXTACT_SET_SETUP_POSES 1
+#define VOXTACT_BINDING_SETUP_TRANSFORMS 0
+#define VOXTACT_BINDING_SETUP_RESULTS 1
+#define VOXTACT_BINDING_SETUP_ITEMS 2
+/// What is the same for all pairs of an item has so many words; for so many items at once.
+#define VOXTACT_SETUP_WORDS 128
+#define VOXTACT_SETUP_ITEMS 16
 // Bindings of the pass that edits voxels.
 #define VOXTACT_BINDING_EDIT_ROWS 0
 #define VOXTACT_BINDING_EDIT_TEXELS 1

@@ -27,6 +27,7 @@ namespace voxtact {
 struct VolumeImpl;
 struct TransferFunctionImpl;
 struct MeshImpl;
+struct PoseBufferImpl;
 struct LabelMapImpl;
 
 /// An image of the caller's.
@@ -246,6 +247,43 @@ class Mesh {
   private:
     explicit Mesh(std::unique_ptr<MeshImpl> impl) noexcept;
     std::unique_ptr<MeshImpl> impl_;
+};
+
+/// Poses in a buffer of the caller's, where a shader of theirs has written them, or the host into mapped memory:
+/// `world_from_object`, 16 floats each, column-major, which is a mat4 of std430. The last row must be 0 0 0 1.
+struct WrappedPoses {
+    VkBuffer buffer = VK_NULL_HANDLE; ///< usage STORAGE_BUFFER
+    VkDeviceSize offset = 0;          ///< bytes, of the first one; a multiple of 4
+    VkDeviceSize stride = 64;         ///< bytes from one to the next; at least 64, a multiple of 4
+    std::uint32_t count = 0;          ///< poses in the buffer, at least 1
+    /// No pose makes anything more than so many times as long; 1 is a rigid motion. Positive. It bounds the work of
+    /// a dispatch of the projection `conservative`, and no answer depends on it.
+    double mostScale = 1;
+};
+
+/// Poses on the device, for BatchItem::poses. What the host does with a pose is then done by a dispatch, with the same
+/// arithmetic, so that answers are those of the same floats in BatchItem::world_from_object, bit for bit; and recording
+/// a batch of 100,000 poses takes no longer for the poses than one of a single pose.
+/// Thread-safety: const members from any thread.
+class PoseBuffer {
+  public:
+    /// Uses a buffer of the caller's, which must outlive this. Its contents are not looked at. Refuses a null buffer,
+    /// no poses, an offset and a stride that WrappedPoses does not allow, more than the device's maxStorageBufferRange,
+    /// and a mostScale that is not a positive number.
+    [[nodiscard]] VOXTACT_API static Result<PoseBuffer> wrap(const Context& context, const WrappedPoses& wrapped,
+                                                             const char* name = nullptr);
+    VOXTACT_API PoseBuffer(PoseBuffer&&) noexcept;
+    VOXTACT_API PoseBuffer& operator=(PoseBuffer&&) noexcept;
+    VOXTACT_API ~PoseBuffer();
+
+    /// How many there are.
+    [[nodiscard]] VOXTACT_API std::uint32_t count() const noexcept;
+
+    [[nodiscard]] PoseBufferImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit PoseBuffer(std::unique_ptr<PoseBufferImpl> impl) noexcept;
+    std::unique_ptr<PoseBufferImpl> impl_;
 };
 
 /// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels.

@@ -390,7 +390,7 @@ typedef struct vxt_detector_desc {
     uint32_t stop_at_first;     ///< CONSERVATIVE: the count is then 0 or 1, a lower bound; default 0
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
     uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
-    uint32_t reserved;          ///< 0
+    uint32_t device_poses;      ///< items may have vxt_item::poses; the queue then needs compute, too; default 0
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -404,6 +404,37 @@ static inline vxt_detector_desc vxt_detector_desc_init(void) {
     return desc;
 }
 
+/// Poses in a buffer of the caller's: voxtact::WrappedPoses. 16 floats each, column-major, which is a mat4 of std430.
+typedef struct vxt_wrapped_poses {
+    size_t struct_size;  ///< sizeof
+    VkBuffer buffer;     ///< usage STORAGE_BUFFER
+    VkDeviceSize offset; ///< bytes, of the first one; a multiple of 4
+    VkDeviceSize stride; ///< bytes from one to the next; at least 64, the default; a multiple of 4
+    double most_scale;   ///< no pose makes anything more than so many times as long; default 1. No answer depends on it
+    uint32_t count;      ///< poses in the buffer; at least 1
+    uint32_t reserved;   ///< 0
+} vxt_wrapped_poses;
+
+/// Rigid poses, one after the other.
+static inline vxt_wrapped_poses vxt_wrapped_poses_init(void) {
+    vxt_wrapped_poses wrapped;
+    memset(&wrapped, 0, sizeof wrapped);
+    wrapped.struct_size = sizeof wrapped;
+    wrapped.stride = 64;
+    wrapped.most_scale = 1;
+    return wrapped;
+}
+
+/// Poses on the device, which are read when commands execute: voxtact::PoseBuffer.
+typedef struct vxt_pose_buffer vxt_pose_buffer;
+/// Uses a buffer of the caller's, which must outlive it. `name` may be null.
+VXT_CHECKED vxt_result vxt_pose_buffer_wrap(const vxt_context* context, const vxt_wrapped_poses* wrapped,
+                                            const char* name, vxt_pose_buffer** poses);
+/// How many there are; 0 for null.
+VXT_API uint32_t vxt_pose_buffer_count(const vxt_pose_buffer* poses);
+/// Ends it.
+VXT_API void vxt_pose_buffer_destroy(vxt_pose_buffer* poses);
+
 /// One mesh at some poses against one volume under one transfer function.
 typedef struct vxt_item {
     size_t struct_size;                             ///< sizeof
@@ -413,6 +444,8 @@ typedef struct vxt_item {
     const double* world_from_object;                ///< 16 doubles a pose; affine; read while recording only
     size_t pose_count;                              ///< poses: a pair each
     const vxt_label_map* labels;                    ///< for the outputs CONTACTS (optional) and LABELS; else null
+    const vxt_pose_buffer* poses; ///< on the device: the first pose_count of them, world_from_object being null; for
+                                  ///< detectors with device_poses. A pose that cannot be used is EXACTNESS_REFUSED
 } vxt_item;
 
 /// The pairs of one submission: the items in order, each with its poses in order.

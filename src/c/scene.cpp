@@ -130,6 +130,28 @@ void vxt_mesh_destroy(vxt_mesh* mesh) {
     delete mesh;
 }
 
+vxt_result vxt_pose_buffer_wrap(const vxt_context* context, const vxt_wrapped_poses* wrapped, const char* name,
+                                vxt_pose_buffer** poses) {
+    return create(context, "context", poses, [&](const Context& on) {
+        const vxt_wrapped_poses from = readOptions(wrapped, vxt_wrapped_poses_init(), "wrapped poses");
+        return take(PoseBuffer::wrap(on,
+                                     {.buffer = from.buffer,
+                                      .offset = from.offset,
+                                      .stride = from.stride,
+                                      .count = from.count,
+                                      .mostScale = from.most_scale},
+                                     name));
+    });
+}
+
+uint32_t vxt_pose_buffer_count(const vxt_pose_buffer* poses) {
+    return poses == nullptr ? 0 : poses->object.count();
+}
+
+void vxt_pose_buffer_destroy(vxt_pose_buffer* poses) {
+    delete poses;
+}
+
 vxt_result vxt_label_map_create(const vxt_context* context, const vxt_labels* labels, const char* name,
                                 vxt_label_map** map) {
     return create(context, "context", map,

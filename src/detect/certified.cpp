@@ -135,7 +135,7 @@ void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, co
             constants.endCluster = round.endCluster;
             recordRound(commandBuffer, results, layout, constants, round.pairs, rounds++);
         });
-        firstPair += static_cast<std::uint32_t>(item.world_from_object.size());
+        firstPair += static_cast<std::uint32_t>(item.pairs());
     }
     if (desc_.counters && rounds > 0) {
         queuesBarrier(*context_, commandBuffer);

@@ -62,7 +62,7 @@ PixelSlices::PixelSlices(const ContextImpl& context, const DetectorDesc& desc, c
       most_(context.limits.maxComputeWorkGroupCount[2]) {
     const MeshImpl& mesh = item.mesh->impl();
     squaresBefore_ = mesh.squaresBeforeGroup;
-    if (squaresBefore_.empty() || !mesh.facts) {
+    if (squaresBefore_.empty() || !mesh.facts || item.poses != nullptr) {
         squaresBefore_ = {};
         scale_ = kInfinite;
         // What costs every wrapped mesh something is done where it must be.

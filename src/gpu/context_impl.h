@@ -56,6 +56,10 @@ struct ContextImpl : SharedImpl<ContextImpl> {
 
     std::mutex onDemandMutex; ///< of those below, which are made for the first object that needs them
     Owned<VkPipeline> brickPipeline;
+    Owned<VkDescriptorSetLayout> poseSetLayout;  ///< poseSetLayout()
+    Owned<VkDescriptorSetLayout> setupSetLayout; ///< VOXTACT_SET_SETUP
+    Owned<VkPipelineLayout> setupLayout;
+    std::array<Owned<VkPipeline>, 2> setupPipelines; ///< the second for the projection conservative
     Owned<VkPipelineLayout> editLayout;
     Owned<VkPipeline> editPipeline;
     Buffer nothing; ///< emptyBuffer()

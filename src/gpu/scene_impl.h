@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/context_impl.h"
+#include "pair_setup.h"
 #include "voxtact/scene.h"
 
 #include <vector>
@@ -13,6 +14,7 @@ struct VolumeImpl {
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     Grid grid{};
     Mat4 texture_from_world{};
+    shader::PairGrid pairGrid{};
     ScalarType type = ScalarType::UInt8; ///< of what was uploaded
     VkFormat format = VK_FORMAT_UNDEFINED;
     bool filtered = true;  ///< by the device's sampler, linearly
@@ -71,6 +73,20 @@ struct MeshImpl {
     Buffer staging{};
     bool uploaded = false; ///< recorded, or the caller's own
 };
+
+/// Poses of the caller's.
+struct PoseBufferImpl {
+    ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
+    std::uint32_t firstWord = 0; ///< where the first pose begins
+    std::uint32_t words = 0;     ///< from one to the next
+    std::uint32_t count = 0;
+    double mostScale = 1; ///< WrappedPoses::mostScale
+    DescriptorSet descriptors{};
+};
+
+/// The layout of a PoseBuffer's set, made for the first that asks.
+[[nodiscard]] Result<VkDescriptorSetLayout> poseSetLayout(ContextImpl& context);
 
 /// The format of a label map: numbers of labels.
 inline constexpr VkFormat kLabelFormat = VK_FORMAT_R16_UINT;

@@ -2,6 +2,9 @@
 // Contexts, uploads, and the caller's own objects.
 #include "scenarios.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace voxtact::test {
 
 namespace {
@@ -92,8 +95,23 @@ std::string wrap(Play& play) {
     embedder.wait();
     const std::vector<Mat4> poses = somePoses(2, 0);
     const BatchItem item{&mesh, &volume, &function, poses};
+    std::vector<float> matrices;
+    for (const Mat4& pose : poses) {
+        std::transform(pose.begin(), pose.end(), std::back_inserter(matrices),
+                       [](double element) { return static_cast<float>(element); });
+    }
+    const VkBuffer poseBuffer =
+        embedder.makeBuffer(std::span<const float>(matrices), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const PoseBuffer onDevice = play.ask(
+        "PoseBuffer::wrap", [&] { return PoseBuffer::wrap(setting.context, {.buffer = poseBuffer, .count = 2}); });
+    BatchItem moving = item;
+    moving.world_from_object = {};
+    moving.poses = &onDevice;
+    DetectorDesc byPoses = kCertified;
+    byPoses.devicePoses = true;
     return answerOf(play, setting.context, item, kCertified) +
-           answerOf(play, setting.context, item, {.method = CountingMethod::Query});
+           answerOf(play, setting.context, item, {.method = CountingMethod::Query}) +
+           answerOf(play, setting.context, moving, byPoses);
 }
 
 } // namespace

@@ -102,6 +102,31 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     of.item.mesh = mesh.get();
     EXPECT_EQ(ask(*newBlocking(vxt_detector_desc_init()), of).pairs.at(0).count, 128U);
     EXPECT_EQ(vxt_mesh_triangles(mesh.get()), 2U);
+
+    const std::array<float, 32> matrices{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 9, 0, 0, 1};
+    vxt_wrapped_poses wrappedPoses = vxt_wrapped_poses_init();
+    wrappedPoses.buffer = raw.makeBuffer(std::span<const float>(matrices), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT).buffer;
+    wrappedPoses.count = 2;
+    const auto poses = made<vxt_pose_buffer>(vxt_pose_buffer_destroy, [&](auto out) {
+        return vxt_pose_buffer_wrap(context_.get(), &wrappedPoses, "two poses", out);
+    });
+    EXPECT_EQ(vxt_pose_buffer_count(poses.get()), 2U);
+    COneItem moving(sides, scene);
+    moving.item = of.item;
+    moving.item.poses = poses.get();
+    moving.item.pose_count = 2;
+    vxt_detector_desc withPoses = vxt_detector_desc_init();
+    withPoses.device_poses = 1;
+    const auto byPoses = newBlocking(withPoses);
+    const auto answer = made<vxt_answer>(vxt_answer_destroy, [](auto out) { return vxt_answer_create(out); });
+    EXPECT_EQ(vxt_blocking_detector_detect(byPoses.get(), &moving.batch, answer.get()), VXT_ERROR_INVALID_ARGUMENT)
+        << "poses and world_from_object";
+    moving.item.world_from_object = nullptr;
+    EXPECT_EQ(ask(*byPoses, moving).pairs.at(0).count, 128U);
+    EXPECT_EQ(ask(*byPoses, moving).pairs.at(1).count, 0U);
+    moving.item.pose_count = 3;
+    EXPECT_EQ(vxt_blocking_detector_detect(byPoses.get(), &moving.batch, answer.get()), VXT_ERROR_INVALID_ARGUMENT);
     vxt_mesh_facts facts{};
     EXPECT_EQ(vxt_mesh_get_facts(mesh.get(), &facts), VXT_ERROR_NOT_READY);
     vxt_volume_info info = vxt_volume_info_init();
