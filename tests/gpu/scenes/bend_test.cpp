@@ -99,10 +99,12 @@ TEST_F(MeshBendTest, BoxesAreTheHostsForAllKindsOfFloats) {
             shape.indices.push_back(corner);
         }
         Mesh mesh = editable(shape, true, 16);
-        // All signs, too: a box of negative numbers alone, or of tiny ones.
-        for (const std::size_t kinds : {std::size_t{1}, std::size_t{5}, std::size(kOdd)}) {
+        // Numbers that differ (0 kinds), so that each run has a part in the box of its cluster, and odd ones.
+        for (const std::size_t kinds : {std::size_t{0}, std::size_t{1}, std::size_t{5}, std::size(kOdd)}) {
+            const double middle = uniform(random, -1, 1);
             for (float& coordinate : shape.positions) {
-                coordinate = kOdd[below(random, kinds)];
+                coordinate =
+                    kinds > 0 ? kOdd[below(random, kinds)] : static_cast<float>(middle + uniform(random, -0.5, 0.5));
             }
             const VkCommandBuffer commands = raw().begin();
             take(mesh.cmdUpdate(commands, shape.positions));
