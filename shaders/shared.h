@@ -106,6 +106,14 @@ struct EditConstants {
     uint value;      // the texel, as often as it fits
 };
 
+/// Push constants of the pass that fits a mesh's clusters: shaders/mesh_refit.comp.
+struct RefitConstants {
+    MeshConstants mesh;
+    uint triangleCount;
+    uint clusterWord;   // as in CertifiedConstants, of the buffer that the pass writes
+    uint copiesIndices; // not 0: to the beginning of that buffer, 32 bits each
+};
+
 /// One surviving fragment of a pair.
 struct TracedFragment {
     uint triangle;
@@ -228,6 +236,8 @@ struct CertifiedConstants {
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
+// Beside these, of the pass that fits the clusters: the words that it writes.
+#define VOXTACT_BINDING_CLUSTERS 2
 // Sets of the pass that makes pairs of poses, and the bindings of the first.
 #define VOXTACT_SET_SETUP 0
 #define VOXTACT_SET_SETUP_POSES 1
@@ -273,6 +283,7 @@ static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstant
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_GROUPS_LEFT < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);
 static_assert(sizeof(BrickConstants) == 24);
+static_assert(sizeof(RefitConstants) == 28);
 } // namespace voxtact::shader
 #endif
 

@@ -80,10 +80,11 @@ struct ResultsDesc {
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
     /// Clusters of 64 triangles, once a pair, that a dispatch of the projection conservative looks at, at most; a
     /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most; but a
-    /// cluster of one pair is never cut, and of a wrapped mesh, of which the host knows no triangle, only the clusters
-    /// are bounded. No answer depends on it. 16 to 16384, as many as a GPU can do before its driver takes it for stuck;
-    /// each takes 720 bytes of device memory. 0: none, for Results for other projections. Nothing: by maxPairs,
-    /// 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for so many.
+    /// cluster of one pair is never cut, and of a mesh of which the host knows no vertex (wrapped, or after
+    /// Mesh::cmdCopy()) only the clusters are bounded. No answer depends on it. 16 to 16384, as many as a GPU can do
+    /// before its driver takes it for stuck; each takes 720 bytes of device memory. 0: none, for Results for other
+    /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
+    /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
 };
 

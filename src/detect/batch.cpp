@@ -130,16 +130,6 @@ VkExtent2D viewportOf(const DetectorDesc& desc, const Batch& batch, const BatchI
     return {batch.view.width, batch.view.height};
 }
 
-shader::MeshConstants meshConstants(const MeshImpl& mesh) noexcept {
-    std::uint32_t indexBytes = 0;
-    if (mesh.indices != VK_NULL_HANDLE) {
-        indexBytes = mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
-    }
-    return {static_cast<std::uint32_t>(mesh.vertexOffset / sizeof(float)),
-            static_cast<std::uint32_t>(mesh.vertexStride / sizeof(float)), static_cast<std::uint32_t>(mesh.indexOffset),
-            indexBytes};
-}
-
 Result<void> checkStorage(const BatchItem& item, const char* what) {
     if (const std::string& reason = item.mesh->impl().noStorage; !reason.empty()) {
         return Error{ErrorCode::Unsupported, 0, what + (" cannot be used: " + reason)};

@@ -8,7 +8,7 @@
 #include "detect/outputs.h"
 #include "detect/recording.h"
 #include "gpu/barriers.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/certified_cull_comp.h"
 #include "voxtact_shaders/certified_decide_comp.h"

@@ -36,7 +36,7 @@ MeshLooks meshLooks(const BatchItem& item) noexcept {
     MeshLooks looks;
     looks.pairs = static_cast<std::uint32_t>(item.pairs());
     looks.clusters = groupsOf(*item.mesh);
-    looks.before = mesh.squaresBefore;
+    looks.before = mesh.known.squaresBefore;
     if (looks.before.empty()) {
         return looks;
     }

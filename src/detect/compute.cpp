@@ -7,7 +7,7 @@
 #include "detect/outputs.h"
 #include "detect/pixel_slices.h"
 #include "exact.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/compute_comp.h"
 #include "voxtact_shaders/compute_outputs_comp.h"

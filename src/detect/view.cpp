@@ -7,7 +7,7 @@
 #include "detect/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/dominant_vert.h"
 #include "voxtact_shaders/view_atomic_frag.h"

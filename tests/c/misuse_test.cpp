@@ -190,6 +190,9 @@ TEST(CMisuse, NullIsRefusedByTheDevice) {
     EXPECT_NULL_REFUSED(vxt_mesh_wrap(nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_mesh_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_mesh_cmd_upload(nullptr, VK_NULL_HANDLE));
+    EXPECT_NULL_REFUSED(vxt_mesh_cmd_update(nullptr, VK_NULL_HANDLE, nullptr, 0));
+    EXPECT_NULL_REFUSED(vxt_mesh_cmd_copy(nullptr, VK_NULL_HANDLE, VK_NULL_HANDLE, 0));
+    EXPECT_NULL_REFUSED(vxt_mesh_cmd_refit(nullptr, VK_NULL_HANDLE));
     EXPECT_NULL_REFUSED(vxt_mesh_get_facts(nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_pose_buffer_wrap(nullptr, nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_label_map_create(nullptr, nullptr, nullptr, nullptr));
