@@ -261,9 +261,8 @@ class Mesh {
     /// What the host knows of the mesh changes at once, facts() and how batches are cut into dispatches: record in the
     /// order in which the commands will be executed, and record anew whatever was recorded before this and is to be
     /// submitted after it.
-    ///   call it             outside a render pass, on any queue with graphics, compute or transfer; with clusters:
-    ///   with
-    ///                       compute
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer; one with compute
+    ///                       where the mesh has clusters
     ///   expects             a mesh that was uploaded; earlier commands that use it are waited for
     ///   leaves              the mesh readable by vertex input and by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
