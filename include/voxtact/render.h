@@ -327,6 +327,15 @@ class MeshNormals {
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// As Mesh::releaseStaging().
     VOXTACT_API void releaseStaging() noexcept;
+    /// Records the normals of another shape of the mesh, beside Mesh::cmdUpdate(): `data` has as many vertices. They
+    /// are kept in the command buffer itself, 12 bytes each; no device memory is allocated. O(vertices + triangles) on
+    /// the host. Refuses what checkMesh() refuses, and another number of vertices.
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer
+    ///   expects             normals that were uploaded; earlier commands that use them are waited for
+    ///   leaves              the normals readable by vertex input, in every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         none is lost
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const MeshView& data);
     [[nodiscard]] MeshNormalsImpl& impl() const noexcept { return *impl_; }
 
   private:

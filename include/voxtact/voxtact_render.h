@@ -110,6 +110,9 @@ VXT_CHECKED vxt_result vxt_mesh_normals_upload(const vxt_renderer* renderer, con
 VXT_CHECKED vxt_result vxt_mesh_normals_cmd_upload(vxt_mesh_normals* normals, VkCommandBuffer commands);
 /// Frees the staging buffer. The submission of the upload must be complete.
 VXT_API void vxt_mesh_normals_release_staging(vxt_mesh_normals* normals);
+/// Records the normals of another shape of the mesh, of as many vertices; takes effect in command-buffer order.
+VXT_CHECKED vxt_result vxt_mesh_normals_cmd_update(vxt_mesh_normals* normals, VkCommandBuffer commands,
+                                                   const vxt_mesh_view* mesh);
 /// Ends them.
 VXT_API void vxt_mesh_normals_destroy(vxt_mesh_normals* normals);
 

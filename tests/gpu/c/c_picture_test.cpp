@@ -355,8 +355,12 @@ TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
         vxt_render_function_destroy, [&](auto out) { return vxt_render_function_create(own.get(), &desc, out); });
     EXPECT_EQ(vxt_render_function_visible(function.get()), 1U);
     const vxt_mesh_view view = cMesh(scene_.mesh);
+    // Those of another shape, which are updated.
+    MeshData bent = scene_.mesh;
+    bent.positions[2] += 0.4F;
+    const vxt_mesh_view bentView = cMesh(bent);
     const auto normals = made<vxt_mesh_normals>(
-        vxt_mesh_normals_destroy, [&](auto out) { return vxt_mesh_normals_create(own.get(), &view, out); });
+        vxt_mesh_normals_destroy, [&](auto out) { return vxt_mesh_normals_create(own.get(), &bentView, out); });
     const std::uint32_t chosen = 1;
     const auto painted = made<vxt_painted_triangles>(vxt_painted_triangles_destroy, [&](auto out) {
         return vxt_painted_triangles_create(own.get(), 2, &chosen, 1, out);
@@ -368,6 +372,7 @@ TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
     desc.colour_count = std::size(kCColours);
     need(vxt_render_function_cmd_update(function.get(), commands, &desc));
     need(vxt_mesh_normals_cmd_upload(normals.get(), commands));
+    need(vxt_mesh_normals_cmd_update(normals.get(), commands, &view));
     need(vxt_painted_triangles_cmd_upload(painted.get(), commands));
     const Target cppTarget = [&] {
         RenderTargets unused = take(RenderTargets::create(cppParts_->blocking.renderer(), {kWidth, kHeight}));
