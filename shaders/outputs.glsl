@@ -5,6 +5,7 @@
 #define VOXTACT_OUTPUTS_GLSL
 
 #include "contact.h"
+#include "ordered.glsl"
 
 layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputs = 0;
 
@@ -22,12 +23,6 @@ void emitTriangle(OutputPair pair, uint triangle) {
     if (atomicAdd(outputs[pair.firstTriangle + triangle], 1u) == 0u) {
         atomicOr(outputs[pair.firstMask + triangle / 32u], 1u << (triangle % 32u));
     }
-}
-
-/// Words that have the order of the floats behind them: VOXTACT_BOUND_BITS() is the way back. None is 0.
-uint orderedWord(float value) {
-    const uint bits = floatBitsToUint(value);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
 
 void emitBound(OutputPair pair, ContactVector position) {

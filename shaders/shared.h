@@ -77,6 +77,20 @@ struct TallyConstants {
     uint rounds; // whose headers it is to count
 };
 
+/// Push constants of the pass that makes pairs of poses: shaders/pair_setup.comp.
+struct PairSetupConstants {
+    uint firstPair; // of the dispatch
+    uint pairs;
+    uint item;
+    uint firstPose; // of the dispatch, in the item
+    uint how;       // of the results: VOXTACT_HOW_*
+    uint refused;   // the same, of poses that cannot be used
+    uint poseWord;  // of the words of the poses, where the first is
+    uint poseWords; // from one to the next
+    uint setupWord; // where what is the same for all pairs of the item is
+    uint views;     // that a pair has; 0 by the projection `conservative`
+};
+
 /// Push constants of the brick pass.
 struct BrickConstants {
     int firstX, firstY, firstZ; // the brick of work group (0, 0, 0)
@@ -90,6 +104,14 @@ struct EditConstants {
     uint rows;
     uint texelBytes; // 1, 2 or 4
     uint value;      // the texel, as often as it fits
+};
+
+/// Push constants of the pass that fits a mesh's clusters: shaders/mesh_refit.comp.
+struct RefitConstants {
+    MeshConstants mesh;
+    uint triangleCount;
+    uint clusterWord;   // as in CertifiedConstants, of the buffer that the pass writes
+    uint copiesIndices; // not 0: to the beginning of that buffer, 32 bits each
 };
 
 /// One surviving fragment of a pair.
@@ -214,6 +236,17 @@ struct CertifiedConstants {
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
+// Beside these, of the pass that fits the clusters: the words that it writes.
+#define VOXTACT_BINDING_CLUSTERS 2
+// Sets of the pass that makes pairs of poses, and the bindings of the first.
+#define VOXTACT_SET_SETUP 0
+#define VOXTACT_SET_SETUP_POSES 1
+#define VOXTACT_BINDING_SETUP_TRANSFORMS 0
+#define VOXTACT_BINDING_SETUP_RESULTS 1
+#define VOXTACT_BINDING_SETUP_ITEMS 2
+/// What is the same for all pairs of an item has so many words; for so many items at once.
+#define VOXTACT_SETUP_WORDS 128
+#define VOXTACT_SETUP_ITEMS 16
 // Bindings of the pass that edits voxels.
 #define VOXTACT_BINDING_EDIT_ROWS 0
 #define VOXTACT_BINDING_EDIT_TEXELS 1
@@ -250,6 +283,7 @@ static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstant
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_GROUPS_LEFT < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);
 static_assert(sizeof(BrickConstants) == 24);
+static_assert(sizeof(RefitConstants) == 28);
 } // namespace voxtact::shader
 #endif
 

@@ -24,8 +24,13 @@ if(VOXTACT_BUILD_IO)
   # JPEG 2000 in DICOM files. OpenJPEG's own package file asks for its programs, which nobody needs.
   find_path(VOXTACT_OPENJPEG_INCLUDE_DIR openjpeg.h PATH_SUFFIXES openjpeg-2.5 REQUIRED)
   find_library(VOXTACT_OPENJPEG_LIBRARY openjp2 REQUIRED)
+  find_package(PNG REQUIRED)
   find_package(ZLIB REQUIRED)
-  find_path(VOXTACT_STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb REQUIRED) # a header that writes PNG
+endif()
+
+# Headers that draw letters in the program, and read PNG in the tests.
+if(VOXTACT_BUILD_APP OR VOXTACT_BUILD_TESTS)
+  find_path(VOXTACT_STB_INCLUDE_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
 endif()
 
 # the Python package. The system's Python is asked first: that is where Debian's numpy and pybind11 are.

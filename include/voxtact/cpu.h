@@ -254,6 +254,9 @@ struct MotionDesc {
     std::uint64_t mostSteps = 1U << 20U;         ///< a segment that takes more is left with what is known; at least 1
 };
 
+/// The shapes of a mesh that bends, one for each pose of an item: its vertices, as Mesh::update() takes them.
+using ShapesOfPoses = std::span<const std::span<const float>>;
+
 /// Says whether meshes touch on the way from pose to pose. What it answers depends on nothing but the segment and its
 /// desc. Keeps its threads from call to call, and what it makes of the last volumes and transfer functions.
 /// Thread-safety: one call at a time.
@@ -268,6 +271,13 @@ class MotionChecker {
     /// The segments between consecutive poses of each item: one fewer than it has poses. Labels and view are not looked
     /// at. Refuses what Detector::detect() and poseBetween() refuse.
     [[nodiscard]] VOXTACT_API Result<MotionAnswer> check(const Batch& batch);
+    /// The same of meshes that bend on the way: `shapes` has those of each item. From pose to pose, while the mesh
+    /// moves as poseBetween() says, with the centre of the item's own mesh, its vertices go as shapeBetween() says.
+    /// What is free is so for vertices between floats, too; what touches is the shape at that parameter. The items' own
+    /// shapes are not looked at but for that centre. Refuses what check() does, another number of items or of shapes,
+    /// and shapes that Mesh::update() would refuse.
+    [[nodiscard]] VOXTACT_API Result<MotionAnswer> checkBending(const Batch& batch,
+                                                                std::span<const ShapesOfPoses> shapes);
     /// Whether a mesh touches at some pose that is off by no more than the tolerance, for every pair: `hit` where it
     /// certainly does, neither that nor `possible` where it does at none of them. The count is 0 or 1. Refuses what
     /// Detector::detect() refuses, and numbers outside the ranges of PoseTolerance.

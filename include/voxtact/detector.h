@@ -32,6 +32,9 @@ struct DetectorDesc {
     /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel beside the triangle.
     /// InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
+    /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
+    /// compute beside graphics.
+    bool devicePoses = false;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -41,6 +44,14 @@ struct BatchItem {
     const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
     std::span<const Mat4> world_from_object{};          ///< a pose a pair; affine. Read while recording only
     const LabelMap* labels = nullptr;                   ///< for the outputs contacts (optional) and labels
+    /// Poses on the device, in place of world_from_object, which is then empty; for detectors with devicePoses. A pose
+    /// that is not finite, or whose last row is not 0 0 0 1, is not looked at: its count is 0, its exactness Refused,
+    /// and by the projection `conservative` it is *possible*.
+    const PoseBuffer* poses = nullptr;
+    std::optional<std::uint32_t> poseCount = std::nullopt; ///< of `poses`, the first so many; nothing: all
+
+    /// How many pairs it is.
+    [[nodiscard]] VOXTACT_API std::size_t pairs() const noexcept;
 };
 
 /// The pairs of one submission: the items in order, each with its poses in order.
@@ -69,10 +80,11 @@ struct ResultsDesc {
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
     /// Clusters of 64 triangles, once a pair, that a dispatch of the projection conservative looks at, at most; a
     /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most; but a
-    /// cluster of one pair is never cut, and of a wrapped mesh, of which the host knows no triangle, only the clusters
-    /// are bounded. No answer depends on it. 16 to 16384, as many as a GPU can do before its driver takes it for stuck;
-    /// each takes 720 bytes of device memory. 0: none, for Results for other projections. Nothing: by maxPairs,
-    /// 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for so many.
+    /// cluster of one pair is never cut, and of a mesh of which the host knows no vertex (wrapped, or after
+    /// Mesh::cmdCopy()) only the clusters are bounded. No answer depends on it. 16 to 16384, as many as a GPU can do
+    /// before its driver takes it for stuck; each takes 720 bytes of device memory. 0: none, for Results for other
+    /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
+    /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
 };
 
@@ -198,22 +210,23 @@ class Detector {
 
     /// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. The poses
     /// are recorded into the command buffer, so it may be submitted again without its Results being overwritten by
-    /// the host in between.
+    /// the host in between. Those of a PoseBuffer are read when it executes: recorded once, it may be submitted again
+    /// and again, each time for the poses that are there then.
     ///
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics, or, for
     ///                    the method compute, on one with compute, with or without graphics
     ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them, wrapped ones in the
     ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER (for the projection
     ///                    dominant-axis: to VERTEX_SHADER / FRAGMENT_SHADER, for the method compute: to
-    ///                    COMPUTE_SHADER) by the caller; an earlier use of the same Results in this queue
-    ///                    may be in flight: the reads that cmdReadBack() and compute or fragment shaders make of
-    ///                    buffer() are waited for
+    ///                    COMPUTE_SHADER) by the caller; a buffer of poses made visible to COMPUTE_SHADER; an earlier
+    ///                    use of the same Results in this queue may be in flight: the reads that cmdReadBack() and
+    ///                    compute or fragment shaders make of buffer() are waited for
     ///   leaves           Results::buffer() available and visible to TRANSFER read, and to shader reads in all stages
     ///   queries          no occlusion query may be active
     ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3; with
     ///                    outputs: 0..4), push constants, vertex binding 0, index buffer, dynamic viewport and scissor;
-    ///                    for the method compute instead: compute pipeline, descriptor sets 0..3 of the compute bind
-    ///                    point (0..4 with outputs), push constants
+    ///                    for the method compute instead, and with devicePoses as well: compute pipeline, descriptor
+    ///                    sets 0..3 of the compute bind point (0..4 with outputs), push constants
     ///
     /// With outputs, batches are refused that the Results have no room for (the list of contacts is cut instead), and
     /// with the output labels, items without a label map. The Results keep what readOutputs() needs of the batch.

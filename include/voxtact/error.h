@@ -30,7 +30,7 @@ enum class ErrorCode : std::uint32_t {
     Format,              ///< a file can be read, but what it holds cannot be used
     NotReady,            ///< the result asked for does not exist yet, or no longer
     Internal,            ///< a bug in voxtact
-    Cancelled,           ///< the caller ended the call early: cpu::Batch::cancel
+    Cancelled,           ///< the caller ended the call early: cpu::Batch::cancel, a progress function
 };
 
 /// A refusal. One line of text, without a final full stop or newline.

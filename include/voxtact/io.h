@@ -162,14 +162,18 @@ struct NamedPoint {
 /// line. Refuses numbers that are not finite, lines of other lengths, and a file without a point.
 [[nodiscard]] VOXTACT_API Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path);
 
+/// How far writing is: rows of a picture that are written, and all. Called on the writing thread, after each. False: no
+/// more is written, and what is called returns Cancelled. Must not throw. Empty: nobody.
+using WriteProgress = std::function<bool(std::uint32_t done, std::uint32_t rows)>;
+
 /// A PNG file of 8 bits a channel: red, green, blue and alpha of each pixel, the uppermost row first. Written to a
-/// temporary name and renamed. Refuses an empty picture, one with another number of bytes, an ending other than .png,
-/// and more than 2^30 bytes.
+/// temporary name and renamed, so that a file that is cancelled is as it was. Refuses an empty picture, one with
+/// another number of bytes, an ending other than .png, and more than 2^30 bytes.
 VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                                  std::span<const std::uint8_t> rgba);
-/// The same to a stream, which the caller looks at.
+                                  std::span<const std::uint8_t> rgba, const WriteProgress& progress = {});
+/// The same to a stream, which the caller looks at, also after Cancelled.
 VOXTACT_API Result<void> writePng(std::ostream& out, std::uint32_t width, std::uint32_t height,
-                                  std::span<const std::uint8_t> rgba);
+                                  std::span<const std::uint8_t> rgba, const WriteProgress& progress = {});
 
 /// A file that is there when it is complete: what is written to its stream (classic locale) goes to a temporary file
 /// beside `path`, which commit() puts in its place. Without commit() the temporary file is removed, and `path` is as it

@@ -59,6 +59,7 @@ enum class Boundary : std::uint32_t {
 enum class Exactness : std::uint32_t {
     Exact = 0,
     LowerBound = 1, ///< at least that many: a boolean query, an early exit, or fragments that could not be decided
+    Refused = 2,    ///< nothing was counted: the pose, which is on the device, is not finite or not affine
 };
 
 /// The name as on the command line ("query-any"); it lives for ever; "unknown" for no method.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 /// On the way: plain types, the same for whatever checks motions.
@@ -37,6 +38,12 @@ inline constexpr double kMostDeformation = 1e-3;
 [[nodiscard]] VOXTACT_API Result<Mat4> poseBetween(const Mat4& from, const Mat4& to, double parameter,
                                                    Interpolation interpolation = Interpolation::Screw,
                                                    const Vec3& centre = {});
+
+/// The shape at a parameter of a mesh that bends on the way, `from` at 0 and `to` at 1: each vertex goes straight, at
+/// constant speed, and is rounded to the nearest float. Refuses shapes of different sizes, and a parameter outside of 0
+/// to 1.
+[[nodiscard]] VOXTACT_API Result<std::vector<float>> shapeBetween(std::span<const float> from,
+                                                                  std::span<const float> to, double parameter);
 
 /// A pose on the way that touches.
 struct MotionTouch {

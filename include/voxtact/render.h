@@ -236,13 +236,14 @@ class BlockingRenderer {
     VOXTACT_API BlockingRenderer& operator=(BlockingRenderer&&) noexcept;
     VOXTACT_API ~BlockingRenderer();
 
-    /// How far a picture is: rows that are done, and all.
-    using Progress = std::function<void(std::uint32_t done, std::uint32_t rows)>;
+    /// How far a picture is: rows that are done, and all. False: no more is drawn, and render() returns Cancelled.
+    using Progress = std::function<bool(std::uint32_t done, std::uint32_t rows)>;
 
     /// Refuses what RenderTargets::create() and Renderer::cmdRender() refuse.
     [[nodiscard]] VOXTACT_API Result<Picture> render(const Scene& scene, VkExtent2D extent);
     /// The same picture, but in bands of rows, a submission each, of about a fifth of a second: `progress` is called
-    /// after each, on this thread. It must not throw.
+    /// after each, on this thread, and may end it there. It must not throw. After Cancelled the next picture may be
+    /// asked for at once.
     [[nodiscard]] VOXTACT_API Result<Picture> render(const Scene& scene, VkExtent2D extent, const Progress& progress);
     /// The renderer that records, to make the objects of a Scene with; it lives as long as this object.
     [[nodiscard]] VOXTACT_API const Renderer& renderer() const noexcept;
@@ -326,6 +327,15 @@ class MeshNormals {
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// As Mesh::releaseStaging().
     VOXTACT_API void releaseStaging() noexcept;
+    /// Records the normals of another shape of the mesh, beside Mesh::cmdUpdate(): `data` has as many vertices. They
+    /// are kept in the command buffer itself, 12 bytes each; no device memory is allocated. O(vertices + triangles) on
+    /// the host. Refuses what checkMesh() refuses, and another number of vertices.
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer
+    ///   expects             normals that were uploaded; earlier commands that use them are waited for
+    ///   leaves              the normals readable by vertex input, in every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         none is lost
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const MeshView& data);
     [[nodiscard]] MeshNormalsImpl& impl() const noexcept { return *impl_; }
 
   private:

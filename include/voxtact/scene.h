@@ -27,6 +27,7 @@ namespace voxtact {
 struct VolumeImpl;
 struct TransferFunctionImpl;
 struct MeshImpl;
+struct PoseBufferImpl;
 struct LabelMapImpl;
 
 /// An image of the caller's.
@@ -204,6 +205,14 @@ struct WrappedMesh {
     /// `dominant-axis` need. 16-bit indices must then be followed by two more bytes where they end in the middle of
     /// four.
     bool storage = false;
+    /// As in MeshOptions; needs `storage`. Clusters and a copy of the indices are kept on the device, 17 bytes a
+    /// triangle. Not to be used before the first cmdUpload(); what changes the buffers later is followed by a
+    /// cmdRefit().
+    bool clusters = false;
+    /// For clusters, where the caller has them: the triangles on the host, in the same order. They are only looked at
+    /// to find which are near each other: vertices may have gone elsewhere. Empty: 64 triangles that follow each other
+    /// are a cluster.
+    MeshView shape{};
 };
 
 /// How a mesh is made.
@@ -212,17 +221,23 @@ struct MeshOptions {
     /// Clusters of near triangles are made and kept beside it, 4 to 5 bytes a triangle, for the projection
     /// `conservative` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
     bool clusters = false;
+    /// Allows cmdUpdate() and cmdCopy(); keeps the triangles on the host, 12 bytes each, 16 with clusters.
+    bool editable = false;
+    /// Bytes from one vertex to the next on the device; at least 12, a multiple of 4. More than 12 are for cmdCopy(),
+    /// from buffers whose vertices are as far apart.
+    std::uint32_t vertexStride = 12;
 };
 
 /// A triangle mesh on the device.
 class Mesh {
   public:
-    /// Refuses what checkMesh() refuses.
+    /// Refuses what checkMesh() refuses, and a stride that MeshOptions does not allow.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
                                                          const MeshOptions& options = {});
     /// Uses buffers of the caller's, which must outlive this. Their contents are not looked at: vertices must be finite
-    /// and indices in range. Refuses null vertices, strides and offsets that WrappedMesh does not allow, and no
-    /// triangles.
+    /// and indices in range. Refuses null vertices, strides and offsets that WrappedMesh does not allow, no triangles,
+    /// and with clusters: buffers without `storage`, more than the device's maxStorageBufferRange of them, a `shape`
+    /// that checkMesh() refuses or that has another number of triangles.
     [[nodiscard]] VOXTACT_API static Result<Mesh> wrap(const Context& context, const WrappedMesh& wrapped);
     /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
     [[nodiscard]] VOXTACT_API static Result<Mesh> upload(const Context& context, const QueueAccess& queue,
@@ -231,14 +246,55 @@ class Mesh {
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
     VOXTACT_API ~Mesh();
 
-    /// Records the copy to the device; see above for what it expects and leaves.
+    /// Records the copy to the device; see above for what it expects and leaves. Of a wrapped mesh with clusters: what
+    /// is kept of these, and a cmdRefit(); what that one says holds then.
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
+    /// Bends a mesh with MeshOptions::editable: vertices come elsewhere, and triangles stay between them. Each takes
+    /// effect in command-buffer order: what is recorded before it counts and shows the old shape, what is recorded
+    /// after it the new one. Answers are bit for bit those of a mesh that is made afresh; triangles stay in their
+    /// clusters, whose boxes are fitted to them on the device. Where neighbours go far apart, a mesh made afresh is
+    /// faster to ask. No device memory is allocated.
+    ///
+    /// What the host knows of the mesh changes at once, facts() and how batches are cut into dispatches: record in the
+    /// order in which the commands will be executed, and record anew whatever was recorded before this and is to be
+    /// submitted after it.
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer; one with compute
+    ///                       where the mesh has clusters
+    ///   expects             a mesh that was uploaded; earlier commands that use it are waited for
+    ///   leaves              the mesh readable by vertex input and by any shader stage, in every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         with clusters: lost as by Volume::cmdUpdateBricks(); otherwise none
+    ///
+    /// New vertices from host memory, three coordinates each in the order of MeshView::positions. They are kept in the
+    /// command buffer itself, `vertexStride` bytes each, so that frames in flight share nothing. facts() are theirs.
+    /// O(vertices + triangles). Refuses another number of coordinates and what checkMesh() refuses; the mesh is then as
+    /// it was.
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, std::span<const float> positions);
+    /// Copies the vertices from a buffer of the caller's with usage TRANSFER_SRC: three floats each, and from one to
+    /// the next MeshOptions::vertexStride bytes, all of which are copied, but for the last vertex, of which 12 are.
+    /// `offset` is in bytes, a multiple of 4. Earlier commands that wrote the buffer are waited for. Nothing looks at
+    /// the values: they must be finite, else answers say nothing about the triangles that have others. facts() are
+    /// nothing from then on, until the next cmdUpdate(). O(1) on the host.
+    VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, VkBuffer source, VkDeviceSize offset);
+
+    /// Fits the clusters of a wrapped mesh to what its buffers hold after the caller changed vertices or indices. It
+    /// takes effect in command-buffer order. No device memory is allocated. Refuses a mesh that is not wrapped or has
+    /// no clusters.
+    ///   call it             outside a render pass, on a queue with compute
+    ///   expects             a mesh whose cmdUpload() was recorded; earlier commands that wrote the caller's buffers or
+    ///                       use the clusters are waited for
+    ///   leaves              the clusters and the caller's buffers readable by vertex input and by any shader stage, in
+    ///                       every later command
+    ///   queries             an active occlusion query is not affected
+    ///   bound state         lost as by Volume::cmdUpdateBricks()
+    VOXTACT_API Result<void> cmdRefit(VkCommandBuffer commandBuffer);
+
     /// How many there are.
     [[nodiscard]] VOXTACT_API std::uint32_t triangles() const noexcept;
-    /// Nothing for a wrapped mesh.
+    /// Of the vertices as they were recorded last. Nothing for a wrapped mesh, and after cmdCopy().
     [[nodiscard]] VOXTACT_API std::optional<MeshFacts> facts() const noexcept;
 
     [[nodiscard]] MeshImpl& impl() const noexcept { return *impl_; }
@@ -246,6 +302,43 @@ class Mesh {
   private:
     explicit Mesh(std::unique_ptr<MeshImpl> impl) noexcept;
     std::unique_ptr<MeshImpl> impl_;
+};
+
+/// Poses in a buffer of the caller's, where a shader of theirs has written them, or the host into mapped memory:
+/// `world_from_object`, 16 floats each, column-major, which is a mat4 of std430. The last row must be 0 0 0 1.
+struct WrappedPoses {
+    VkBuffer buffer = VK_NULL_HANDLE; ///< usage STORAGE_BUFFER
+    VkDeviceSize offset = 0;          ///< bytes, of the first one; a multiple of 4
+    VkDeviceSize stride = 64;         ///< bytes from one to the next; at least 64, a multiple of 4
+    std::uint32_t count = 0;          ///< poses in the buffer, at least 1
+    /// No pose makes anything more than so many times as long; 1 is a rigid motion. Positive. It bounds the work of
+    /// a dispatch of the projection `conservative`, and no answer depends on it.
+    double mostScale = 1;
+};
+
+/// Poses on the device, for BatchItem::poses. What the host does with a pose is then done by a dispatch, with the same
+/// arithmetic, so that answers are those of the same floats in BatchItem::world_from_object, bit for bit; and recording
+/// a batch of 100,000 poses takes no longer for the poses than one of a single pose.
+/// Thread-safety: const members from any thread.
+class PoseBuffer {
+  public:
+    /// Uses a buffer of the caller's, which must outlive this. Its contents are not looked at. Refuses a null buffer,
+    /// no poses, an offset and a stride that WrappedPoses does not allow, more than the device's maxStorageBufferRange,
+    /// and a mostScale that is not a positive number.
+    [[nodiscard]] VOXTACT_API static Result<PoseBuffer> wrap(const Context& context, const WrappedPoses& wrapped,
+                                                             const char* name = nullptr);
+    VOXTACT_API PoseBuffer(PoseBuffer&&) noexcept;
+    VOXTACT_API PoseBuffer& operator=(PoseBuffer&&) noexcept;
+    VOXTACT_API ~PoseBuffer();
+
+    /// How many there are.
+    [[nodiscard]] VOXTACT_API std::uint32_t count() const noexcept;
+
+    [[nodiscard]] PoseBufferImpl& impl() const noexcept { return *impl_; }
+
+  private:
+    explicit PoseBuffer(std::unique_ptr<PoseBufferImpl> impl) noexcept;
+    std::unique_ptr<PoseBufferImpl> impl_;
 };
 
 /// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels.

@@ -92,6 +92,7 @@ typedef enum vxt_boundary {
 typedef enum vxt_exactness {
     VXT_EXACTNESS_EXACT = 0,       ///< it is the count
     VXT_EXACTNESS_LOWER_BOUND = 1, ///< at least that many
+    VXT_EXACTNESS_REFUSED = 2,     ///< nothing was counted: the pose, which is on the device, is not finite or affine
     VXT_EXACTNESS_MAX = 0x7fffffff ///< makes the type 32 bits wide
 } vxt_exactness;
 

@@ -2,6 +2,7 @@
 #ifndef VOXTACT_VOXTACT_RENDER_H
 #define VOXTACT_VOXTACT_RENDER_H
 
+#include "voxtact/voxtact_host.h"
 #include "voxtact/voxtact_vulkan.h"
 
 /// @file
@@ -109,6 +110,9 @@ VXT_CHECKED vxt_result vxt_mesh_normals_upload(const vxt_renderer* renderer, con
 VXT_CHECKED vxt_result vxt_mesh_normals_cmd_upload(vxt_mesh_normals* normals, VkCommandBuffer commands);
 /// Frees the staging buffer. The submission of the upload must be complete.
 VXT_API void vxt_mesh_normals_release_staging(vxt_mesh_normals* normals);
+/// Records the normals of another shape of the mesh, of as many vertices; takes effect in command-buffer order.
+VXT_CHECKED vxt_result vxt_mesh_normals_cmd_update(vxt_mesh_normals* normals, VkCommandBuffer commands,
+                                                   const vxt_mesh_view* mesh);
 /// Ends them.
 VXT_API void vxt_mesh_normals_destroy(vxt_mesh_normals* normals);
 
@@ -238,6 +242,7 @@ typedef struct vxt_picture_scene {
     double background[3];                ///< behind everything; default black
     uint32_t jitter;                     ///< noise instead of bands; default 1
     uint32_t reserved;                   ///< 0
+    const vxt_cancel* cancel;            ///< ends vxt_blocking_renderer_render() early; may be null, the default
 } vxt_picture_scene;
 
 /// A mesh that is nowhere yet, in its own colours.
@@ -356,8 +361,8 @@ VXT_CHECKED vxt_result vxt_blocking_renderer_create(const vxt_context* context, 
                                                     vxt_blocking_renderer** renderer);
 /// The renderer that records, to make the parts of a scene with; it lives as long as this object. Null of null.
 VXT_API const vxt_renderer* vxt_blocking_renderer_renderer(const vxt_blocking_renderer* renderer);
-/// Makes a picture; one at a time. With `progress`, in bands of rows of about a fifth of a second. After a failure
-/// `picture` holds what it held.
+/// Makes a picture; one at a time. With `progress` or the scene's `cancel`, in bands of rows of about a fifth of a
+/// second; CANCELLED after a band where `cancel` is set. After a failure `picture` holds what it held.
 VXT_CHECKED vxt_result vxt_blocking_renderer_render(vxt_blocking_renderer* renderer, const vxt_picture_scene* scene,
                                                     uint32_t width, uint32_t height, vxt_picture_progress progress,
                                                     void* user, vxt_picture* picture);

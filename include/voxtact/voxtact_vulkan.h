@@ -300,14 +300,18 @@ typedef struct vxt_mesh_options {
     size_t struct_size; ///< sizeof
     const char* name;   ///< appears on the Vulkan objects; may be null
     uint32_t clusters;  ///< keeps clusters of triangles, for the projection CONSERVATIVE to skip; default 0
-    uint32_t reserved;  ///< 0
+    uint32_t editable;  ///< allows vxt_mesh_cmd_update() and vxt_mesh_cmd_copy(); default 0
+    /// Bytes from one vertex to the next on the device; at least 12, the default; a multiple of 4.
+    uint32_t vertex_stride;
+    uint32_t reserved; ///< 0
 } vxt_mesh_options;
 
-/// No name, no clusters.
+/// No name, no clusters, not editable, a stride of 12 bytes.
 static inline vxt_mesh_options vxt_mesh_options_init(void) {
     vxt_mesh_options options;
     memset(&options, 0, sizeof options);
     options.struct_size = sizeof options;
+    options.vertex_stride = 12;
     return options;
 }
 
@@ -323,7 +327,11 @@ typedef struct vxt_wrapped_mesh {
     VkIndexType index_type;     ///< UINT16 or UINT32, the default
     uint32_t triangle_count;    ///< triangles that are drawn
     uint32_t storage;           ///< the buffers also have usage STORAGE_BUFFER; default 0
-    uint32_t reserved;          ///< 0
+    /// As in vxt_mesh_options; not to be used before vxt_mesh_cmd_upload(), and vxt_mesh_cmd_refit() after changes.
+    uint32_t clusters;
+    /// With clusters: the same triangles on the host, read by vxt_mesh_wrap() alone; null: they are clusters in their
+    /// order.
+    const vxt_mesh_view* shape;
 } vxt_wrapped_mesh;
 
 /// A stride of 12 bytes and 32-bit indices.
@@ -350,9 +358,20 @@ VXT_CHECKED vxt_result vxt_mesh_upload(const vxt_context* context, const vxt_que
 VXT_CHECKED vxt_result vxt_mesh_cmd_upload(vxt_mesh* mesh, VkCommandBuffer commands);
 /// Frees the staging buffer. The submission of the upload must be complete.
 VXT_API void vxt_mesh_release_staging(vxt_mesh* mesh);
+/// Bends an editable mesh: `vertex_count` vertices of three coordinates, as many as it has, come elsewhere, in
+/// command-buffer order: voxtact::Mesh::cmdUpdate(). Refused, it is as it was.
+VXT_CHECKED vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const float* positions,
+                                           size_t vertex_count);
+/// The same from a buffer with usage TRANSFER_SRC, whose vertices are as far apart as those of the mesh; `offset` is in
+/// bytes, a multiple of 4: voxtact::Mesh::cmdCopy().
+VXT_CHECKED vxt_result vxt_mesh_cmd_copy(vxt_mesh* mesh, VkCommandBuffer commands, VkBuffer source,
+                                         VkDeviceSize offset);
+/// Fits the clusters of a wrapped mesh to what its buffers hold: voxtact::Mesh::cmdRefit().
+VXT_CHECKED vxt_result vxt_mesh_cmd_refit(vxt_mesh* mesh, VkCommandBuffer commands);
 /// How many triangles it has; 0 of null.
 VXT_API uint32_t vxt_mesh_triangles(const vxt_mesh* mesh);
-/// What was found out about it; NOT_READY for a wrapped one.
+/// What was found out about it, of the vertices as they were recorded last; NOT_READY for a wrapped one, and after
+/// vxt_mesh_cmd_copy().
 VXT_CHECKED vxt_result vxt_mesh_get_facts(const vxt_mesh* mesh, vxt_mesh_facts* facts);
 /// Ends it.
 VXT_API void vxt_mesh_destroy(vxt_mesh* mesh);
@@ -390,7 +409,7 @@ typedef struct vxt_detector_desc {
     uint32_t stop_at_first;     ///< CONSERVATIVE: the count is then 0 or 1, a lower bound; default 0
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
     uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
-    uint32_t reserved;          ///< 0
+    uint32_t device_poses;      ///< items may have vxt_item::poses; the queue then needs compute, too; default 0
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -404,6 +423,37 @@ static inline vxt_detector_desc vxt_detector_desc_init(void) {
     return desc;
 }
 
+/// Poses in a buffer of the caller's: voxtact::WrappedPoses. 16 floats each, column-major, which is a mat4 of std430.
+typedef struct vxt_wrapped_poses {
+    size_t struct_size;  ///< sizeof
+    VkBuffer buffer;     ///< usage STORAGE_BUFFER
+    VkDeviceSize offset; ///< bytes, of the first one; a multiple of 4
+    VkDeviceSize stride; ///< bytes from one to the next; at least 64, the default; a multiple of 4
+    double most_scale;   ///< no pose makes anything more than so many times as long; default 1. No answer depends on it
+    uint32_t count;      ///< poses in the buffer; at least 1
+    uint32_t reserved;   ///< 0
+} vxt_wrapped_poses;
+
+/// Rigid poses, one after the other.
+static inline vxt_wrapped_poses vxt_wrapped_poses_init(void) {
+    vxt_wrapped_poses wrapped;
+    memset(&wrapped, 0, sizeof wrapped);
+    wrapped.struct_size = sizeof wrapped;
+    wrapped.stride = 64;
+    wrapped.most_scale = 1;
+    return wrapped;
+}
+
+/// Poses on the device, which are read when commands execute: voxtact::PoseBuffer.
+typedef struct vxt_pose_buffer vxt_pose_buffer;
+/// Uses a buffer of the caller's, which must outlive it. `name` may be null.
+VXT_CHECKED vxt_result vxt_pose_buffer_wrap(const vxt_context* context, const vxt_wrapped_poses* wrapped,
+                                            const char* name, vxt_pose_buffer** poses);
+/// How many there are; 0 for null.
+VXT_API uint32_t vxt_pose_buffer_count(const vxt_pose_buffer* poses);
+/// Ends it.
+VXT_API void vxt_pose_buffer_destroy(vxt_pose_buffer* poses);
+
 /// One mesh at some poses against one volume under one transfer function.
 typedef struct vxt_item {
     size_t struct_size;                             ///< sizeof
@@ -413,6 +463,8 @@ typedef struct vxt_item {
     const double* world_from_object;                ///< 16 doubles a pose; affine; read while recording only
     size_t pose_count;                              ///< poses: a pair each
     const vxt_label_map* labels;                    ///< for the outputs CONTACTS (optional) and LABELS; else null
+    const vxt_pose_buffer* poses; ///< on the device: the first pose_count of them, world_from_object being null; for
+                                  ///< detectors with device_poses. A pose that cannot be used is EXACTNESS_REFUSED
 } vxt_item;
 
 /// The pairs of one submission: the items in order, each with its poses in order.

@@ -34,8 +34,23 @@ template <class Batch, class Item> class BatchOf {
     }
 
     template <class CItem> [[nodiscard]] static Item toItem(const CItem& item) {
-        return {objectOf(item.mesh), objectOf(item.volume), objectOf(item.transfer_function),
-                toPoses(item.world_from_object, item.pose_count, "item: world_from_object"), objectOf(item.labels)};
+        Item out{
+            objectOf(item.mesh), objectOf(item.volume), objectOf(item.transfer_function), {}, objectOf(item.labels)};
+        if constexpr (requires { item.poses; }) {
+            if (item.poses != nullptr && item.world_from_object != nullptr) {
+                refuse(ErrorCode::InvalidArgument, "item: poses and world_from_object; it can have one of them");
+            }
+            if (item.poses != nullptr) {
+                out.poses = objectOf(item.poses);
+                if (item.pose_count > out.poses->count()) {
+                    refuse(ErrorCode::InvalidArgument, "item: pose_count is more than poses has");
+                }
+                out.poseCount = static_cast<std::uint32_t>(item.pose_count);
+                return out;
+            }
+        }
+        out.world_from_object = toPoses(item.world_from_object, item.pose_count, "item: world_from_object");
+        return out;
     }
 
   private:

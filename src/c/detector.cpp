@@ -22,7 +22,8 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .resolution = desc.resolution,
             .stopAtFirst = desc.stop_at_first != 0,
             .counters = desc.counters != 0,
-            .overestimate = desc.overestimate != 0};
+            .overestimate = desc.overestimate != 0,
+            .devicePoses = desc.device_poses != 0};
 }
 
 } // namespace

@@ -43,6 +43,10 @@ struct vxt_mesh {
     voxtact::Mesh object;
     voxtact::c::SharedErrors errors;
 };
+struct vxt_pose_buffer {
+    voxtact::PoseBuffer object;
+    voxtact::c::SharedErrors errors;
+};
 struct vxt_label_map {
     voxtact::LabelMap object;
     voxtact::c::SharedErrors errors;

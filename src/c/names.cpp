@@ -25,6 +25,7 @@ static_assert(VXT_BOUNDARY_RANGE == static_cast<int>(Boundary::Range));
 static_assert(VXT_BOUNDARY_CLAMP == static_cast<int>(Boundary::Clamp));
 static_assert(VXT_EXACTNESS_EXACT == static_cast<int>(Exactness::Exact));
 static_assert(VXT_EXACTNESS_LOWER_BOUND == static_cast<int>(Exactness::LowerBound));
+static_assert(VXT_EXACTNESS_REFUSED == static_cast<int>(Exactness::Refused));
 
 template <class Found, class To> void keepNumber(const Found& found, const char* what, const char* name, To* out) {
     if (!found) {

@@ -115,6 +115,10 @@ vxt_result vxt_mesh_normals_cmd_upload(vxt_mesh_normals*, VkCommandBuffer) {
     return absent(kWhy);
 }
 
+vxt_result vxt_mesh_normals_cmd_update(vxt_mesh_normals*, VkCommandBuffer, const vxt_mesh_view*) {
+    return absent(kWhy);
+}
+
 void vxt_mesh_normals_release_staging(vxt_mesh_normals*) {}
 
 void vxt_mesh_normals_destroy(vxt_mesh_normals*) {}

@@ -81,6 +81,8 @@ class SceneOf {
         out.jitter = given_.jitter != 0;
         return out;
     }
+    /// May be null.
+    [[nodiscard]] const std::atomic<bool>* cancel() const { return objectOf(given_.cancel); }
 
   private:
     vxt_picture_scene given_;
@@ -152,12 +154,17 @@ vxt_result vxt_blocking_renderer_render(vxt_blocking_renderer* renderer, const v
         Picture& to = need(picture, "picture").object;
         const SceneOf of(scene);
         const VkExtent2D extent{width, height};
-        if (progress == nullptr) {
+        const std::atomic<bool>* cancel = of.cancel();
+        if (progress == nullptr && cancel == nullptr) {
             to = take(by.render(of.scene(), extent));
-        } else {
-            to = take(by.render(of.scene(), extent,
-                                [=](std::uint32_t done, std::uint32_t rows) { progress(user, done, rows); }));
+            return;
         }
+        to = take(by.render(of.scene(), extent, [=](std::uint32_t done, std::uint32_t rows) {
+            if (progress != nullptr) {
+                progress(user, done, rows);
+            }
+            return cancel == nullptr || !*cancel;
+        }));
     });
 }
 

@@ -118,6 +118,10 @@ vxt_result vxt_mesh_normals_cmd_upload(vxt_mesh_normals* normals, VkCommandBuffe
     return call(normals, [&] { take(need(normals, "normals").object.cmdUpload(commands)); });
 }
 
+vxt_result vxt_mesh_normals_cmd_update(vxt_mesh_normals* normals, VkCommandBuffer commands, const vxt_mesh_view* mesh) {
+    return call(normals, [&] { take(need(normals, "normals").object.cmdUpdate(commands, toMeshView(mesh))); });
+}
+
 void vxt_mesh_normals_release_staging(vxt_mesh_normals* normals) {
     if (normals != nullptr) {
         normals->object.releaseStaging();

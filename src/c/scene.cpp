@@ -19,7 +19,10 @@ WrappedTransferFunction toWrapped(const vxt_wrapped_transfer_function* given) {
 
 MeshOptions toOptions(const vxt_mesh_options* given) {
     const vxt_mesh_options options = readOptions(given, vxt_mesh_options_init(), "options");
-    return {.name = options.name, .clusters = options.clusters != 0};
+    return {.name = options.name,
+            .clusters = options.clusters != 0,
+            .editable = options.editable != 0,
+            .vertexStride = options.vertex_stride};
 }
 
 WrappedMesh toWrapped(const vxt_wrapped_mesh* given) {
@@ -32,7 +35,9 @@ WrappedMesh toWrapped(const vxt_wrapped_mesh* given) {
             .indexOffset = wrapped.index_offset,
             .indexType = wrapped.index_type,
             .triangleCount = wrapped.triangle_count,
-            .storage = wrapped.storage != 0};
+            .storage = wrapped.storage != 0,
+            .clusters = wrapped.clusters != 0,
+            .shape = wrapped.shape == nullptr ? MeshView{} : toMeshView(wrapped.shape)};
 }
 
 } // namespace
@@ -112,6 +117,21 @@ void vxt_mesh_release_staging(vxt_mesh* mesh) {
     }
 }
 
+vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const float* positions, size_t vertex_count) {
+    return call(mesh, [&] {
+        take(need(mesh, "mesh")
+                 .object.cmdUpdate(commands, toSpan(positions, std::size_t{3} * vertex_count, "positions")));
+    });
+}
+
+vxt_result vxt_mesh_cmd_copy(vxt_mesh* mesh, VkCommandBuffer commands, VkBuffer source, VkDeviceSize offset) {
+    return call(mesh, [&] { take(need(mesh, "mesh").object.cmdCopy(commands, source, offset)); });
+}
+
+vxt_result vxt_mesh_cmd_refit(vxt_mesh* mesh, VkCommandBuffer commands) {
+    return call(mesh, [&] { take(need(mesh, "mesh").object.cmdRefit(commands)); });
+}
+
 uint32_t vxt_mesh_triangles(const vxt_mesh* mesh) {
     return mesh == nullptr ? 0 : mesh->object.triangles();
 }
@@ -120,7 +140,8 @@ vxt_result vxt_mesh_get_facts(const vxt_mesh* mesh, vxt_mesh_facts* facts) {
     return call(mesh, [&] {
         const std::optional<MeshFacts> known = need(mesh, "mesh").object.facts();
         if (!known) {
-            refuse(ErrorCode::NotReady, "the mesh is wrapped: nothing is known of its contents");
+            refuse(ErrorCode::NotReady, "nothing is known of the vertices of the mesh: they are, or were copied from, "
+                                        "a buffer of the caller's");
         }
         need(facts, "facts") = fromFacts(*known);
     });
@@ -128,6 +149,28 @@ vxt_result vxt_mesh_get_facts(const vxt_mesh* mesh, vxt_mesh_facts* facts) {
 
 void vxt_mesh_destroy(vxt_mesh* mesh) {
     delete mesh;
+}
+
+vxt_result vxt_pose_buffer_wrap(const vxt_context* context, const vxt_wrapped_poses* wrapped, const char* name,
+                                vxt_pose_buffer** poses) {
+    return create(context, "context", poses, [&](const Context& on) {
+        const vxt_wrapped_poses from = readOptions(wrapped, vxt_wrapped_poses_init(), "wrapped poses");
+        return take(PoseBuffer::wrap(on,
+                                     {.buffer = from.buffer,
+                                      .offset = from.offset,
+                                      .stride = from.stride,
+                                      .count = from.count,
+                                      .mostScale = from.most_scale},
+                                     name));
+    });
+}
+
+uint32_t vxt_pose_buffer_count(const vxt_pose_buffer* poses) {
+    return poses == nullptr ? 0 : poses->object.count();
+}
+
+void vxt_pose_buffer_destroy(vxt_pose_buffer* poses) {
+    delete poses;
 }
 
 vxt_result vxt_label_map_create(const vxt_context* context, const vxt_labels* labels, const char* name,

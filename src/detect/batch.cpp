@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/batch.h"
 
+#include "core/base/try.h"
 #include "core/batch/batch_check.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
@@ -26,8 +27,30 @@ const char* missingUpload(const BatchItem& item) {
     return item.transferFunction->impl().uploaded ? nullptr : "the transfer function";
 }
 
+Result<void> checkDevicePoses(const ContextImpl& context, const BatchItem& item, bool devicePoses,
+                              const std::string& which) {
+    if (item.poses == nullptr) {
+        return item.poseCount ? Result<void>(refuse(which + ": poseCount is of poses, which is null")) : Result<void>();
+    }
+    if (!devicePoses) {
+        return refuse(which + " has poses on the device; the detector was made without DetectorDesc::devicePoses");
+    }
+    if (&item.poses->impl().context != &context) {
+        return refuse(which + ": poses belongs to another Context");
+    }
+    if (!item.world_from_object.empty()) {
+        return refuse(which + " has poses and world_from_object; it can have one of them");
+    }
+    if (item.pairs() > item.poses->count()) {
+        return refuse(which + ": poseCount is " + std::to_string(item.pairs()) + ", poses has " +
+                      std::to_string(item.poses->count()));
+    }
+    return {};
+}
+
 struct DeviceSide {
     const ContextImpl& context;
+    bool devicePoses;   ///< DetectorDesc::devicePoses
     bool readsVertices; ///< vertices are pulled from a storage buffer
     bool filters;       ///< by the device's sampler
 
@@ -50,6 +73,7 @@ struct DeviceSide {
             &item.transferFunction->impl().context != &context) {
             return refuse(which + ": mesh, volume or transferFunction belongs to another Context");
         }
+        VOXTACT_TRY(checkDevicePoses(context, item, devicePoses, which));
         if (const char* what = missingUpload(item); what != nullptr) {
             return neverUploaded(which + ": " + what);
         }
@@ -68,8 +92,12 @@ struct DeviceSide {
 Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch) {
     const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
     return checkBatch(desc.projection, desc.samplesPerVoxel, batch,
-                      DeviceSide{context, rasterised && rowOf(desc.projection).voxelGrid,
+                      DeviceSide{context, desc.devicePoses, rasterised && rowOf(desc.projection).voxelGrid,
                                  desc.filter == Filter::Hardware && !rowOf(desc.projection).certified});
+}
+
+std::size_t BatchItem::pairs() const noexcept {
+    return poses == nullptr ? world_from_object.size() : poseCount.value_or(poses->count());
 }
 
 std::uint32_t groupsOf(const Mesh& mesh) noexcept {
@@ -100,16 +128,6 @@ VkExtent2D viewportOf(const DetectorDesc& desc, const Batch& batch, const BatchI
         return {side, side};
     }
     return {batch.view.width, batch.view.height};
-}
-
-shader::MeshConstants meshConstants(const MeshImpl& mesh) noexcept {
-    std::uint32_t indexBytes = 0;
-    if (mesh.indices != VK_NULL_HANDLE) {
-        indexBytes = mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
-    }
-    return {static_cast<std::uint32_t>(mesh.vertexOffset / sizeof(float)),
-            static_cast<std::uint32_t>(mesh.vertexStride / sizeof(float)), static_cast<std::uint32_t>(mesh.indexOffset),
-            indexBytes};
 }
 
 Result<void> checkStorage(const BatchItem& item, const char* what) {

@@ -16,7 +16,6 @@ namespace voxtact {
 /// The viewport of an item: the batch's, or the one that the projection makes of the volume.
 [[nodiscard]] VkExtent2D viewportOf(const DetectorDesc& desc, const Batch& batch, const BatchItem& item) noexcept;
 
-[[nodiscard]] shader::MeshConstants meshConstants(const MeshImpl& mesh) noexcept;
 /// Refuses a mesh that shaders cannot read as storage. `what` is what needs that ("the counting method compute").
 [[nodiscard]] Result<void> checkStorage(const BatchItem& item, const char* what);
 

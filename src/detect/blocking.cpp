@@ -33,7 +33,7 @@ VkQueueFlags queueOf(CountingMethod method) {
 std::uint64_t pairsOf(const Batch& batch) {
     std::uint64_t pairs = 0;
     for (const BatchItem& item : batch.items) {
-        pairs += item.world_from_object.size();
+        pairs += item.pairs();
     }
     return pairs;
 }

@@ -8,7 +8,7 @@
 #include "detect/outputs.h"
 #include "detect/recording.h"
 #include "gpu/barriers.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/certified_cull_comp.h"
 #include "voxtact_shaders/certified_decide_comp.h"
@@ -135,7 +135,7 @@ void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, co
             constants.endCluster = round.endCluster;
             recordRound(commandBuffer, results, layout, constants, round.pairs, rounds++);
         });
-        firstPair += static_cast<std::uint32_t>(item.world_from_object.size());
+        firstPair += static_cast<std::uint32_t>(item.pairs());
     }
     if (desc_.counters && rounds > 0) {
         queuesBarrier(*context_, commandBuffer);

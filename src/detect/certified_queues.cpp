@@ -9,10 +9,14 @@
 
 namespace voxtact {
 
-VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept {
+VkDeviceSize setupByte(const ResultsImpl& results) noexcept {
     constexpr VkDeviceSize kAlignment = 256;
     const VkDeviceSize transforms = VkDeviceSize{results.maxTransforms} * sizeof(shader::PairTransform);
     return (transforms + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept {
+    return setupByte(results) + kSetupBytes;
 }
 
 std::uint32_t firstQueueWord(const ResultsImpl& results) noexcept {

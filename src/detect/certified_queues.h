@@ -15,13 +15,19 @@ inline constexpr std::uint32_t kUsualQueueRoom = 2048;
 static_assert(VOXTACT_ROOM_CELLS(kMostQueueRoom) / VOXTACT_COMPUTE_GROUP <= 65535,
               "Vulkan's least maxComputeWorkGroupCount");
 
+/// Bytes for what PairSetup needs of items.
+inline constexpr VkDeviceSize kSetupBytes =
+    VkDeviceSize{VOXTACT_SETUP_ITEMS} * VOXTACT_SETUP_WORDS * sizeof(std::uint32_t);
+
 static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::uint32_t));
 
 [[nodiscard]] constexpr VkDeviceSize queueBytes(std::uint32_t room) noexcept {
     return VkDeviceSize{VOXTACT_QUEUE_WORDS(room)} * sizeof(std::uint32_t);
 }
 
-/// Where the queues begin in the buffer of the transforms.
+/// Where what PairSetup needs of items begins in the buffer of the transforms.
+[[nodiscard]] VkDeviceSize setupByte(const ResultsImpl& results) noexcept;
+/// Where the queues begin there, behind that.
 [[nodiscard]] VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept;
 
 [[nodiscard]] std::uint32_t firstQueueWord(const ResultsImpl& results) noexcept;

@@ -34,14 +34,18 @@ double squaredScale(const Grid& grid, const Mat4& texture_from_world, const Mat4
 MeshLooks meshLooks(const BatchItem& item) noexcept {
     const MeshImpl& mesh = item.mesh->impl();
     MeshLooks looks;
-    looks.pairs = static_cast<std::uint32_t>(item.world_from_object.size());
+    looks.pairs = static_cast<std::uint32_t>(item.pairs());
     looks.clusters = groupsOf(*item.mesh);
-    looks.before = mesh.squaresBefore;
+    looks.before = mesh.known.squaresBefore;
     if (looks.before.empty()) {
         return looks;
     }
     const VolumeImpl& volume = item.volume->impl();
     double scale = 0;
+    if (item.poses != nullptr) {
+        const double most = item.poses->impl().mostScale;
+        scale = most * most * squaredScale(volume.grid, volume.texture_from_world, identity());
+    }
     for (const Mat4& world_from_object : item.world_from_object) {
         scale = std::max(scale, squaredScale(volume.grid, volume.texture_from_world, world_from_object));
     }

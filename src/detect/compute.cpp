@@ -7,7 +7,7 @@
 #include "detect/outputs.h"
 #include "detect/pixel_slices.h"
 #include "exact.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/compute_comp.h"
 #include "voxtact_shaders/compute_outputs_comp.h"
@@ -72,7 +72,7 @@ void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, 
     shader::ComputeConstants constants = constantsOf(batch, item);
     constants.rangeTest = boundary == Boundary::Range ? 1 : 0;
     const std::uint32_t viewsOfPair = viewsPerPair(desc_.projection);
-    const std::uint32_t views = viewsOfPair * static_cast<std::uint32_t>(item.world_from_object.size());
+    const std::uint32_t views = viewsOfPair * static_cast<std::uint32_t>(item.pairs());
     const std::uint32_t groups = groupsOf(*item.mesh);
     const DrawSize most = drawSize(*context_, viewportOf(desc_, batch, item), item.mesh->triangles());
     const auto& limits = context_->limits.maxComputeWorkGroupCount;

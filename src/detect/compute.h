@@ -24,7 +24,7 @@ class ComputePass {
         std::uint32_t firstPair = 0;
         for (const BatchItem& item : batch.items) {
             recordItem(commandBuffer, batch, item, boundaryOf(item), firstPair, results);
-            firstPair += static_cast<std::uint32_t>(item.world_from_object.size());
+            firstPair += static_cast<std::uint32_t>(item.pairs());
         }
     }
 

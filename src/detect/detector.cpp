@@ -29,6 +29,7 @@ struct DetectorImpl {
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     DetectorDesc desc;
     AnyPass pass;
+    std::optional<PairSetup> setup{}; ///< with DetectorDesc::devicePoses
 };
 
 namespace {
@@ -160,6 +161,11 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
             : rowOf(desc.method).coverage == Coverage::Computed ? withPass(c, desc, ComputePass::create(c, desc))
                                                                 : withPass(c, desc, ViewPass::create(c, desc));
         VOXTACT_TRY(impl);
+        if (desc.devicePoses) {
+            Result<PairSetup> setup = PairSetup::create(c, desc);
+            VOXTACT_TRY(setup);
+            (*impl)->setup = std::move(*setup);
+        }
         return Detector(std::move(*impl));
     });
 }
@@ -206,7 +212,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (*pairs == 0) {
             return {};
         }
-        prepareResults(context, commandBuffer, batch, slot, live(impl_).desc);
+        prepareResults(context, commandBuffer, batch, slot, live(impl_).desc, live(impl_).setup);
         std::visit(
             [&](const auto& pass) {
                 pass.record(commandBuffer, batch, slot,

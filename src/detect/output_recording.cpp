@@ -86,7 +86,7 @@ void recordPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
 void recordOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch, OutputStore& store) {
     store.items.clear();
     for (const BatchItem& item : batch.items) {
-        store.items.push_back({static_cast<std::uint32_t>(item.world_from_object.size()), item.mesh->triangles(),
+        store.items.push_back({static_cast<std::uint32_t>(item.pairs()), item.mesh->triangles(),
                                item.labels == nullptr ? nullptr : item.labels->impl().values});
     }
     clear(context, commandBuffer, store);

@@ -119,7 +119,7 @@ Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const
 OutputRoom roomFor(const Batch& batch) noexcept {
     OutputRoom room{.contacts = 0};
     for (const BatchItem& item : batch.items) {
-        const std::uint64_t pairs = item.world_from_object.size();
+        const std::uint64_t pairs = item.pairs();
         room.triangles += item.mesh == nullptr ? 0 : pairs * item.mesh->triangles();
         room.labels += item.labels == nullptr ? 0 : pairs * item.labels->values().size();
     }

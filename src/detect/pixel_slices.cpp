@@ -61,8 +61,8 @@ PixelSlices::PixelSlices(const ContextImpl& context, const DetectorDesc& desc, c
     : viewport_(static_cast<double>(viewport.width) * viewport.height),
       most_(context.limits.maxComputeWorkGroupCount[2]) {
     const MeshImpl& mesh = item.mesh->impl();
-    squaresBefore_ = mesh.squaresBeforeGroup;
-    if (squaresBefore_.empty() || !mesh.facts) {
+    squaresBefore_ = mesh.known.squaresBeforeGroup;
+    if (squaresBefore_.empty() || !mesh.known.facts || item.poses != nullptr) {
         squaresBefore_ = {};
         scale_ = kInfinite;
         // What costs every wrapped mesh something is done where it must be.
@@ -79,8 +79,8 @@ PixelSlices::PixelSlices(const ContextImpl& context, const DetectorDesc& desc, c
             continue;
         }
         for (const Mat4& clip_from_world : cameras.clip_from_world()) {
-            scale = std::max(scale,
-                             pixelsOfUnit(multiply(clip_from_world, world_from_object), mesh.facts->bounds, viewport));
+            scale = std::max(
+                scale, pixelsOfUnit(multiply(clip_from_world, world_from_object), mesh.known.facts->bounds, viewport));
         }
     }
     scale_ = scale * scale;

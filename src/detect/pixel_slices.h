@@ -24,7 +24,7 @@ class PixelSlices {
     [[nodiscard]] std::uint32_t endOf(std::uint32_t first, std::uint32_t end) const noexcept;
 
   private:
-    std::span<const double> squaresBefore_; ///< MeshImpl::squaresBeforeGroup
+    std::span<const double> squaresBefore_; ///< MeshKnown::squaresBeforeGroup
     double scale_ = 0;                      ///< pixels an object unit, squared
     double viewport_ = 0;                   ///< pixels
     std::uint32_t ofUnknown_ = 1;           ///< where the host does not know the mesh

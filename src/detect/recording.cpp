@@ -27,18 +27,36 @@ std::uint32_t howOf(const DetectorDesc& desc) {
            static_cast<std::uint32_t>(desc.stopAtFirst ? Exactness::LowerBound : exactness(desc.method)) << 16U;
 }
 
+/// Calls `pair` for every pose that the host has, with its numbers in the batch and in the item; `skip` for items whose
+/// poses are on the device, with how many these are.
+template <class Pair, class Skip> void eachHostPair(const Batch& batch, const Pair& pair, const Skip& skip) {
+    std::uint32_t number = 0;
+    for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
+        const BatchItem& of = batch.items[item];
+        if (of.poses != nullptr) {
+            skip(of.pairs());
+        }
+        for (std::uint32_t pose = 0; pose < of.world_from_object.size(); ++pose) {
+            pair(of, item, pose, number + pose);
+        }
+        number += static_cast<std::uint32_t>(of.pairs());
+    }
+}
+
 /// The transforms that the vertex shader reads.
 void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                       const ResultsImpl& results, Projection projection) {
     const Cameras cameras(projection, batch.view);
     BufferUpdate<shader::PairTransform> update(context, commandBuffer, results.transforms.get());
-    for (const BatchItem& item : batch.items) {
-        for (const Mat4& world_from_object : item.world_from_object) {
+    eachHostPair(
+        batch,
+        [&](const BatchItem& item, std::uint32_t, std::uint32_t pose, std::uint32_t) {
             for (const Mat4& clip_from_world : cameras.clip_from_world()) {
-                update.add(pairTransform(clip_from_world, world_from_object, item.volume->impl().texture_from_world));
+                update.add(pairTransform(clip_from_world, item.world_from_object[pose],
+                                         item.volume->impl().texture_from_world));
             }
-        }
-    }
+        },
+        [&](std::size_t pairs) { update.skip(pairs * cameras.clip_from_world().size()); });
     update.finish();
 }
 
@@ -46,12 +64,12 @@ void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer,
 void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                           const ResultsImpl& results) {
     BufferUpdate<shader::CertifiedPair> update(context, commandBuffer, results.transforms.get());
-    for (const BatchItem& item : batch.items) {
-        const VolumeImpl& volume = item.volume->impl();
-        for (const Mat4& world_from_object : item.world_from_object) {
-            update.add(certifiedPair(volume.grid, volume.texture_from_world, world_from_object));
-        }
-    }
+    eachHostPair(
+        batch,
+        [&](const BatchItem& item, std::uint32_t, std::uint32_t pose, std::uint32_t) {
+            update.add(certifiedPair(item.volume->impl().pairGrid, item.world_from_object[pose]));
+        },
+        [&](std::size_t pairs) { update.skip(pairs); });
     update.finish();
     recordQueueHeaders(context, commandBuffer, results);
 }
@@ -60,13 +78,21 @@ void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuf
 void recordEmptyResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                         const ResultsImpl& results, std::uint32_t how) {
     BufferUpdate<PairResult> update(context, commandBuffer, results.results.get());
-    std::uint32_t pair = 0;
-    for (std::uint32_t item = 0; item < batch.items.size(); ++item) {
-        for (std::uint32_t pose = 0; pose < batch.items[item].world_from_object.size(); ++pose) {
-            update.add({0, 0, pair++, item, pose, how});
-        }
-    }
+    eachHostPair(
+        batch,
+        [&](const BatchItem&, std::uint32_t item, std::uint32_t pose, std::uint32_t pair) {
+            update.add({0, 0, pair, item, pose, how});
+        },
+        [&](std::size_t pairs) { update.skip(pairs); });
     update.finish();
+}
+
+/// What was written is ready for the shaders of a method, and for commands that write the results.
+void barrierToShaders(const ContextImpl& context, VkCommandBuffer commandBuffer, VkPipelineStageFlags2 stages,
+                      VkAccessFlags2 access, const DetectorDesc& desc) {
+    barrier(context, commandBuffer, stages, access, shadersOf(desc) | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                VK_ACCESS_2_TRANSFER_WRITE_BIT);
 }
 
 void copyQueries(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
@@ -89,7 +115,7 @@ std::uint32_t transformsPerPair(Projection projection) noexcept {
 }
 
 void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                    const ResultsImpl& results, const DetectorDesc& desc) {
+                    const ResultsImpl& results, const DetectorDesc& desc, const std::optional<PairSetup>& setup) {
     if (results.timestamps) {
         context.vk.CmdResetQueryPool(commandBuffer, results.timestamps.get(), 0, 2);
     }
@@ -113,10 +139,19 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     if (rowOf(desc.method).query) {
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);
     }
+    if (!setup || !hasDevicePoses(batch)) {
+        barrierToShaders(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                         desc);
+        return;
+    }
+    setup->recordItems(commandBuffer, batch, results);
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-            shadersOf(desc) | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                VK_ACCESS_2_TRANSFER_WRITE_BIT);
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    setup->record(commandBuffer, batch, results, howOf(desc));
+    barrierToShaders(context, commandBuffer,
+                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                     VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, desc);
 }
 
 void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,

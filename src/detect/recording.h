@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "detect/pair_setup.h"
 #include "detect/results_impl.h"
 #include "voxtact/detector.h"
+
+#include <optional>
 
 namespace voxtact {
 
@@ -12,9 +15,10 @@ inline constexpr std::uint32_t kMostTransformsPerPair = 2;
 
 /// What every pass needs before it: the transforms of a checked batch, and results of zero that say which pair they
 /// are. Waits for whatever still uses an earlier batch of the same Results. Leaves them ready for shaders, and the
-/// queries reset where the method counts by query.
+/// queries reset where the method counts by query. `setup` is there where the batch has poses on the device.
 void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                    const ResultsImpl& results, const DetectorDesc& desc);
+                    const ResultsImpl& results, const DetectorDesc& desc,
+                    const std::optional<PairSetup>& setup = std::nullopt);
 
 /// What every pass needs after it: queries are copied over the counts, and the results made visible to what follows.
 void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,

@@ -3,6 +3,7 @@
 #include "core/base/live.h"
 #include "core/base/try.h"
 #include "detect/certified_queues.h"
+#include "detect/pair_setup.h"
 #include "detect/recording.h"
 #include "detect/results_impl.h"
 #include "gpu/barriers.h"
@@ -40,7 +41,8 @@ VkDeviceSize bytesFor(const ContextImpl& context) {
 
 /// For any projection, as far as the device has room for them, and for the least queues beside them.
 std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
-    const VkDeviceSize bytes = bytesFor(context) - std::min(bytesFor(context), queueBytes(kUsualQueueRoom));
+    const VkDeviceSize bytes =
+        bytesFor(context) - std::min(bytesFor(context), kSetupBytes + queueBytes(kUsualQueueRoom));
     const VkDeviceSize room = std::min<VkDeviceSize>(bytes / sizeof(shader::PairTransform), UINT32_MAX);
     return static_cast<std::uint32_t>(std::max<VkDeviceSize>(
         std::min<VkDeviceSize>(VkDeviceSize{kMostTransformsPerPair} * maxPairs, room), maxPairs));
@@ -56,7 +58,7 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
                      "ResultsDesc::clustersAtOnce is " + std::to_string(clusters) + "; 0, or " +
                          std::to_string(kLeastQueueRoom) + " to " + std::to_string(kMostQueueRoom) + ", is possible"};
     }
-    const std::uint64_t bytes = std::uint64_t{desc.maxPairs} * sizeof(shader::PairTransform);
+    const std::uint64_t bytes = std::uint64_t{desc.maxPairs} * sizeof(shader::PairTransform) + kSetupBytes;
     if (bytes > context.limits.maxStorageBufferRange) {
         return Error{ErrorCode::LimitExceeded, 0,
                      std::to_string(desc.maxPairs) + " pairs need a buffer of " + std::to_string(bytes) +
@@ -178,7 +180,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         impl->queueRoom = queueRoomFor(desc, bytesFor(c), firstQueueByte(*impl));
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         VOXTACT_TRY(makeBuffers(*impl, desc.readBack));
-        for (const auto make : {makeQueries, makeDescriptors}) {
+        for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
             VOXTACT_TRY(make(*impl));
         }
         if (desc.room) {

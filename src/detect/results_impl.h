@@ -25,6 +25,7 @@ struct ResultsImpl {
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
+    DescriptorSet setup{};                  ///< VOXTACT_SET_SETUP
     std::unique_ptr<OutputStore> outputs{}; ///< null without room for outputs
 
     /// Where the parts of `readBack` begin that are behind the results.

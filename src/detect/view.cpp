@@ -7,7 +7,7 @@
 #include "detect/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/dominant_vert.h"
 #include "voxtact_shaders/view_atomic_frag.h"
@@ -170,14 +170,13 @@ void ViewPass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, con
     if (rowOf(desc_.method).query) {
         recordQueries(commandBuffer, viewportOf(desc_, batch, item), item, firstPair, results);
     } else {
-        draw(commandBuffer, viewportOf(desc_, batch, item), item, firstPair,
-             static_cast<std::uint32_t>(item.world_from_object.size()));
+        draw(commandBuffer, viewportOf(desc_, batch, item), item, firstPair, static_cast<std::uint32_t>(item.pairs()));
     }
 }
 
 void ViewPass::recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport, const BatchItem& item,
                              std::uint32_t firstPair, const ResultsImpl& results) const {
-    const auto pairs = static_cast<std::uint32_t>(item.world_from_object.size());
+    const auto pairs = static_cast<std::uint32_t>(item.pairs());
     for (std::uint32_t pair = firstPair; pair < firstPair + pairs; ++pair) {
         beginQuery(commandBuffer, viewport, results.occlusion.get(), pair);
         draw(commandBuffer, viewport, item, pair, 1);
@@ -187,8 +186,7 @@ void ViewPass::recordQueries(VkCommandBuffer commandBuffer, VkExtent2D viewport,
 
 void ViewPass::recordTriangles(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
                                std::span<const std::uint32_t> triangles, VkQueryPool queries) const {
-    const BatchItem& item =
-        *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });
+    const BatchItem& item = *std::ranges::find_if(batch.items, [](const BatchItem& i) { return i.pairs() > 0; });
     const VkExtent2D viewport = viewportOf(desc_, batch, item);
     bindPairs(commandBuffer, results);
     bindItem(commandBuffer, batch, item, Boundary::Range, results);

@@ -56,8 +56,15 @@ struct ContextImpl : SharedImpl<ContextImpl> {
 
     std::mutex onDemandMutex; ///< of those below, which are made for the first object that needs them
     Owned<VkPipeline> brickPipeline;
+    Owned<VkDescriptorSetLayout> poseSetLayout;  ///< poseSetLayout()
+    Owned<VkDescriptorSetLayout> setupSetLayout; ///< VOXTACT_SET_SETUP
+    Owned<VkPipelineLayout> setupLayout;
+    std::array<Owned<VkPipeline>, 2> setupPipelines; ///< the second for the projection conservative
     Owned<VkPipelineLayout> editLayout;
     Owned<VkPipeline> editPipeline;
+    Owned<VkDescriptorSetLayout> refitSetLayout;
+    Owned<VkPipelineLayout> refitLayout;
+    Owned<VkPipeline> refitPipeline;
     Buffer nothing; ///< emptyBuffer()
     /// The same with outputs beside the counts: VOXTACT_SET_PAIRS has two more bindings, and there is a set more.
     VkDescriptorSetLayout outputSetLayout = VK_NULL_HANDLE;

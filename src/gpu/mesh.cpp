@@ -5,147 +5,113 @@
 #include "core/geometry/clusters.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
-#include "gpu/scene_impl.h"
+#include "gpu/mesh_layout.h"
+#include "gpu/mesh_refit.h"
 #include "gpu/submit.h"
-#include "shared.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cstring>
-#include <vector>
+#include <numeric>
 
 namespace voxtact {
 
 namespace {
 
-constexpr VkDeviceSize kPositionBytes = 3 * sizeof(float);
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
-void addBox(std::vector<std::uint32_t>& words, const std::array<float, 3>& lo, const std::array<float, 3>& hi) {
-    for (const std::array<float, 3>& corner : {lo, hi}) {
-        for (const float coordinate : corner) {
-            words.push_back(std::bit_cast<std::uint32_t>(coordinate));
-        }
-    }
-}
-
-/// The words that are kept of clusters: their boxes, those of their runs, and then the triangles.
-std::vector<std::uint32_t> clusterWords(const MeshView& mesh, const MeshClusters& clusters) {
-    static_assert(kClusterTriangles == VOXTACT_CLUSTER_TRIANGLES && kRunTriangles == VOXTACT_RUN_TRIANGLES);
-    const std::vector<RunBox> runs = runBoxes(mesh, clusters);
-    std::vector<std::uint32_t> words;
-    words.reserve(6 * (clusters.clusters.size() + runs.size()) + clusters.triangles.size());
-    for (const MeshCluster& cluster : clusters.clusters) {
-        addBox(words, cluster.lo, cluster.hi);
-    }
-    for (const RunBox& run : runs) {
-        addBox(words, run.lo, run.hi);
-    }
-    words.insert(words.end(), clusters.triangles.begin(), clusters.triangles.end());
-    return words;
-}
-
-double longestSquare(const MeshView& mesh, std::uint32_t triangle) {
-    const auto vertex = [&](std::size_t corner) {
-        return mesh.positions.subspan(std::size_t{3} * mesh.indices[std::size_t{3} * triangle + corner], 3);
-    };
-    double longest = 0;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-        double square = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double side = static_cast<double>(vertex(corner)[axis]) - vertex((corner + 1) % 3)[axis];
-            square += side * side;
-        }
-        longest = std::max(longest, square);
-    }
-    return longest;
-}
-
-/// MeshImpl::squaresBefore. `order` is that of the triangles in clusters; empty: that of the mesh.
-std::vector<double> squaresBefore(const MeshView& mesh, std::span<const std::uint32_t> order) {
-    const auto triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
-    std::vector<double> before;
-    before.reserve(triangles / VOXTACT_CLUSTER_TRIANGLES + 2);
-    double sum = 0;
-    for (std::uint32_t place = 0; place < triangles; ++place) {
-        if (place % VOXTACT_CLUSTER_TRIANGLES == 0) {
-            before.push_back(sum);
-        }
-        sum += longestSquare(mesh, order.empty() ? place : order[place]);
-    }
-    before.push_back(sum);
-    return before;
-}
-
-Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, const MeshOptions& options, const char* name) {
-    ContextImpl& context = mesh.context;
-    std::vector<std::uint32_t> clusters;
-    mesh.squaresBeforeGroup = squaresBefore(data, {});
-    if (options.clusters) {
-        const MeshClusters made = makeClusters(data);
-        clusters = clusterWords(data, made);
-        mesh.squaresBefore = squaresBefore(data, made.triangles);
-    } else {
-        mesh.squaresBefore = mesh.squaresBeforeGroup;
-    }
-    const VkDeviceSize positions = data.positions.size_bytes();
+/// Makes the buffer and fills its staging. `words` are those of the clusters.
+Result<void> fillBuffers(MeshImpl& mesh, const MeshView& data, std::span<const std::uint32_t> words, const char* name) {
+    const VkDeviceSize positions = rangesOf(mesh).vertexEnd;
     const VkDeviceSize described = positions + data.indices.size_bytes();
-    const VkDeviceSize total = described + clusters.size() * sizeof(std::uint32_t);
-    if (options.clusters) {
-        mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
-    }
     constexpr VkBufferUsageFlags kUsage =
-        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    VOXTACT_TRY(makeStaged(context, total, kUsage, name, mesh.buffer, mesh.staging));
+        kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    VOXTACT_TRY(makeStaged(mesh.context, described + words.size_bytes(), kUsage, name, mesh.buffer, mesh.staging));
     mesh.vertices = mesh.buffer.get();
     mesh.indices = mesh.buffer.get();
     mesh.indexOffset = positions;
     auto* to = static_cast<std::byte*>(mesh.staging.mapped);
-    std::memcpy(to, data.positions.data(), data.positions.size_bytes());
+    spreadVertices(data.positions, mesh.vertexStride, {to, positions});
     std::memcpy(to + positions, data.indices.data(), data.indices.size_bytes());
-    if (!clusters.empty()) {
-        std::memcpy(to + described, clusters.data(), clusters.size() * sizeof(std::uint32_t));
+    if (!words.empty()) {
+        mesh.clusterWord = static_cast<std::uint32_t>(described / sizeof(std::uint32_t));
+        std::memcpy(to + described, words.data(), words.size_bytes());
     }
-    return flush(context, mesh.staging);
+    return flush(mesh.context, mesh.staging);
 }
 
-std::uint32_t indexBytes(const MeshImpl& mesh) {
-    if (mesh.indices == VK_NULL_HANDLE) {
-        return 0;
+/// Fills a mesh of its own. `facts` are of `data`.
+Result<void> fill(MeshImpl& mesh, const MeshView& data, const MeshFacts& facts, const MeshOptions& options) {
+    const char* name = options.name == nullptr ? "mesh" : options.name;
+    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> order;
+    if (options.clusters) {
+        MeshClusters clusters = makeClusters(data);
+        words = clusterWords(data, clusters);
+        order = std::move(clusters.triangles);
     }
-    return mesh.indexType == VK_INDEX_TYPE_UINT16 ? 2 : 4;
-}
-
-/// The descriptor set for shaders that read the mesh as storage, over what a triangle can reach of the two buffers.
-Result<void> describe(MeshImpl& mesh, std::uint32_t vertexCount, const char* name) {
-    ContextImpl& context = mesh.context;
-    constexpr VkDeviceSize kWord = 4;
-    const VkDeviceSize vertexEnd =
-        mesh.vertexOffset + mesh.vertexStride * (VkDeviceSize{vertexCount} - 1) + kPositionBytes;
-    const VkDeviceSize indexEnd =
-        mesh.indexOffset + VkDeviceSize{3} * mesh.triangleCount * indexBytes(mesh) + kWord - 1;
-    // A mesh of our own ends with the clusters.
-    const VkDeviceSize indexRange = mesh.buffer.buffer               ? mesh.buffer.size
-                                    : mesh.indices == VK_NULL_HANDLE ? vertexEnd
-                                                                     : indexEnd / kWord * kWord;
-    const VkDeviceSize most = context.limits.maxStorageBufferRange;
-    if (vertexEnd > most || indexRange > most) {
-        mesh.noStorage = "the mesh needs " + std::to_string(std::max(vertexEnd, indexRange)) +
-                         " bytes of a buffer, the device's maxStorageBufferRange is " + std::to_string(most);
+    mesh.known = knownOf(data, facts, order);
+    VOXTACT_TRY(fillBuffers(mesh, data, words, name));
+    VOXTACT_TRY(describe(mesh, "mesh"));
+    if (!options.editable) {
         return {};
     }
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
-    Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_MESH], {&size, 1}, name);
-    VOXTACT_TRY(set);
-    mesh.descriptors = std::move(*set);
-    writeBuffer(context, mesh.descriptors.set, VOXTACT_BINDING_VERTICES, mesh.vertices, vertexEnd);
-    writeBuffer(context, mesh.descriptors.set, VOXTACT_BINDING_INDICES,
-                mesh.indices == VK_NULL_HANDLE ? mesh.vertices : mesh.indices, indexRange);
-    return {};
+    mesh.editable = true;
+    mesh.triangles.assign(data.indices.begin(), data.indices.end());
+    mesh.order = std::move(order);
+    mesh.made = mesh.known;
+    return options.clusters && mesh.noStorage.empty() ? makeRefit(mesh) : Result<void>();
+}
+
+/// The triangles of a wrapped mesh, cluster by cluster.
+Result<std::vector<std::uint32_t>> orderOf(const WrappedMesh& wrapped) {
+    if (wrapped.shape.indices.empty()) {
+        std::vector<std::uint32_t> order(wrapped.triangleCount);
+        std::iota(order.begin(), order.end(), 0U);
+        return order;
+    }
+    const Result<MeshFacts> facts = checkMesh(wrapped.shape);
+    VOXTACT_TRY(facts);
+    if (facts->triangles != wrapped.triangleCount) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "WrappedMesh::shape has " + std::to_string(facts->triangles) + " triangles, triangleCount is " +
+                         std::to_string(wrapped.triangleCount)};
+    }
+    return makeClusters(wrapped.shape).triangles;
+}
+
+/// Makes what is kept of the clusters of a wrapped mesh, and stages what the host knows of them.
+Result<void> makeWrappedClusters(MeshImpl& mesh, const WrappedMesh& wrapped) {
+    ContextImpl& context = mesh.context;
+    const Result<std::vector<std::uint32_t>> order = orderOf(wrapped);
+    VOXTACT_TRY(order);
+    const std::uint64_t indices = mesh.indexed() ? std::uint64_t{3} * mesh.triangleCount : 0;
+    const VkDeviceSize bytes = sizeof(std::uint32_t) * (indices + clusterWordCount(mesh.triangleCount));
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the clusters of the wrapped mesh need " + std::to_string(bytes) +
+                         " bytes of a buffer, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    Result<Buffer> buffer = makeBuffer(context, bytes, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device,
+                                       "clusters of a wrapped mesh");
+    VOXTACT_TRY(buffer);
+    const std::span<const std::byte> staged = std::as_bytes(std::span(*order));
+    Result<Buffer> staging = makeBuffer(context, staged.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload,
+                                        "clusters of a wrapped mesh, staging");
+    VOXTACT_TRY(staging);
+    mesh.buffer = std::move(*buffer);
+    mesh.staging = std::move(*staging);
+    mesh.clusterWord = static_cast<std::uint32_t>(indices);
+    mesh.uploaded = false;
+    std::memcpy(mesh.staging.mapped, staged.data(), staged.size());
+    return flush(context, mesh.staging);
 }
 
 Error refuse(const char* text) {
     return {ErrorCode::InvalidArgument, 0, text};
+}
+
+Result<void> checkStride(VkDeviceSize stride, VkDeviceSize offset, const char* text) {
+    return stride < kPositionBytes || stride % 4 != 0 || offset % 4 != 0 ? Result<void>(refuse(text)) : Result<void>();
 }
 
 Result<void> checkWrapped(const WrappedMesh& wrapped) {
@@ -161,8 +127,10 @@ Result<void> checkWrapped(const WrappedMesh& wrapped) {
     if (wrapped.triangleCount > UINT32_MAX / 3) {
         return refuse("WrappedMesh::triangleCount is beyond what a draw can index");
     }
-    if (wrapped.vertexStride < kPositionBytes || wrapped.vertexStride % 4 != 0 || wrapped.vertexOffset % 4 != 0) {
-        return refuse("WrappedMesh::vertexStride must be at least 12, and it and vertexOffset multiples of 4");
+    VOXTACT_TRY(checkStride(wrapped.vertexStride, wrapped.vertexOffset,
+                            "WrappedMesh::vertexStride must be at least 12, and it and vertexOffset multiples of 4"));
+    if (wrapped.clusters && !wrapped.storage) {
+        return refuse("WrappedMesh::clusters needs buffers that can be read as storage: WrappedMesh::storage");
     }
     if (wrapped.indices == VK_NULL_HANDLE && wrapped.vertexCount < 3 * std::uint64_t{wrapped.triangleCount}) {
         return refuse("WrappedMesh has no indices and fewer than three vertices a triangle");
@@ -192,11 +160,13 @@ Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const Me
         VOXTACT_TRY(c.alive());
         const Result<MeshFacts> facts = checkMesh(data);
         VOXTACT_TRY(facts);
+        VOXTACT_TRY(
+            checkStride(options.vertexStride, 0, "MeshOptions::vertexStride must be at least 12, and a multiple of 4"));
         auto impl = std::make_unique<MeshImpl>(MeshImpl{.context = c});
+        impl->vertexStride = options.vertexStride;
+        impl->vertexCount = facts->vertices;
         impl->triangleCount = facts->triangles;
-        impl->facts = *facts;
-        VOXTACT_TRY(fillBuffers(*impl, data, options, options.name == nullptr ? "mesh" : options.name));
-        VOXTACT_TRY(describe(*impl, facts->vertices, "mesh"));
+        VOXTACT_TRY(fill(*impl, data, *facts, options));
         if (facts->degenerate > 0) {
             c.log("the mesh has " + std::to_string(facts->degenerate) + " degenerate triangles of " +
                   std::to_string(facts->triangles) + "; they give no fragment");
@@ -214,14 +184,24 @@ Result<Mesh> Mesh::wrap(const Context& context, const WrappedMesh& wrapped) {
         impl->vertices = wrapped.vertices;
         impl->vertexOffset = wrapped.vertexOffset;
         impl->vertexStride = wrapped.vertexStride;
+        impl->vertexCount = wrapped.vertexCount;
         impl->indices = wrapped.indices;
         impl->indexOffset = wrapped.indexOffset;
         impl->indexType = wrapped.indexType;
         impl->triangleCount = wrapped.triangleCount;
         if (!wrapped.storage) {
             impl->noStorage = "WrappedMesh::storage is false: its buffers cannot be read as storage";
-        } else if (Result<void> described = describe(*impl, wrapped.vertexCount, "wrapped mesh"); !described.ok()) {
-            return described.error();
+            return Mesh(std::move(impl));
+        }
+        if (wrapped.clusters) {
+            VOXTACT_TRY(makeWrappedClusters(*impl, wrapped));
+        }
+        VOXTACT_TRY(describe(*impl, "wrapped mesh"));
+        if (wrapped.clusters && !impl->noStorage.empty()) {
+            return Error{ErrorCode::LimitExceeded, 0, impl->noStorage};
+        }
+        if (wrapped.clusters) {
+            VOXTACT_TRY(makeRefit(*impl));
         }
         return Mesh(std::move(impl));
     });
@@ -234,13 +214,22 @@ Result<Mesh> Mesh::upload(const Context& context, const QueueAccess& queue, cons
 
 Result<void> Mesh::cmdUpload(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
-        if (!live(impl_).staging.buffer) {
+        MeshImpl& mesh = live(impl_);
+        if (!mesh.staging.buffer) {
             return notUploadable("mesh");
         }
-        VOXTACT_TRY(live(impl_).context.recordable(commandBuffer));
-        const Label label(live(impl_).context, commandBuffer, "voxtact mesh upload");
-        cmdFillBuffer(live(impl_).context, commandBuffer, live(impl_).staging, live(impl_).buffer);
-        live(impl_).uploaded = true;
+        VOXTACT_TRY(mesh.context.recordable(commandBuffer));
+        MeshKnown known = mesh.made; // what may fail comes first
+        const Label label(mesh.context, commandBuffer, "voxtact mesh upload");
+        if (mesh.wrapped()) {
+            cmdUploadOrder(mesh, commandBuffer);
+        } else {
+            cmdFillBuffer(mesh.context, commandBuffer, mesh.staging, mesh.buffer);
+        }
+        if (mesh.editable) {
+            mesh.known = std::move(known);
+        }
+        mesh.uploaded = true;
         return {};
     });
 }
@@ -254,7 +243,7 @@ std::uint32_t Mesh::triangles() const noexcept {
 }
 
 std::optional<MeshFacts> Mesh::facts() const noexcept {
-    return live(impl_).facts;
+    return live(impl_).known.facts;
 }
 
 } // namespace voxtact

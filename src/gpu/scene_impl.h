@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/context_impl.h"
+#include "pair_setup.h"
 #include "voxtact/scene.h"
 
 #include <vector>
@@ -13,6 +14,7 @@ struct VolumeImpl {
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     Grid grid{};
     Mat4 texture_from_world{};
+    shader::PairGrid pairGrid{};
     ScalarType type = ScalarType::UInt8; ///< of what was uploaded
     VkFormat format = VK_FORMAT_UNDEFINED;
     bool filtered = true;  ///< by the device's sampler, linearly
@@ -49,28 +51,60 @@ struct TransferFunctionImpl {
     [[nodiscard]] bool hasExtremes() const noexcept { return static_cast<bool>(extremes.buffer); }
 };
 
+/// What the host knows of a mesh's vertices: nothing where they are the caller's.
+struct MeshKnown {
+    std::optional<MeshFacts> facts{};
+    /// Of the longest sides of triangles, squared, object units: sums over the clusters before each number, the last
+    /// over all. 64 triangles each, as the passes take them.
+    std::vector<double> squaresBefore{};
+    std::vector<double> squaresBeforeGroup{}; ///< the same, of 64 triangles each in the order of the mesh
+};
+
 struct MeshImpl {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     VkBuffer vertices = VK_NULL_HANDLE;
     VkDeviceSize vertexOffset = 0;
     VkDeviceSize vertexStride = 12;
+    std::uint32_t vertexCount = 0;
     VkBuffer indices = VK_NULL_HANDLE; ///< null: not indexed
     VkDeviceSize indexOffset = 0;
     VkIndexType indexType = VK_INDEX_TYPE_UINT32;
     std::uint32_t triangleCount = 0;
-    std::optional<MeshFacts> facts{};
+    MeshKnown known{};           ///< of the vertices as they were recorded last
     DescriptorSet descriptors{}; ///< for shaders that read the mesh as storage; empty where `noStorage` says why
     std::string noStorage{};
-    Buffer buffer{}; ///< positions, indices, then clusters as CertifiedConstants says; empty when wrapped
-    std::optional<std::uint32_t> clusterWord{}; ///< of the indices; nothing: no clusters on the device
-    /// Of the longest sides of triangles, squared, object units: sums over the clusters before each number, the last
-    /// over all. 64 triangles each, as the passes take them. Empty when wrapped.
-    std::vector<double> squaresBefore{};
-    std::vector<double> squaresBeforeGroup{}; ///< the same, of 64 triangles each in the order of the mesh
-    Buffer staging{};
-    bool uploaded = false; ///< recorded, or the caller's own
+    /// Positions, indices, then clusters as CertifiedConstants says. Of a wrapped mesh with clusters: its indices, 32
+    /// bits each, and clusters; empty when wrapped without.
+    Buffer buffer{};
+    std::optional<std::uint32_t> clusterWord{}; ///< of the buffer; nothing: no clusters on the device
+    DescriptorSet refitSet{};                   ///< of the pass that fits these; empty where no command does
+    Buffer staging{};                           ///< of the buffer; of a wrapped mesh: its triangles in clusters
+    bool uploaded = false;                      ///< recorded, or the caller's own
+    bool editable = false;
+    /// Of an editable mesh: three indices a triangle, the triangles in clusters (empty without), and what was known
+    /// when it was made.
+    std::vector<std::uint32_t> triangles{};
+    std::vector<std::uint32_t> order{};
+    MeshKnown made{};
+
+    [[nodiscard]] bool wrapped() const noexcept { return vertices != buffer.get(); }
+    [[nodiscard]] bool indexed() const noexcept { return indices != VK_NULL_HANDLE; }
 };
+
+/// Poses of the caller's.
+struct PoseBufferImpl {
+    ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
+    std::uint32_t firstWord = 0; ///< where the first pose begins
+    std::uint32_t words = 0;     ///< from one to the next
+    std::uint32_t count = 0;
+    double mostScale = 1; ///< WrappedPoses::mostScale
+    DescriptorSet descriptors{};
+};
+
+/// The layout of a PoseBuffer's set, made for the first that asks.
+[[nodiscard]] Result<VkDescriptorSetLayout> poseSetLayout(ContextImpl& context);
 
 /// The format of a label map: numbers of labels.
 inline constexpr VkFormat kLabelFormat = VK_FORMAT_R16_UINT;

@@ -3,6 +3,7 @@
 #include "core/base/guard.h"
 #include "core/base/live.h"
 #include "core/base/try.h"
+#include "core/method/certified_constants.h"
 #include "core/volume/boundary.h"
 #include "gpu/barriers.h"
 #include "gpu/bricks.h"
@@ -161,6 +162,7 @@ Result<Volume> Volume::create(const Context& context, const VolumeView& data, co
         VOXTACT_TRY(range);
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = data.grid});
         impl->texture_from_world = *texture_from_world;
+        impl->pairGrid = pairGrid(data.grid, *texture_from_world);
         impl->filtered = *filtered;
         impl->type = data.type;
         impl->valueRange = *range;
@@ -180,6 +182,7 @@ Result<Volume> Volume::wrap(const Context& context, const WrappedVolume& wrapped
         VOXTACT_TRY(filtered);
         auto impl = std::make_unique<VolumeImpl>(VolumeImpl{.context = c, .grid = wrapped.grid});
         impl->texture_from_world = textureFromWorld(wrapped.grid).value();
+        impl->pairGrid = pairGrid(wrapped.grid, impl->texture_from_world);
         impl->filtered = *filtered;
         impl->format = wrapped.format;
         impl->valueSlope = wrapped.slope * unitOf(wrapped.format);

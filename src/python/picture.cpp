@@ -14,14 +14,14 @@ namespace {
 /// Leaves render(), which nothing may be thrown through, and is thrown on.
 class Interruption {
   public:
-    void look() noexcept {
+    /// Whether the picture goes on.
+    bool look() noexcept {
         try {
-            if (thrown_ == nullptr) {
-                handleSignals();
-            }
+            handleSignals();
         } catch (...) {
             thrown_ = std::current_exception();
         }
+        return thrown_ == nullptr;
     }
     void rethrow() const {
         if (thrown_ != nullptr) {
@@ -101,10 +101,10 @@ Picture DeviceSide::picture(const PictureWish& wish, const OpacityDesc& opacity)
     scene.clipPlanes = wish.clips;
     scene.lighting = wish.lighting;
     Interruption interruption;
-    Picture made = take(renderer_->render(scene, {wish.width, wish.height},
-                                          [&](std::uint32_t, std::uint32_t) { interruption.look(); }));
+    Result<Picture> made = renderer_->render(scene, {wish.width, wish.height},
+                                             [&](std::uint32_t, std::uint32_t) { return interruption.look(); });
     interruption.rethrow();
-    return made;
+    return take(std::move(made));
 }
 
 } // namespace voxtact::python

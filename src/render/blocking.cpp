@@ -185,8 +185,8 @@ Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent, 
             VOXTACT_TRY(commandBuffer);
             VOXTACT_TRY(state.prepare(extent));
             VOXTACT_TRY(state.renderBand(*commandBuffer, scene, bands.first(), bands.last()));
-            if (progress) {
-                progress(bands.last(), extent.height);
+            if (progress && !progress(bands.last(), extent.height)) {
+                return Error{ErrorCode::Cancelled, 0, "the picture was cancelled"};
             }
         } while (bands.next());
         return state.read();

@@ -89,6 +89,32 @@ Result<void> MeshNormals::cmdUpload(VkCommandBuffer commandBuffer) {
     });
 }
 
+Result<void> MeshNormals::cmdUpdate(VkCommandBuffer commandBuffer, const MeshView& data) {
+    return guard([&]() -> Result<void> {
+        const MeshNormalsImpl& impl = live(impl_);
+        ContextImpl& context = impl.context;
+        VOXTACT_TRY(context.recordable(commandBuffer));
+        if (!impl.uploaded) {
+            return Error{ErrorCode::NotReady, 0, "the normals were never uploaded: record their cmdUpload() first"};
+        }
+        const Result<MeshFacts> facts = checkMesh(data);
+        VOXTACT_TRY(facts);
+        if (facts->vertices != impl.vertices) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "the mesh has " + std::to_string(facts->vertices) + " vertices, the normals are of " +
+                             std::to_string(impl.vertices)};
+        }
+        const std::vector<float> normals = vertexNormals(data);
+        const Label label(context, commandBuffer, "voxtact normals update");
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        cmdUpdateBuffer(context, commandBuffer, impl.buffer.get(), 0, std::as_bytes(std::span(normals)));
+        barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+        return {};
+    });
+}
+
 void MeshNormals::releaseStaging() noexcept {
     live(impl_).staging = {};
 }

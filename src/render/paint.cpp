@@ -56,8 +56,7 @@ Result<void> checkVertices(const ContextImpl& context, const SceneMesh& mesh) {
     if (&vertices->impl().context != &context) {
         return refuse("Scene::paint has colours of vertices of another Context");
     }
-    const std::optional<MeshFacts>& facts = mesh.mesh->impl().facts;
-    const std::uint64_t needed = facts ? facts->vertices : 0;
+    const std::uint64_t needed = mesh.mesh->impl().wrapped() ? 0 : mesh.mesh->impl().vertexCount;
     if (vertices->impl().room < needed) {
         return refuse("Scene::paint has colours for " + std::to_string(vertices->impl().room) +
                       " vertices, the mesh has " + std::to_string(needed));

@@ -26,8 +26,8 @@ Result<void> checkMeshParts(const ContextImpl& context, const SceneMesh& mesh) {
         return {};
     }
     const MeshNormalsImpl& normals = mesh.normals->impl();
-    const std::optional<MeshFacts> facts = mesh.mesh->facts();
-    if (&normals.context != &context || (facts && facts->vertices != normals.vertices)) {
+    const MeshImpl& drawn = mesh.mesh->impl();
+    if (&normals.context != &context || (!drawn.wrapped() && drawn.vertexCount != normals.vertices)) {
         return refuse("Scene::normals is not of Scene::mesh");
     }
     return {};

@@ -63,6 +63,12 @@ MainLoop::MainLoop(GLFWwindow* window, const device::Session& session, State& st
     : window_(window), session_(&session), state_(&state), desc_(&desc), reporter_(desc.reportState),
       recent_(stateFolder().empty() ? std::filesystem::path() : stateFolder() / "recent.json") {}
 
+MainLoop::~MainLoop() {
+    if (shooting_) {
+        shooting_->cancel = true;
+    }
+}
+
 Result<void> MainLoop::run(std::function<Result<Given>(Progress&)> first) {
     const Result<VkSurfaceKHR> surface = makeSurface(*session_, window_);
     VOXTACT_TRY(surface);
@@ -89,7 +95,7 @@ bool MainLoop::ended() const {
 
 bool MainLoop::waitForFrame() {
     const bool still = state_->blank || (state_->settled() && !state_->playing && !desc_->frames);
-    idle_ = still && !state_->loading && !state_->shooting;
+    idle_ = still && !state_->loading && !state_->saving;
     if (still) {
         glfwWaitEventsTimeout(idle_ ? kIdle : kLoading);
     } else {
@@ -191,16 +197,17 @@ void MainLoop::play() {
 void MainLoop::takeScreenshot() {
     State& state = *state_;
     if (shooting_) {
+        shooting_->cancel = shooting_->cancel || std::exchange(state.cancelSaving, false);
         const std::lock_guard lock(shooting_->mutex);
-        state.shooting = shooting_->share;
+        state.saving = shooting_->done;
         if (!shooting_->written) {
             return;
         }
-        const Result<void>& written = *shooting_->written;
-        written.ok() ? state.say("the picture is in " + shooting_->shot.path) : state.complain(written.error().text);
-        state.shooting.reset();
+        tellOfPicture(*shooting_->written, shooting_->shot.path);
+        state.saving.reset();
     }
     shooting_.reset();
+    state.cancelSaving = false;
     if (!state.shot || state.blank) {
         return;
     }
@@ -208,7 +215,7 @@ void MainLoop::takeScreenshot() {
     shooting_->shot = *std::exchange(state.shot, std::nullopt);
     shooting_->marks = marksOf(state, shooting_->shot.extent);
     std::tie(shooting_->shown, shooting_->renderer) = frames_->screenshot(state, shooting_->shot.extent);
-    state.shooting = 0;
+    state.saving = Saving{};
     loader_->run([shooting = shooting_] {
         Result<void> written = shooting->make();
         const std::lock_guard lock(shooting->mutex);
@@ -217,16 +224,32 @@ void MainLoop::takeScreenshot() {
     });
 }
 
+void MainLoop::tellOfPicture(const Result<void>& written, const std::string& path) {
+    if (written.ok()) {
+        state_->say("the picture is in " + path);
+    } else if (written.error().code == ErrorCode::Cancelled) {
+        state_->say("cancelled; no picture is written");
+    } else {
+        state_->complain(written.error().text);
+    }
+}
+
+bool MainLoop::Shooting::tell(bool writing, std::uint32_t rowsDone, std::uint32_t rows) {
+    const std::lock_guard lock(mutex);
+    done = {static_cast<double>(rowsDone) / rows, writing};
+    return !cancel;
+}
+
 Result<void> MainLoop::Shooting::make() {
     return guard([this]() -> Result<void> {
-        Result<Picture> picture = renderer->render(shown.scene, {shot.extent.width, shot.extent.height},
-                                                   [this](std::uint32_t done, std::uint32_t rows) {
-                                                       const std::lock_guard lock(mutex);
-                                                       share = static_cast<double>(done) / rows;
-                                                   });
+        const auto telling = [this](bool writing) {
+            return
+                [this, writing](std::uint32_t rowsDone, std::uint32_t rows) { return tell(writing, rowsDone, rows); };
+        };
+        Result<Picture> picture = renderer->render(shown.scene, {shot.extent.width, shot.extent.height}, telling(false));
         VOXTACT_TRY(picture);
         paint(marks, *picture);
-        return io::writePng(shot.path, picture->width, picture->height, picture->rgba);
+        return io::writePng(shot.path, picture->width, picture->height, picture->rgba, telling(true));
     });
 }
 

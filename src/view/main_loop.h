@@ -8,6 +8,8 @@
 #include "view/reporter.h"
 #include "view/window.h"
 
+#include <atomic>
+
 struct GLFWwindow;
 
 namespace voxtact::view {
@@ -18,6 +20,11 @@ class MainLoop {
     /// All of it outlives this.
     MainLoop(GLFWwindow* window, const device::Session& session, State& state, const WindowDesc& desc);
 
+    MainLoop(const MainLoop&) = delete;
+    MainLoop& operator=(const MainLoop&) = delete;
+    /// Cancels what is being loaded, or made for a file.
+    ~MainLoop();
+
     /// Shows what `first` reads. DeviceLost where the device is; what was shown is still in the state then.
     [[nodiscard]] Result<void> run(std::function<Result<Given>(Progress&)> first);
 
@@ -27,13 +34,16 @@ class MainLoop {
     /// A picture for a file, on its way.
     struct Shooting {
         [[nodiscard]] Result<void> make();
+        /// Whether it goes on.
+        [[nodiscard]] bool tell(bool writing, std::uint32_t rowsDone, std::uint32_t rows);
 
         Shot shot;
         Marks marks;
         ShownScene shown;
         BlockingRenderer* renderer = nullptr;
+        std::atomic<bool> cancel{false};
         std::mutex mutex; ///< of what follows
-        double share = 0;
+        Saving done;
         std::optional<Result<void>> written; ///< when it is done
     };
 
@@ -44,6 +54,7 @@ class MainLoop {
     [[nodiscard]] Result<void> show();
     void play();
     void takeScreenshot();
+    void tellOfPicture(const Result<void>& written, const std::string& path);
 
     void load(std::function<Result<Given>(Progress&)> read, std::optional<FileKind> opened);
     void open(Wanted wanted);

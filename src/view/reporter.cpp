@@ -19,6 +19,9 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.question = state.question ? state.question->title : "";
     seen.step = state.loading ? state.loading->step : "";
     seen.loaded = state.loaded.has_value();
+    seen.chartFrom = state.chartRange().lo;
+    seen.chartTo = state.chartRange().hi;
+    seen.saving = state.saving.has_value();
     seen.status = state.status;
     return seen;
 }
@@ -43,13 +46,18 @@ Result<void> Reporter::write(const State& state) {
     }
     const Pane& pane = state.picture;
     report.picture = {pane.corner[0], pane.corner[1], pane.size[0], pane.size[1]};
+    report.chart = {state.chart.corner[0], state.chart.corner[1], state.chart.size[0], state.chart.size[1]};
+    report.chartRange = state.chartRange();
+    report.direction = state.camera.direction;
+    report.cube = state.cube;
     report.error = state.error;
     report.question = state.question ? &*state.question : nullptr;
     report.loading = state.loading ? &*state.loading : nullptr;
     report.loaded = state.loaded ? &*state.loaded : nullptr;
+    report.saving = state.saving ? std::optional(state.saving->share) : std::nullopt;
     report.status = state.status;
     report.frame = state.frame;
-    report.frameMilliseconds = state.frameTimes.percentile(0.5);
+    report.frameTimes = &state.frameTimes;
     report.settled = seen_.settled;
     return io::writeFile(path_, [&](std::ostream& out) -> Result<void> {
         out << reportText(report);

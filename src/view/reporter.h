@@ -24,8 +24,11 @@ class Reporter {
         bool settled = false;
         std::string error;
         std::string question;
-        std::string step;    ///< of what is being loaded
-        bool loaded = false; ///< it is known how the last loading went
+        std::string step;     ///< of what is being loaded
+        bool loaded = false;  ///< it is known how the last loading went
+        double chartFrom = 0; ///< values of the curve's chart
+        double chartTo = 0;
+        bool saving = false; ///< a picture is being made
         std::string status;
 
         [[nodiscard]] bool operator==(const Seen&) const = default;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/state.h"
 
-#include "view/model/histogram.h"
-
 #include <algorithm>
 #include <iterator>
 #include <tuple>
@@ -11,7 +9,6 @@ namespace voxtact::view {
 
 namespace {
 
-constexpr std::size_t kBins = 256;
 constexpr auto kRest = std::chrono::milliseconds(200);
 
 auto parts(const Camera& camera) {
@@ -30,7 +27,7 @@ State::State(Given opened)
       deviceName(std::move(opened.deviceName)), document(std::move(opened.document)), window(opened.values) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
-    histogram = view::histogram(volume.view(), document.domain, kBins);
+    histogram = histogramOf(volume.view(), document.domain);
     if (document.shown) {
         show(*document.shown);
     }
@@ -80,7 +77,7 @@ void State::drillAndFill() {
 
 void State::bringHoles(std::size_t number) {
     for (HoleWrite& write : holes_.bring(volume, number)) {
-        recount(histogram, document.domain, {volume.type, write.hole->box, write.replaced(), write.voxels()});
+        recount(histogram, {volume.type, write.hole->box, write.replaced(), write.voxels()});
         writes.push_back(std::move(write));
     }
 }
@@ -107,6 +104,7 @@ Shown State::shown() const {
     out.contacts = showContacts;
     out.logHistogram = logHistogram;
     out.maximised = maximised;
+    out.theme = theme;
     out.stepMillimetres = stepMillimetres;
     out.stepDegrees = stepDegrees;
     out.drillRadius = drillRadius;
@@ -120,6 +118,7 @@ void State::show(const Shown& what) {
     showContacts = what.contacts;
     logHistogram = what.logHistogram;
     maximised = what.maximised;
+    theme = what.theme;
     stepMillimetres = what.stepMillimetres;
     stepDegrees = what.stepDegrees;
     drillRadius = what.drillRadius;
@@ -170,6 +169,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
             next.camera = camera;
             next.cursor = cursor;
             next.window = window;
+            next.zoomedRange = zoomedRange;
             next.history = std::move(history);
         }
         next.document = std::move(kept);

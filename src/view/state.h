@@ -4,6 +4,7 @@
 #include "view/model/carving.h"
 #include "view/model/document.h"
 #include "view/model/gizmo.h"
+#include "view/model/histogram.h"
 #include "view/model/history.h"
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
@@ -11,6 +12,7 @@
 #include "view/model/loading.h"
 #include "view/model/question.h"
 #include "view/model/slice.h"
+#include "view/model/view_cube.h"
 
 #include <array>
 #include <chrono>
@@ -57,6 +59,12 @@ struct Pane {
 struct Shot {
     std::string path;
     Extent extent; ///< pixels
+};
+
+/// How far a picture for a file is.
+struct Saving {
+    double share = 0;     ///< of the rows, 0..1
+    bool writing = false; ///< all of it is drawn, and it goes to the file
 };
 
 /// A line for the person who looks: a dialog for errors, the status line for what was done.
@@ -120,6 +128,8 @@ struct State {
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
+    /// The values that the curve's chart shows: always a part of the domain.
+    [[nodiscard]] ValueRange chartRange() const { return zoomedRange.value_or(document.domain); }
     /// Paths are dropped on the window, as GLFW tells of them.
     void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
@@ -138,8 +148,8 @@ struct State {
     std::string deviceOption;
     std::string deviceName;
     Mat4 texture_from_world{};
-    std::vector<std::uint64_t> histogram; ///< over the transfer function's domain
-    std::vector<MethodChoice> methods;    ///< that this machine can do
+    Histogram histogram;               ///< over the transfer function's domain
+    std::vector<MethodChoice> methods; ///< that this machine can do
 
     // What is edited.
     Document document;
@@ -172,12 +182,17 @@ struct State {
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame
     Maximised maximised = Maximised::None;
+    Theme theme = Theme::Dark;
+    std::optional<Theme> themeSet; ///< that the panels have; nothing: not known
     bool playing = false;
     bool showContacts = true;
     bool showGizmo = true;
     GizmoAxes gizmoAxes = GizmoAxes::World;
     Handle gizmoHandle; ///< under the pointer, or held
     std::optional<GizmoDrag> gizmoDrag;
+    std::optional<ViewCube> cube;           ///< where it is; nothing: the picture is too small
+    std::optional<std::size_t> cubeSide;    ///< of kPatientSides, under the pointer
+    std::optional<std::size_t> cubePressed; ///< that the left button was pressed on
     bool helpOpen = false;
     bool quit = false;
     double stepMillimetres = 1;
@@ -185,14 +200,17 @@ struct State {
     double drillRadius = 5;                ///< mm
     std::optional<std::size_t> curvePoint; ///< that is dragged or typed
     bool logHistogram = true;
-    std::optional<Wanted> wanted;     ///< until the window has looked at it
-    std::vector<std::string> dropped; ///< paths, since the last frame
-    std::vector<std::string> taken;   ///< paths of poses and transfer functions that were opened, since the last frame
-    std::optional<Shot> shot;         ///< until the window has looked at it
-    std::optional<double> shooting;   ///< how much of a picture for a file is made, 0..1
-    std::optional<Loading> loading;   ///< while something is
-    std::optional<Loading> loaded;    ///< how that went which was loaded last
-    bool cancelLoading = false;       ///< asked for
+    std::optional<ValueRange> zoomedRange; ///< of the curve's chart; nothing: all of the domain
+    Pane chart;                            ///< where the curve is in the window
+    std::optional<Wanted> wanted;          ///< until the window has looked at it
+    std::vector<std::string> dropped;      ///< paths, since the last frame
+    std::vector<std::string> taken; ///< paths of poses and transfer functions that were opened, since the last frame
+    std::optional<Shot> shot;       ///< until the window has looked at it
+    std::optional<Saving> saving;   ///< while a picture for a file is made
+    bool cancelSaving = false;      ///< asked for
+    std::optional<Loading> loading; ///< while something is
+    std::optional<Loading> loaded;  ///< how that went which was loaded last
+    bool cancelLoading = false;     ///< asked for
 
   private:
     struct Seen {

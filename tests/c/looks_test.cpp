@@ -197,6 +197,7 @@ TEST(CLooks, NothingIsRefusedAndEnded) {
     EXPECT_EQ(text(vxt_mesh_normals_create(nullptr, nullptr, &normals)), "renderer is null");
     EXPECT_EQ(text(vxt_mesh_normals_upload(nullptr, nullptr, nullptr, &normals)), "renderer is null");
     EXPECT_EQ(text(vxt_mesh_normals_cmd_upload(nullptr, VK_NULL_HANDLE)), "normals is null");
+    EXPECT_EQ(text(vxt_mesh_normals_cmd_update(nullptr, VK_NULL_HANDLE, nullptr)), "normals is null");
     EXPECT_EQ(text(vxt_render_bricks_create(nullptr, nullptr, &bricks)), "renderer is null");
     EXPECT_EQ(text(vxt_painted_triangles_create(nullptr, 1, nullptr, 0, &painted)), "renderer is null");
     EXPECT_EQ(text(vxt_painted_triangles_upload(nullptr, nullptr, 1, nullptr, 0, &painted)), "renderer is null");

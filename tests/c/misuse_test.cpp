@@ -52,6 +52,7 @@ TEST(CMisuse, EndingNothingIsNothing) {
     vxt_labels_destroy(nullptr);
     vxt_mesh_data_destroy(nullptr);
     vxt_mesh_destroy(nullptr);
+    vxt_pose_buffer_destroy(nullptr);
     vxt_mesh_release_staging(nullptr);
     vxt_motions_destroy(nullptr);
     vxt_poses_destroy(nullptr);
@@ -85,6 +86,7 @@ TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
     EXPECT_EQ(vxt_mesh_data_note(nullptr, 0), nullptr);
     EXPECT_EQ(vxt_host_detector_threads(nullptr), 0U);
     EXPECT_EQ(vxt_mesh_triangles(nullptr), 0U);
+    EXPECT_EQ(vxt_pose_buffer_count(nullptr), 0U);
     EXPECT_EQ(vxt_features_chain(nullptr), nullptr);
     EXPECT_EQ(vxt_context_supports(nullptr, VXT_METHOD_QUERY, VXT_PROJECTION_VIEW), 0U);
     EXPECT_EQ(vxt_context_default_method(nullptr), VXT_METHOD_CPU);
@@ -188,7 +190,11 @@ TEST(CMisuse, NullIsRefusedByTheDevice) {
     EXPECT_NULL_REFUSED(vxt_mesh_wrap(nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_mesh_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_mesh_cmd_upload(nullptr, VK_NULL_HANDLE));
+    EXPECT_NULL_REFUSED(vxt_mesh_cmd_update(nullptr, VK_NULL_HANDLE, nullptr, 0));
+    EXPECT_NULL_REFUSED(vxt_mesh_cmd_copy(nullptr, VK_NULL_HANDLE, VK_NULL_HANDLE, 0));
+    EXPECT_NULL_REFUSED(vxt_mesh_cmd_refit(nullptr, VK_NULL_HANDLE));
     EXPECT_NULL_REFUSED(vxt_mesh_get_facts(nullptr, nullptr));
+    EXPECT_NULL_REFUSED(vxt_pose_buffer_wrap(nullptr, nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_label_map_create(nullptr, nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_label_map_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_label_map_cmd_upload(nullptr, VK_NULL_HANDLE));

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // voxtact render --slice: needs no device.
+#include "child.h"
 #include "render_fixture.h"
 
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
 
 namespace voxtact::test {
 namespace {
@@ -87,6 +91,23 @@ TEST_F(RenderSliceTest, SidesAreWhereRadiologistsHaveThem) {
     EXPECT_LT(at("coronal").second, 24);
     EXPECT_LT(at("sagittal").first, 32);
     EXPECT_LT(at("sagittal").second, 24);
+}
+
+TEST_F(RenderSliceTest, InterruptedItLeavesNoFile) {
+    writeText(path("a.png"), "as it was");
+    // As large as a picture may be: it is written for a while.
+    Child child({"render", "--volume", "builtin:head:16", "--slice", "axial:0", "--size", "12000x12000", "--output",
+                 path("a.png")});
+    for (int i = 0; i < 1200 && filesInFolder() < 2; ++i) {
+        ::usleep(50000);
+    }
+    EXPECT_EQ(filesInFolder(), 2U); // the temporary one
+    child.signal(SIGINT);
+    const Ran ran = child.end();
+    EXPECT_EQ(ran.status, 128 + SIGINT);
+    EXPECT_EQ(ran.err, "voxtact render: interrupted by SIGINT: nothing is written\n");
+    EXPECT_EQ(readText(path("a.png")), "as it was");
+    EXPECT_EQ(filesInFolder(), 1U);
 }
 
 TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {

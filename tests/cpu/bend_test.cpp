@@ -1,68 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A mesh whose vertices come elsewhere is the mesh that is made afresh of them.
-#include "cpu/engine_fixture.h"
+#include "cpu/bent_meshes.h"
+#include "cpu/needle_fixture.h"
 #include "cpu/random_scene.h"
 #include "cpu/scene/scene_impl.h"
-#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace voxtact::test {
 namespace {
 
 using testing::HasSubstr;
-
-/// A smooth bend with some noise; sometimes everything falls onto one point or a line.
-std::vector<float> bent(std::mt19937_64& random, const MeshData& mesh, double size) {
-    const double amount = uniform(random, 0, 0.6) * size;
-    const double noise = chance(random, 0.3) ? 0.1 * size : 0;
-    const double waves = uniform(random, 0.2, 3) / size;
-    const bool flattened = chance(random, 0.1);
-    std::vector<float> out = mesh.positions;
-    for (std::size_t at = 0; at < out.size(); at += 3) {
-        const double x = static_cast<double>(mesh.positions[at]);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double moved = static_cast<double>(out[at + axis]) +
-                                 amount * std::sin(waves * x + static_cast<double>(axis)) +
-                                 uniform(random, -noise, noise);
-            out[at + axis] = flattened && axis == 2 ? 0.25F : static_cast<float>(moved);
-        }
-    }
-    return out;
-}
-
-double sizeOf(const Grid& grid) {
-    double squares = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        squares += std::pow(grid.spacing[axis] * grid.size[axis], 2);
-    }
-    return std::sqrt(squares) / 4;
-}
-
-/// What is in an answer, for comparisons.
-auto everythingOf(const BatchAnswer& answer) {
-    std::vector<std::tuple<bool, bool, std::uint64_t>> pairs;
-    for (const PairAnswer& pair : answer.pairs) {
-        pairs.emplace_back(pair.hit, pair.possible, pair.count);
-    }
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>> triangles;
-    for (const TouchedTriangle& triangle : answer.triangles) {
-        triangles.emplace_back(triangle.pair, triangle.triangle, triangle.count);
-    }
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, Vec3>> contacts;
-    for (const Contact& contact : answer.contacts) {
-        contacts.emplace_back(contact.pair, contact.triangle, contact.position);
-    }
-    std::vector<std::pair<Vec3, Vec3>> bounds;
-    for (const std::optional<Box>& box : answer.bounds) {
-        bounds.emplace_back(box ? box->lo : Vec3{}, box ? box->hi : Vec3{});
-    }
-    return std::tuple(pairs, triangles, contacts, bounds);
-}
 
 TEST(BentMesh, CountsAndOutputsAreThoseOfAMeshMadeAfresh) {
     const std::uint64_t seed = testSeed();
@@ -83,7 +34,7 @@ TEST(BentMesh, CountsAndOutputsAreThoseOfAMeshMadeAfresh) {
         MeshData data = scene.mesh;
         cpu::Mesh mesh = take(cpu::Mesh::create(data.view()));
         for (int step = 0; step < 2; ++step) {
-            data.positions = bent(random, data, sizeOf(scene.volume.grid));
+            data.positions = bent(random, data, bendSize(scene.volume.grid));
             ASSERT_TRUE(mesh.update(data.positions).ok());
             const cpu::Mesh fresh = take(cpu::Mesh::create(data.view()));
             EXPECT_EQ(mesh.facts().degenerate, fresh.facts().degenerate);
@@ -119,7 +70,7 @@ TEST(BentMesh, ClearancesHoldForBoth) {
         const cpu::TransferFunction function = take(cpu::TransferFunction::create(scene.transferFunction()));
         MeshData data = scene.mesh;
         cpu::Mesh mesh = take(cpu::Mesh::create(data.view()));
-        data.positions = bent(random, data, sizeOf(scene.volume.grid));
+        data.positions = bent(random, data, bendSize(scene.volume.grid));
         ASSERT_TRUE(mesh.update(data.positions).ok());
         const cpu::Mesh fresh = take(cpu::Mesh::create(data.view()));
         const cpu::BatchItem items[] = {{&mesh, &volume, &function, scene.poses},
@@ -138,33 +89,7 @@ TEST(BentMesh, ClearancesHoldForBoth) {
     EXPECT_GT(apart, 10U);
 }
 
-/// A needle along z before the opaque half x > 8 of a cube of 16 mm, and what becomes of it.
-class BentNeedle : public testing::Test {
-  protected:
-    static Grid grid() {
-        Grid grid;
-        grid.size = {16, 16, 16};
-        return grid;
-    }
-    [[nodiscard]] cpu::BatchItem item() const { return {&mesh_, &volume_, &function_, {&pose_, 1}}; }
-    /// Its tip, at z = 0, comes so far towards larger x, in a parabola.
-    [[nodiscard]] std::vector<float> deflected(double by) const {
-        std::vector<float> out = data_.positions;
-        for (std::size_t at = 0; at < out.size(); at += 3) {
-            const double fromBase = 1 - static_cast<double>(out[at + 2]) / 10;
-            out[at] += static_cast<float>(by * fromBase * fromBase);
-        }
-        return out;
-    }
-
-    MeshData data_ = take(makeBuiltinMesh("needle:0.5:10"));
-    VolumeData image_ = makeBytes(grid(), [](auto x, auto...) { return x >= 8 ? 255.0 : 0.0; });
-    std::vector<ControlPoint> points_{{0, 0}, {255, 1}};
-    cpu::Volume volume_ = take(cpu::Volume::create(image_.view()));
-    cpu::TransferFunction function_ = take(cpu::TransferFunction::create({points_, {0, 255}}));
-    cpu::Mesh mesh_ = take(cpu::Mesh::create(data_.view()));
-    Mat4 pose_ = translation({3, 8, 3});
-};
+using BentNeedle = NeedleFixture;
 
 TEST_F(BentNeedle, TouchesWhereItsTipComes) {
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create());

@@ -38,7 +38,8 @@ Context makeContext(Play& play) {
 }
 
 Mesh makeMesh(Play& play, const Context& context, const MeshData& data) {
-    return play.quietly([&] { return Mesh::upload(context, play.stage().queue, data.view(), {.clusters = true}); });
+    return play.quietly(
+        [&] { return Mesh::upload(context, play.stage().queue, data.view(), {.clusters = true, .editable = true}); });
 }
 
 LabelMap makeLabelMap(Play& play, const Context& context, const VolumeData& like) {

@@ -22,7 +22,7 @@ struct Setting {
     Context context;
     Volume volume; ///< editable, with bricks
     TransferFunction function;
-    Mesh mesh; ///< with clusters
+    Mesh mesh; ///< editable, with clusters
     LabelMap labels;
 };
 

@@ -80,6 +80,19 @@ void update(Play& play, Setting& setting, Embedder&, VkCommandBuffer commands, s
              [&] { return setting.function.cmdUpdate(commands, ramp(150 + 20 * static_cast<double>(frame))); });
 }
 
+void bend(Play& play, Setting& setting, Embedder& embedder, VkCommandBuffer commands, std::uint64_t frame) {
+    std::vector<float> positions = setting.meshData.positions;
+    for (float& coordinate : positions) {
+        coordinate *= 1 - 0.1F * static_cast<float>(frame);
+    }
+    if (frame % 2 == 0) {
+        play.ask("Mesh::cmdUpdate", [&] { return setting.mesh.cmdUpdate(commands, positions); });
+        return;
+    }
+    const VkBuffer buffer = embedder.makeBuffer(std::span<const float>(positions), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    play.ask("Mesh::cmdCopy", [&] { return setting.mesh.cmdCopy(commands, buffer, 0); });
+}
+
 void nothing(Play&, Setting&, Embedder&, VkCommandBuffer, std::uint64_t) {}
 
 /// Uploads that the caller submits.
@@ -133,6 +146,8 @@ std::vector<Scenario> editScenarios() {
         story("ring edits subgroup", {.method = CountingMethod::Subgroup}, edit),
         story("ring updates certified outputs", certified, update),
         story("ring updates query", {.method = CountingMethod::Query}, update),
+        story("ring bends certified outputs", certified, bend),
+        story("ring bends query", {.method = CountingMethod::Query}, bend),
         {"uploads recorded by the caller", cmdUploads},
     };
 }

@@ -2,6 +2,9 @@
 // Contexts, uploads, and the caller's own objects.
 #include "scenarios.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace voxtact::test {
 
 namespace {
@@ -43,7 +46,7 @@ std::string upload(Play& play) {
                     {.method = CountingMethod::Atomic, .outputs = {.contacts = true, .labels = true}});
 }
 
-/// The bricks and the empty binding are made for the first object that needs them.
+/// The bricks, the empty binding and the pass that fits clusters are made for the first object that needs them.
 std::string uploadFirst(Play& play) {
     const Context context = play.quietly([&] { return Context::create(play.stage().context); });
     const VolumeData voxels = someVoxels();
@@ -51,6 +54,10 @@ std::string uploadFirst(Play& play) {
         play.ask("Volume::upload", [&] { return Volume::upload(context, play.stage().queue, voxels.view()); });
     const Volume bricks = play.ask("Volume::upload with bricks", [&] {
         return Volume::upload(context, play.stage().queue, voxels.view(), {.bricks = true});
+    });
+    const MeshData cube = makeCube(0.3, 0.8);
+    const Mesh bends = play.ask("Mesh::upload of one that bends", [&] {
+        return Mesh::upload(context, play.stage().queue, cube.view(), {.clusters = true, .editable = true});
     });
     return "made";
 }
@@ -79,21 +86,40 @@ std::string wrap(Play& play) {
     const MeshData cube = makeCube(0.3, 0.8);
     const VkBuffer vertices = embedder.makeBuffer(std::span(cube.positions), kUsage);
     const VkBuffer indices = embedder.makeBuffer(std::span(cube.indices), kUsage);
-    const Mesh mesh = play.ask("Mesh::wrap", [&] {
+    Mesh mesh = play.ask("Mesh::wrap", [&] {
         return Mesh::wrap(setting.context, {.vertices = vertices,
                                             .vertexCount = static_cast<std::uint32_t>(cube.positions.size() / 3),
                                             .indices = indices,
                                             .triangleCount = static_cast<std::uint32_t>(cube.indices.size() / 3),
-                                            .storage = true});
+                                            .storage = true,
+                                            .clusters = true,
+                                            .shape = cube.view()});
     });
     const VkCommandBuffer commands = embedder.begin();
+    play.ask("Mesh::cmdUpload", [&] { return mesh.cmdUpload(commands); });
+    play.ask("Mesh::cmdRefit", [&] { return mesh.cmdRefit(commands); });
     play.ask("cmdUpdateBricks", [&] { return volume.cmdUpdateBricks(commands, {{0, 0, 0}, {8, 8, 8}}); });
     embedder.submit(commands);
     embedder.wait();
     const std::vector<Mat4> poses = somePoses(2, 0);
     const BatchItem item{&mesh, &volume, &function, poses};
+    std::vector<float> matrices;
+    for (const Mat4& pose : poses) {
+        std::transform(pose.begin(), pose.end(), std::back_inserter(matrices),
+                       [](double element) { return static_cast<float>(element); });
+    }
+    const VkBuffer poseBuffer =
+        embedder.makeBuffer(std::span<const float>(matrices), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const PoseBuffer onDevice = play.ask(
+        "PoseBuffer::wrap", [&] { return PoseBuffer::wrap(setting.context, {.buffer = poseBuffer, .count = 2}); });
+    BatchItem moving = item;
+    moving.world_from_object = {};
+    moving.poses = &onDevice;
+    DetectorDesc byPoses = kCertified;
+    byPoses.devicePoses = true;
     return answerOf(play, setting.context, item, kCertified) +
-           answerOf(play, setting.context, item, {.method = CountingMethod::Query});
+           answerOf(play, setting.context, item, {.method = CountingMethod::Query}) +
+           answerOf(play, setting.context, moving, byPoses);
 }
 
 } // namespace

@@ -37,5 +37,49 @@ TEST(WritePng, RefusesWhatIsNone) {
     EXPECT_EQ(folder.entries(), 0U);
 }
 
+TEST(WritePng, TellsHowFarItIsAndEndsWhereItIsTold) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> rgba = pattern(300, 20);
+    std::uint32_t last = 0;
+    const auto until = [&last](std::uint32_t end) {
+        return [&last, end](std::uint32_t done, std::uint32_t rows) {
+            EXPECT_EQ(rows, 20U);
+            EXPECT_EQ(done, last + 1);
+            last = done;
+            return done < end;
+        };
+    };
+    ASSERT_TRUE(isOk(io::writePng(folder / "a.png", 300, 20, rgba, until(100))));
+    EXPECT_EQ(last, 20U);
+    EXPECT_EQ(readPng(folder / "a.png").rgba, rgba);
+    // A file that is there stays what it was.
+    last = 0;
+    const std::vector<std::uint8_t> other(rgba.size(), 7);
+    const Result<void> cancelled = io::writePng(folder / "a.png", 300, 20, other, until(12));
+    ASSERT_FALSE(cancelled.ok());
+    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(last, 12U);
+    EXPECT_EQ(readPng(folder / "a.png").rgba, rgba);
+    EXPECT_EQ(folder.entries(), 1U);
+}
+
+TEST(WritePng, EveryWayToFilterARowIsReadBack) {
+    // Rows that one way suits best: noise, slopes along and across and both, and none.
+    const TemporaryFolder folder;
+    constexpr std::uint32_t kSide = 64;
+    std::vector<std::uint8_t> rgba(4 * kSide * kSide);
+    for (std::size_t i = 0; i < rgba.size(); ++i) {
+        const std::size_t x = i / 4 % kSide;
+        const std::size_t y = i / 4 / kSide;
+        rgba[i] = static_cast<std::uint8_t>(y < 12   ? (i * i * 7919 + i) >> 3U
+                                            : y < 24 ? 3 * x + 40 * (i % 4)
+                                            : y < 36 ? 200 - 2 * y + (x * 97) % 31
+                                            : y < 48 ? 2 * x + 3 * y
+                                                     : 9);
+    }
+    ASSERT_TRUE(isOk(io::writePng(folder / "a.png", kSide, kSide, rgba)));
+    EXPECT_EQ(readPng(folder / "a.png").rgba, rgba);
+}
+
 } // namespace
 } // namespace voxtact::test

@@ -85,8 +85,20 @@ except KeyboardInterrupt:
     print("still there:", len(scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))))
 """
 
+PICTURE = BEGIN + """
+scene = vx.Scene("builtin:head:32", opacity=[(40, 0), (80, 1)])
+scene.picture(size=(64, 64))  # what is made once
+press(0.3)
+try:
+    scene.picture(size=(4096, 16384))
+    print("done before it was interrupted")
+except KeyboardInterrupt:
+    print("interrupted after", now() - pressed)
+    print("still there:", len(scene.picture(size=(16, 1))))
+"""
 
-def check(script, question):
+
+def check(script, question=""):
     done = subprocess.run([sys.executable, "-c", script, question], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     assert "still there: 1" in done.stdout, done.stdout
@@ -101,3 +113,7 @@ def test_ctrl_c_stops_a_long_batch_within_a_second(question):
 @pytest.mark.parametrize("question", ["detect", "clearance", "motion"])
 def test_ctrl_c_stops_a_long_pose_within_a_second(question):
     check(ALONE, question)
+
+
+def test_ctrl_c_stops_a_picture_within_a_second(device):
+    check(PICTURE)

@@ -129,16 +129,16 @@ TEST(ViewCarving, IsACommandThatUndoTakesBack) {
 
 TEST(ViewCarving, TheHistogramIsThatOfWhatIsLeft) {
     State state = makeState();
-    const auto counted = [&] { return histogram(state.volume.view(), state.document.domain, state.histogram.size()); };
+    const auto counted = [&] { return histogramOf(state.volume.view(), state.document.domain); };
     ASSERT_EQ(state.histogram, counted());
-    const std::vector<std::uint64_t> whole = state.histogram;
+    const Histogram whole = state.histogram;
     state.drillRadius = 30;
     state.drill(middleOf(state.volume.grid));
     state.drillRadius = 45;
     state.drill(middleOf(state.volume.grid));
     state.update();
     EXPECT_EQ(state.histogram, counted());
-    EXPECT_NE(state.histogram, whole);
+    EXPECT_FALSE(state.histogram == whole);
     state.undo();
     state.undo();
     state.update();

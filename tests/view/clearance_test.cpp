@@ -33,6 +33,7 @@ nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
     StateReport report;
     report.answer = &answer;
     report.times = &times;
+    report.frameTimes = report.times;
     report.document = &document;
     report.clearance = &live;
     return nlohmann::json::parse(reportText(report))["clearance"];

@@ -208,6 +208,7 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     StateReport report;
     report.answer = &answer;
     report.times = &times;
+    report.frameTimes = report.times;
     report.document = &shown;
     report.clearance = &clearance;
     report.commands = {"voxtact \"detect\"", "other"};

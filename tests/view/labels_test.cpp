@@ -74,6 +74,7 @@ TEST(ViewLabels, AreInTheReportWhereThereIsAMap) {
     StateReport report;
     report.answer = &answer;
     report.times = &times;
+    report.frameTimes = report.times;
     report.document = &document;
     EXPECT_FALSE(nlohmann::json::parse(reportText(report)).contains("labels"));
     report.labels = &pair.labels;

@@ -36,7 +36,8 @@ Document document() {
     out.sources.coarser = 2;
     out.holes = {{{1, 2, 3}, 4}, {{-1, 0.5, 1.0 / 3}, 2.5}};
     out.edit.holes = 2;
-    out.shown = Shown{GizmoAxes::Own, false, false, false, Maximised::Slice1, 0.25, 2.5, 7.5, ValueRange{-10, 300}};
+    out.shown = Shown{GizmoAxes::Own, false, false, false, Maximised::Slice1,
+                      Theme::Light,   0.25,  2.5,   7.5,   ValueRange{-10, 300}};
     return out;
 }
 
@@ -68,6 +69,7 @@ TEST(ViewSession, RefusesWhatCannotBeShown) {
     EXPECT_THAT(refused("/shown/handle_axes", "mine"), HasSubstr("shown.handle_axes"));
     EXPECT_THAT(refused("/shown/handles", 1), HasSubstr("shown.handles"));
     EXPECT_THAT(refused("/shown/maximised", "all"), HasSubstr("shown.maximised"));
+    EXPECT_THAT(refused("/shown/theme", "blue"), HasSubstr("shown.theme"));
     EXPECT_THAT(refused("/shown/drill_radius_mm", 0), HasSubstr("shown.drill_radius_mm"));
     EXPECT_THAT(refused("/shown/window", {2, 1}), HasSubstr("shown.window"));
 }
@@ -90,6 +92,7 @@ TEST(ViewSession, ComesBackAsItWas) {
     ASSERT_TRUE(after->shown.has_value());
     EXPECT_EQ(after->shown->handleAxes, GizmoAxes::Own);
     EXPECT_EQ(after->shown->maximised, Maximised::Slice1);
+    EXPECT_EQ(after->shown->theme, Theme::Light);
     EXPECT_FALSE(after->shown->handles || after->shown->contacts || after->shown->logHistogram);
     EXPECT_EQ(after->shown->drillRadius, 7.5);
     EXPECT_EQ(after->shown->window->hi, 300);

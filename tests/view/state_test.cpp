@@ -161,8 +161,51 @@ TEST(ViewHistogram, CountsEveryVoxelInItsBin) {
     std::vector<std::uint8_t> voxels(2 * 3 * 4);
     std::iota(voxels.begin(), voxels.end(), std::uint8_t{0}); // 0..23
     const VolumeView view{{{2, 3, 4}}, ScalarType::UInt8, std::as_bytes(std::span(voxels))};
-    EXPECT_THAT(histogram(view, {0, 24}, 4), testing::ElementsAre(6, 6, 6, 6));
-    EXPECT_THAT(histogram(view, {20, 23}, 3), testing::ElementsAre(1, 1, 2)); // the end is in the last
+    const Histogram some = histogramOf(view, {19.5, 22});
+    EXPECT_THAT(some.counts, testing::ElementsAre(1, 1, 1));
+    EXPECT_EQ(some.range.lo, 19.5);
+    EXPECT_EQ(some.range.hi, 22.5);
+    EXPECT_THAT(histogramOf(view, {0, 23}).counts, testing::Each(1));
+    // More values than there are parts: a part has several.
+    const Histogram all = histogramOf(view, {0, 1e6});
+    EXPECT_EQ(std::accumulate(all.counts.begin(), all.counts.end(), 0U), 24U);
+    EXPECT_EQ(all.counts[0], 16U); // 0 to 15: a part is 1e6 / 65536, which is 15.3
+}
+
+TEST(ViewHistogram, OfFloatsIsInEqualParts) {
+    const std::vector<float> voxels{0, 0.25F, 0.5F, 0.75F, 1, 2, -1, std::numeric_limits<float>::quiet_NaN()};
+    const VolumeView view{{{2, 2, 2}}, ScalarType::Float32, std::as_bytes(std::span(voxels))};
+    const Histogram all = histogramOf(view, {0, 1});
+    EXPECT_EQ(all.counts.size(), 65536U);
+    EXPECT_EQ(all.counts.front(), 1U);
+    EXPECT_EQ(all.counts[16384], 1U);
+    EXPECT_EQ(all.counts.back(), 1U); // the end is in the last
+    EXPECT_EQ(std::accumulate(all.counts.begin(), all.counts.end(), 0U), 5U);
+}
+
+TEST(ViewHistogram, BarsAreOfWhatIsShown) {
+    Histogram whole{{-0.5, 99.5}, {}};
+    for (std::uint64_t value = 0; value < 100; ++value) {
+        whole.counts.push_back(value);
+    }
+    // Four values a bar.
+    const Bars all = barsOf(whole, whole.range, 25);
+    EXPECT_EQ(all.width, 4);
+    EXPECT_EQ(all.first, -0.5);
+    EXPECT_EQ(all.counts.size(), 25U);
+    EXPECT_EQ(all.counts[2], 8U + 9 + 10 + 11);
+    // Some of them: one value a bar, and what is beyond the ends is not there.
+    const Bars some = barsOf(whole, {9.6, 13.2}, 25);
+    EXPECT_EQ(some.width, 1);
+    EXPECT_EQ(some.first, 9.5);
+    EXPECT_THAT(some.counts, testing::ElementsAre(10, 11, 12, 13));
+    // Moved: the same bars, though they begin outside.
+    const Bars moved = barsOf(whole, {3, 99.5}, 25);
+    EXPECT_EQ(moved.first, -0.5);
+    EXPECT_EQ(moved.counts[2], all.counts[2]);
+    EXPECT_THAT(barsOf(whole, {-8, -2}, 25).counts, testing::IsEmpty());
+    EXPECT_THAT(barsOf(whole, {200, 300}, 25).counts, testing::IsEmpty());
+    EXPECT_EQ(barsOf(whole, {-1000, 1000}, 25).counts.size(), 25U);
 }
 
 TEST(ViewHistogram, TellsTheValueOfTheNearestVoxel) {

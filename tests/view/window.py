@@ -64,12 +64,13 @@ class Server:
 
 
 class Window:
-    def __init__(self, program, server, folder, arguments, environment=None):
+    def __init__(self, program, server, folder, arguments, environment=None, validate=True):
         self.server, self.program = server, program
         self.state_path = pathlib.Path(folder) / "state.json"
         self.state_path.unlink(missing_ok=True)
         self.process = subprocess.Popen(
-            [program, "view", "--size", SIZE, "--validate", "--report-state", str(self.state_path), *arguments],
+            [program, "view", "--size", SIZE, *(["--validate"] if validate else []), "--report-state",
+             str(self.state_path), *arguments],
             env={**server.environment, **(environment or {})}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.id = None
 

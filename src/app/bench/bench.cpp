@@ -32,8 +32,8 @@ scene: builtin:scalpel:3068 against builtin:head:128.
 --latency: how long a loop that moves a mesh, such as one that drives a haptic device, waits for one answer: 10000 ticks
 (--number) of strokes from 10 voxels outside to 2 voxels inside and on to the next place, one pair a tick. The certified
 yes or no and count, and the count in the view, by the host on one thread and on all, and by every method of the device:
-its command buffer is recorded each tick, submitted alone, and polled for or waited for; nothing is allocated and no
-timestamp written. Beside it an empty submission on the same queue. The answer of every tick is held against the host's
+its command buffer is recorded each tick, that of compute also once, with the pose in mapped memory; it is submitted
+alone, and polled for or waited for; nothing is allocated and no timestamp written. Poses are rounded to floats. Beside it an empty submission on the same queue. The answer of every tick is held against the host's
 after its clock has stopped: certified ones and those of compute must be it, those of the rasteriser must be each other's
 and differ from it by roundings alone (by no more than half and 64 fragments). A wrong one ends the measurement with exit
 status 3; what was measured before is still written. Engines take turns of 250 ticks, after 10 that are not timed.

@@ -143,7 +143,8 @@ class PictureDevice {
         const Result<Picture> picture = planPicture(options, inputs, plans, *session_);
         VOXTACT_TRY(picture);
         std::ostringstream png;
-        VOXTACT_TRY(io::writePng(png, picture->width, picture->height, picture->rgba));
+        VOXTACT_TRY(io::writePng(png, picture->width, picture->height, picture->rgba,
+                                 [](std::uint32_t /*done*/, std::uint32_t /*rows*/) { return !interrupted(); }));
         return png.str();
     }
     /// What validation has said, which is complete once the device is closed.
@@ -188,6 +189,9 @@ Outcome runPlan(const CLI::App& parser, PlanOptions options) {
     std::string png;
     if (!options.picture.empty()) {
         Result<std::string> painted = device.paint(options, inputs, *plans);
+        if (interrupted()) {
+            return interruptOutcome("nothing is written");
+        }
         VOXTACT_TRY(painted);
         png = std::move(*painted);
         if (Outcome invalid = device.close(); invalid.status != kExitDone) {

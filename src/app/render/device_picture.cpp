@@ -2,6 +2,7 @@
 #include "app/render/device_picture.h"
 
 #include "app/detect/detect_run.h"
+#include "app/output/interrupt.h"
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
@@ -102,8 +103,10 @@ Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& input
     scene.clip_from_world = inputs.clip_from_world;
     scene.background = options.background;
     Progress progress(options.progress, "rows of the picture", options.view.size.height);
-    return objects->renderer.render(scene, options.view.size,
-                                    [&](std::uint32_t rows, std::uint32_t) { progress.update(rows); });
+    return objects->renderer.render(scene, options.view.size, [&](std::uint32_t rows, std::uint32_t) {
+        progress.update(rows);
+        return !interrupted();
+    });
 }
 
 } // namespace voxtact::app

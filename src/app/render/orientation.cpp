@@ -2,6 +2,7 @@
 #include "app/render/orientation.h"
 
 #include "app/draw/text.h"
+#include "core/geometry/patient_cube.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,6 @@ namespace {
 
 Vec3 minus(const Vec3& a, const Vec3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -28,24 +26,6 @@ Vec3 unit(const Vec3& v) {
 }
 
 constexpr double kMiddle = 0.5; // of the depth
-
-/// Positive, then negative, by axis.
-constexpr const char* kLetters[3][2] = {{"L", "R"}, {"P", "A"}, {"S", "I"}};
-
-struct CubeSide {
-    std::size_t axis;
-    bool negative;
-    Vec3 up;
-    [[nodiscard]] Vec3 normal() const {
-        Vec3 out{};
-        out[axis] = negative ? -1 : 1;
-        return out;
-    }
-};
-
-/// Their letters stand upright as a patient does; above and below with the face at the top.
-constexpr CubeSide kSides[] = {{0, false, {0, 0, 1}}, {0, true, {0, 0, 1}},   {1, false, {0, 0, 1}},
-                               {1, true, {0, 0, 1}},  {2, false, {0, -1, 0}}, {2, true, {0, -1, 0}}};
 
 /// A letter on a side of the cube, which goes from its middle by `right` and `up`, either way.
 void drawOnSide(Canvas& canvas, const char* letter, const Point& middle, const Point& right, const Point& up,
@@ -133,7 +113,7 @@ std::string sideLetters(const Vec3& direction) {
     std::string letters;
     for (const std::size_t axis : {order[0], order[1]}) {
         if (letters.empty() || std::abs(direction[axis]) > kShare) {
-            letters += kLetters[axis][direction[axis] < 0 ? 1 : 0];
+            letters += patientSide(axis, direction[axis] < 0).letter;
         }
     }
     return letters;
@@ -145,19 +125,12 @@ void drawCube(Canvas& canvas, const Mat4& clip_from_world, const Box2& box) {
         return;
     }
     const Point middle{(box.left + box.right) / 2, (box.top + box.bottom) / 2};
-    // The corners of a cube are sqrt(3) from its middle.
-    const double half = box.width() / 2 / 1.75;
-    const auto place = [&](const Vec3& v) { return Point{half * dot(v, axes->right), -half * dot(v, axes->up)}; };
-    for (const CubeSide& side : kSides) {
-        const Vec3 normal = side.normal();
-        const double facing = dot(normal, axes->towardsEye);
-        constexpr double kSeen = 0.02;
-        if (facing < kSeen) {
-            continue;
-        }
-        const Point at = place(normal);
-        const Point up = place(side.up);
-        const Point right = place(cross(side.up, normal));
+    const double half = box.width() / 2 / kCubeReach;
+    const auto scaled = [half](const std::array<double, 2>& at) { return Point{half * at[0], half * at[1]}; };
+    for (const SeenSide& side : seenSides(axes->right, axes->up)) {
+        const Point at = scaled(side.middle);
+        const Point up = scaled(side.up);
+        const Point right = scaled(side.right);
         const Point centre{middle.x + at.x, middle.y + at.y};
         std::array<Point, 4> corners{};
         constexpr int kAround[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -165,12 +138,12 @@ void drawCube(Canvas& canvas, const Mat4& clip_from_world, const Box2& box) {
             corners[i] = {centre.x + kAround[i][0] * right.x + kAround[i][1] * up.x,
                           centre.y + kAround[i][0] * right.y + kAround[i][1] * up.y};
         }
-        const double shade = 0.30 + 0.28 * facing;
+        const double shade = 0.30 + 0.28 * side.facing;
         canvas.fill(corners, {shade, shade, 1.06 * shade});
         for (std::size_t i = 0; i < corners.size(); ++i) {
             canvas.line(corners[i], corners[(i + 1) % 4], std::max(1.0, half / 22), {0.85, 0.87, 0.9});
         }
-        drawOnSide(canvas, kLetters[side.axis][side.negative ? 1 : 0], centre, right, up, {1, 1, 1});
+        drawOnSide(canvas, kPatientSides[side.side].letter, centre, right, up, {1, 1, 1});
     }
 }
 

@@ -2,6 +2,7 @@
 #include "voxtact/render.h"
 #include "app/commands.h"
 #include "app/options/open_session.h"
+#include "app/output/interrupt.h"
 #include "app/render/device_picture.h"
 #include "core/base/try.h"
 #include "voxtact/io.h"
@@ -85,28 +86,42 @@ Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& i
     return picture;
 }
 
-Outcome runRender(const RenderOptions& options) {
-    VOXTACT_TRY(checkRenderOptions(options));
-    const Result<RenderInputs> inputs = readRenderInputs(options);
-    VOXTACT_TRY(inputs);
+/// What is over the picture, and then the file.
+Result<void> finish(const RenderOptions& options, const RenderInputs& inputs, const std::optional<ValueRange>& window,
+                    Picture& picture) {
+    if (inputs.clearance) {
+        drawClosest(picture, *inputs.clearance, inputs.clip_from_world);
+    }
+    if (inputs.room) {
+        VOXTACT_TRY(annotate(picture, annotationOf(options, inputs, window), *inputs.room));
+    }
+    return io::writePng(options.output, picture.width, picture.height, picture.rgba,
+                        [](std::uint32_t, std::uint32_t) { return !interrupted(); });
+}
+
+Outcome drawAndWrite(const RenderOptions& options, const RenderInputs& inputs) {
     std::optional<ValueRange> window;
-    if (inputs->slice) {
-        window = windowOf(options, *inputs);
+    if (inputs.slice) {
+        window = windowOf(options, inputs);
     }
     Outcome invalid;
-    Result<Picture> picture = window ? renderSlice(options, *inputs, *window) : renderVolume(options, *inputs, invalid);
+    Result<Picture> picture = window ? renderSlice(options, inputs, *window) : renderVolume(options, inputs, invalid);
     VOXTACT_TRY(picture);
     if (invalid.status != kExitDone) {
         return invalid;
     }
-    if (inputs->clearance) {
-        drawClosest(*picture, *inputs->clearance, inputs->clip_from_world);
-    }
-    if (inputs->room) {
-        VOXTACT_TRY(annotate(*picture, annotationOf(options, *inputs, window), *inputs->room));
-    }
-    const Result<void> written = io::writePng(options.output, picture->width, picture->height, picture->rgba);
-    return written.ok() ? Outcome() : Outcome(written.error());
+    const Result<void> finished = finish(options, inputs, window, *picture);
+    return finished.ok() ? Outcome() : Outcome(finished.error());
+}
+
+Outcome runRender(const RenderOptions& options) {
+    VOXTACT_TRY(checkRenderOptions(options));
+    const Result<RenderInputs> inputs = readRenderInputs(options);
+    VOXTACT_TRY(inputs);
+    const InterruptGuard guard; // a signal before leaves nothing behind either
+    const Outcome outcome = drawAndWrite(options, *inputs);
+    // Else the file was complete before the signal.
+    return interrupted() && outcome.status != kExitDone ? interruptOutcome("nothing is written") : outcome;
 }
 
 } // namespace

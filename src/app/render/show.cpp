@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/show.h"
+#include "app/output/interrupt.h"
 #include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
@@ -56,7 +57,9 @@ Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPai
         VOXTACT_TRY(mesh);
         for (const Mat4& pose : pairs.poses) {
             const cpu::BatchItem item{&*mesh, &*volume, &*function, {&pose, 1}};
-            const Result<BatchAnswer> answer = detector->detect({{&item, 1}, {}, pairs.threshold});
+            cpu::Batch batch{{&item, 1}, {}, pairs.threshold};
+            batch.cancel = &interruptFlag();
+            const Result<BatchAnswer> answer = detector->detect(batch);
             VOXTACT_TRY(answer);
             std::vector<std::uint32_t>& triangles = touching.emplace_back();
             for (const TouchedTriangle& touched : answer->triangles) {

@@ -20,7 +20,7 @@ PairAnswer unpack(const PairResult& result) noexcept {
     }
     if (VOXTACT_HOW_UNDECIDED(result.how) != 0) {
         out.possible = !out.hit;
-        out.exactness = Exactness::LowerBound;
+        out.exactness = out.exactness == Exactness::Refused ? Exactness::Refused : Exactness::LowerBound;
     }
     return out;
 }

@@ -42,6 +42,15 @@ template <class View, class Side> Result<void> checkView(const View& view, const
     return {};
 }
 
+/// Of an item: those in host memory, or on the device.
+template <class Item> std::size_t pairsOf(const Item& item) {
+    if constexpr (requires { item.pairs(); }) {
+        return item.pairs();
+    } else {
+        return item.world_from_object.size();
+    }
+}
+
 template <class Item> Result<void> checkPoses(const Item& item, const std::string& which) {
     for (std::size_t pose = 0; pose < item.world_from_object.size(); ++pose) {
         // The text is made for a bad pose only: this is the hot loop of recording.
@@ -88,7 +97,7 @@ Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPer
         const auto& item = batch.items[i];
         static_assert(BatchSide<Side, std::remove_cvref_t<decltype(item)>>);
         VOXTACT_TRY(detail::checkBatchItem(row, samplesPerVoxel, item, "batch item " + std::to_string(i), side));
-        pairs += item.world_from_object.size();
+        pairs += detail::pairsOf(item);
     }
     if (pairs > std::numeric_limits<std::uint32_t>::max()) {
         return detail::refuseBatch("the batch has " + std::to_string(pairs) + " pairs, more than 32 bits can number");

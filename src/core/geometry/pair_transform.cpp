@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/geometry/pair_transform.h"
+#include "core/geometry/wide_matrix.h"
 
 namespace voxtact {
 
-namespace {
-
-shader::vec4 row(const Mat4& matrix, std::size_t index) {
-    return {static_cast<float>(matrix[index]), static_cast<float>(matrix[4 + index]),
-            static_cast<float>(matrix[8 + index]), static_cast<float>(matrix[12 + index])};
-}
-
-} // namespace
-
 shader::PairTransform pairTransform(const Mat4& clip_from_world, const Mat4& world_from_object,
                                     const Mat4& texture_from_world) noexcept {
-    const Mat4 clip_from_object = multiply(clip_from_world, world_from_object);
-    const Mat4 texture_from_object = multiply(texture_from_world, world_from_object);
-    shader::PairTransform out{};
-    for (std::size_t i = 0; i < 4; ++i) {
-        out.clip_from_object[i] = row(clip_from_object, i);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        out.texture_from_object[i] = row(texture_from_object, i);
-    }
-    return out;
+    return shader::pairTransformOf(toWide(clip_from_world), toWide(texture_from_world), toWide(world_from_object));
 }
 
 shader::ItemConstants itemConstants(double valueSlope, double valueIntercept, const ValueRange& domain,

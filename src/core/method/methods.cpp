@@ -93,6 +93,8 @@ const char* toString(Exactness exactness) noexcept {
         return "exact";
     case Exactness::LowerBound:
         return "lower-bound";
+    case Exactness::Refused:
+        return "refused";
     }
     return "unknown";
 }

@@ -57,14 +57,10 @@ BatchAnswer runCertified(const Batch& batch, const Cancellation& cancel, std::ui
         }
         const BatchItem& item = batch.items[task.item];
         const VolumeImpl& volume = item.volume->impl();
-        const CertifiedJob job{item.mesh->impl(),
-                               volume,
-                               *ofItem[task.item],
-                               certifiedPair(volume.grid, volume.texture_from_world, item.world_from_object[task.pose]),
-                               task.clusterBegin,
-                               task.clusterEnd,
-                               desc.stopAtFirst,
-                               &cancel};
+        const CertifiedJob job{item.mesh->impl(),  volume,
+                               *ofItem[task.item], certifiedPair(volume.pairGrid, item.world_from_object[task.pose]),
+                               task.clusterBegin,  task.clusterEnd,
+                               desc.stopAtFirst,   &cancel};
         CertifiedTally found;
         if (outputs) {
             outputs->collect(task.item, task.pair, thread, [&](OutputRun::Sink& sink) {

@@ -71,7 +71,7 @@ void MeshPlace::findError(const Mat4& world_from_object) {
 
 void MeshPlace::voxelBounds(const RunBox& box, dvec3& lo, dvec3& hi) const {
     if (sweep_) {
-        const PlacedBox inPlace = placed(box);
+        const PlacedBox inPlace = placed(box, sweep_->each != nullptr ? sweep_->eachScale * sweep_->each->most : 0);
         lo = inPlace.lo;
         hi = inPlace.hi;
         return;
@@ -90,12 +90,20 @@ const PlacedBox& MeshPlace::box(std::uint32_t level, std::uint32_t node) {
     Slot<PlacedBox>& slot = boxes_[level][node];
     if (slot.pair != pair_) {
         slot.pair = pair_;
-        slot.placed = placed(mesh_->tree.boxes(level)[node]);
+        const bool own = sweep_ && sweep_->each != nullptr;
+        slot.placed =
+            placed(mesh_->tree.boxes(level)[node], own ? sweep_->eachScale * sweep_->each->boxes[level][node] : 0);
     }
     return slot.placed;
 }
 
-PlacedBox MeshPlace::placed(const RunBox& box) const {
+dvec3 MeshPlace::towards(const dvec3& to, const dvec3& from, double by) noexcept {
+    const dvec3 off = to - from;
+    const double size = length(off);
+    return size > by ? from + by / size * off : to;
+}
+
+PlacedBox MeshPlace::placed(const RunBox& box, double own) const {
     dvec3 middle;
     PlacedBox out;
     dvec3 diagonal(0);
@@ -118,7 +126,8 @@ PlacedBox MeshPlace::placed(const RunBox& box) const {
     out.lo = centre - extent;
     out.hi = centre + extent;
     if (sweep_) {
-        out.wide = sweep_->wide(out);
+        out.own = own;
+        out.wide = sweep_->wide(out) + own;
         for (int axis = 0; axis < 3; ++axis) {
             const Direction along(glm::row(space_->voxel_from_local, axis), &*sweep_);
             out.hi[axis] = along.reach(out);
@@ -158,11 +167,11 @@ std::uint32_t MeshPlace::count(std::uint32_t run) const {
     return count;
 }
 
-MeshPlace::PlacedVertex MeshPlace::placedVertex(const dvec3& local) const {
+MeshPlace::PlacedVertex MeshPlace::placedVertex(const dvec3& local, double own) const {
     const dvec3 voxel = space_->toVoxel(local);
-    PlacedVertex out{voxel, voxel, 0};
+    PlacedVertex out{voxel, voxel, 0, own};
     if (sweep_) {
-        out.wide = sweep_->wide(local);
+        out.wide = sweep_->wide(local) + own;
         for (int axis = 0; axis < 3; ++axis) {
             const dvec3 row = glm::row(space_->voxel_from_local, axis);
             const double beside = length(row) * out.wide;
@@ -181,7 +190,8 @@ void MeshPlace::placeCluster(std::uint32_t cluster) {
         const dvec3 vertex(static_cast<double>(mesh_->x[at]), static_cast<double>(mesh_->y[at]),
                            static_cast<double>(mesh_->z[at]));
         vertices_[at] = local_from_object_ * vertex + origin_;
-        clusterVertices_[i] = placedVertex(vertices_[at]);
+        const bool own = sweep_ && sweep_->each != nullptr;
+        clusterVertices_[i] = placedVertex(vertices_[at], own ? sweep_->eachScale * sweep_->each->vertices[at] : 0);
     }
     for (std::uint32_t i = 0; i < countOfCluster(cluster); ++i) {
         const std::size_t at = std::size_t{place.firstTriangle} + i;
@@ -193,6 +203,7 @@ void MeshPlace::placeCluster(std::uint32_t cluster) {
             out.lo = corner == 0 ? vertex.lo : glm::min(out.lo, vertex.lo);
             out.hi = corner == 0 ? vertex.hi : glm::max(out.hi, vertex.hi);
             out.wide = corner == 0 ? vertex.wide : std::max(out.wide, vertex.wide);
+            out.own = corner == 0 ? vertex.own : std::max(out.own, vertex.own);
         }
     }
 }

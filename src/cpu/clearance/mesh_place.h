@@ -30,7 +30,11 @@ class MeshPlace {
     }
     /// A point that is about the closest one, of all places where it may be.
     template <class Placed> [[nodiscard]] glm::dvec3 near(const Placed& placed, const glm::dvec3& from) const noexcept {
-        return sweep_ ? sweep_->near(placed, from) : placed.near(from);
+        if (!sweep_) {
+            return placed.near(from);
+        }
+        const glm::dvec3 point = sweep_->near(placed, from);
+        return placed.own > 0 ? towards(from, point, placed.own) : point;
     }
     /// The point that gets there, at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept {
@@ -66,7 +70,10 @@ class MeshPlace {
         std::uint32_t pair = 0;
         Placed placed;
     };
-    [[nodiscard]] PlacedBox placed(const RunBox& box) const;
+    /// `own`: PlacedBox::own.
+    [[nodiscard]] PlacedBox placed(const RunBox& box, double own) const;
+    /// A point that comes so much closer to another.
+    [[nodiscard]] static glm::dvec3 towards(const glm::dvec3& to, const glm::dvec3& from, double by) noexcept;
     void placeCluster(std::uint32_t cluster);
     void findError(const Mat4& world_from_object);
 
@@ -85,9 +92,10 @@ class MeshPlace {
     struct PlacedVertex {
         glm::dvec3 lo{}; ///< centred voxel coordinates
         glm::dvec3 hi{};
-        double wide = 0; ///< mm, of a sweep
+        double wide = 0; ///< mm, as PlacedBox has them
+        double own = 0;
     };
-    [[nodiscard]] PlacedVertex placedVertex(const glm::dvec3& local) const;
+    [[nodiscard]] PlacedVertex placedVertex(const glm::dvec3& local, double own) const;
     std::vector<glm::dvec3> vertices_;          ///< local
     std::vector<PlacedVertex> clusterVertices_; ///< of the cluster that is placed
     std::vector<PlacedTriangle> triangles_;

@@ -9,7 +9,7 @@ CertifiedTally PairAt::touch(std::optional<TouchPoint>& point) const {
     const CertifiedJob job{mesh(),
                            in,
                            part.occupancy,
-                           certifiedPair(in.grid, in.texture_from_world, world_from_object),
+                           certifiedPair(in.pairGrid, world_from_object),
                            0,
                            static_cast<std::uint32_t>(mesh().clusters.size()),
                            true,

@@ -27,10 +27,11 @@ struct PairAt {
     const BatchItem& item;
     const OpaquePart& part;
     Mat4 world_from_object;
-    CancelFlag cancel = nullptr; ///< what a cancelled search or touch says means nothing
+    CancelFlag cancel = nullptr;     ///< what a cancelled search or touch says means nothing
+    const MeshImpl* shape = nullptr; ///< the mesh of the item after a bend; null: as it is
 
     [[nodiscard]] const VolumeImpl& volume() const { return item.volume->impl(); }
-    [[nodiscard]] const MeshImpl& mesh() const { return item.mesh->impl(); }
+    [[nodiscard]] const MeshImpl& mesh() const { return shape != nullptr ? *shape : item.mesh->impl(); }
 
     /// Whether it touches, as the projection `conservative` says. `point` is set where it certainly does.
     [[nodiscard]] CertifiedTally touch(std::optional<TouchPoint>& point) const;

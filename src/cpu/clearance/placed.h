@@ -18,7 +18,8 @@ struct PlacedBox {
     glm::dvec3 lo{};                   ///< centred voxel coordinates
     glm::dvec3 hi{};
     double diameter = 0; ///< mm
-    double wide = 0;     ///< mm, of a sweep (Sweep::wide)
+    double wide = 0;     ///< mm, of a sweep (Sweep::wide), and `own`
+    double own = 0;      ///< mm, of its vertices by themselves (Sweep::each)
 
     /// A point of it that is about the closest one; it is where the sides are at right angles.
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& from) const noexcept;
@@ -29,7 +30,8 @@ struct PlacedTriangle {
     WorldTriangle corners; ///< local
     glm::dvec3 lo{};       ///< centred voxel coordinates, of the box around all places where it may be
     glm::dvec3 hi{};
-    double wide = 0; ///< mm, of a sweep
+    double wide = 0; ///< mm, as PlacedBox has them
+    double own = 0;
 
     /// The point of it that is closest, up to rounding.
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& from) const noexcept { return closestPoint(corners, from); }

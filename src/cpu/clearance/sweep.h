@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cpu/clearance/placed.h"
+#include "cpu/clearance/vertex_reach.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -22,6 +23,10 @@ struct Sweep {
     glm::dvec3 straight{}; ///< of the offset: what is not of turning
     double bend = 0;       ///< of what turns on the way: what it is off its tangent, for each mm of its w
     double slack = 0;      ///< mm, of all points
+    /// What vertices are off besides, each for itself, and points between them by no more than these; null: nothing.
+    /// Where a mesh has placed something, that is in its `wide`.
+    const VertexReach* each = nullptr;
+    double eachScale = 0; ///< mm for one of its units
 
     /// The same, where x is measured from elsewhere.
     [[nodiscard]] Sweep from(const glm::dvec3& origin) const noexcept;

@@ -95,6 +95,60 @@ std::vector<SegmentMotion> numberedSegments(const Batch& batch) {
     return segments;
 }
 
+/// Refuses shapes that are not of a batch.
+Result<void> checkShapes(const Batch& batch, std::span<const ShapesOfPoses> shapes) {
+    if (shapes.size() != batch.items.size()) {
+        return refuse("there are shapes for " + std::to_string(shapes.size()) + " items, the batch has " +
+                      std::to_string(batch.items.size()));
+    }
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const BatchItem& item = batch.items[i];
+        const std::string which = "batch item " + std::to_string(i) + ": ";
+        if (shapes[i].size() != item.world_from_object.size()) {
+            return refuse(which + "there are " + std::to_string(shapes[i].size()) + " shapes for " +
+                          std::to_string(item.world_from_object.size()) + " poses");
+        }
+        const std::vector<std::uint32_t> indices = item.mesh->impl().indices();
+        for (std::size_t pose = 0; pose < shapes[i].size(); ++pose) {
+            const std::span<const float> shape = shapes[i][pose];
+            const std::string whose = which + "the shape of pose " + std::to_string(pose) + ": ";
+            if (shape.size() != std::size_t{3} * item.mesh->facts().vertices) {
+                return refuse(whose + std::to_string(shape.size()) + " coordinates, the mesh has " +
+                              std::to_string(item.mesh->facts().vertices) + " vertices of three");
+            }
+            if (const Result<MeshFacts> facts = checkMesh({shape, indices}); !facts.ok()) {
+                return refuse(whose + facts.error().text);
+            }
+        }
+    }
+    return {};
+}
+
+/// Looks at all segments of a batch. `shapes` may be empty: nothing bends.
+Result<MotionAnswer> checkSegments(MotionCheckerImpl& impl, const Batch& batch, std::span<const ShapesOfPoses> shapes) {
+    const StopWatch watch;
+    const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl.desc.interpolation);
+    VOXTACT_TRY(motions);
+    const Cancellation cancel(batch.cancel);
+    VOXTACT_TRY(checkNotCancelled(cancel));
+    const Parts parts = impl.workers.partsOf(batch, impl.desc.touchResolution);
+    MotionAnswer answer;
+    answer.segments = numberedSegments(batch);
+    VOXTACT_TRY(impl.workers.forEach(answer.segments, cancel, [&](SegmentMotion& segment, ThreadMemory& memory) {
+        const BatchItem& item = batch.items[segment.item];
+        std::optional<Bending> bending;
+        if (!shapes.empty()) {
+            const ShapesOfPoses of = shapes[segment.item];
+            bending.emplace(item.mesh->impl(), of[segment.pose], of[segment.pose + 1]);
+        }
+        SegmentSearch(item, *parts[segment.item], (*motions)[segment.segment], impl.desc, memory, segment.pose, &cancel,
+                      bending ? &*bending : nullptr)
+            .run(segment);
+    }));
+    answer.wallMilliseconds = watch.milliseconds();
+    return answer;
+}
+
 } // namespace
 
 MotionChecker::MotionChecker(std::unique_ptr<MotionCheckerImpl> impl) noexcept : impl_(std::move(impl)) {}
@@ -111,22 +165,16 @@ Result<MotionChecker> MotionChecker::create(const MotionDesc& desc) {
 
 Result<MotionAnswer> MotionChecker::check(const Batch& batch) {
     return guard([&]() -> Result<MotionAnswer> {
-        const StopWatch watch;
         VOXTACT_TRY(checkMotionBatch(batch));
-        const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl_->desc.interpolation);
-        VOXTACT_TRY(motions);
-        const Cancellation cancel(batch.cancel);
-        VOXTACT_TRY(checkNotCancelled(cancel));
-        const Parts parts = impl_->workers.partsOf(batch, impl_->desc.touchResolution);
-        MotionAnswer answer;
-        answer.segments = numberedSegments(batch);
-        VOXTACT_TRY(impl_->workers.forEach(answer.segments, cancel, [&](SegmentMotion& segment, ThreadMemory& memory) {
-            SegmentSearch(batch.items[segment.item], *parts[segment.item], (*motions)[segment.segment], impl_->desc,
-                          memory, segment.pose, &cancel)
-                .run(segment);
-        }));
-        answer.wallMilliseconds = watch.milliseconds();
-        return answer;
+        return checkSegments(*impl_, batch, {});
+    });
+}
+
+Result<MotionAnswer> MotionChecker::checkBending(const Batch& batch, std::span<const ShapesOfPoses> shapes) {
+    return guard([&]() -> Result<MotionAnswer> {
+        VOXTACT_TRY(checkMotionBatch(batch));
+        VOXTACT_TRY(checkShapes(batch, shapes));
+        return checkSegments(*impl_, batch, shapes);
     });
 }
 

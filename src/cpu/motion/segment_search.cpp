@@ -2,6 +2,7 @@
 #include "cpu/motion/segment_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace voxtact::cpu {
@@ -15,13 +16,45 @@ constexpr double kLastPiece = 0.25;
 /// Where a graze has been found, only a touch is still looked for, at places that are this part of the way from there.
 constexpr double kCoarser = 0.5;
 
+/// No unit vector is longer after a pose, nor after one that differs from it by a motion: the square of that is at most
+/// a sum in a row of the symmetric matrix that has the squares of lengths.
+double scaleOf(const Mat4& pose) {
+    double most = 0;
+    for (std::size_t row = 0; row < 3; ++row) {
+        double sum = 0;
+        for (std::size_t column = 0; column < 3; ++column) {
+            double product = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                product += pose[4 * row + i] * pose[4 * column + i];
+            }
+            sum += std::abs(product);
+        }
+        most = std::max(most, sum);
+    }
+    return (1 + 4 * kMostDeformation) * std::sqrt(most);
+}
+
 } // namespace
 
 SegmentSearch::SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion,
-                             const MotionDesc& desc, ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel)
+                             const MotionDesc& desc, ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel,
+                             Bending* bending)
     : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), firstPose_(firstPose), cancel_(cancel),
-      speed_(motion.speed(item.mesh->facts().bounds)), deformation_(motion.deformation(item.mesh->facts().bounds)),
-      rounding_(kPoseError * motion.magnitude(item.mesh->facts().bounds)) {}
+      bending_(bending), scale_(scaleOf(item.world_from_object[firstPose])), speed_(motion.speed(bounds())),
+      deformation_(motion.deformation(bounds())), rounding_(kPoseError * motion.magnitude(bounds())) {
+    if (bending_ != nullptr) {
+        speed_ += scale_ * bending_->reach().most;
+        rounding_ += 2 * scale_ * bending_->rounding(); // of where it is, and of where it may be
+    }
+}
+
+const Box& SegmentSearch::bounds() const {
+    return bending_ != nullptr ? bending_->bounds() : item_.mesh->facts().bounds;
+}
+
+PairAt SegmentSearch::pairAt(double parameter) const {
+    return {item_, part_, poseAt(parameter), cancel_, bending_ != nullptr ? &bending_->at(parameter) : nullptr};
+}
 
 Mat4 SegmentSearch::poseAt(double parameter) const {
     // The ends are what was given, to the last bit.
@@ -44,21 +77,24 @@ SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
     sweep.straight = half * tangent.straight;
     sweep.bend = 0.5 * half * motion_.angle();
     sweep.slack = half * deformation_ + rounding_;
+    if (bending_ != nullptr) {
+        sweep.each = &bending_->reach();
+        sweep.eachScale = half * scale_;
+    }
     const SearchGoal goal{.tolerance = 0,
                           .maximum = std::numeric_limits<double>::denorm_min(),
                           .enough = (last ? kEnough : 1) * desc_.resolution,
                           .finest = std::max(kLastPiece * desc_.resolution, last ? 0 : kFinest * length(interval)),
                           .mostSteps =
                               std::min(desc_.mostSteps - std::min(steps_, desc_.mostSteps - 1), last ? kMost : kSoon)};
-    const Found found =
-        PairAt{item_, part_, poseAt(interval.middle()), cancel_}.search(memory_, goal, sweep, interval.open.get());
+    const Found found = pairAt(interval.middle()).search(memory_, goal, sweep, interval.open.get());
     steps_ += found.steps + 1;
     return {found.lo > 0, found.hi <= goal.enough};
 }
 
 bool SegmentSearch::touches(double parameter, SegmentMotion& out) {
     constexpr std::uint64_t kTouchSteps = 256; // where it is hard to say, it takes as long as many of a search
-    const PairAt at{item_, part_, poseAt(parameter), cancel_};
+    const PairAt at = pairAt(parameter);
     std::optional<TouchPoint> point;
     steps_ += kTouchSteps;
     if (at.touch(point).certain == 0) {

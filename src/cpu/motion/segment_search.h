@@ -3,6 +3,7 @@
 
 #include "core/geometry/rigid_motion.h"
 #include "cpu/clearance/pair_at.h"
+#include "cpu/motion/bending.h"
 
 #include <memory>
 #include <vector>
@@ -15,9 +16,9 @@ namespace voxtact::cpu {
 /// opaque. Nothing is sampled: what is called free is free at all of its poses.
 class SegmentSearch {
   public:
-    /// All must live as long as it.
+    /// All must live as long as it. `bending`: of the mesh on its way; null: it does not bend.
     SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion, const MotionDesc& desc,
-                  ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel);
+                  ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel, Bending* bending = nullptr);
 
     void run(SegmentMotion& out);
 
@@ -35,6 +36,9 @@ class SegmentSearch {
         return (interval.to - interval.from) * speed_;
     }
     [[nodiscard]] Mat4 poseAt(double parameter) const;
+    /// The mesh there.
+    [[nodiscard]] PairAt pairAt(double parameter) const;
+    [[nodiscard]] const Box& bounds() const;
     /// How near what is opaque comes to the mesh in an interval.
     struct Seen {
         bool isFree = false;
@@ -52,9 +56,11 @@ class SegmentSearch {
     ThreadMemory& memory_;
     std::uint32_t firstPose_;
     CancelFlag cancel_;
+    Bending* bending_;
+    double scale_;               ///< no pose makes more mm of a unit of object space
     double speed_;               ///< mm for the whole segment: of the fastest point
     double deformation_;         ///< mm: RigidMotion::deformation()
-    double rounding_;            ///< mm, of a pose
+    double rounding_;            ///< mm, of a pose and of vertices
     std::uint64_t steps_ = 0;    ///< so far
     std::vector<Interval> left_; ///< the earliest at the end
 };

@@ -2,6 +2,7 @@
 #include "core/base/guard.h"
 
 #include "core/base/try.h"
+#include "core/method/certified_constants.h"
 #include "cpu/scene/scene_impl.h"
 #include "cpu/scene/stored_voxels.h"
 
@@ -33,7 +34,8 @@ std::uint64_t nextObjectId() noexcept {
 
 VolumeImpl::VolumeImpl(const VolumeView& data)
     : grid(data.grid), type(data.type), texture_from_world(textureFromWorld(data.grid).value()),
-      storedIntercept(cpu::storedIntercept(data.type)), image(data), bricks(image) {}
+      pairGrid(voxtact::pairGrid(data.grid, texture_from_world)), storedIntercept(cpu::storedIntercept(data.type)),
+      image(data), bricks(image) {}
 
 void VolumeImpl::edited(const VoxelBox& box) {
     bricks.update(image, box);

@@ -4,6 +4,7 @@
 #include "core/geometry/clusters.h"
 #include "cpu/scene/cluster_tree.h"
 #include "cpu/scene/stored_image.h"
+#include "pair_setup.h"
 #include "voxtact/cpu.h"
 
 #include <span>
@@ -24,6 +25,7 @@ struct VolumeImpl {
     Grid grid;
     ScalarType type;
     Mat4 texture_from_world;
+    shader::PairGrid pairGrid;
     double storedIntercept; ///< value = stored + storedIntercept
     StoredImage image;
     BrickRanges bricks;

@@ -125,8 +125,14 @@ Result<void> addDeviceTicks(const device::Session& session, Engines& engines) {
             continue;
         }
         for (const DetectorDesc& desc : askedOf(DetectorDesc{.method = method, .filter = defaultFilter(method)})) {
-            if (session.context.supports(method, desc.projection)) {
-                VOXTACT_TRY(addTicks(session, desc, engines));
+            if (!session.context.supports(method, desc.projection)) {
+                continue;
+            }
+            VOXTACT_TRY(addTicks(session, desc, engines));
+            if (rowOf(method).coverage == Coverage::Computed) {
+                DetectorDesc once = desc;
+                once.devicePoses = true;
+                VOXTACT_TRY(addTicks(session, once, engines));
             }
         }
     }

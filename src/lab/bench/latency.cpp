@@ -129,6 +129,11 @@ Result<void> measureMesh(const LatencySettings& settings, const VolumePart& volu
                     });
     VOXTACT_TRY(poses);
     motion.poses = std::move(*poses);
+    // Floats, so that an engine whose pose is on the device is asked the same.
+    for (Mat4& pose : motion.poses) {
+        std::transform(pose.begin(), pose.end(), pose.begin(),
+                       [](double element) { return static_cast<double>(static_cast<float>(element)); });
+    }
     const std::size_t firstRow = result.rows.size();
     std::vector<Timed> things;
     for (std::size_t i = 0; i < engines->size(); ++i) {

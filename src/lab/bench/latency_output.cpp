@@ -104,7 +104,7 @@ std::vector<std::string> notesOf(const LatencySettings& settings, const LatencyR
 }
 
 /// What is left out of a table for people, to fit on a wide terminal.
-constexpr std::array kNotInText{"triangles", "recorded", "touching", "rounding"};
+constexpr std::array kNotInText{"triangles", "touching", "rounding"};
 
 io::Table latencyTable(const LatencyResult& result, io::Format format) {
     std::vector<io::NamedCells> rows;

@@ -97,7 +97,9 @@ enum class Awaiting {
     Wait, ///< it sleeps until the driver wakes it
 };
 /// A method of the device as a loop that needs its answer now uses it: a submission a pose, of a command buffer that is
-/// recorded each time, with Results of its own and no timestamps. Whatever the feeding; nothing is made while it runs.
+/// recorded each time, with Results of its own and no timestamps. With DetectorDesc::devicePoses it is recorded once,
+/// for the first work that it gets, and the pose, as floats, is written into mapped memory. Whatever the feeding;
+/// nothing is made while it runs.
 [[nodiscard]] MadeEngine makeTickEngine(const device::Session& session, const DetectorDesc& desc, Awaiting awaiting);
 /// The same with nothing in the command buffer, which is recorded once: what a submission costs. It has no answers.
 [[nodiscard]] MadeEngine makeEmptyEngine(const device::Session& session, Awaiting awaiting);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/try.h"
 #include "device/timed_commands.h"
+#include "gpu/context_impl.h"
 #include "lab/engines/engine.h"
 #include "lab/measure/stopwatch.h"
+
+#include <algorithm>
+#include <array>
 
 namespace voxtact::lab {
 
@@ -81,6 +85,80 @@ Result<Pass> TickEngine::run(const Work& work, const Feeding& /*feeding*/) {
     return pass;
 }
 
+/// A pose in mapped memory, where a command buffer that was recorded once reads it.
+struct MappedPose {
+    Buffer buffer;
+    PoseBuffer poses;
+
+    static Result<MappedPose> create(const device::Session& session) {
+        ContextImpl& context = session.context.impl();
+        Result<Buffer> buffer = makeBuffer(context, sizeof(std::array<float, 16>), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                           MemoryUse::Upload, "a pose");
+        VOXTACT_TRY(buffer);
+        Result<PoseBuffer> poses = PoseBuffer::wrap(session.context, {.buffer = buffer->get(), .count = 1});
+        VOXTACT_TRY(poses);
+        return MappedPose{std::move(*buffer), std::move(*poses)};
+    }
+    Result<void> write(ContextImpl& context, const Mat4& pose) {
+        std::transform(pose.begin(), pose.end(), static_cast<float*>(buffer.mapped),
+                       [](double element) { return static_cast<float>(element); });
+        return flush(context, buffer);
+    }
+};
+
+class RecordedTickEngine final : public Engine {
+  public:
+    RecordedTickEngine(ContextImpl& context, Detector detector, Results results, MappedPose pose,
+                       device::TimedCommands commands, Awaiting awaiting)
+        : Engine(tickFacts(factsOf(detector.desc()), "once", awaiting)), context_(context),
+          detector_(std::move(detector)), results_(std::move(results)), pose_(std::move(pose)),
+          commands_(std::move(commands)), awaiting_(awaiting) {}
+
+    Result<Pass> run(const Work& work, const Feeding& feeding) override;
+
+  private:
+    Result<void> record(const Work& work);
+
+    ContextImpl& context_;
+    Detector detector_;
+    Results results_;
+    MappedPose pose_;
+    device::TimedCommands commands_; // last: it waits for what uses the others
+    Awaiting awaiting_;
+    bool recorded_ = false;
+};
+
+Result<void> RecordedTickEngine::record(const Work& work) {
+    const Result<VkCommandBuffer> begun = commands_.begin(Use::Again);
+    VOXTACT_TRY(begun);
+    BatchItem item = work.onDevice();
+    item.world_from_object = {};
+    item.poses = &pose_.poses;
+    VOXTACT_TRY(detector_.cmdDetect(*begun, {{&item, 1}, work.view, work.volume->threshold}, results_));
+    VOXTACT_TRY(results_.cmdReadBack(*begun));
+    return commands_.end();
+}
+
+Result<Pass> RecordedTickEngine::run(const Work& work, const Feeding& /*feeding*/) {
+    if (!recorded_) {
+        VOXTACT_TRY(record(work));
+        recorded_ = true;
+    }
+    Pass pass;
+    pass.pairs.reserve(work.poses.size());
+    for (const Mat4& pose : work.poses) {
+        const Stopwatch watch;
+        VOXTACT_TRY(pose_.write(context_, pose));
+        VOXTACT_TRY(submitAndAwait(commands_, awaiting_));
+        const Result<std::span<const PairResult>> read = results_.read();
+        VOXTACT_TRY(read);
+        const PairAnswer answer = unpack(read->front());
+        pass.wallMilliseconds += watch.milliseconds();
+        pass.pairs.push_back(answer);
+    }
+    return pass;
+}
+
 class EmptyEngine final : public Engine {
   public:
     EmptyEngine(device::TimedCommands commands, Awaiting awaiting)
@@ -113,6 +191,13 @@ MadeEngine makeTickEngine(const device::Session& session, const DetectorDesc& de
     VOXTACT_TRY(results);
     Result<device::TimedCommands> commands = device::TimedCommands::create(session, 0);
     VOXTACT_TRY(commands);
+    if (desc.devicePoses) {
+        Result<MappedPose> pose = MappedPose::create(session);
+        VOXTACT_TRY(pose);
+        return MadeEngine(std::make_unique<RecordedTickEngine>(session.context.impl(), std::move(*detector),
+                                                               std::move(*results), std::move(*pose),
+                                                               std::move(*commands), awaiting));
+    }
     return MadeEngine(
         std::make_unique<TickEngine>(std::move(*detector), std::move(*results), std::move(*commands), awaiting));
 }

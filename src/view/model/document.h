@@ -70,6 +70,9 @@ struct MethodChoice {
 /// Panes that can have the whole middle of the window.
 enum class Maximised { None, Picture, Slice0, Slice1, Slice2 };
 
+/// Of the panels.
+enum class Theme { Dark, Light };
+
 /// What is on, and how far a step goes.
 struct Shown {
     GizmoAxes handleAxes = GizmoAxes::World;
@@ -77,6 +80,7 @@ struct Shown {
     bool contacts = true;
     bool logHistogram = true;
     Maximised maximised = Maximised::None;
+    Theme theme = Theme::Dark;
     double stepMillimetres = 1;
     double stepDegrees = 5;
     double drillRadius = 5;                          ///< mm

@@ -10,8 +10,28 @@
 
 namespace voxtact::view {
 
-/// How many voxels have a value in each of `bins` equal parts of `range`; those outside are in none.
-[[nodiscard]] std::vector<std::uint64_t> histogram(const VolumeView& volume, const ValueRange& range, std::size_t bins);
+/// How many voxels have which value, in parts so fine that it can be shown for any range of values.
+struct Histogram {
+    ValueRange range;                  ///< of which `counts` are equal parts; at its upper end belongs to the last one
+    std::vector<std::uint64_t> counts; ///< voxels outside of the range are in none
+
+    [[nodiscard]] bool operator==(const Histogram& other) const {
+        return range.lo == other.range.lo && range.hi == other.range.hi && counts == other.counts;
+    }
+};
+
+/// Of the values of a domain: of whole numbers a part for each, with the number in its middle; else 65,536 parts.
+[[nodiscard]] Histogram histogramOf(const VolumeView& volume, const ValueRange& domain);
+
+/// What of a histogram is shown as bars side by side.
+struct Bars {
+    double first = 0; ///< where the first one begins
+    double width = 1; ///< of each: a whole number of the histogram's parts
+    std::vector<std::uint64_t> counts;
+};
+/// At most `most` + 1 bars that cover a range of values; none where the histogram has nothing there. They begin at
+/// multiples of their width, so that they stay what they are while the range is moved.
+[[nodiscard]] Bars barsOf(const Histogram& histogram, const ValueRange& shown, std::size_t most);
 
 /// Voxels of a box that are replaced by others.
 struct ReplacedVoxels {
@@ -20,8 +40,8 @@ struct ReplacedVoxels {
     std::span<const std::byte> before; ///< all of the box, x fastest
     std::span<const std::byte> after;  ///< the same
 };
-/// Makes a histogram over `range` that of the volume with them.
-void recount(std::vector<std::uint64_t>& histogram, const ValueRange& range, const ReplacedVoxels& voxels);
+/// Makes a histogram that of the volume with them.
+void recount(Histogram& histogram, const ReplacedVoxels& voxels);
 
 /// The value of the voxel nearest to a world point, in the image's units; nothing outside of the image.
 [[nodiscard]] std::optional<double> valueAt(const VolumeView& volume, const Mat4& texture_from_world,

@@ -133,13 +133,23 @@ std::string reportText(const StateReport& report) {
         json["points"].push_back({point.value, point.opacity});
     }
     json["frame"] = report.frame;
-    json["frame_ms"] = report.frameMilliseconds;
+    json["frame_ms"] = report.frameTimes->percentile(0.5);
+    json["frame_times"] = Json::array();
+    for (const double milliseconds : report.frameTimes->last()) {
+        json["frame_times"].push_back(std::round(10 * milliseconds) / 10);
+    }
     json["picture"] = report.picture;
+    json["azimuth"] = report.direction.azimuth;
+    json["elevation"] = report.direction.elevation;
+    json["cube"] = report.cube ? Json{report.cube->middle[0], report.cube->middle[1], report.cube->half} : Json();
+    json["chart"] = report.chart;
+    json["chart_range"] = {report.chartRange.lo, report.chartRange.hi};
     json["settled"] = report.settled;
     json["error"] = report.error;
     json["question"] = questionJson(report.question);
     json["loading"] = loadingJson(report.loading);
     json["loaded"] = loadingJson(report.loaded);
+    json["saving"] = report.saving ? Json(*report.saving) : Json();
     json["status"] = report.status;
     json["command"] = edit.chosen < report.commands.size() ? report.commands[edit.chosen] : "";
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -6,6 +6,7 @@
 #include "view/model/live_clearance.h"
 #include "view/model/loading.h"
 #include "view/model/question.h"
+#include "view/model/view_cube.h"
 
 #include <array>
 #include <string>
@@ -22,14 +23,19 @@ struct StateReport {
     const LiveClearance* clearance = nullptr; ///< null where there is none yet
     const Labels* labels = nullptr;           ///< null where there is no label map
     std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
+    ViewDirection direction;                  ///< whence the picture is seen
+    std::optional<ViewCube> cube;             ///< in the picture; null: it is too small for it
+    std::array<double, 4> chart{};            ///< where the curve's chart is, the same
+    ValueRange chartRange;                    ///< the values that it shows
     std::string device;                       ///< that answered; "host" for cpu
     std::string error;                        ///< of the dialog that is open; empty: none
     const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
     const Loading* loading = nullptr;         ///< null: nothing is being loaded
     const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
+    std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
     std::string status;                       ///< what was done last
     std::uint64_t frame = 0;                  ///< frames shown until then
-    double frameMilliseconds = 0;             ///< from one frame to the next, the median of the last ones
+    const Times* frameTimes = nullptr;        ///< from one frame to the next, of the last ones; must be given
     bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there
 };
 

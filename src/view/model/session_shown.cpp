@@ -12,6 +12,7 @@ using Json = SessionReader::Json;
 
 constexpr std::array<const char*, 3> kHandleAxes{"world", "view", "own"};
 constexpr std::array<const char*, 5> kPanes{"none", "picture", "slice 1", "slice 2", "slice 3"};
+constexpr std::array<const char*, 2> kThemes{"dark", "light"};
 
 /// The number of a word among those that may stand there.
 template <std::size_t N>
@@ -61,6 +62,7 @@ void readShown(SessionReader& reader, Document& document) {
     Shown shown;
     shown.handleAxes = static_cast<GizmoAxes>(readWord(reader, "shown.handle_axes", kHandleAxes));
     shown.maximised = static_cast<Maximised>(readWord(reader, "shown.maximised", kPanes));
+    shown.theme = static_cast<Theme>(readWord(reader, "shown.theme", kThemes));
     shown.handles = readSwitch(reader, "shown.handles", shown.handles);
     shown.contacts = readSwitch(reader, "shown.contacts", shown.contacts);
     shown.logHistogram = readSwitch(reader, "shown.log_histogram", shown.logHistogram);
@@ -89,6 +91,7 @@ void writeShown(Json& json, const Document& document) {
     Json& to = json["shown"];
     to["handle_axes"] = kHandleAxes[static_cast<std::size_t>(shown.handleAxes)];
     to["maximised"] = kPanes[static_cast<std::size_t>(shown.maximised)];
+    to["theme"] = kThemes[static_cast<std::size_t>(shown.theme)];
     to["handles"] = shown.handles;
     to["contacts"] = shown.contacts;
     to["log_histogram"] = shown.logHistogram;

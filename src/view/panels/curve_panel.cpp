@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include "view/model/chart_axis.h"
+#include "view/model/histogram.h"
 #include "view/panels/panels.h"
 
 #include "voxtact/looks.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 
 namespace voxtact::view {
@@ -16,33 +21,59 @@ struct Chart {
     ImVec2 corner;
     ImVec2 size;
     ValueRange domain;
+    ChartAxis axis;
 
+    /// Points outside of the domain are at its ends.
     [[nodiscard]] ImVec2 at(const ControlPoint& point) const {
-        const double share = (point.value - domain.lo) / (domain.hi - domain.lo);
-        return {corner.x + static_cast<float>(std::clamp(share, 0.0, 1.0)) * size.x,
+        return {static_cast<float>(axis.at(std::clamp(point.value, domain.lo, domain.hi))),
                 corner.y + static_cast<float>(1 - point.opacity) * size.y};
     }
     [[nodiscard]] ControlPoint under(const ImVec2& mouse) const {
-        const double share = static_cast<double>((mouse.x - corner.x) / size.x);
-        return {domain.lo + share * (domain.hi - domain.lo), 1 - static_cast<double>((mouse.y - corner.y) / size.y)};
+        return {axis.valueAt(static_cast<double>(mouse.x)), 1 - static_cast<double>((mouse.y - corner.y) / size.y)};
     }
+    [[nodiscard]] ImVec2 end() const { return {corner.x + size.x, corner.y + size.y}; }
 };
 
+Chart chartOf(const State& state, const ImVec2& corner, const ImVec2& size) {
+    const ChartAxis axis{static_cast<double>(corner.x), static_cast<double>(size.x), state.chartRange()};
+    return {corner, size, state.document.domain, axis};
+}
+
+/// As high as the highest bar that is shown.
 void drawHistogram(const State& state, const Chart& chart, ImDrawList& list) {
+    constexpr std::size_t kMost = 256;
+    const Bars bars = barsOf(state.histogram, chart.axis.shown, kMost);
     const auto height = [&state](std::uint64_t count) {
         const auto number = static_cast<double>(count);
         return state.logHistogram ? std::log1p(number) : number;
     };
     double most = 1;
-    for (const std::uint64_t count : state.histogram) {
+    for (const std::uint64_t count : bars.counts) {
         most = std::max(most, height(count));
     }
-    const float width = chart.size.x / static_cast<float>(state.histogram.size());
-    for (std::size_t bin = 0; bin < state.histogram.size(); ++bin) {
-        const float x = chart.corner.x + static_cast<float>(bin) * width;
-        const float bottom = chart.corner.y + chart.size.y;
-        const auto top = static_cast<float>(height(state.histogram[bin]) / most) * chart.size.y;
-        list.AddRectFilled({x, bottom - top}, {x + width, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
+    const float bottom = chart.end().y;
+    for (std::size_t bar = 0; bar < bars.counts.size(); ++bar) {
+        const double value = bars.first + static_cast<double>(bar) * bars.width;
+        const auto left = static_cast<float>(chart.axis.at(value));
+        const auto right = static_cast<float>(chart.axis.at(value + bars.width));
+        const auto top = static_cast<float>(height(bars.counts[bar]) / most) * chart.size.y;
+        list.AddRectFilled({left, bottom - top}, {right, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
+    }
+}
+
+/// Some values below the chart.
+void drawAxis(const Chart& chart, float height, ImDrawList& list) {
+    const float size = height * 0.85F;
+    const auto most = static_cast<std::size_t>(std::max(chart.size.x / (size * 5), 2.0F));
+    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    for (const double value : axisTicks(chart.axis.shown, most)) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.6g", value);
+        const auto x = static_cast<float>(chart.axis.at(value));
+        const float width = ImGui::GetFont()->CalcTextSizeA(size, FLT_MAX, 0, text).x;
+        const float left = std::clamp(x - width / 2, chart.corner.x, std::max(chart.end().x - width, chart.corner.x));
+        list.AddLine({x, chart.end().y}, {x, chart.end().y + height * 0.2F}, colour, scaled(1));
+        list.AddText(ImGui::GetFont(), size, {left, chart.end().y + height * 0.2F}, colour, text);
     }
 }
 
@@ -56,7 +87,7 @@ void drawThreshold(const State& state, const Chart& chart, ImDrawList& list) {
         list.AddRectFilled({left, chart.corner.y}, {right, bottom}, IM_COL32(242, 184, 89, 34));
     }
     const float y = chart.at({0, edit.threshold}).y;
-    list.AddLine({chart.corner.x, y}, {chart.corner.x + chart.size.x, y}, IM_COL32(242, 184, 89, 200), 1.5F);
+    list.AddLine({chart.corner.x, y}, {chart.corner.x + chart.size.x, y}, IM_COL32(242, 184, 89, 200), scaled(1.5F));
 }
 
 void drawLine(const State& state, const Chart& chart, ImDrawList& list) {
@@ -65,20 +96,29 @@ void drawLine(const State& state, const Chart& chart, ImDrawList& list) {
     ImVec2 before = chart.at({chart.domain.lo, curve.front().opacity});
     for (const ControlPoint& point : curve) {
         const ImVec2 at = chart.at(point);
-        list.AddLine(before, at, colour, 2);
+        list.AddLine(before, at, colour, scaled(2));
         before = at;
     }
-    list.AddLine(before, chart.at({chart.domain.hi, curve.back().opacity}), colour, 2);
+    list.AddLine(before, chart.at({chart.domain.hi, curve.back().opacity}), colour, scaled(2));
+}
+
+void drawPoints(const State& state, const Chart& chart, ImDrawList& list) {
+    const Curve& curve = state.document.edit.curve;
+    const ImU32 colour = ImGui::GetColorU32(ImGuiCol_SliderGrab);
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const bool chosen = state.curvePoint == i;
-        list.AddCircleFilled(chart.at(curve[i]), chosen ? 6.5F : 5, chosen ? IM_COL32_WHITE : colour);
+        const ImVec2 at = chart.at(curve[i]);
+        if (at.x < chart.corner.x || at.x > chart.end().x) {
+            continue; // not shown
+        }
+        list.AddCircleFilled(at, scaled(chosen ? 6.5F : 5), chosen ? IM_COL32_WHITE : colour);
     }
 }
 
 std::optional<std::size_t> pointUnder(const Curve& curve, const Chart& chart, const ImVec2& mouse) {
-    constexpr float kReach = 10;
+    const float reach = scaled(10);
     std::optional<std::size_t> nearest;
-    float best = kReach * kReach;
+    float best = reach * reach;
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const ImVec2 at = chart.at(curve[i]);
         const float distance = (at.x - mouse.x) * (at.x - mouse.x) + (at.y - mouse.y) * (at.y - mouse.y);
@@ -90,10 +130,26 @@ std::optional<std::size_t> pointUnder(const Curve& curve, const Chart& chart, co
     return nearest;
 }
 
+/// The wheel zooms about the pointer; a drag with the middle button moves.
+void takeZoom(State& state, const Chart& chart) {
+    const ImGuiIO& io = ImGui::GetIO();
+    ValueRange shown = chart.axis.shown;
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+        constexpr double kFactor = 0.8;
+        shown = zoomed(shown, chart.domain, std::pow(kFactor, static_cast<double>(io.MouseWheel)),
+                       chart.axis.valueAt(static_cast<double>(io.MousePos.x)));
+    }
+    if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
+        const double right = static_cast<double>(io.MouseDelta.x);
+        shown = panned(shown, chart.domain, -right * (shown.hi - shown.lo) / chart.axis.width);
+    }
+    state.zoomedRange = isWhole(shown, chart.domain) ? std::nullopt : std::optional(shown);
+}
+
 /// Left: takes a point, or makes one. Right: removes one.
 void takeMouse(State& state, const Chart& chart) {
     const ImGuiIO& io = ImGui::GetIO();
-    const ControlPoint under = rounded(chart.under(io.MousePos), chart.domain);
+    const ControlPoint under = rounded(chart.under(io.MousePos), chart.axis.shown);
     if (ImGui::IsItemActivated() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
         state.history.end();
         state.curvePoint = pointUnder(state.document.edit.curve, chart, io.MousePos);
@@ -114,8 +170,9 @@ void takeMouse(State& state, const Chart& chart) {
         }
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("value %.6g, opacity %.3f\nleft: take or add a point; right: remove it", under.value,
-                          std::clamp(under.opacity, 0.0, 1.0));
+        ImGui::SetTooltip(
+            "value %.6g, opacity %.3f\nleft: take or add a point; right: remove it; wheel: zoom; middle: move",
+            under.value, std::clamp(under.opacity, 0.0, 1.0));
     }
 }
 
@@ -166,25 +223,46 @@ void drawPresets(State& state) {
     ImGui::EndCombo();
 }
 
+void drawChart(State& state) {
+    const float axis = ImGui::GetFontSize();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 6.5F};
+    state.chart.corner = {static_cast<double>(corner.x), static_cast<double>(corner.y)};
+    state.chart.size = {static_cast<double>(size.x), static_cast<double>(size.y)};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    ImGui::InvisibleButton("curve", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::SetItemUsingMouseWheel(); // else a window that is low scrolls the panels
+    takeZoom(state, chartOf(state, corner, size));
+    const Chart chart = chartOf(state, corner, size);
+    takeMouse(state, chart);
+    ImGui::Dummy({size.x, axis - ImGui::GetStyle().ItemSpacing.y});
+    list.AddRectFilled(chart.corner, chart.end(), ImGui::GetColorU32(ImGuiCol_FrameBg), scaled(4));
+    list.PushClipRect(chart.corner, chart.end(), true);
+    drawHistogram(state, chart, list);
+    drawThreshold(state, chart, list);
+    drawLine(state, chart, list);
+    list.PopClipRect();
+    drawPoints(state, chart, list); // whole at the edges, too
+    drawAxis(chart, axis, list);
+}
+
 } // namespace
 
 void drawCurve(State& state) {
     heading("Transfer function");
+    if (state.zoomedRange) {
+        ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 14.6F);
+        if (ImGui::Button("all values")) {
+            state.zoomedRange.reset();
+        }
+    }
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 9.5F);
     drawPresets(state);
     ImGui::SameLine();
     ImGui::Checkbox("log", &state.logHistogram);
-    Chart chart{ImGui::GetCursorScreenPos(),
-                {ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 7.5F},
-                state.document.domain};
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    ImGui::InvisibleButton("curve", chart.size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
-    takeMouse(state, chart);
-    list.AddRectFilled(chart.corner, {chart.corner.x + chart.size.x, chart.corner.y + chart.size.y},
-                       ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
-    drawHistogram(state, chart, list);
-    drawThreshold(state, chart, list);
-    drawLine(state, chart, list);
+    drawChart(state);
     drawChosen(state);
     const double least = 0;
     const double most = 1;

@@ -171,7 +171,7 @@ void askForPicture() {
 
 void drawDialogs(State& state) {
     drawQuestion(state);
-    drawShooting(state);
+    drawSaving(state);
     if (asked() != nullptr) {
         ImGui::OpenPopup(asked());
         asked() = nullptr;

@@ -11,7 +11,7 @@ namespace voxtact::view {
 namespace {
 
 constexpr float kLength = 5; // heights of a line: an arrow's length
-constexpr float kReach = 6;  // points
+constexpr float kReach = 6;  // points, scaled()
 constexpr int kRingParts = 48;
 
 /// With the axis in a direction that can be told apart: red, green, blue.
@@ -34,7 +34,7 @@ void drawRing(const Gizmo& gizmo, std::size_t axis, const Onto& onto, ImU32 colo
         const Vec3 across = along(gizmo, (axis + 1) % 3, kRingRadius * std::cos(angle), gizmo.at);
         list.PathLineTo(onto.at(along(gizmo, (axis + 2) % 3, kRingRadius * std::sin(angle), across)));
     }
-    list.PathStroke(colour, ImDrawFlags_Closed, 1.6F);
+    list.PathStroke(colour, ImDrawFlags_Closed, scaled(1.6F));
 }
 
 void drawSquare(const Gizmo& gizmo, std::size_t axis, const Onto& onto, ImU32 colour, ImDrawList& list) {
@@ -48,8 +48,8 @@ void drawSquare(const Gizmo& gizmo, std::size_t axis, const Onto& onto, ImU32 co
 void drawArrow(const Gizmo& gizmo, std::size_t axis, const Onto& onto, ImU32 colour, ImDrawList& list) {
     const ImVec2 from = onto.at(along(gizmo, axis, kArrowBegin, gizmo.at));
     const ImVec2 to = onto.at(along(gizmo, axis, 1, gizmo.at));
-    list.AddLine(from, to, colour, 2.4F);
-    list.AddCircleFilled(to, 4, colour);
+    list.AddLine(from, to, colour, scaled(2.4F));
+    list.AddCircleFilled(to, scaled(4), colour);
 }
 
 Gizmo shownGizmo(const State& state, float height) {
@@ -94,7 +94,8 @@ bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size) {
         return false;
     }
     const Gizmo gizmo = shownGizmo(state, size.y);
-    const double reach = 2 * state.camera.halfHeight / static_cast<double>(size.y) * static_cast<double>(kReach);
+    const double reach =
+        2 * state.camera.halfHeight / static_cast<double>(size.y) * static_cast<double>(scaled(kReach));
     state.gizmoHandle = handleAt(gizmo, ray, reach);
     if (state.gizmoHandle.kind == HandleKind::None || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         return false;

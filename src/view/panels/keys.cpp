@@ -186,6 +186,14 @@ void answerQuestion(Question& question, const std::vector<KeyPress>& keys) {
     }
 }
 
+/// While a picture is made for a file.
+void takeSavingKeys(State& state, const std::vector<KeyPress>& keys) {
+    for (const KeyPress& press : keys) {
+        state.cancelSaving |= press.key == GLFW_KEY_ESCAPE;
+        state.quit |= press.control && press.key == GLFW_KEY_Q;
+    }
+}
+
 void row(const char* key, const char* does) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -206,6 +214,10 @@ void takeKeys(State& state) {
     }
     if (state.question) {
         answerQuestion(*state.question, keys);
+        return;
+    }
+    if (state.saving) {
+        takeSavingKeys(state, keys);
         return;
     }
     if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
@@ -242,12 +254,13 @@ void drawHelp(State& state) {
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
         row("control O", "open a file, as does dropping it on the window; escape: cancel while it is loaded");
-        row("control S, control P", "save the session, a picture");
+        row("control S, control P", "save the session, a picture (escape cancels it)");
         row("control Q", "quit");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
+        row("cube", "click: look at a side of the patient");
         row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
-        row("curve", "left: add or drag a point; right: remove it");
+        row("curve", "left: add or drag a point; right: remove it; wheel: zoom the values; middle: move them");
         ImGui::EndTable();
     }
     ImGui::End();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -44,11 +45,11 @@ void drawMenu(State& state) {
             state.gizmoAxes = nextOf(state.gizmoAxes);
         }
         ImGui::Separator();
-        if (ImGui::MenuItem("Dark")) {
-            setColours(Theme::Dark);
+        if (ImGui::MenuItem("Dark", nullptr, state.theme == Theme::Dark)) {
+            state.theme = Theme::Dark;
         }
-        if (ImGui::MenuItem("Light")) {
-            setColours(Theme::Light);
+        if (ImGui::MenuItem("Light", nullptr, state.theme == Theme::Light)) {
+            state.theme = Theme::Light;
         }
         ImGui::EndMenu();
     }
@@ -64,7 +65,7 @@ void drawMenu(State& state) {
     for (const Instrument& instrument : state.document.edit.instruments) {
         names += state.blank ? "" : "   " + sources.meshes[instrument.mesh].path;
     }
-    const float width = ImGui::CalcTextSize(names.c_str()).x + 14;
+    const float width = ImGui::CalcTextSize(names.c_str()).x + scaled(14);
     ImGui::SameLine(std::max(ImGui::GetWindowWidth() - width, ImGui::GetCursorPosX() + 20));
     ImGui::TextColored(quietColour(), "%s", names.c_str());
     ImGui::EndMenuBar();
@@ -115,7 +116,7 @@ void drawColumn(State& state) {
         return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
     };
     const float answer = rows(state.labels ? 7.15F : 6.35F);
-    const float curve = rows(2.7F) + ImGui::GetFontSize() * 7.9F;
+    const float curve = rows(2.8F) + ImGui::GetFontSize() * 7.9F;
     float instrument = rows((state.document.poses.empty() ? 9.45F : 10.4F) + meshRows(state));
     // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without.
     constexpr float kLeastRows = 4.4F;  // of the instrument
@@ -136,7 +137,7 @@ void drawStatus(const State& state) {
     const char* fine = state.fineShare >= 1 ? "fine" : "coarse";
     std::snprintf(text, sizeof text, "%s   %.0f ms a frame   %s", fine, state.frameTimes.percentile(0.5),
                   state.deviceName.c_str());
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - 12);
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - scaled(12));
     ImGui::TextColored(quietColour(), "%s", text);
 }
 
@@ -159,6 +160,9 @@ void drawScene(State& state) {
 } // namespace
 
 void drawPanels(State& state) {
+    if (std::exchange(state.themeSet, state.theme) != state.theme) {
+        setColours(state.theme);
+    }
     takeKeys(state);
     takeDropped(state);
     const ImVec2 size = ImGui::GetIO().DisplaySize;

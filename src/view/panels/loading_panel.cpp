@@ -27,7 +27,7 @@ void drawLoading(State& state) {
     ImGui::TextUnformatted(loading.step.empty() ? "waiting" : loading.step.c_str());
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%.1f s", loading.seconds);
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(seconds).x - 12);
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(seconds).x - scaled(12));
     ImGui::TextColored(quietColour(), "%s", seconds);
     const float button = ImGui::CalcTextSize("cancel").x + 2 * ImGui::GetStyle().FramePadding.x;
     const float width = ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x;
@@ -45,15 +45,22 @@ void drawLoading(State& state) {
     ImGui::End();
 }
 
-void drawShooting(State& state) {
+void drawSaving(State& state) {
     constexpr const char* kTitle = "Making the picture";
-    if (state.shooting && !ImGui::IsPopupOpen(kTitle)) {
+    if (state.saving && !ImGui::IsPopupOpen(kTitle)) {
         ImGui::OpenPopup(kTitle);
     }
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 26, 0});
     if (ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-        ImGui::ProgressBar(static_cast<float>(state.shooting.value_or(1)), {-1, 0});
-        if (!state.shooting) {
+        const Saving saving = state.saving.value_or(Saving{1, true});
+        char text[32];
+        std::snprintf(text, sizeof text, "%s: %.0f %%", saving.writing ? "writing" : "drawing", 100 * saving.share);
+        const float button = ImGui::CalcTextSize("cancel").x + 2 * ImGui::GetStyle().FramePadding.x;
+        ImGui::ProgressBar(static_cast<float>(saving.share),
+                           {ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x, 0}, text);
+        ImGui::SameLine();
+        state.cancelSaving |= ImGui::Button("cancel");
+        if (!state.saving) {
             ImGui::CloseCurrentPopup();
         }
         ImGui::EndPopup();

@@ -17,8 +17,9 @@ void drawPanels(State& state);
 
 /// Colours, spaces and the font, for a display where a point is so many pixels.
 void applyTheme(float scale, std::span<const unsigned char> font);
-enum class Theme { Dark, Light };
 void setColours(Theme theme);
+/// A length on a display where a point is a pixel, on the one that there is: for all that is not as large as text.
+[[nodiscard]] float scaled(float length);
 /// Green, red or yellow for a hitNumber(), on a card of the theme and on a picture.
 [[nodiscard]] ImVec4 verdictColour(int hit);
 [[nodiscard]] ImVec4 verdictOnPicture(int hit);
@@ -41,11 +42,16 @@ void drawCurve(State& state);
 void drawPicture(State& state);
 /// What lies over the picture, but for the handles.
 void drawMarks(const State& state, const Onto& onto, ImDrawList& list);
-/// A dialog while a picture is made for a file.
-void drawShooting(State& state);
+/// A dialog while a picture is made for a file, with a button that cancels it.
+void drawSaving(State& state);
 /// Handles in the picture: whether they have the mouse. After the picture's item.
 [[nodiscard]] bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size);
 void drawGizmo(const State& state, const Onto& onto, ImDrawList& list);
+/// The cube of the patient's sides: whether it has the mouse. A click looks at a side of it. After the picture's item.
+[[nodiscard]] bool takeCube(State& state, const ImVec2& corner, const ImVec2& size);
+void drawCube(const State& state, const Onto& onto, ImDrawList& list);
+/// Of the letters of the patient's sides, which are large.
+[[nodiscard]] const ImFont& letterFont();
 /// Whether there are handles, and along whose axes.
 void drawGizmoChoice(State& state);
 void drawSlice(State& state, std::size_t slice);

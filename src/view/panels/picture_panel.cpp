@@ -29,27 +29,29 @@ void takeMouse(State& state, const ImVec2& corner) {
              static_cast<double>((io.MousePos.x - corner.x) * scale.x),
              static_cast<double>((io.MousePos.y - corner.y) * scale.y), extent);
     }
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    if (ImGui::IsItemHovered() && !state.cubeSide && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         state.maximised = state.maximised == Maximised::None ? Maximised::Picture : Maximised::None;
     }
 }
 
 void drawContactPoints(const MeshAnswer& answer, const Onto& onto, ImDrawList& list) {
     constexpr double kNormal = 4; // mm
+    const float width = scaled(1);
     for (const Contact& contact : answer.contacts) {
         const ImVec2 at = onto.at(contact.position);
         const ImVec2 end = onto.at({contact.position[0] + kNormal * contact.normal[0],
                                     contact.position[1] + kNormal * contact.normal[1],
                                     contact.position[2] + kNormal * contact.normal[2]});
-        list.AddLine(at, end, IM_COL32(255, 214, 120, 70));
-        list.AddRectFilled({at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}, IM_COL32(255, 214, 120, 220));
+        list.AddLine(at, end, IM_COL32(255, 214, 120, 70), width);
+        list.AddRectFilled({at.x - width, at.y - width}, {at.x + width, at.y + width}, IM_COL32(255, 214, 120, 220));
     }
 }
 
 void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
     const std::vector<Mat4>& poses = state.document.poses;
     for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-        list.AddLine(onto.at(originOf(poses[i])), onto.at(originOf(poses[i + 1])), IM_COL32(120, 190, 255, 110));
+        list.AddLine(onto.at(originOf(poses[i])), onto.at(originOf(poses[i + 1])), IM_COL32(120, 190, 255, 110),
+                     scaled(1));
     }
 }
 
@@ -63,46 +65,25 @@ void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
     const ImU32 colour = closestColour(current ? 1.0F : 0.4F);
     const ImVec2 from = onto.at((*segment)[0]);
     const ImVec2 to = onto.at((*segment)[1]);
-    list.AddLine(from, to, colour, 2);
-    list.AddCircleFilled(from, 3.5F, colour);
-    list.AddCircleFilled(to, 3.5F, colour);
+    list.AddLine(from, to, colour, scaled(2));
+    list.AddCircleFilled(from, scaled(3.5F), colour);
+    list.AddCircleFilled(to, scaled(3.5F), colour);
     char text[32];
     std::snprintf(text, sizeof text, "%.2f mm", clearance->bounds.hi);
-    const ImVec2 at{(from.x + to.x) / 2 + 8, (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
-    list.AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text);
+    const ImVec2 at{(from.x + to.x) / 2 + scaled(8), (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
+    list.AddText({at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text);
     list.AddText(at, colour, text);
-}
-
-/// Three of the patient's sides, as they lie in the picture.
-void drawSides(const Onto& onto, const State& state, ImDrawList& list) {
-    const float length = ImGui::GetFontSize() * 2;
-    const ImVec2 middle{onto.corner.x + length * 1.6F, onto.corner.y + onto.size.y - length * 1.6F};
-    const ImVec2 target = onto.at(state.camera.target);
-    constexpr std::array<const char*, 3> kNames{"L", "P", "S"};
-    constexpr std::array<ImU32, 3> kColours{IM_COL32(235, 100, 90, 255), IM_COL32(110, 200, 110, 255),
-                                            IM_COL32(110, 160, 250, 255)};
-    const double mm = 2 * state.camera.halfHeight / static_cast<double>(onto.size.y) * static_cast<double>(length);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        Vec3 end = state.camera.target;
-        end[axis] += mm;
-        const ImVec2 at = onto.at(end);
-        const ImVec2 tip{middle.x + at.x - target.x, middle.y + at.y - target.y};
-        list.AddLine(middle, tip, kColours[axis], 2);
-        list.AddText({tip.x - ImGui::GetFontSize() * 0.3F + (tip.x - middle.x) * 0.25F,
-                      tip.y - ImGui::GetFontSize() * 0.5F + (tip.y - middle.y) * 0.25F},
-                     kColours[axis], kNames[axis]);
-    }
 }
 
 void drawBar(const State& state, const Onto& onto, ImDrawList& list) {
     const double mmOfPoint = 2 * state.camera.halfHeight / static_cast<double>(onto.size.y);
     const double length = barLength(mmOfPoint * static_cast<double>(onto.size.x) / 5);
     const auto points = static_cast<float>(length / mmOfPoint);
-    const ImVec2 right{onto.corner.x + onto.size.x - 14, onto.corner.y + onto.size.y - 14};
-    list.AddLine({right.x - points, right.y}, right, IM_COL32(235, 238, 242, 230), 2);
+    const ImVec2 right{onto.corner.x + onto.size.x - scaled(14), onto.corner.y + onto.size.y - scaled(14)};
+    list.AddLine({right.x - points, right.y}, right, IM_COL32(235, 238, 242, 230), scaled(2));
     char text[32];
     std::snprintf(text, sizeof text, "%g mm", length);
-    list.AddText({right.x - points, right.y - ImGui::GetFontSize() - 5}, IM_COL32(235, 238, 242, 230), text);
+    list.AddText({right.x - points, right.y - ImGui::GetFontSize() - scaled(5)}, IM_COL32(235, 238, 242, 230), text);
 }
 
 void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
@@ -112,8 +93,8 @@ void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
     const MeshAnswer& answer = *state.chosenAnswer();
     std::string text = answer.pair.hit ? "touches" : answer.pair.possible ? "may touch" : "does not touch";
     const float size = ImGui::GetFontSize() * 1.3F;
-    const ImVec2 at{onto.corner.x + 12, onto.corner.y + 9};
-    list.AddText(ImGui::GetFont(), size, {at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 200), text.c_str());
+    const ImVec2 at{onto.corner.x + scaled(12), onto.corner.y + scaled(9)};
+    list.AddText(ImGui::GetFont(), size, {at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text.c_str());
     list.AddText(ImGui::GetFont(), size, at, ImGui::GetColorU32(verdictOnPicture(hitNumber(answer.pair))),
                  text.c_str());
     if (const std::uint32_t coarser = state.document.sources.coarser; coarser > 1) {
@@ -133,9 +114,9 @@ void drawMarks(const State& state, const Onto& onto, ImDrawList& list) {
         }
     }
     drawClosest(state, onto, list);
-    drawSides(onto, state, list);
     drawBar(state, onto, list);
     drawVerdict(state, onto, list);
+    drawCube(state, onto, list);
 }
 
 void drawPicture(State& state) {
@@ -149,7 +130,11 @@ void drawPicture(State& state) {
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
-    if (!takeGizmo(state, corner, size)) {
+    const bool onCube = takeCube(state, corner, size);
+    if (onCube) {
+        state.gizmoHandle = {};
+    }
+    if (onCube || !takeGizmo(state, corner, size)) {
         takeMouse(state, corner);
     }
     ImDrawList& list = *ImGui::GetWindowDrawList();

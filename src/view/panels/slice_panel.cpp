@@ -57,7 +57,7 @@ void drawMesh(const State& state, const Instrument& instrument, std::size_t slic
                                              state.cursor[axis], place)) {
         // An answer has them by their numbers.
         const bool touches = answer != nullptr && std::ranges::binary_search(answer->triangles, piece.triangle);
-        list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : colour, 1.6F);
+        list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : colour, scaled(1.6F));
     }
 }
 
@@ -74,9 +74,9 @@ void drawClosest(const State& state, std::size_t slice, const SlicePlace& place,
     const ImU32 colour = closestColour((here ? 1.0F : 0.45F) * (current ? 1.0F : 0.5F));
     const ImVec2 from = rect.at(pictureAt(place, (*segment)[0]));
     const ImVec2 to = rect.at(pictureAt(place, (*segment)[1]));
-    list.AddLine(from, to, colour, here ? 2.0F : 1.0F);
-    list.AddCircleFilled(from, 2.5F, colour);
-    list.AddCircleFilled(to, 2.5F, colour);
+    list.AddLine(from, to, colour, scaled(here ? 2.0F : 1.0F));
+    list.AddCircleFilled(from, scaled(2.5F), colour);
+    list.AddCircleFilled(to, scaled(2.5F), colour);
 }
 
 void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
@@ -85,10 +85,10 @@ void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
     const auto text = [&](float x, float y, const char* letter) {
         list.AddText({rect.corner.x + x, rect.corner.y + y}, colour, letter);
     };
-    text(4, rect.size.y / 2 - size / 2, kind.left);
+    text(scaled(4), rect.size.y / 2 - size / 2, kind.left);
     text(rect.size.x - size * 0.8F, rect.size.y / 2 - size / 2, kind.right);
-    text(rect.size.x / 2 - size * 0.3F, 2, kind.top);
-    text(rect.size.x / 2 - size * 0.3F, rect.size.y - size - 3, kind.bottom);
+    text(rect.size.x / 2 - size * 0.3F, scaled(2), kind.top);
+    text(rect.size.x / 2 - size * 0.3F, rect.size.y - size - scaled(3), kind.bottom);
 }
 
 } // namespace
@@ -119,8 +119,8 @@ void drawSlice(State& state, std::size_t slice) {
     list.PushClipRect(corner, end, true);
     const ImVec2 cross = rect.at(pictureAt(place, state.cursor));
     const ImU32 line = IM_COL32(110, 160, 250, 90);
-    list.AddLine({corner.x, cross.y}, {end.x, cross.y}, line);
-    list.AddLine({cross.x, corner.y}, {cross.x, end.y}, line);
+    list.AddLine({corner.x, cross.y}, {end.x, cross.y}, line, scaled(1));
+    list.AddLine({cross.x, corner.y}, {cross.x, end.y}, line, scaled(1));
     for (const Instrument& instrument : state.document.edit.instruments) {
         if (instrument.shown) {
             drawMesh(state, instrument, slice, place, rect, list);
@@ -130,7 +130,7 @@ void drawSlice(State& state, std::size_t slice) {
     drawLetters(kind, rect, list);
     char text[64];
     std::snprintf(text, sizeof text, "%s %.1f mm", kind.name, state.cursor[kind.axis]);
-    list.AddText({corner.x + 6, corner.y + 3}, IM_COL32(180, 188, 198, 255), text);
+    list.AddText({corner.x + scaled(6), corner.y + scaled(3)}, IM_COL32(180, 188, 198, 255), text);
     list.PopClipRect();
 }
 

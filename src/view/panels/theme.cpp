@@ -11,6 +11,7 @@ namespace voxtact::view {
 namespace {
 
 constexpr float kFontSize = 15;
+constexpr float kLetterSize = 32; // of the letters of the patient's sides
 
 ImVec4 rgb(int red, int green, int blue, float alpha = 1) {
     constexpr float kMost = 255;
@@ -77,11 +78,26 @@ void applyTheme(float scale, std::span<const unsigned char> font) {
     style.PopupRounding = 5;
     style.WindowBorderSize = 0;
     style.ScaleAllSizes(scale);
+    // How far a hand trembles.
+    ImGui::GetIO().MouseDragThreshold *= scale;
+    ImGui::GetIO().MouseDoubleClickMaxDist *= scale;
+    // Pairs of the first and the last, ended by a zero; the atlas reads them later.
+    static constexpr std::array<ImWchar, 3> kLetters{'A', 'Z', 0};
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
     // Dear ImGui only reads it.
     ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
                                                kFontSize * scale, &config);
+    ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
+                                               kLetterSize * scale, &config, kLetters.data());
+}
+
+float scaled(float length) {
+    return length * ImGui::GetFontSize() / kFontSize;
+}
+
+const ImFont& letterFont() {
+    return *ImGui::GetIO().Fonts->Fonts.back();
 }
 
 ImVec4 verdictOnPicture(int hit) {

@@ -274,6 +274,37 @@ TEST_F(CPictures, TellHowFarTheyAre) {
     EXPECT_GE(heard.calls, 2U);
 }
 
+TEST_F(CPictures, EndWhereTheyAreTold) {
+    const std::vector<std::uint8_t> expected = byC();
+    const auto cancel = made<vxt_cancel>(vxt_cancel_destroy, [](auto out) { return vxt_cancel_create(out); });
+    c_.cancel = cancel.get();
+    EXPECT_EQ(byC(), expected); // it is not set
+    struct Heard {
+        vxt_cancel* cancel;
+        std::uint32_t calls = 0;
+    } heard{cancel.get()};
+    const auto stop = [](void* user, std::uint32_t, std::uint32_t) {
+        auto& to = *static_cast<Heard*>(user);
+        ++to.calls;
+        vxt_cancel_set(to.cancel, 1);
+    };
+    EXPECT_EQ(vxt_blocking_renderer_render(blocking_.get(), &c_, kWidth, kHeight, stop, &heard, picture_.get()),
+              VXT_ERROR_CANCELLED);
+    EXPECT_EQ(heard.calls, 1U);
+    EXPECT_EQ(vxt_blocking_renderer_render(blocking_.get(), &c_, kWidth, kHeight, nullptr, nullptr, picture_.get()),
+              VXT_ERROR_CANCELLED);
+    // The picture holds what it held, and the next one may be asked for.
+    const vxt_picture_view view = viewOf(*picture_);
+    EXPECT_THAT(std::vector<std::uint8_t>(view.rgba, view.rgba + view.bytes), ElementsAreArray(expected));
+    vxt_cancel_set(cancel.get(), 0);
+    EXPECT_EQ(byC(), expected);
+    const Result<Picture> cancelled =
+        cppParts_->blocking.render(cpp_, {kWidth, kHeight}, [](std::uint32_t, std::uint32_t) { return false; });
+    ASSERT_FALSE(cancelled.ok());
+    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(byCpp(), expected);
+}
+
 TEST_F(CPictures, VerticesAreRecordedOrWrapped) {
     const std::vector<Colour> colours = vertexColours();
     mesh_.paint = VXT_PAINT_VERTICES;
@@ -324,8 +355,12 @@ TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
         vxt_render_function_destroy, [&](auto out) { return vxt_render_function_create(own.get(), &desc, out); });
     EXPECT_EQ(vxt_render_function_visible(function.get()), 1U);
     const vxt_mesh_view view = cMesh(scene_.mesh);
+    // Those of another shape, which are updated.
+    MeshData bent = scene_.mesh;
+    bent.positions[2] += 0.4F;
+    const vxt_mesh_view bentView = cMesh(bent);
     const auto normals = made<vxt_mesh_normals>(
-        vxt_mesh_normals_destroy, [&](auto out) { return vxt_mesh_normals_create(own.get(), &view, out); });
+        vxt_mesh_normals_destroy, [&](auto out) { return vxt_mesh_normals_create(own.get(), &bentView, out); });
     const std::uint32_t chosen = 1;
     const auto painted = made<vxt_painted_triangles>(vxt_painted_triangles_destroy, [&](auto out) {
         return vxt_painted_triangles_create(own.get(), 2, &chosen, 1, out);
@@ -337,6 +372,7 @@ TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
     desc.colour_count = std::size(kCColours);
     need(vxt_render_function_cmd_update(function.get(), commands, &desc));
     need(vxt_mesh_normals_cmd_upload(normals.get(), commands));
+    need(vxt_mesh_normals_cmd_update(normals.get(), commands, &view));
     need(vxt_painted_triangles_cmd_upload(painted.get(), commands));
     const Target cppTarget = [&] {
         RenderTargets unused = take(RenderTargets::create(cppParts_->blocking.renderer(), {kWidth, kHeight}));

@@ -60,6 +60,90 @@ TEST_F(CGpuTest, EditsTakeEffectInTheOrderOfTheCommands) {
     EXPECT_EQ(domain.hi, 300);
 }
 
+TEST_F(CGpuTest, MeshesBend) {
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    RawVulkan raw(gpu().device);
+    const vxt_mesh_view view = cMesh(scene.mesh);
+    vxt_mesh_options options = vxt_mesh_options_init();
+    EXPECT_EQ(options.vertex_stride, 12U);
+    options.clusters = options.editable = 1;
+    options.vertex_stride = 16;
+    const auto mesh = made<vxt_mesh>(
+        vxt_mesh_destroy, [&](auto out) { return vxt_mesh_upload(context_.get(), &queue_, &view, &options, out); });
+    COneItem of(sides, scene);
+    of.item.mesh = mesh.get();
+    const Owned<vxt_blocking_detector> detector = newBlocking(vxt_detector_desc_init());
+    EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 128U);
+    // A quarter of the square: what of it is opaque is the whole quarter, then nothing.
+    std::vector<float> quarter = scene.mesh.positions;
+    std::vector<float> sixteen;
+    for (std::size_t at = 0; at < quarter.size(); at += 3) {
+        quarter[at] *= 0.5F;
+        quarter[at + 1] *= 0.5F;
+        sixteen.insert(sixteen.end(), {0.5F + quarter[at], quarter[at + 1], quarter[at + 2], 99});
+    }
+    VkCommandBuffer commands = raw.begin();
+    need(vxt_mesh_cmd_update(mesh.get(), commands, quarter.data(), quarter.size() / 3));
+    raw.submitAndWait(commands);
+    EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 64U);
+    vxt_mesh_facts facts{};
+    need(vxt_mesh_get_facts(mesh.get(), &facts));
+    EXPECT_EQ(facts.bounds.hi[0], 0.5);
+    const VkBuffer source = raw.makeBuffer(std::span<const float>(sixteen), VK_BUFFER_USAGE_TRANSFER_SRC_BIT).buffer;
+    commands = raw.begin();
+    need(vxt_mesh_cmd_copy(mesh.get(), commands, source, 0));
+    raw.submitAndWait(commands);
+    EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 0U);
+    EXPECT_EQ(vxt_mesh_get_facts(mesh.get(), &facts), VXT_ERROR_NOT_READY);
+    EXPECT_EQ(vxt_mesh_cmd_update(mesh.get(), commands, quarter.data(), 3), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_mesh_cmd_refit(mesh.get(), commands), VXT_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(CGpuTest, FitsTheClustersOfTheCallersMesh) {
+    const RandomScene scene = halfOpaque();
+    RawVulkan raw(gpu().device);
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    vxt_wrapped_mesh wrapped = vxt_wrapped_mesh_init();
+    const RawVulkan::HostBuffer vertices = raw.makeBuffer(std::span<const float>(scene.mesh.positions), kUsage);
+    wrapped.vertices = vertices.buffer;
+    wrapped.vertex_count = static_cast<std::uint32_t>(scene.mesh.positions.size() / 3);
+    wrapped.indices = raw.makeBuffer(std::span<const std::uint32_t>(scene.mesh.indices), kUsage).buffer;
+    wrapped.triangle_count = static_cast<std::uint32_t>(scene.mesh.indices.size() / 3);
+    wrapped.storage = wrapped.clusters = 1;
+    const vxt_mesh_view view = cMesh(scene.mesh);
+    wrapped.shape = &view;
+    const auto mesh =
+        made<vxt_mesh>(vxt_mesh_destroy, [&](auto out) { return vxt_mesh_wrap(context_.get(), &wrapped, out); });
+    EXPECT_EQ(vxt_mesh_cmd_refit(mesh.get(), raw.begin()), VXT_ERROR_NOT_READY);
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    const Owned<vxt_blocking_detector> detector = newBlocking(desc);
+    COneItem of(sides, scene);
+    of.item.mesh = mesh.get();
+    const auto countAfter = [&](auto record) {
+        const VkCommandBuffer commands = raw.begin();
+        need(record(commands));
+        raw.submitAndWait(commands);
+        return ask(*detector, of).pairs.at(0).count;
+    };
+    EXPECT_GT(countAfter([&](VkCommandBuffer commands) { return vxt_mesh_cmd_upload(mesh.get(), commands); }), 0U);
+    auto* positions = static_cast<float*>(vertices.mapped);
+    const auto moveBy = [&](float x) {
+        for (std::size_t at = 0; at < scene.mesh.positions.size(); at += 3) {
+            positions[at] += x;
+        }
+    };
+    const auto refit = [&](VkCommandBuffer commands) { return vxt_mesh_cmd_refit(mesh.get(), commands); };
+    moveBy(5);
+    EXPECT_EQ(countAfter(refit), 0U);
+    moveBy(-5);
+    EXPECT_GT(countAfter(refit), 0U);
+}
+
 TEST_F(CGpuTest, WrapsTheCallersObjects) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
@@ -102,6 +186,31 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     of.item.mesh = mesh.get();
     EXPECT_EQ(ask(*newBlocking(vxt_detector_desc_init()), of).pairs.at(0).count, 128U);
     EXPECT_EQ(vxt_mesh_triangles(mesh.get()), 2U);
+
+    const std::array<float, 32> matrices{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 9, 0, 0, 1};
+    vxt_wrapped_poses wrappedPoses = vxt_wrapped_poses_init();
+    wrappedPoses.buffer = raw.makeBuffer(std::span<const float>(matrices), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT).buffer;
+    wrappedPoses.count = 2;
+    const auto poses = made<vxt_pose_buffer>(vxt_pose_buffer_destroy, [&](auto out) {
+        return vxt_pose_buffer_wrap(context_.get(), &wrappedPoses, "two poses", out);
+    });
+    EXPECT_EQ(vxt_pose_buffer_count(poses.get()), 2U);
+    COneItem moving(sides, scene);
+    moving.item = of.item;
+    moving.item.poses = poses.get();
+    moving.item.pose_count = 2;
+    vxt_detector_desc withPoses = vxt_detector_desc_init();
+    withPoses.device_poses = 1;
+    const auto byPoses = newBlocking(withPoses);
+    const auto answer = made<vxt_answer>(vxt_answer_destroy, [](auto out) { return vxt_answer_create(out); });
+    EXPECT_EQ(vxt_blocking_detector_detect(byPoses.get(), &moving.batch, answer.get()), VXT_ERROR_INVALID_ARGUMENT)
+        << "poses and world_from_object";
+    moving.item.world_from_object = nullptr;
+    EXPECT_EQ(ask(*byPoses, moving).pairs.at(0).count, 128U);
+    EXPECT_EQ(ask(*byPoses, moving).pairs.at(1).count, 0U);
+    moving.item.pose_count = 3;
+    EXPECT_EQ(vxt_blocking_detector_detect(byPoses.get(), &moving.batch, answer.get()), VXT_ERROR_INVALID_ARGUMENT);
     vxt_mesh_facts facts{};
     EXPECT_EQ(vxt_mesh_get_facts(mesh.get(), &facts), VXT_ERROR_NOT_READY);
     vxt_volume_info info = vxt_volume_info_init();

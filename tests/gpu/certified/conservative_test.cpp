@@ -378,26 +378,6 @@ TEST_F(ConservativeTest, YesAndNoAreTheHostsOnManyPoses) {
     EXPECT_LT(hits, poses.size() - poses.size() / 10) << seed;
 }
 
-/// More cells of small triangles than the queue of cells holds: work groups of the pass that finds them are left to the
-/// last one, and one of them in the middle of what there was room for.
-TEST_F(ConservativeTest, CellsThatNoQueueHoldsAreDecidedInPlace) {
-    const VolumeData ball = take(makeBuiltinVolume("sphere:128"));
-    const MeshData body = take(makeEllipsoid(12000));
-    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
-    const Sides sides(context(), queue(), ball.view(), {points, {0, 255}, kDefaultTableSize}, body.view(), true);
-    Mat4 wide = identity(); // some 20 cells a triangle, where they are in the image
-    wide[0] = wide[5] = wide[10] = 3;
-    const std::array poses{wide, identity()};
-    const BatchItem item = sides.item(poses);
-    const cpu::BatchItem hostItem = sides.hostItem(poses);
-    const BatchAnswer onDevice = take(detector(kDevice).detect({{&item, 1}, {}, 0.01}));
-    const BatchAnswer onHost = take(hostDetector().detect({{&hostItem, 1}, {}, 0.01}));
-    expectSame(onDevice.pairs[0], onHost.pairs[0], "wide");
-    expectSame(onDevice.pairs[1], onHost.pairs[1], "as it is");
-    // The queues of Results for so few pairs: VOXTACT_ROOM_CELLS(kLeastQueueRoom).
-    EXPECT_GT(onHost.pairs[0].count, 65536U);
-}
-
 /// More rounds than queues have headers, and what touches is in the first and in the last of them.
 TEST_F(ConservativeTest, ManyRoundsAreOneBatch) {
     const VolumeData head = take(makeBuiltinVolume("head:32"));

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// A lane a pose: what the passes need of the pair, and its result with a count of zero. With CERTIFIED for the
+// projection `conservative`.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#define SMALL_PROGRAM
+#include "shared.h"
+#include "voxtact/device_results.h"
+#include "pair_setup.h"
+
+layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
+
+#ifdef CERTIFIED
+#define TRANSFORM CertifiedPair
+#else
+#define TRANSFORM PairTransform
+#endif
+layout(set = VOXTACT_SET_SETUP, binding = VOXTACT_BINDING_SETUP_TRANSFORMS, std430) writeonly buffer Transforms {
+    TRANSFORM transforms[];
+};
+layout(set = VOXTACT_SET_SETUP, binding = VOXTACT_BINDING_SETUP_RESULTS, std430) writeonly buffer Results {
+    PairResult results[];
+};
+layout(set = VOXTACT_SET_SETUP, binding = VOXTACT_BINDING_SETUP_ITEMS, std430) readonly buffer Items { uint words[]; };
+layout(set = VOXTACT_SET_SETUP_POSES, binding = 0, std430) readonly buffer Poses { uint poses[]; };
+layout(push_constant) uniform Constants { PairSetupConstants constants; };
+
+#include "exact_language.h"
+
+Wide wideAt(uint word) {
+    return wideBits(words[word + 1], words[word]);
+}
+
+WideMatrix matrixAt(uint word) {
+    WideMatrix matrix;
+    ROLLED for (int i = 0; i < 16; ++i) {
+        matrix.element[i] = wideAt(word + 2 * i);
+    }
+    return matrix;
+}
+
+/// Whether all of a pose is finite, and its last row that of an affine map.
+bool isUsable(uint at) {
+    bool usable = true;
+    ROLLED for (uint i = 0; i < 16; ++i) {
+        const uint bits = poses[at + i];
+        usable = usable && (bits & 0x7f800000u) != 0x7f800000u;
+        if (i % 4 == 3) {
+            usable = usable && (i == 15 ? bits == 0x3f800000u : (bits & 0x7fffffffu) == 0u);
+        }
+    }
+    return usable;
+}
+
+WideMatrix poseAt(uint at) {
+    WideMatrix pose;
+    ROLLED for (int i = 0; i < 16; ++i) {
+        pose.element[i] = wideOfFloatBits(poses[at + i]);
+    }
+    return pose;
+}
+
+#ifdef CERTIFIED
+PairGrid gridAt(uint word) {
+    PairGrid grid;
+    grid.texture_from_world = matrixAt(word);
+    uint at = word + 32;
+    ROLLED for (int i = 0; i < 3; ++i) {
+        grid.size[i] = wideAt(at + 2 * i);
+        grid.sign[i] = wideAt(at + 6 + 2 * i);
+        grid.lessOrigin[i] = wideAt(at + 12 + 2 * i);
+        grid.halfSpacing[i] = wideAt(at + 18 + 2 * i);
+        grid.axis[i] = words[at + 48 + i];
+    }
+    ROLLED for (int i = 0; i < 12; ++i) {
+        grid.share[i] = wideAt(at + 24 + 2 * i);
+    }
+    grid.aligned = words[at + 51];
+    return grid;
+}
+
+/// A mesh that is far from every cell.
+CertifiedPair nowhere() {
+    CertifiedPair pair;
+    pair.reference = vec4(0);
+    pair.error = vec4(0);
+    ROLLED for (int row = 0; row < 3; ++row) {
+        pair.voxel_from_reference[row] = vec4(0, 0, 0, -1e6);
+    }
+    ROLLED for (int row = 0; row < 9; ++row) {
+        pair.place[row] = vec4(0, 0, 0, row < 3 ? -1e6 : 0);
+    }
+    return pair;
+}
+
+void setUp(uint pair, uint at, bool usable) {
+    if (usable) {
+        transforms[pair] = certifiedPairOf(gridAt(constants.setupWord), poseAt(at));
+    } else {
+        transforms[pair] = nowhere();
+    }
+}
+#else
+/// A mesh outside of the image and of every view.
+PairTransform nowhere() {
+    PairTransform transform;
+    ROLLED for (int row = 0; row < 4; ++row) {
+        transform.clip_from_object[row] = vec4(0, 0, 0, row == 3 ? 1 : 8);
+    }
+    ROLLED for (int row = 0; row < 3; ++row) {
+        transform.texture_from_object[row] = vec4(0, 0, 0, -8);
+    }
+    return transform;
+}
+
+void setUp(uint pair, uint at, bool usable) {
+    ROLLED for (uint view = 0; view < constants.views; ++view) {
+        const uint number = pair * constants.views + view;
+        if (usable) {
+            const WideMatrix clip_from_world = matrixAt(constants.setupWord + 32 + 32 * view);
+            transforms[number] = pairTransformOf(clip_from_world, matrixAt(constants.setupWord), poseAt(at));
+        } else {
+            transforms[number] = nowhere();
+        }
+    }
+}
+#endif
+
+#include "exact_language.h"
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= constants.pairs) {
+        return;
+    }
+    const uint pair = constants.firstPair + i;
+    const uint at = constants.poseWord + constants.poseWords * i;
+    const bool usable = isUsable(at);
+    results[pair] = PairResult(0, 0, pair, constants.item, constants.firstPose + i,
+                               usable ? constants.how : constants.refused);
+    setUp(pair, at, usable);
+}

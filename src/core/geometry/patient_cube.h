@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+/// A cube that lies as the patient does, with a letter on each side, as an eye sees it. World space is LPS.
+namespace voxtact {
+
+/// A side of the patient.
+struct PatientSide {
+    const char* letter; ///< L left, R right, P posterior, A anterior, S superior, I inferior
+    const char* view;   ///< directionNamed() of it looks at this side
+    Vec3 normal;        ///< where it lies
+    Vec3 up;            ///< how its letter stands: upright as a patient does; above and below with the face at the top
+};
+
+/// By axis, the positive one first.
+inline constexpr std::array<PatientSide, 6> kPatientSides{{{"L", "left", {1, 0, 0}, {0, 0, 1}},
+                                                           {"R", "right", {-1, 0, 0}, {0, 0, 1}},
+                                                           {"P", "back", {0, 1, 0}, {0, 0, 1}},
+                                                           {"A", "front", {0, -1, 0}, {0, 0, 1}},
+                                                           {"S", "top", {0, 0, 1}, {0, -1, 0}},
+                                                           {"I", "bottom", {0, 0, -1}, {0, -1, 0}}}};
+
+[[nodiscard]] constexpr const PatientSide& patientSide(std::size_t axis, bool negative) noexcept {
+    return kPatientSides[2 * axis + (negative ? 1 : 0)];
+}
+
+/// How far the corners of the cube are from its middle at most, in half edges: sqrt(3), and a little room.
+inline constexpr double kCubeReach = 1.75;
+
+/// A side of the cube that the eye sees. Places are to the right and down in a picture, in half edges of the cube.
+struct SeenSide {
+    std::size_t side = 0;           ///< of kPatientSides
+    double facing = 0;              ///< 1: seen from straight before it; near 0: from the side
+    std::array<double, 2> middle{}; ///< from the cube's middle
+    std::array<double, 2> right{};  ///< from there to its edge, as its letter stands
+    std::array<double, 2> up{};     ///< the same
+};
+
+/// Those that an eye sees, which do not cover each other. Directions of world space, of unit length and at right
+/// angles: to the picture's right and up.
+[[nodiscard]] inline std::vector<SeenSide> seenSides(const Vec3& right, const Vec3& up) {
+    const auto dot = [](const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    const auto cross = [](const Vec3& a, const Vec3& b) {
+        return Vec3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const auto place = [&](const Vec3& v) { return std::array<double, 2>{dot(v, right), -dot(v, up)}; };
+    const Vec3 towardsEye = cross(right, up);
+    constexpr double kSeen = 0.02;
+    std::vector<SeenSide> out;
+    for (std::size_t side = 0; side < kPatientSides.size(); ++side) {
+        const auto& [letter, view, normal, upright] = kPatientSides[side];
+        const double facing = dot(normal, towardsEye);
+        if (facing >= kSeen) {
+            out.push_back({side, facing, place(normal), place(cross(upright, normal)), place(upright)});
+        }
+    }
+    return out;
+}
+
+} // namespace voxtact

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "shown_panels.h"
+
+#include "voxtact/samples.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+
+State smallState() {
+    Given given;
+    given.volume = makeBuiltinVolume("head:16").value();
+    given.mesh = makeBuiltinMesh("scalpel:300").value();
+    given.values = checkVolume(given.volume.view()).value();
+    given.document.edit.curve = {{40, 0}, {80, 1}};
+    return State(std::move(given));
+}
+
+namespace {
+
+/// As long as the atlas needs it.
+const std::vector<unsigned char>& fontBytes() {
+    static const std::vector<unsigned char> bytes = [] {
+        std::ifstream file(VOXTACT_TEST_FONT, std::ios::binary);
+        return std::vector<unsigned char>(std::istreambuf_iterator<char>(file), {});
+    }();
+    return bytes;
+}
+
+} // namespace
+
+ShownPanels::ShownPanels(State& state, float scale) : state_(&state) {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = {1280 * scale, 800 * scale};
+    io.DeltaTime = 0.02F; // two clicks are soon after another
+    io.MousePos = {1, 1};
+    applyTheme(scale, fontBytes());
+    unsigned char* pixels = nullptr;
+    int width = 0;
+    int height = 0;
+    io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    frame();
+    frame(); // sizes of some parts are known from the frame before
+}
+
+ShownPanels::~ShownPanels() {
+    ImGui::DestroyContext();
+}
+
+void ShownPanels::frame() {
+    ImGui::NewFrame();
+    drawPanels(*state_);
+    state_->update();
+    ImGui::Render();
+}
+
+void ShownPanels::moveTo(double x, double y) {
+    ImGui::GetIO().MousePos = {static_cast<float>(x), static_cast<float>(y)};
+    frame();
+}
+
+void ShownPanels::press(int button) {
+    ImGui::GetIO().MouseDown[button] = true;
+    frame();
+}
+
+void ShownPanels::release(int button) {
+    ImGui::GetIO().MouseDown[button] = false;
+    frame();
+}
+
+void ShownPanels::click(double x, double y) {
+    moveTo(x, y);
+    press();
+    release();
+}
+
+void ShownPanels::drag(double x, double y, double right, double down, int button) {
+    constexpr int kSteps = 4;
+    moveTo(x, y);
+    press(button);
+    for (int step = 1; step <= kSteps; ++step) {
+        moveTo(x + right * step / kSteps, y + down * step / kSteps);
+    }
+    release(button);
+}
+
+void ShownPanels::turnWheel(double x, double y, float notches) {
+    moveTo(x, y);
+    ImGui::GetIO().MouseWheel = notches; // for a frame
+    frame();
+}
+
+} // namespace voxtact::test

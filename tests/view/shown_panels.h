@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "view/panels/panels.h"
+
+#include <functional>
+
+/// The window's panels without a window: they are drawn into nothing, and a mouse is played to them.
+namespace voxtact::test {
+
+/// A small scene: the builtin head and scalpel, a curve of two points.
+[[nodiscard]] view::State smallState();
+
+/// Panels of a display of 1280 x 800 points of the size `scale`. One at a time.
+class ShownPanels {
+  public:
+    explicit ShownPanels(view::State& state, float scale = 1);
+    ~ShownPanels();
+    ShownPanels(const ShownPanels&) = delete;
+    ShownPanels& operator=(const ShownPanels&) = delete;
+
+    void frame();
+    /// The pointer is there in a frame.
+    void moveTo(double x, double y);
+    /// A button goes down or up, in a frame.
+    void press(int button = 0);
+    void release(int button = 0);
+    void click(double x, double y);
+    /// Pressed, moved by so many points in some frames, released.
+    void drag(double x, double y, double right, double down, int button = 0);
+    void turnWheel(double x, double y, float notches);
+
+  private:
+    view::State* state_;
+};
+
+} // namespace voxtact::test
