@@ -15,7 +15,7 @@ using namespace voxtact::view;
 State smallState() {
     Given given;
     given.volume = makeBuiltinVolume("head:16").value();
-    given.mesh = makeBuiltinMesh("scalpel:300").value();
+    given.meshes.push_back(makeBuiltinMesh("scalpel:300").value());
     given.values = checkVolume(given.volume.view()).value();
     given.document.edit.curve = {{40, 0}, {80, 1}};
     return State(std::move(given));
