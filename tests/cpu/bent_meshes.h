@@ -3,6 +3,7 @@
 
 #include "voxtact/results.h"
 
+#include <bit>
 #include <random>
 #include <tuple>
 #include <vector>
@@ -24,10 +25,13 @@ namespace voxtact::test {
     for (const TouchedTriangle& triangle : answer.triangles) {
         triangles.emplace_back(triangle.pair, triangle.triangle, triangle.count);
     }
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, Vec3, Vec3, double, double, std::int32_t>> contacts;
+    // Depths and values by their bits: among infinite voxels they are NaN.
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, Vec3, Vec3, std::uint64_t, std::uint64_t, std::int32_t>>
+        contacts;
     for (const Contact& contact : answer.contacts) {
-        contacts.emplace_back(contact.pair, contact.triangle, contact.position, contact.normal, contact.depth,
-                              contact.value, contact.label);
+        contacts.emplace_back(contact.pair, contact.triangle, contact.position, contact.normal,
+                              std::bit_cast<std::uint64_t>(contact.depth), std::bit_cast<std::uint64_t>(contact.value),
+                              contact.label);
     }
     std::vector<std::pair<Vec3, Vec3>> bounds;
     for (const std::optional<Box>& box : answer.bounds) {

@@ -4,18 +4,32 @@
 #include "voxtact/results.h"
 
 #include <algorithm>
-#include <tuple>
+#include <array>
+#include <compare>
 #include <vector>
 
 namespace voxtact {
 
+/// A total order, of NaN too: among infinite voxels values, depths and normals are that, with either sign.
+inline bool contactBefore(const Contact& a, const Contact& b) {
+    if (a.pair != b.pair || a.triangle != b.triangle) {
+        return a.pair != b.pair ? a.pair < b.pair : a.triangle < b.triangle;
+    }
+    const auto numbers = [](const Contact& of) {
+        return std::array{of.position[0], of.position[1], of.position[2], of.value,  of.depth,
+                          of.normal[0],   of.normal[1],   of.normal[2],   of.opacity};
+    };
+    const auto one = numbers(a);
+    const auto other = numbers(b);
+    const std::strong_ordering order = std::lexicographical_compare_three_way(
+        one.begin(), one.end(), other.begin(), other.end(), [](double x, double y) { return std::strong_order(x, y); });
+    return order != std::strong_ordering::equal ? order == std::strong_ordering::less : a.label < b.label;
+}
+
 /// The order of BatchAnswer::contacts, which does not depend on who found which first: cells that share a place may
 /// each have a contact there, and those differ in the last bits of their values.
 inline void sortContacts(std::vector<Contact>& contacts) {
-    std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
-        return std::tie(a.pair, a.triangle, a.position, a.value, a.depth, a.normal, a.label) <
-               std::tie(b.pair, b.triangle, b.position, b.value, b.depth, b.normal, b.label);
-    });
+    std::sort(contacts.begin(), contacts.end(), contactBefore);
 }
 
 } // namespace voxtact
