@@ -311,6 +311,7 @@ TEST_F(RenderCutTest, APictureInPiecesIsTheSame) {
         EXPECT_EQ(all, kTall.height);
         EXPECT_TRUE(done.empty() || rows > done.back());
         done.push_back(rows);
+        return true;
     }));
     EXPECT_EQ(bands.rgba, whole.rgba);
     ASSERT_GT(done.size(), 1U);
@@ -336,6 +337,29 @@ TEST_F(RenderCutTest, APictureInPiecesIsTheSame) {
             const std::size_t at = std::size_t{4} * (kTall.width * y + x);
             ASSERT_EQ(pixels[at], (inside ? whole : white).rgba[at]) << x << ", " << y;
         }
+    }
+}
+
+TEST_F(RenderCutTest, APictureIsCancelled) {
+    const Volume volume = upload(volume_);
+    const RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), scene_.function));
+    look({20, 12, 9}, {0, 0, 0});
+    Scene scene;
+    scene.volume = &volume;
+    scene.transferFunction = &function;
+    scene.clip_from_world = scene_.clip_from_world;
+    constexpr VkExtent2D kTall{70, 131};
+    const Picture whole = take(blocking().render(scene, kTall));
+    for (const bool atTheEnd : {false, true}) {
+        std::uint32_t last = 0;
+        const Result<Picture> cancelled = blocking().render(scene, kTall, [&](std::uint32_t rows, std::uint32_t all) {
+            last = rows;
+            return atTheEnd && rows < all;
+        });
+        ASSERT_FALSE(cancelled.ok());
+        EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+        EXPECT_EQ(last == kTall.height, atTheEnd) << "no band follows";
+        EXPECT_EQ(take(blocking().render(scene, kTall)).rgba, whole.rgba) << "the next picture";
     }
 }
 
