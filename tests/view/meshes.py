@@ -98,7 +98,7 @@ def host(program, folder):
             assert again["chosen"] == state["chosen"], again
             window.press("ctrl+q")
             window.end()
-        # Two of three are gone: one is found beside the session, under its own name.
+        # One of three is gone: only that one is asked for.
         pathlib.Path(folder, "tool.stl").rename(f"{folder}/moved.stl")
         with Window(program, server, folder, ["--session", f"{folder}/session.json", "--device", "cpu"]) as window:
             asked = window.until("the question", lambda s: s["question"])["question"]

@@ -16,9 +16,10 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kFooter =
-    R"(A window with the volume, meshes in it, three slices, and the answer to whether they touch, which follows every change
-of pose and transfer function. --mesh may be repeated: each mesh has a pose of its own, at first the first of --poses. F1 shows keys and mouse. Without --volume and --session: the builtin head and
-scalpel. Needs a display (X11) and a Vulkan driver that can show pictures on it.
+    R"(A window with the volume, meshes in it, three slices, and the answer to whether they touch, which follows every
+change of pose and transfer function. --mesh may be repeated: each mesh has a pose of its own, at first the first of
+--poses. F1 shows keys and mouse. Without --volume and --session: the builtin head and scalpel. Needs a display (X11)
+and a Vulkan driver that can show pictures on it.
 
 --device cpu: the host engine answers, whatever draws. By default the GPU answers where there is one that can, else the
 host. --count and --projection choose another way, and so does the list under the answer.
