@@ -246,7 +246,8 @@ Result<void> MainLoop::Shooting::make() {
             return
                 [this, writing](std::uint32_t rowsDone, std::uint32_t rows) { return tell(writing, rowsDone, rows); };
         };
-        Result<Picture> picture = renderer->render(shown.scene, {shot.extent.width, shot.extent.height}, telling(false));
+        Result<Picture> picture =
+            renderer->render(shown.scene, {shot.extent.width, shot.extent.height}, telling(false));
         VOXTACT_TRY(picture);
         paint(marks, *picture);
         return io::writePng(shot.path, picture->width, picture->height, picture->rgba, telling(true));

@@ -22,9 +22,10 @@ Vec3 middleOf(const Grid& grid) {
 } // namespace
 
 State::State(Given opened)
-    : blank(false), volume(std::move(opened.volume)), meshes(std::move(opened.meshes)), labels(std::move(opened.labels)),
-      values(opened.values), coarserBy(opened.coarserBy), deviceOption(std::move(opened.deviceOption)),
-      deviceName(std::move(opened.deviceName)), document(std::move(opened.document)), window(opened.values) {
+    : blank(false), volume(std::move(opened.volume)), meshes(std::move(opened.meshes)),
+      labels(std::move(opened.labels)), values(opened.values), coarserBy(opened.coarserBy),
+      deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
+      document(std::move(opened.document)), window(opened.values) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
     histogram = histogramOf(volume.view(), document.domain);

@@ -17,6 +17,7 @@ State smallState() {
     given.volume = makeBuiltinVolume("head:16").value();
     given.meshes.push_back(makeBuiltinMesh("scalpel:300").value());
     given.values = checkVolume(given.volume.view()).value();
+    given.document.sources = {"builtin:head:16", {{"builtin:scalpel:300", "lps", 1}}, "", "", 1};
     given.document.edit.curve = {{40, 0}, {80, 1}};
     return State(std::move(given));
 }

@@ -129,7 +129,8 @@ TEST(ViewState, EachMeshHasAPoseOfItsOwnThatUndoGivesBack) {
 
 TEST(ViewState, TheLastMeshIsNotRemovedAndUndoBringsTheOthersBack) {
     State state = makeState();
-    state.document.edit.instruments = {{0, identity(), true}, {1, translation({1, 0, 0}), true}, {2, identity(), false}};
+    state.document.edit.instruments = {
+        {0, identity(), true}, {1, translation({1, 0, 0}), true}, {2, identity(), false}};
     state.choose(1);
     state.remove(0);
     EXPECT_EQ(state.document.edit.instrument().mesh, 1U); // the choice goes with its mesh

@@ -25,8 +25,7 @@ Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std
         VOXTACT_TRY(mesh);
         meshes.push_back(std::move(*mesh));
     }
-    return std::unique_ptr<HostAnswers>(
-        new HostAnswers(std::move(*volume), std::move(meshes), state, std::move(wake)));
+    return std::unique_ptr<HostAnswers>(new HostAnswers(std::move(*volume), std::move(meshes), state, std::move(wake)));
 }
 
 HostAnswers::HostAnswers(cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,

@@ -28,9 +28,10 @@ std::string commentsOf(const Document& document) {
                                              : "# of the volume as it was read, without the " + std::to_string(holes) +
                                                    " holes that were drilled\n";
     const std::uint32_t coarser = document.sources.coarser;
-    const std::string copy = coarser == 1 ? ""
-                                          : "# of the volume as it is in the file, not of its copy that is coarser by " +
-                                                std::to_string(coarser) + "\n";
+    const std::string copy = coarser == 1
+                                 ? ""
+                                 : "# of the volume as it is in the file, not of its copy that is coarser by " +
+                                       std::to_string(coarser) + "\n";
     return copy + without;
 }
 

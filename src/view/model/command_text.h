@@ -8,8 +8,9 @@
 namespace voxtact::view {
 
 /// The line for a shell that gives the same answer for one of the document's instruments: `voxtact detect` with
-/// everything that an answer depends on, and the pose on its standard input. Files by their absolute paths. Holes are in
-/// no file: a comment before the line says that they are missing. `device`: as --device takes it; empty: the default.
+/// everything that an answer depends on, and the pose on its standard input. Files by their absolute paths. Holes are
+/// in no file: a comment before the line says that they are missing. `device`: as --device takes it; empty: the
+/// default.
 [[nodiscard]] std::string commandFor(const Document& document, const Instrument& instrument, const MethodChoice& method,
                                      const std::string& device);
 

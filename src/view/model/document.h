@@ -24,9 +24,9 @@ struct MeshSource {
 struct Sources {
     std::string volume;
     std::vector<MeshSource> meshes; ///< all that were opened; those that were removed too, so that undo has them
-    std::string labels;        ///< a label map; empty: none
-    std::string labelNames;    ///< what its labels are called; empty: the file beside it, where it is there
-    std::uint32_t coarser = 1; ///< the volume that is shown has a voxel for so many along each axis
+    std::string labels;             ///< a label map; empty: none
+    std::string labelNames;         ///< what its labels are called; empty: the file beside it, where it is there
+    std::uint32_t coarser = 1;      ///< the volume that is shown has a voxel for so many along each axis
 };
 
 /// A mesh that is there, and where.

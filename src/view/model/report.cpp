@@ -69,7 +69,8 @@ Json meshesJson(const StateReport& report) {
         if (instrument.mesh >= document.sources.meshes.size()) {
             continue; // there is nothing to show yet
         }
-        Json json{{"mesh", document.sources.meshes[instrument.mesh].path}, {"shown", instrument.shown}, {"hit", nullptr}};
+        Json json{
+            {"mesh", document.sources.meshes[instrument.mesh].path}, {"shown", instrument.shown}, {"hit", nullptr}};
         const MeshAnswer* answer = report.answer == nullptr ? nullptr : report.answer->of(instrument.mesh);
         if (answer != nullptr) {
             addMesh(json, report, *answer);

@@ -14,8 +14,7 @@ void move(State& state, const Vec3& mm, Axes axes) {
 }
 
 void turn(State& state, std::size_t axis, double degrees, Axes axes) {
-    state.command([&](Edit& edit) { edit.pose() = turned(edit.pose(), axis, degrees, axes); },
-                  "nudge");
+    state.command([&](Edit& edit) { edit.pose() = turned(edit.pose(), axis, degrees, axes); }, "nudge");
 }
 
 /// The tip in numbers: dragged or typed.

@@ -63,8 +63,7 @@ void nudge(State& state, const Nudge& how, const KeyPress& press) {
             edit.pose() = moved(edit.pose(), mm, how.axes);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 if (how.degrees[axis] != 0) {
-                    edit.pose() =
-                        turned(edit.pose(), axis, factor * state.stepDegrees * how.degrees[axis], how.axes);
+                    edit.pose() = turned(edit.pose(), axis, factor * state.stepDegrees * how.degrees[axis], how.axes);
                 }
             }
         },

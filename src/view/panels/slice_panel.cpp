@@ -53,8 +53,8 @@ void drawMesh(const State& state, const Instrument& instrument, std::size_t slic
     const std::size_t axis = kSlices[slice].axis;
     const MeshAnswer* answer = state.answer ? state.answer->of(instrument.mesh) : nullptr;
     const ImU32 colour = ImGui::GetColorU32(instrumentColour(instrument.mesh));
-    for (const OutlinePiece& piece : outline(state.meshes[instrument.mesh].view(), instrument.world_from_object, axis,
-                                             state.cursor[axis], place)) {
+    for (const OutlinePiece& piece :
+         outline(state.meshes[instrument.mesh].view(), instrument.world_from_object, axis, state.cursor[axis], place)) {
         // An answer has them by their numbers.
         const bool touches = answer != nullptr && std::ranges::binary_search(answer->triangles, piece.triangle);
         list.AddLine(rect.at(piece.from), rect.at(piece.to), touches ? kContactColour : colour, scaled(1.6F));
