@@ -111,7 +111,8 @@ TEST(Plan, SaysHowNearEachPathComes) {
             const auto [lo, hi] = path.clearance;
             EXPECT_LE(lo, truth + 1e-6);
             EXPECT_GE(hi, truth - 1e-6);
-            EXPECT_EQ(path.end, truth >= kDefaultPlanMaximum + 1e-6 ? ClearanceEnd::Beyond : path.end);
+            EXPECT_EQ(path.end, truth >= kDefaultPlanMaximum + 0.0101 ? ClearanceEnd::Beyond : path.end)
+                << truth << " in [" << lo << ", " << hi << "]";
             EXPECT_TRUE(path.end == ClearanceEnd::Beyond ? lo == kDefaultPlanMaximum : hi - lo <= 0.0101);
             EXPECT_NEAR(path.length, 30, 1e-9);
             ++verdicts[static_cast<std::size_t>(path.safety)];
