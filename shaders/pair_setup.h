@@ -63,9 +63,9 @@ EXACT uint floatBitsAbove(uint bits) {
 }
 
 /// Element (row, column) of c_from_b * b_from_a.
-EXACT Wide wideProductElement(WideMatrix c_from_b, WideMatrix b_from_a, int row, int column) {
+EXACT Wide wideProductElement(WideMatrix c_from_b, WideMatrix b_from_a, uint row, uint column) {
     Wide sum = wideMultiply(c_from_b.element[row], b_from_a.element[4 * column]);
-    ROLLED for (int k = 1; k < 4; ++k) {
+    ROLLED for (uint k = 1; k < 4; ++k) {
         sum = wideAdd(sum, wideMultiply(c_from_b.element[4 * k + row], b_from_a.element[4 * column + k]));
     }
     return sum;
@@ -75,8 +75,8 @@ EXACT Wide wideProductElement(WideMatrix c_from_b, WideMatrix b_from_a, int row,
 EXACT PairTransform pairTransformOf(WideMatrix clip_from_world, WideMatrix texture_from_world,
                                     WideMatrix world_from_object) {
     PairTransform transform;
-    ROLLED for (int row = 0; row < 4; ++row) {
-        ROLLED for (int column = 0; column < 4; ++column) {
+    ROLLED for (uint row = 0; row < 4; ++row) {
+        ROLLED for (uint column = 0; column < 4; ++column) {
             const Wide clip = wideProductElement(clip_from_world, world_from_object, row, column);
             transform.clip_from_object[row][column] = wideFloatOf(wideToFloatBits(clip));
             if (row < 3) {
@@ -112,11 +112,11 @@ struct PairRows {
 
 EXACT PairRows pairRows(PairGrid grid, WideMatrix world_from_object) {
     PairRows rows;
-    ROLLED for (int column = 0; column < 4; ++column) {
-        ROLLED for (int row = 0; row < 3; ++row) {
+    ROLLED for (uint column = 0; column < 4; ++column) {
+        ROLLED for (uint row = 0; row < 3; ++row) {
             Wide sum = PAIR_ZERO;
             Wide magnitude = PAIR_ZERO;
-            ROLLED for (int k = 0; k < 4; ++k) {
+            ROLLED for (uint k = 0; k < 4; ++k) {
                 const Wide term = wideMultiply(grid.texture_from_world.element[4 * k + row],
                                                world_from_object.element[4 * column + k]);
                 sum = wideAdd(sum, term);
@@ -130,11 +130,11 @@ EXACT PairRows pairRows(PairGrid grid, WideMatrix world_from_object) {
     return rows;
 }
 
-EXACT Wide pairMinor(WideMatrix m, int r, int c) {
-    const int r1 = (r + 1) % 3;
-    const int r2 = (r + 2) % 3;
-    const int c1 = (c + 1) % 3;
-    const int c2 = (c + 2) % 3;
+EXACT Wide pairMinor(WideMatrix m, uint r, uint c) {
+    const uint r1 = (r + 1) % 3;
+    const uint r2 = (r + 2) % 3;
+    const uint c1 = (c + 1) % 3;
+    const uint c2 = (c + 2) % 3;
     return wideSubtract(wideMultiply(m.element[4 * c1 + r1], m.element[4 * c2 + r2]),
                         wideMultiply(m.element[4 * c2 + r1], m.element[4 * c1 + r2]));
 }
@@ -153,9 +153,9 @@ EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
     const Wide determinant = wideAdd(wideAdd(first, second), third);
     PairReference reference;
     bool near = true;
-    ROLLED for (int axis = 0; axis < 3; ++axis) {
+    ROLLED for (uint axis = 0; axis < 3; ++axis) {
         Wide sum = PAIR_ZERO;
-        ROLLED for (int row = 0; row < 3; ++row) {
+        ROLLED for (uint row = 0; row < 3; ++row) {
             const Wide way = wideSubtract(wideMultiply(PAIR_HALF, grid.size[row]), m.element[12 + row]);
             sum = wideAdd(sum, wideMultiply(pairMinor(m, row, axis), way));
         }
@@ -163,7 +163,7 @@ EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
         near = near && wideLess(wideAbs(place), PAIR_FARTHEST_REFERENCE);
         reference.bits[axis] = wideToFloatBits(place);
     }
-    ROLLED for (int axis = 0; axis < 3; ++axis) {
+    ROLLED for (uint axis = 0; axis < 3; ++axis) {
         reference.bits[axis] = near ? reference.bits[axis] : 0u;
     }
     return reference;
@@ -186,7 +186,7 @@ EXACT PairParts pairParts(Wide value, Wide low) {
     PairParts parts;
     Wide rest = value;
     Wide lost = PAIR_ZERO;
-    ROLLED for (int i = 0; i < 3; ++i) {
+    ROLLED for (uint i = 0; i < 3; ++i) {
         parts.part[i] = 0.0f;
         if (wideAtLeast(wideAbs(rest), PAIR_LEAST_PART)) {
             const uint bits = wideToFloatBits(rest);
@@ -209,11 +209,11 @@ struct PairPlace {
     Wide error;
 };
 
-EXACT PairPlace alignedPlace(PairGrid grid, WideMatrix world_from_object, int column) {
+EXACT PairPlace alignedPlace(PairGrid grid, WideMatrix world_from_object, uint column) {
     PairPlace place;
     place.error = PAIR_ZERO;
-    ROLLED for (int row = 0; row < 3; ++row) {
-        const Wide along = wideMultiply(grid.sign[row], world_from_object.element[4 * column + int(grid.axis[row])]);
+    ROLLED for (uint row = 0; row < 3; ++row) {
+        const Wide along = wideMultiply(grid.sign[row], world_from_object.element[4 * column + grid.axis[row]]);
         if (column < 3) {
             place.row[row] = pairParts(along, PAIR_ZERO);
             place.error = wideMost(place.error, place.row[row].left);
@@ -231,15 +231,15 @@ EXACT PairPlace alignedPlace(PairGrid grid, WideMatrix world_from_object, int co
     return place;
 }
 
-EXACT PairPlace obliquePlace(PairGrid grid, PairRows rows, int column) {
+EXACT PairPlace obliquePlace(PairGrid grid, PairRows rows, uint column) {
     const Wide centre = column == 3 ? PAIR_HALF : PAIR_ZERO;
     PairPlace place;
     place.error = PAIR_ZERO;
-    ROLLED for (int row = 0; row < 3; ++row) {
+    ROLLED for (uint row = 0; row < 3; ++row) {
         place.row[row] = pairParts(wideAdd(rows.value.element[4 * column + row], centre), PAIR_ZERO);
         Wide error = wideMultiplyAdd(PAIR_DOUBLE_ERROR, wideAdd(rows.magnitude.element[4 * column + row], centre),
                                      place.row[row].left);
-        ROLLED for (int k = 0; k < 3; ++k) {
+        ROLLED for (uint k = 0; k < 3; ++k) {
             error = wideAdd(error, wideMultiply(grid.share[4 * row + k], rows.magnitude.element[4 * column + k]));
         }
         if (column == 3) {
@@ -256,15 +256,15 @@ EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object)
     const PairReference reference = pairReference(grid, rows.value);
     CertifiedPair pair;
     Wide worst[4];
-    ROLLED for (int column = 0; column < 4; ++column) {
+    ROLLED for (uint column = 0; column < 4; ++column) {
         worst[column] = PAIR_ZERO;
     }
     bool fits = true; // in floats: an element that is infinite or NaN has no relative error
-    ROLLED for (int row = 0; row < 3; ++row) {
+    ROLLED for (uint row = 0; row < 3; ++row) {
         Wide place = rows.value.element[12 + row];
         Wide magnitude = rows.magnitude.element[12 + row];
         Wide lost = PAIR_ZERO;
-        ROLLED for (int column = 0; column < 3; ++column) {
+        ROLLED for (uint column = 0; column < 3; ++column) {
             const Wide element = rows.value.element[4 * column + row];
             const Wide size = rows.magnitude.element[4 * column + row];
             const Wide at = wideOfFloatBits(reference.bits[column]);
@@ -287,11 +287,11 @@ EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object)
     // Of the places, and then all of them as a share of the others.
     Wide share = PAIR_ZERO;
     Wide beyond = PAIR_ZERO;
-    ROLLED for (int column = 0; column < 4; ++column) {
+    ROLLED for (uint column = 0; column < 4; ++column) {
         const PairPlace at =
             grid.aligned != 0u ? alignedPlace(grid, world_from_object, column) : obliquePlace(grid, rows, column);
-        ROLLED for (int row = 0; row < 3; ++row) {
-            ROLLED for (int part = 0; part < 3; ++part) {
+        ROLLED for (uint row = 0; row < 3; ++row) {
+            ROLLED for (uint part = 0; part < 3; ++part) {
                 pair.place[3 * part + row][column] = at.row[row].part[part];
             }
         }

@@ -164,7 +164,7 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         if (desc.devicePoses) {
             Result<PairSetup> setup = PairSetup::create(c, desc);
             VOXTACT_TRY(setup);
-            (*impl)->setup = std::move(*setup);
+            (*impl)->setup = *setup;
         }
         return Detector(std::move(*impl));
     });
