@@ -105,6 +105,7 @@ Json comparisonJson(const StateReport& report) {
     for (const ComparedMethod& compared : report.comparison->methods()) {
         Json json{{"method", toString(compared.method.count)},
                   {"projection", toString(compared.method.projection)},
+                  {"filter", toString(defaultFilter(compared.method.count))},
                   {"refused", compared.refused},
                   {"hit", nullptr}};
         if (const MeshAnswer* answer = compared.answer ? compared.answer->of(edit.instrument().mesh) : nullptr) {

@@ -39,6 +39,8 @@ bool drawRow(const State& state, const ComparedMethod& compared) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(toString(compared.method.count));
     ImGui::TableNextColumn();
+    ImGui::TextUnformatted(toString(defaultFilter(compared.method.count)));
+    ImGui::TableNextColumn();
     ImGui::TextUnformatted(rowOf(compared.method.count).host ? "host" : "device");
     drawSaid(state, compared);
     return clicked;
@@ -52,7 +54,7 @@ void drawComparison(State& state) {
     }
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({em, 3 * em}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSize({em * 40, em * 22}, ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({em * 44, em * 22}, ImGuiCond_Appearing);
     if (ImGui::Begin("Counts of all methods", &state.comparing, ImGuiWindowFlags_NoCollapse)) {
         const bool current = state.comparison.isOf(state.document.edit);
         ImGui::TextColored(quietColour(), "%s",
@@ -61,9 +63,9 @@ void drawComparison(State& state) {
                                : "counting ...");
         const ImGuiTableFlags flags =
             ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp;
-        if (ImGui::BeginTable("methods", 7, flags)) {
+        if (ImGui::BeginTable("methods", 8, flags)) {
             ImGui::TableSetupScrollFreeze(0, 1);
-            for (const char* column : {"projection", "method", "by", "touches", "count", "triangles", "ms"}) {
+            for (const char* column : {"projection", "method", "filter", "by", "touches", "count", "triangles", "ms"}) {
                 ImGui::TableSetupColumn(column);
             }
             ImGui::TableHeadersRow();
