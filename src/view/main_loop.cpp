@@ -94,7 +94,8 @@ bool MainLoop::ended() const {
 }
 
 bool MainLoop::waitForFrame() {
-    const bool still = state_->blank || (state_->settled() && !state_->playing && !desc_->frames);
+    const bool still =
+        state_->blank || (state_->settled() && !state_->compares() && !state_->playing && !desc_->frames);
     idle_ = still && !state_->loading && !state_->saving;
     if (still) {
         glfwWaitEventsTimeout(idle_ ? kIdle : kLoading);

@@ -22,6 +22,9 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.chartFrom = state.chartRange().lo;
     seen.chartTo = state.chartRange().hi;
     seen.saving = state.saving.has_value();
+    seen.comparing = state.comparing;
+    seen.comparison = state.comparison.serial();
+    seen.compared = state.comparison.answered();
     seen.status = state.status;
     return seen;
 }
@@ -55,6 +58,7 @@ Result<void> Reporter::write(const State& state) {
     report.loading = state.loading ? &*state.loading : nullptr;
     report.loaded = state.loaded ? &*state.loaded : nullptr;
     report.saving = state.saving ? std::optional(state.saving->share) : std::nullopt;
+    report.comparison = state.comparing ? &state.comparison : nullptr;
     report.status = state.status;
     report.frame = state.frame;
     report.frameTimes = &state.frameTimes;

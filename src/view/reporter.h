@@ -29,6 +29,9 @@ class Reporter {
         double chartFrom = 0; ///< values of the curve's chart
         double chartTo = 0;
         bool saving = false; ///< a picture is being made
+        bool comparing = false;
+        std::uint64_t comparison = 0; ///< its serial
+        std::size_t compared = 0;     ///< methods that have answered
         std::string status;
 
         [[nodiscard]] bool operator==(const Seen&) const = default;

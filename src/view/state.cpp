@@ -63,6 +63,9 @@ void State::update() {
         fineShare = 0;
     }
     seen_ = {document.edit, method, camera, picture.extent, answered};
+    if (comparing && atRest() && !comparison.isOf(document.edit)) {
+        comparison.begin(document.edit, methods);
+    }
 }
 
 void State::command(const std::function<void(Edit&)>& change, const std::string& merge) {
@@ -195,6 +198,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
         next.show(kept);
     }
     next.helpOpen = helpOpen;
+    next.comparing = comparing;
     next.quit = quit;
     next.wanted = std::move(wanted);
     next.recent = std::move(recent);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "view/model/carving.h"
+#include "view/model/comparison.h"
 #include "view/model/document.h"
 #include "view/model/gizmo.h"
 #include "view/model/histogram.h"
@@ -126,6 +127,10 @@ struct State {
     [[nodiscard]] bool atRest() const;
     /// The answer is of what is shown, and the fine picture is there.
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
+    /// Answers of the comparison are waited for.
+    [[nodiscard]] bool compares() const {
+        return comparing && !(comparison.isOf(document.edit) && comparison.complete());
+    }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
     /// The values that the curve's chart shows: always a part of the domain.
@@ -166,6 +171,7 @@ struct State {
     std::uint64_t pictureRevision = 1; ///< of what the large picture depends on
     std::optional<LiveAnswer> answer;
     std::optional<LiveClearance> clearance; ///< of this question or one before
+    Comparison comparison;                  ///< of the methods, while `comparing`
     Times times;
     Strip strip; ///< by seconds()
     std::string answeredBy;
@@ -194,6 +200,7 @@ struct State {
     std::optional<std::size_t> cubeSide;    ///< of kPatientSides, under the pointer
     std::optional<std::size_t> cubePressed; ///< that the left button was pressed on
     bool helpOpen = false;
+    bool comparing = false; ///< the counts of all methods are shown
     bool quit = false;
     double stepMillimetres = 1;
     double stepDegrees = 5;

@@ -294,6 +294,36 @@ def methods(program, folder):
                 compare(program, state)
                 window.press("ctrl+q")
                 window.end()
+        counts(program, folder, server)
+
+
+def counted(state):
+    return state["methods"] and all(one["hit"] is not None or one["refused"] for one in state["methods"])
+
+
+def counts(program, folder, server):
+    """All methods side by side: those of a projection and the filter exact count the same."""
+    with Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses", poses(folder, 60)]) as window:
+        window.until("the answer", lambda s: s["settled"])
+        window.press("k")
+        state = window.until("the counts of all methods", counted)
+        assert len(state["methods"]) >= 8 and not any(one["refused"] for one in state["methods"]), state["methods"]
+        by_projection = {}
+        for one in state["methods"]:
+            if one["filter"] == "exact" and one["exact"] == 1:
+                by_projection.setdefault(one["projection"], []).append((one["hit"], one["count"], one["triangles"]))
+        assert len(by_projection) >= 3, by_projection
+        assert all(len(said) >= 2 and len(set(said)) == 1 for said in by_projection.values()), by_projection
+        assert all(one["hit"] == 1 for one in state["methods"]), state["methods"]
+        live = next(one for one in state["methods"] if one["method"] == "cpu" and one["projection"] == "conservative")
+        assert (live["hit"], live["count"]) == (state["hit"], state["count"]), state
+        window.press("Next")
+        state = window.until("the counts of the next pose", lambda s: counted(s) and s["pose"][HEIGHT] == 59)
+        assert state["methods"][-1]["count"] == state["count"], state
+        window.press("k")
+        window.until("none of them", lambda s: s["methods"] is None)
+        window.press("ctrl+q")
+        window.end()
 
 
 def labels(program, folder):

@@ -6,8 +6,30 @@
 
 namespace voxtact::view {
 
-Result<DeviceAnswers> DeviceAnswers::create(const device::Session& session, const DeviceScene& scene) {
-    DeviceAnswers out(session);
+const Detector* Detectors::find(const MethodChoice& method) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = detectors_.find({method.count, method.projection});
+    return found == detectors_.end() ? nullptr : &found->second;
+}
+
+Result<const Detector*> Detectors::get(const MethodChoice& method) {
+    if (const Detector* const found = find(method)) {
+        return found;
+    }
+    DetectorDesc desc;
+    desc.method = method.count;
+    desc.projection = method.projection;
+    desc.filter = defaultFilter(method.count);
+    desc.outputs = {.triangles = true, .contacts = true, .labels = labels_};
+    Result<Detector> made = Detector::create(*context_, desc); // nobody waits for it who has one
+    VOXTACT_TRY(made);
+    const std::lock_guard lock(mutex_);
+    return &detectors_.try_emplace(Key(method.count, method.projection), std::move(*made)).first->second;
+}
+
+Result<DeviceAnswers> DeviceAnswers::create(const device::Session& session, const DeviceScene& scene,
+                                            std::shared_ptr<Detectors> detectors) {
+    DeviceAnswers out(std::move(detectors));
     ResultsDesc desc;
     desc.timestamps = session.device.hasTimestamps();
     desc.queueFamily = session.device.queueAccess().family;
@@ -35,24 +57,14 @@ std::vector<MethodChoice> DeviceAnswers::choices(const Context& context) {
     return out;
 }
 
-Result<void> DeviceAnswers::record(VkCommandBuffer commands, DeviceScene& scene, const State& state,
+Result<void> DeviceAnswers::record(VkCommandBuffer commands, const DeviceScene& scene, const LiveQuestion& question,
                                    std::uint32_t slot) {
-    const MethodChoice& method = state.method;
-    const std::pair key(method.count, method.projection);
-    auto detector = detectors_.find(key);
-    if (detector == detectors_.end()) {
-        DetectorDesc desc;
-        desc.method = method.count;
-        desc.projection = method.projection;
-        desc.filter = defaultFilter(method.count);
-        desc.outputs = {.triangles = true, .contacts = true, .labels = scene.labels() != nullptr};
-        Result<Detector> made = Detector::create(session_->context, desc);
-        VOXTACT_TRY(made);
-        detector = detectors_.emplace(key, std::move(*made)).first;
-    }
-    VOXTACT_TRY(detector->second.cmdDetect(commands, scene.batch(state), results_[slot]));
+    const Result<const Detector*> detector = detectors_->get(question.method);
+    VOXTACT_TRY(detector);
+    const AskedPairs pairs = scene.pairs(question.edit);
+    VOXTACT_TRY((*detector)->cmdDetect(commands, pairs.batch, results_[slot]));
     VOXTACT_TRY(results_[slot].cmdReadBack(commands));
-    asked_[slot] = Asked{state.revision, state.document.edit.instruments};
+    asked_[slot] = Asked{question.revision, question.edit.instruments};
     return {};
 }
 

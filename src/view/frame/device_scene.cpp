@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kAlignment = 256; // that PaintedTriangles::wrap() asks for
 constexpr Colour kBackground{0.055, 0.062, 0.075};
-constexpr std::uint32_t kAnswerSide = 512; // as voxtact detect has it
 
 /// Half a voxel apart in a fine picture, a whole one in a coarse one.
 RenderTransferFunctionDesc renderDesc(const State& state, bool fine) {
@@ -97,6 +96,7 @@ Result<std::unique_ptr<DeviceScene>> DeviceScene::create(const device::Session& 
     std::unique_ptr<DeviceScene> scene(new DeviceScene);
     const QueueAccess queue = session.device.queueAccess();
     scene->light_ = light;
+    scene->view_ = answerView(state.volume.grid);
     Result<BlockingRenderer> blocking = BlockingRenderer::create(session.context, queue);
     VOXTACT_TRY(blocking);
     scene->blocking_ = std::move(*blocking);
@@ -195,22 +195,20 @@ std::uint64_t DeviceScene::triangles() const {
     return sum;
 }
 
-Batch DeviceScene::batch(const State& state) {
-    const std::vector<Instrument>& instruments = state.document.edit.instruments;
-    poses_.clear();
+AskedPairs DeviceScene::pairs(const Edit& edit) const {
+    AskedPairs out;
+    const std::vector<Instrument>& instruments = edit.instruments;
     for (const Instrument& instrument : instruments) {
-        poses_.push_back(instrument.world_from_object);
+        out.poses.push_back(instrument.world_from_object);
     }
-    items_.clear();
     for (std::size_t i = 0; i < instruments.size(); ++i) {
         const Mesh& mesh = meshes_[instruments[i].mesh].mesh();
-        items_.push_back({&mesh, &*volume_, &*function_, {&poses_[i], 1}, labels()});
+        out.items.push_back({&mesh, &*volume_, &*function_, {&out.poses[i], 1}, labels()});
     }
-    Batch batch;
-    batch.items = items_;
-    batch.view = {framingCamera(state.volume.grid, kAnswerSide, kAnswerSide), kAnswerSide, kAnswerSide};
-    batch.threshold = state.document.edit.threshold;
-    return batch;
+    out.batch.items = out.items;
+    out.batch.view = view_;
+    out.batch.threshold = edit.threshold;
+    return out;
 }
 
 } // namespace voxtact::view

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 
 namespace voxtact::view {
 
@@ -39,6 +40,13 @@ struct ShownScene {
     std::vector<SceneMesh> others;
 };
 
+/// The pairs of a question, one for each instrument, and what the batch points to. To be moved, not copied.
+struct AskedPairs {
+    std::vector<Mat4> poses;
+    std::vector<BatchItem> items;
+    Batch batch;
+};
+
 /// Everything of voxtact's on the device: one upload for pictures, slices and answers.
 class DeviceScene {
   public:
@@ -57,8 +65,10 @@ class DeviceScene {
     void paint(const State& state, std::uint32_t slot);
     /// What a picture shows: of the meshes those that are shown. Valid as long as this.
     [[nodiscard]] ShownScene scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) const;
-    /// The pairs that an answer is about: one for each instrument. Valid until the next call.
-    [[nodiscard]] Batch batch(const State& state);
+    /// Valid as long as this.
+    [[nodiscard]] AskedPairs pairs(const Edit& edit) const;
+    /// Held by whoever records what uses or changes this: frames, and answers beside them.
+    [[nodiscard]] std::mutex& recording() { return recording_; }
 
     [[nodiscard]] const Volume& volume() const { return *volume_; }
     [[nodiscard]] const Renderer& renderer() const { return blocking_->renderer(); }
@@ -88,8 +98,8 @@ class DeviceScene {
     Curve curve_;                      ///< that the tables are of
     std::vector<ColourPoint> colours_; ///< the same
     Lighting light_;
-    std::vector<BatchItem> items_;
-    std::vector<Mat4> poses_; ///< of items_
+    View view_; ///< that answers in the view are of
+    std::mutex recording_;
 };
 
 } // namespace voxtact::view

@@ -129,6 +129,7 @@ Result<std::unique_ptr<Stage>> Frames::put(std::unique_ptr<Stage> stage, State& 
     state.methods = DeviceAnswers::choices(session_->context);
     answering_ = state.method;
     asked_ = 0;
+    askedHost_ = 0;
     return before;
 }
 
@@ -182,7 +183,54 @@ Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool 
             state.complain(clearance->error().text);
         }
     }
+    VOXTACT_TRY(collectBeside(state));
+    compareNext(state);
     return {};
+}
+
+/// Of what was asked beside the frames. A method that cannot answer is told of, and the one before comes back.
+Result<void> Frames::collectBeside(State& state) {
+    if (std::optional<Result<LiveAnswer>> compared = stage_->host->takeCompared()) {
+        state.comparison.take(std::move(*compared));
+    }
+    std::optional<Result<LiveAnswer>> answer = stage_->beside->take();
+    if (!answer) {
+        return {};
+    }
+    if (!answer->ok() && answer->error().code == ErrorCode::DeviceLost) {
+        return answer->error();
+    }
+    if (besideCompares_) {
+        state.comparison.take(std::move(*answer));
+        return {};
+    }
+    if (!answer->ok()) {
+        if (besideMethod_ == answering_) {
+            return answer->error();
+        }
+        state.method = state.method == besideMethod_ ? answering_ : state.method;
+    } else if ((*answer)->revision == state.revision) {
+        asked_ = state.revision;
+    }
+    take(state, std::move(*answer));
+    return {};
+}
+
+/// Asks the next method of the comparison, while nothing else is asked.
+void Frames::compareNext(State& state) {
+    if (!state.comparing || !state.settled() || !state.comparison.isOf(state.document.edit) || stage_->beside->busy()) {
+        return;
+    }
+    std::optional<LiveQuestion> question = state.comparison.next();
+    if (!question) {
+        return;
+    }
+    if (rowOf(question->method.count).host) {
+        stage_->host->compare(std::move(*question));
+    } else {
+        besideCompares_ = true;
+        stage_->beside->ask(std::move(*question));
+    }
 }
 
 /// An answer that another method gave meanwhile is none any more.
@@ -239,15 +287,27 @@ Result<void> Frames::fitStage(State& state) {
     return {};
 }
 
-/// A question that was not asked yet, of the host or into this frame.
+/// A question that was not asked yet, of the host or into this frame; of a method that was not used before, beside it.
 Result<void> Frames::ask(State& state) {
+    const LiveQuestion question{state.revision, state.document.edit, state.method};
+    if (askedHost_ != state.revision) {
+        askedHost_ = state.revision;
+        stage_->host->ask(question, state.writes);
+    }
     if (asked_ == state.revision) {
         return {};
     }
-    asked_ = state.revision;
     const bool host = rowOf(state.method.count).host;
-    stage_->host->ask({state.revision, state.document.edit, state.method.projection, host}, state.writes);
-    return host ? Result<void>() : stage_->device->record(slot().commands, *stage_->scene, state, slot_);
+    if (!host && !stage_->device->ready(state.method)) {
+        if (!stage_->beside->busy()) {
+            besideCompares_ = false;
+            besideMethod_ = question.method;
+            stage_->beside->ask(question);
+        }
+        return {};
+    }
+    asked_ = state.revision;
+    return host ? Result<void>() : stage_->device->record(slot().commands, *stage_->scene, question, slot_);
 }
 
 Result<void> Frames::begin() {
@@ -262,6 +322,7 @@ Result<void> Frames::begin() {
 
 /// The transfer function and the question. A method that cannot answer is told of, and the one before comes back.
 Result<void> Frames::recordAnswer(State& state) {
+    const std::lock_guard lock(stage_->scene->recording());
     VOXTACT_TRY(stage_->scene->cmdUpdate(slot().commands, state));
     if (const Result<void> asked = ask(state); !asked.ok()) {
         if (asked.error().code == ErrorCode::DeviceLost || state.method == answering_) {

@@ -51,6 +51,8 @@ class Frames {
     [[nodiscard]] Result<void> fitSizes(State& state, VkExtent2D window);
     void setTextures(State& state);
     [[nodiscard]] Result<void> ask(State& state);
+    [[nodiscard]] Result<void> collectBeside(State& state);
+    void compareNext(State& state);
     [[nodiscard]] Result<void> begin();
     [[nodiscard]] Result<void> recordAnswer(State& state);
     [[nodiscard]] Result<void> record(State& state, const ImDrawData& panels, std::uint32_t image);
@@ -63,9 +65,12 @@ class Frames {
     std::optional<Swapchain> swapchain_;
     std::optional<Gui> gui_;
     std::array<Slot, kFramesInFlight> slots_{};
-    std::uint32_t slot_ = 0;  ///< of the next frame
-    std::uint64_t asked_ = 0; ///< State::revision of the last question
-    MethodChoice answering_;  ///< the last that gave an answer
+    std::uint32_t slot_ = 0;      ///< of the next frame
+    std::uint64_t asked_ = 0;     ///< State::revision of the last question that the host or a frame was asked
+    std::uint64_t askedHost_ = 0; ///< the same of the host, which measures clearances
+    bool besideCompares_ = false; ///< what is asked beside the frames is of the comparison
+    MethodChoice besideMethod_;   ///< what is asked there else
+    MethodChoice answering_;      ///< the last that gave an answer
     std::array<VkDescriptorSet, 3> sliceSets_{};
     VkDescriptorSet coarse_ = VK_NULL_HANDLE;
     VkDescriptorSet fine_ = VK_NULL_HANDLE;

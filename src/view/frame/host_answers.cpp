@@ -3,12 +3,11 @@
 
 #include "core/base/guard.h"
 #include "core/base/try.h"
+#include "core/method/method_table.h"
 
 namespace voxtact::view {
 
 namespace {
-
-constexpr std::uint32_t kAnswerSide = 512; // as voxtact detect has it
 
 double since(State::Clock::time_point begun) {
     return std::chrono::duration<double, std::milli>(State::Clock::now() - begun).count();
@@ -32,9 +31,8 @@ HostAnswers::HostAnswers(cpu::Volume volume, std::vector<cpu::Mesh> meshes, cons
                          std::function<void()> wake)
     : volume_(std::move(volume)), meshes_(std::move(meshes)),
       labels_(state.labels ? std::optional(state.labels->map) : std::nullopt), domain_(state.document.domain),
-      tableSize_(state.document.tableSize), view_{framingCamera(state.volume.grid, kAnswerSide, kAnswerSide),
-                                                  kAnswerSide, kAnswerSide},
-      wake_(std::move(wake)), thread_([this] { work(); }) {}
+      tableSize_(state.document.tableSize), view_(answerView(state.volume.grid)), wake_(std::move(wake)),
+      thread_([this] { work(); }) {}
 
 HostAnswers::~HostAnswers() {
     {
@@ -46,7 +44,7 @@ HostAnswers::~HostAnswers() {
     thread_.join();
 }
 
-void HostAnswers::ask(Question question, std::span<const HoleWrite> writes) {
+void HostAnswers::ask(LiveQuestion question, std::span<const HoleWrite> writes) {
     {
         const std::lock_guard lock(mutex_);
         writes_.insert(writes_.end(), writes.begin() + static_cast<std::ptrdiff_t>(written_), writes.end());
@@ -55,6 +53,19 @@ void HostAnswers::ask(Question question, std::span<const HoleWrite> writes) {
         newer_ = true;
     }
     asked_.notify_one();
+}
+
+void HostAnswers::compare(LiveQuestion question) {
+    {
+        const std::lock_guard lock(mutex_);
+        compare_ = std::move(question);
+    }
+    asked_.notify_one();
+}
+
+std::optional<Result<LiveAnswer>> HostAnswers::takeCompared() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(compared_, std::nullopt);
 }
 
 std::optional<Result<LiveAnswer>> HostAnswers::take() {
@@ -77,31 +88,42 @@ template <class Found> void HostAnswers::give(std::optional<Result<Found>>& to, 
 
 void HostAnswers::work() {
     while (true) {
-        Question question;
+        LiveQuestion question;
         std::vector<HoleWrite> writes;
+        bool compared = false;
         {
             std::unique_lock lock(mutex_);
-            asked_.wait(lock, [this] { return stop_ || question_; });
+            asked_.wait(lock, [this] { return stop_ || question_ || compare_; });
             if (stop_) {
                 return;
             }
-            question = *std::exchange(question_, std::nullopt);
+            compared = !question_;
+            question = *std::exchange(compared ? compare_ : question_, std::nullopt);
             writes = std::exchange(writes_, {});
             newer_ = false;
         }
-        for (const HoleWrite& write : writes) {
-            if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {
-                give(clearance_, Result<LiveClearance>(written.error()));
-            }
+        if (compared) {
+            give(compared_, guard([&] { return answer(question, newer_); }));
+        } else {
+            follow(question, writes);
         }
-        if (question.answer) {
-            give(answer_, guard([&] { return answer(question); }));
-        }
-        give(clearance_, guard([&] { return measure(question); }));
     }
 }
 
-Result<cpu::Batch> HostAnswers::batchOf(const Question& question, const std::atomic<bool>& cancel) {
+/// The live question: the volume becomes its own first.
+void HostAnswers::follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes) {
+    for (const HoleWrite& write : writes) {
+        if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {
+            give(clearance_, Result<LiveClearance>(written.error()));
+        }
+    }
+    if (rowOf(question.method.count).host) {
+        give(answer_, guard([&] { return answer(question, stop_); }));
+    }
+    give(clearance_, guard([&] { return measure(question); }));
+}
+
+Result<cpu::Batch> HostAnswers::batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel) {
     if (!function_ || !sameCurve(functionOf_, question.edit.curve)) {
         Result<cpu::TransferFunction> made = cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
         VOXTACT_TRY(made);
@@ -126,25 +148,25 @@ Result<cpu::Batch> HostAnswers::batchOf(const Question& question, const std::ato
     return batch;
 }
 
-Result<LiveAnswer> HostAnswers::answer(const Question& question) {
-    auto detector = detectors_.find(question.projection);
+Result<LiveAnswer> HostAnswers::answer(const LiveQuestion& question, const std::atomic<bool>& cancel) {
+    auto detector = detectors_.find(question.method.projection);
     if (detector == detectors_.end()) {
         cpu::DetectorDesc desc;
-        desc.projection = question.projection;
+        desc.projection = question.method.projection;
         desc.outputs = {.triangles = true, .contacts = true, .labels = labels_.has_value()};
         Result<cpu::Detector> made = cpu::Detector::create(desc);
         VOXTACT_TRY(made);
-        detector = detectors_.emplace(question.projection, std::move(*made)).first;
+        detector = detectors_.emplace(question.method.projection, std::move(*made)).first;
     }
     const auto begun = State::Clock::now();
-    const Result<cpu::Batch> batch = batchOf(question, stop_);
+    const Result<cpu::Batch> batch = batchOf(question, cancel);
     VOXTACT_TRY(batch);
     Result<BatchAnswer> found = detector->second.detect(*batch);
     VOXTACT_TRY(found);
     return liveAnswer(std::move(*found), question.revision, question.edit.instruments, since(begun));
 }
 
-Result<LiveClearance> HostAnswers::measure(const Question& question) {
+Result<LiveClearance> HostAnswers::measure(const LiveQuestion& question) {
     if (!meter_) {
         Result<cpu::ClearanceMeter> made = cpu::ClearanceMeter::create();
         VOXTACT_TRY(made);

@@ -14,22 +14,20 @@
 namespace voxtact::view {
 
 /// Answers of the host engine and clearances, on a thread of its own: of several questions the last is answered. A
-/// clearance that is being measured gives way to a new question.
+/// clearance that is being measured gives way to a new question, and so does a comparison.
 class HostAnswers {
   public:
-    struct Question {
-        std::uint64_t revision = 0;
-        Edit edit;
-        Projection projection = Projection::Conservative;
-        bool answer = false; ///< not only the clearance
-    };
-
     /// Copies what it needs of the state. `wake`: called from its thread when there is an answer.
     [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
     ~HostAnswers();
 
-    /// `writes`: all to the volume since it was read.
-    void ask(Question question, std::span<const HoleWrite> writes);
+    /// The clearance, and the answer where the question's method is the host's. `writes`: all to the volume since it
+    /// was read.
+    void ask(LiveQuestion question, std::span<const HoleWrite> writes);
+    /// A question of a comparison, when there is nothing else to do.
+    void compare(LiveQuestion question);
+    /// What became of a comparison's question, once; Cancelled where it gave way.
+    [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
     /// The newest answer, once; nothing where there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
     /// The same of clearances.
@@ -40,9 +38,10 @@ class HostAnswers {
     void work();
     template <class Found> void give(std::optional<Result<Found>>& to, Result<Found> found);
     /// Valid until the next call.
-    [[nodiscard]] Result<cpu::Batch> batchOf(const Question& question, const std::atomic<bool>& cancel);
-    [[nodiscard]] Result<LiveAnswer> answer(const Question& question);
-    [[nodiscard]] Result<LiveClearance> measure(const Question& question);
+    [[nodiscard]] Result<cpu::Batch> batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel);
+    [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
+    [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
+    void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
 
     cpu::Volume volume_;
     std::vector<cpu::Mesh> meshes_; ///< by their numbers in Sources::meshes
@@ -60,10 +59,12 @@ class HostAnswers {
 
     std::mutex mutex_;
     std::condition_variable asked_;
-    std::optional<Question> question_;
+    std::optional<LiveQuestion> question_;
+    std::optional<LiveQuestion> compare_;
     std::vector<HoleWrite> writes_; ///< that are to be done before it
     std::size_t written_ = 0;       ///< that were taken over, of all
     std::optional<Result<LiveAnswer>> answer_;
+    std::optional<Result<LiveAnswer>> compared_;
     std::optional<Result<LiveClearance>> clearance_;
     std::atomic<bool> stop_ = false;
     std::atomic<bool> newer_ = false; ///< there is a question that nobody looks at yet

@@ -22,7 +22,9 @@ Result<void> rehearse(const device::Session& session, const State& state, Stage&
     VOXTACT_TRY(submission);
     const auto run = submission->run([&](VkCommandBuffer commands) -> Result<void> {
         stage.slices->record(commands, state);
-        return rowOf(state.method.count).host ? Result<void>() : stage.device->record(commands, *stage.scene, state, 0);
+        const LiveQuestion question{state.revision, state.document.edit, state.method};
+        return rowOf(state.method.count).host ? Result<void>()
+                                              : stage.device->record(commands, *stage.scene, question, 0);
     });
     // A method that cannot answer is told of when it is asked.
     if (!run.ok() && run.error().code == ErrorCode::DeviceLost) {
@@ -51,9 +53,13 @@ Result<std::unique_ptr<Stage>> Stage::create(const device::Session& session, con
         DeviceScene::create(session, state, std::move(volume), desc.light(state.volume.grid));
     VOXTACT_TRY(scene);
     stage->scene = std::move(*scene);
-    Result<DeviceAnswers> answers = DeviceAnswers::create(session, *stage->scene);
+    const auto detectors = std::make_shared<Detectors>(session.context, stage->scene->labels() != nullptr);
+    Result<DeviceAnswers> answers = DeviceAnswers::create(session, *stage->scene, detectors);
     VOXTACT_TRY(answers);
     stage->device = std::move(*answers);
+    Result<std::unique_ptr<BesideAnswers>> beside = BesideAnswers::create(session, *stage->scene, detectors, desc.wake);
+    VOXTACT_TRY(beside);
+    stage->beside = std::move(*beside);
     VOXTACT_TRY(progress.begin("compiling what draws and answers"));
     Result<Pictures> pictures = Pictures::create(session, stage->scene->renderer(), desc.picture);
     VOXTACT_TRY(pictures);

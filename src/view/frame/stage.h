@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "view/frame/beside_answers.h"
 #include "view/frame/device_answers.h"
 #include "view/frame/host_answers.h"
 #include "view/frame/pictures.h"
@@ -12,7 +13,7 @@ namespace voxtact::view {
 /// What a stage is made for.
 struct StageDesc {
     std::function<Lighting(const Grid&)> light; ///< of the fine picture
-    std::function<void()> wake;                 ///< called from another thread when the host has an answer
+    std::function<void()> wake;                 ///< called from another thread when there is an answer
     Extent picture{16, 16};                     ///< pixels, for a start
     std::array<Extent, 3> slices{{{16, 16}, {16, 16}, {16, 16}}};
 };
@@ -31,6 +32,7 @@ struct Stage {
     // In the order in which they end, the last first.
     std::unique_ptr<DeviceScene> scene;
     std::optional<DeviceAnswers> device;
+    std::unique_ptr<BesideAnswers> beside;
     std::unique_ptr<HostAnswers> host;
     std::optional<Pictures> pictures;
     std::optional<SlicePass> slices;

@@ -43,6 +43,11 @@ MeshAnswer meshAnswer(const BatchAnswer& batch, const PairAnswer& pair, std::uin
 
 } // namespace
 
+View answerView(const Grid& grid) {
+    constexpr std::uint32_t kSide = 512;
+    return {framingCamera(grid, kSide, kSide), kSide, kSide};
+}
+
 const MeshAnswer* LiveAnswer::of(std::size_t mesh) const noexcept {
     const auto at = std::ranges::find_if(meshes, [mesh](const MeshAnswer& one) { return one.instrument.mesh == mesh; });
     return at == meshes.end() ? nullptr : &*at;

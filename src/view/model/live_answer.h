@@ -15,6 +15,16 @@ namespace voxtact::view {
 /// Contacts that are shown and listed, at most.
 inline constexpr std::size_t kShownContacts = 2000;
 
+/// Where projections with a camera look from, as `voxtact detect` has it.
+[[nodiscard]] View answerView(const Grid& grid);
+
+/// What is asked: of all instruments of an edit, in one way.
+struct LiveQuestion {
+    std::uint64_t revision = 0; ///< its answer has the same
+    Edit edit;
+    MethodChoice method;
+};
+
 /// What is said of one mesh.
 struct MeshAnswer {
     Instrument instrument; ///< that was asked about

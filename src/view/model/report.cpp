@@ -92,6 +92,34 @@ void addAnswer(Json& json, const StateReport& report, const MeshAnswer& chosen) 
     json["answers"] = answer.revision;
 }
 
+/// What each method says of the chosen mesh. Null where that is not shown, empty until it is of this question.
+Json comparisonJson(const StateReport& report) {
+    if (report.comparison == nullptr) {
+        return nullptr;
+    }
+    Json out = Json::array();
+    const Edit& edit = report.document->edit;
+    if (!report.comparison->isOf(edit)) {
+        return out;
+    }
+    for (const ComparedMethod& compared : report.comparison->methods()) {
+        Json json{{"method", toString(compared.method.count)},
+                  {"projection", toString(compared.method.projection)},
+                  {"filter", toString(defaultFilter(compared.method.count))},
+                  {"refused", compared.refused},
+                  {"hit", nullptr}};
+        if (const MeshAnswer* answer = compared.answer ? compared.answer->of(edit.instrument().mesh) : nullptr) {
+            json["hit"] = hitNumber(answer->pair);
+            json["count"] = answer->pair.count;
+            json["exact"] = answer->pair.exactness == Exactness::Exact ? 1 : 0;
+            json["triangles"] = answer->triangles.size();
+            json["milliseconds"] = compared.answer->milliseconds;
+        }
+        out.push_back(std::move(json));
+    }
+    return out;
+}
+
 Json loadingJson(const Loading* loading) {
     if (loading == nullptr) {
         return nullptr;
@@ -126,6 +154,7 @@ std::string reportText(const StateReport& report) {
     }
     json["chosen"] = edit.chosen;
     json["meshes"] = meshesJson(report);
+    json["methods"] = comparisonJson(report);
     json["holes"] = edit.holes;
     json["coarser"] = report.document->sources.coarser;
     json["threshold"] = edit.threshold;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "view/model/comparison.h"
 #include "view/model/labels.h"
 #include "view/model/live_answer.h"
 #include "view/model/live_clearance.h"
@@ -32,6 +33,7 @@ struct StateReport {
     const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
     const Loading* loading = nullptr;         ///< null: nothing is being loaded
     const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
+    const Comparison* comparison = nullptr;   ///< of the methods; null where it is not shown
     std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
     std::string status;                       ///< what was done last
     std::uint64_t frame = 0;                  ///< frames shown until then

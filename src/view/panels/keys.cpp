@@ -119,6 +119,9 @@ void takePlainKey(State& state, const KeyPress& press) {
     case GLFW_KEY_T:
         state.gizmoAxes = nextOf(state.gizmoAxes);
         break;
+    case GLFW_KEY_K:
+        state.comparing = !state.comparing;
+        break;
     case GLFW_KEY_M:
         state.choose((state.document.edit.chosen + 1) % state.document.edit.instruments.size());
         break;
@@ -246,6 +249,7 @@ void drawHelp(State& state) {
             row(direction.name, direction.view);
         }
         row("M, V, delete", "of several meshes the next one; it is shown or not; it is removed");
+        row("K", "the counts of all methods side by side");
         row("F", "frame the volume");
         row("G", "slices through the tip");
         row("H, T", "handles at the tip: shown or not; along the axes of the world, of the view, its own");

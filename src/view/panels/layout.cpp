@@ -44,6 +44,7 @@ void drawMenu(State& state) {
         if (ImGui::MenuItem("Handles along other axes", "T")) {
             state.gizmoAxes = nextOf(state.gizmoAxes);
         }
+        ImGui::MenuItem("Counts of all methods", "K", &state.comparing);
         ImGui::Separator();
         if (ImGui::MenuItem("Dark", nullptr, state.theme == Theme::Dark)) {
             state.theme = Theme::Dark;
@@ -181,6 +182,9 @@ void drawPanels(State& state) {
     drawDialogs(state);
     ImGui::End();
     drawLoading(state);
+    if (!state.blank) {
+        drawComparison(state);
+    }
     drawHelp(state);
 }
 

@@ -56,6 +56,8 @@ void drawCube(const State& state, const Onto& onto, ImDrawList& list);
 void drawGizmoChoice(State& state);
 void drawSlice(State& state, std::size_t slice);
 void drawContacts(State& state);
+/// A window with what each method says of the chosen mesh, while it is asked for.
+void drawComparison(State& state);
 /// Dialogs of files, and their menu.
 void drawFileMenu(State& state);
 void drawDialogs(State& state);
