@@ -36,8 +36,9 @@ class RenderSliceTest : public CliTest {
         for (int i = 0; i < picture.width * picture.height; ++i) {
             const auto [r, g, b] = pixel(picture, i % picture.width, i / picture.width);
             if (g > 2 * r && g > 2 * b) {
+                const int row = i / picture.width;
                 x += i % picture.width;
-                y += i / picture.width;
+                y += row;
                 ++count;
             }
         }

@@ -31,7 +31,7 @@ bool same(double a, double b) {
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::array kSpecial{0.0,
+const std::array kSpecial{0.0,
                               1.0,
                               1.5,
                               std::nextafter(1.0, 2.0),

@@ -51,11 +51,12 @@ TEST(ViewCarving, ChangesTheVoxelsWhoseCentresAreInTheBallAndNoOthers) {
     const std::size_t bytes = bytesPerVoxel(volume.type);
     std::size_t inside = 0;
     for (std::uint32_t i = 0; i < nx * ny * nz; ++i) {
-        const Vec3 texture{(i % nx + 0.5) / nx, (i / nx % ny + 0.5) / ny, (i / nx / ny + 0.5) / nz};
+        const std::array at{i % nx, i / nx % ny, i / nx / ny};
+        const Vec3 texture{(at[0] + 0.5) / nx, (at[1] + 0.5) / ny, (at[2] + 0.5) / nz};
         const Vec3 centre = transformPoint(worldFromTexture(volume.grid), texture);
         const bool in = std::hypot(centre[0] - middle[0], centre[1] - middle[1], centre[2] - middle[2]) <= radius;
         inside += in ? 1 : 0;
-        const auto first = static_cast<std::ptrdiff_t>(i * bytes);
+        const std::size_t first = i * bytes;
         ASSERT_EQ(std::to_integer<int>(volume.voxels[first]), in ? 7 : std::to_integer<int>(before.voxels[first])) << i;
     }
     EXPECT_GT(inside, 20U);

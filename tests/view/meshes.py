@@ -10,10 +10,8 @@ Exit status: 0 passed, 1 failed.
 """
 import pathlib
 import sys
-import tempfile
-import time
 
-from window import HEIGHT, SCENE, Server, Window, compare, make, poses
+from window import HEIGHT, SCENE, Server, Window, compare, main, make, poses
 
 
 def compare_all(program, state):
@@ -113,17 +111,5 @@ def device(program, folder):
         window.end()
 
 
-def main(arguments):
-    checks = {"host": host, "device": device}
-    if len(arguments) != 2 or arguments[1] not in checks:
-        print(__doc__, file=sys.stderr)
-        return 2
-    begun = time.monotonic()
-    with tempfile.TemporaryDirectory() as folder:
-        checks[arguments[1]](arguments[0], folder)
-    print(f"meshes {arguments[1]}: passed in {time.monotonic() - begun:.1f} s")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:], {"host": host, "device": device}, __doc__))

@@ -13,10 +13,9 @@ import math
 import os
 import pathlib
 import sys
-import tempfile
 import time
 
-from window import SCENE, Server, Window, compare, poses
+from window import SCENE, Server, Window, compare, main, poses
 
 
 def drag(window, x, y, right, down):
@@ -170,18 +169,5 @@ def turning(program, folder, seconds=3):
         window.end()
 
 
-def main(arguments):
-    checks = {"cube": cube, "chart": chart, "cancel": cancel, "turning": turning}
-    timed = len(arguments) == 3 and arguments[1] == "turning" and arguments[2].isdigit()
-    if not (len(arguments) == 2 or timed) or arguments[1] not in checks:
-        print(__doc__, file=sys.stderr)
-        return 2
-    begun = time.monotonic()
-    with tempfile.TemporaryDirectory() as folder:
-        checks[arguments[1]](arguments[0], folder, *(int(number) for number in arguments[2:]))
-    print(f"{arguments[1]}: passed in {time.monotonic() - begun:.1f} s")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:], {"cube": cube, "chart": chart, "cancel": cancel, "turning": turning}, __doc__, "turning"))

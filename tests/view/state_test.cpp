@@ -169,7 +169,7 @@ TEST(ViewHistogram, CountsEveryVoxelInItsBin) {
     EXPECT_THAT(histogramOf(view, {0, 23}).counts, testing::Each(1));
     // More values than there are parts: a part has several.
     const Histogram all = histogramOf(view, {0, 1e6});
-    EXPECT_EQ(std::accumulate(all.counts.begin(), all.counts.end(), 0U), 24U);
+    EXPECT_EQ(std::accumulate(all.counts.begin(), all.counts.end(), std::uint64_t{0}), 24U);
     EXPECT_EQ(all.counts[0], 16U); // 0 to 15: a part is 1e6 / 65536, which is 15.3
 }
 
@@ -181,7 +181,7 @@ TEST(ViewHistogram, OfFloatsIsInEqualParts) {
     EXPECT_EQ(all.counts.front(), 1U);
     EXPECT_EQ(all.counts[16384], 1U);
     EXPECT_EQ(all.counts.back(), 1U); // the end is in the last
-    EXPECT_EQ(std::accumulate(all.counts.begin(), all.counts.end(), 0U), 5U);
+    EXPECT_EQ(std::accumulate(all.counts.begin(), all.counts.end(), std::uint64_t{0}), 5U);
 }
 
 TEST(ViewHistogram, BarsAreOfWhatIsShown) {

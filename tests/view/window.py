@@ -704,13 +704,11 @@ def refusals(program, folder):
         refused(program, 1, "Vulkan", [*SCENE], no_driver)
 
 
-def main(arguments):
-    checks = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "files": files,
-              "loading": loading, "coarser": coarser, "session": session, "lost": lost, "screenshot": screenshot,
-              "soak": soak, "refusals": refusals}
-    timed = len(arguments) == 3 and arguments[1] == "soak" and arguments[2].isdigit()
-    if not (len(arguments) == 2 or timed) or arguments[1] not in checks:
-        print(__doc__, file=sys.stderr)
+def main(arguments, checks, usage, timed=None):
+    """Runs the check that is named. `timed`: the one that takes a number of seconds, too."""
+    seconds = len(arguments) == 3 and arguments[1] == timed and arguments[2].isdigit()
+    if not (len(arguments) == 2 or seconds) or arguments[1] not in checks:
+        print(usage, file=sys.stderr)
         return 2
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
@@ -720,4 +718,7 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    CHECKS = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill, "files": files,
+              "loading": loading, "coarser": coarser, "session": session, "lost": lost, "screenshot": screenshot,
+              "soak": soak, "refusals": refusals}
+    sys.exit(main(sys.argv[1:], CHECKS, __doc__, "soak"))

@@ -32,6 +32,18 @@ Result<void> submitAndAwait(device::TimedCommands& commands, Awaiting awaiting) 
     return done;
 }
 
+/// To the answer of the one pair, which ends its time.
+Result<void> submitAndRead(device::TimedCommands& commands, Awaiting awaiting, Results& results, const Stopwatch& watch,
+                           Pass& pass) {
+    VOXTACT_TRY(submitAndAwait(commands, awaiting));
+    const Result<std::span<const PairResult>> read = results.read();
+    VOXTACT_TRY(read);
+    const PairAnswer answer = unpack(read->front());
+    pass.wallMilliseconds += watch.milliseconds();
+    pass.pairs.push_back(answer);
+    return {};
+}
+
 class TickEngine final : public Engine {
   public:
     TickEngine(Detector detector, Results results, device::TimedCommands commands, Awaiting awaiting)
@@ -63,13 +75,8 @@ Result<void> TickEngine::tick(const Work& work, const BatchItem& item, Pass& pas
     const Stopwatch watch;
     VOXTACT_TRY(record({{&item, 1}, work.view, work.volume->threshold}));
     const double recorded = watch.milliseconds();
-    VOXTACT_TRY(submitAndAwait(commands_, awaiting_));
-    const Result<std::span<const PairResult>> read = results_.read();
-    VOXTACT_TRY(read);
-    const PairAnswer answer = unpack(read->front());
-    pass.wallMilliseconds += watch.milliseconds();
+    VOXTACT_TRY(submitAndRead(commands_, awaiting_, results_, watch, pass));
     *pass.recordMilliseconds += recorded;
-    pass.pairs.push_back(answer);
     return {};
 }
 
@@ -149,12 +156,7 @@ Result<Pass> RecordedTickEngine::run(const Work& work, const Feeding& /*feeding*
     for (const Mat4& pose : work.poses) {
         const Stopwatch watch;
         VOXTACT_TRY(pose_.write(context_, pose));
-        VOXTACT_TRY(submitAndAwait(commands_, awaiting_));
-        const Result<std::span<const PairResult>> read = results_.read();
-        VOXTACT_TRY(read);
-        const PairAnswer answer = unpack(read->front());
-        pass.wallMilliseconds += watch.milliseconds();
-        pass.pairs.push_back(answer);
+        VOXTACT_TRY(submitAndRead(commands_, awaiting_, results_, watch, pass));
     }
     return pass;
 }

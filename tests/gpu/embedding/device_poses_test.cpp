@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -167,7 +168,8 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
                 std::memcpy(host.data(), bytes.data() + i * ofPair, ofPair);
                 std::memcpy(device.data(), bytes.data() + (kPoses + i) * ofPair, ofPair);
                 for (std::size_t word = 0; word < host.size(); ++word) {
-                    const bool same = std::memcmp(&host[word], &device[word], sizeof(float)) == 0;
+                    const bool same =
+                        std::bit_cast<std::uint32_t>(host[word]) == std::bit_cast<std::uint32_t>(device[word]);
                     EXPECT_TRUE(same || (std::isnan(host[word]) && std::isnan(device[word])))
                         << "scene " << scenes << ", pose " << i << ", word " << word << ": " << host[word] << ", "
                         << device[word];

@@ -253,7 +253,8 @@ TEST_F(RenderCutTest, ManyMeshesAreEachAtTheirPose) {
     MeshData all;
     append(all, large, world({0, 0, 0}));
     for (int i = 0; i < 125; ++i) {
-        const Vec3 at = world({-5.0 + 2.5 * (i % 5), -5.0 + 2.5 * (i / 5 % 5), -5.0 + 2.5 * (i / 25)});
+        const std::array number{i % 5, i / 5 % 5, i / 25};
+        const Vec3 at = world({-5.0 + 2.5 * number[0], -5.0 + 2.5 * number[1], -5.0 + 2.5 * number[2]});
         SceneMesh other;
         other.mesh = &small;
         other.world_from_object = translation(at);
