@@ -35,6 +35,7 @@ class BesideAnswers {
                   device::TimedSubmission submission, std::function<void()> wake);
     void work();
     [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question);
+    [[nodiscard]] Result<LiveAnswer> submit(const LiveQuestion& question);
 
     DeviceScene* scene_;
     std::shared_ptr<Detectors> detectors_;
