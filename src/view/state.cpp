@@ -33,7 +33,7 @@ State::State(Given opened)
         show(*document.shown);
     }
     drillAll(document.holes);
-    writes.clear(); // there is no copy yet
+    writes = {}; // there is no copy yet
     method = document.method.value_or(MethodChoice{});
     camera = document.camera.value_or(framing(volume.grid, {20, 15}));
     cursor = document.cursor.value_or(middleOf(volume.grid));
@@ -82,7 +82,7 @@ void State::drillAndFill() {
 void State::bringHoles(std::size_t number) {
     for (HoleWrite& write : holes_.bring(volume, number)) {
         recount(histogram, {volume.type, write.hole->box, write.replaced(), write.voxels()});
-        writes.push_back(std::move(write));
+        writes.add(std::move(write));
     }
 }
 

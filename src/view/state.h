@@ -164,7 +164,7 @@ struct State {
     Vec3 cursor{};
     ValueRange window; ///< of the slices: black and white
 
-    std::vector<HoleWrite> writes; ///< to the volume, all since it was read, for those who have copies of it
+    HoleWrites writes; ///< to the volume since it was read, for those who have copies of it
 
     // What is shown.
     std::uint64_t revision = 1;        ///< of what an answer depends on

@@ -93,6 +93,26 @@ TEST(ViewCarving, OutsideOfTheVolumeIsNothingAndNonsenseIsRefused) {
     EXPECT_FALSE(holeOf(volume.view(), {{0, 0, 0}, 3}, 0.5).ok());
 }
 
+TEST(ViewCarving, WritesAreForgottenWhenAllHaveThem) {
+    HoleWrites writes;
+    for (const bool filled : {false, true, false}) {
+        writes.add({nullptr, filled});
+    }
+    EXPECT_EQ(writes.from(0).size(), 3U);
+    writes.forget(1);
+    EXPECT_EQ(writes.kept(), 2U);
+    EXPECT_EQ(writes.end(), 3U);
+    EXPECT_TRUE(writes.from(1).front().filled);
+    writes.forget(0); // one has not more than the other
+    EXPECT_EQ(writes.from(2).size(), 1U);
+    writes.forget(7);
+    EXPECT_EQ(writes.kept(), 0U);
+    writes.add({nullptr, true});
+    EXPECT_EQ(writes.end(), 4U);
+    EXPECT_TRUE(writes.from(3).front().filled);
+    EXPECT_TRUE(writes.from(4).empty());
+}
+
 TEST(ViewCarving, IsACommandThatUndoTakesBack) {
     State state = makeState();
     const std::vector<std::byte> before = state.volume.voxels;
@@ -103,14 +123,14 @@ TEST(ViewCarving, IsACommandThatUndoTakesBack) {
     state.update();
     EXPECT_EQ(state.document.edit.holes, 1U);
     EXPECT_EQ(state.revision, revision + 1);
-    ASSERT_EQ(state.writes.size(), 1U);
+    ASSERT_EQ(state.writes.kept(), 1U);
     const std::vector<std::byte> drilled = state.volume.voxels;
     EXPECT_NE(drilled, before);
     state.undo();
     state.update();
     EXPECT_EQ(state.volume.voxels, before);
-    ASSERT_EQ(state.writes.size(), 2U);
-    EXPECT_TRUE(state.writes.back().filled);
+    ASSERT_EQ(state.writes.kept(), 2U);
+    EXPECT_TRUE(state.writes.from(1).front().filled);
     state.redo();
     state.update();
     EXPECT_EQ(state.volume.voxels, drilled);

@@ -137,9 +137,9 @@ Result<void> DeviceScene::uploadFunctions(const device::Session& session, const 
 
 Result<void> DeviceScene::cmdUpdate(VkCommandBuffer commands, const State& state) {
     writtenBefore_ = written_;
-    for (; written_ < state.writes.size(); ++written_) {
-        const HoleWrite& write = state.writes[written_];
+    for (const HoleWrite& write : state.writes.from(written_)) {
         VOXTACT_TRY(volume_->cmdWrite(commands, write.hole->box, write.voxels()));
+        ++written_;
     }
     const Curve& curve = state.document.edit.curve;
     const std::vector<ColourPoint>& colours = state.document.edit.colours;

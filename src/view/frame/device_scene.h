@@ -61,6 +61,8 @@ class DeviceScene {
         curve_.clear();
         written_ = writtenBefore_;
     }
+    /// The number of the first of State::writes that was not recorded yet.
+    [[nodiscard]] std::uint64_t written() const { return written_; }
     /// Paints the triangles of the last answer on all meshes, in the pictures of a slot whose last use is done.
     void paint(const State& state, std::uint32_t slot);
     /// What a picture shows: of the meshes those that are shown. Valid as long as this.
@@ -93,8 +95,8 @@ class DeviceScene {
     std::optional<LabelMap> labels_;
     std::vector<DeviceMesh> meshes_; ///< by their numbers in Sources::meshes
 
-    std::size_t written_ = 0;          ///< of State::writes
-    std::size_t writtenBefore_ = 0;    ///< the last cmdUpdate()
+    std::uint64_t written_ = 0;        ///< of State::writes
+    std::uint64_t writtenBefore_ = 0;  ///< the last cmdUpdate()
     Curve curve_;                      ///< that the tables are of
     std::vector<ColourPoint> colours_; ///< the same
     Lighting light_;

@@ -333,8 +333,9 @@ Result<void> Frames::recordAnswer(State& state) {
         // What was recorded so far is not to be submitted.
         stage_->scene->forgetUpdate();
         VOXTACT_TRY(begin());
-        return stage_->scene->cmdUpdate(slot().commands, state);
+        VOXTACT_TRY(stage_->scene->cmdUpdate(slot().commands, state));
     }
+    state.writes.forget(std::min(stage_->host->written(), stage_->scene->written()));
     return {};
 }
 

@@ -44,11 +44,12 @@ HostAnswers::~HostAnswers() {
     thread_.join();
 }
 
-void HostAnswers::ask(LiveQuestion question, std::span<const HoleWrite> writes) {
+void HostAnswers::ask(LiveQuestion question, const HoleWrites& writes) {
     {
         const std::lock_guard lock(mutex_);
-        writes_.insert(writes_.end(), writes.begin() + static_cast<std::ptrdiff_t>(written_), writes.end());
-        written_ = writes.size();
+        const std::span<const HoleWrite> news = writes.from(written_);
+        writes_.insert(writes_.end(), news.begin(), news.end());
+        written_ = writes.end();
         question_ = std::move(question);
         newer_ = true;
     }

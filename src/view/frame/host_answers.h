@@ -21,9 +21,11 @@ class HostAnswers {
     [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
     ~HostAnswers();
 
-    /// The clearance, and the answer where the question's method is the host's. `writes`: all to the volume since it
-    /// was read.
-    void ask(LiveQuestion question, std::span<const HoleWrite> writes);
+    /// The clearance, and the answer where the question's method is the host's. `writes`: to the volume since it was
+    /// read.
+    void ask(LiveQuestion question, const HoleWrites& writes);
+    /// The number of the first write that was not taken over yet.
+    [[nodiscard]] std::uint64_t written() const { return written_; }
     /// A question of a comparison, when there is nothing else to do.
     void compare(LiveQuestion question);
     /// What became of a comparison's question, once; Cancelled where it gave way.
@@ -62,7 +64,7 @@ class HostAnswers {
     std::optional<LiveQuestion> question_;
     std::optional<LiveQuestion> compare_;
     std::vector<HoleWrite> writes_; ///< that are to be done before it
-    std::size_t written_ = 0;       ///< that were taken over, of all
+    std::uint64_t written_ = 0;     ///< that were taken over
     std::optional<Result<LiveAnswer>> answer_;
     std::optional<Result<LiveAnswer>> compared_;
     std::optional<Result<LiveClearance>> clearance_;

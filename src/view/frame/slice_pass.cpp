@@ -107,8 +107,8 @@ SlicePass::Push SlicePass::pushOf(const State& state, std::size_t slice) const {
 
 void SlicePass::record(VkCommandBuffer commands, const State& state) {
     const VolkDeviceTable& table = session_->device.table();
-    if (written_ != state.writes.size()) {
-        written_ = state.writes.size();
+    if (written_ != state.writes.end()) {
+        written_ = state.writes.end();
         drawn_ = {};
     }
     for (std::size_t slice = 0; slice < images_.size(); ++slice) {

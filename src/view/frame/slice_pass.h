@@ -41,7 +41,7 @@ class SlicePass {
     VkDescriptorSet volume_ = VK_NULL_HANDLE;
     std::array<Image, 3> images_;
     std::array<std::optional<Push>, 3> drawn_;
-    std::size_t written_ = 0; ///< State::writes that they show
+    std::uint64_t written_ = 0; ///< State::writes that they show
 };
 
 } // namespace voxtact::view

@@ -68,6 +68,16 @@ Result<Hole> holeOf(const VolumeView& volume, const Ball& ball, double value) {
     return hole;
 }
 
+std::span<const HoleWrite> HoleWrites::from(std::uint64_t number) const {
+    return std::span(kept_).subspan(number - first_);
+}
+
+void HoleWrites::forget(std::uint64_t before) {
+    const auto gone = std::min(before, end()) - std::min(before, first_);
+    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(gone));
+    first_ += gone;
+}
+
 void Holes::add(Hole hole) {
     holes_.resize(drilled_);
     holes_.push_back(std::make_shared<const Hole>(std::move(hole)));

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 /// Holes that are drilled into the volume, and filled again by undo.
@@ -25,6 +27,24 @@ struct HoleWrite {
     [[nodiscard]] const std::vector<std::byte>& voxels() const { return filled ? hole->before : hole->after; }
     /// What was there until then.
     [[nodiscard]] const std::vector<std::byte>& replaced() const { return filled ? hole->after : hole->before; }
+};
+
+/// Writes to a volume for those who have copies of it, numbered from 0 in their order.
+class HoleWrites {
+  public:
+    void add(HoleWrite write) { kept_.push_back(std::move(write)); }
+    /// The number of the next one.
+    [[nodiscard]] std::uint64_t end() const { return first_ + kept_.size(); }
+    /// From this number on, of which none may be forgotten. Valid until the next change.
+    [[nodiscard]] std::span<const HoleWrite> from(std::uint64_t number) const;
+    /// Whoever has a copy has done all before this number.
+    void forget(std::uint64_t before);
+    /// How many are not forgotten.
+    [[nodiscard]] std::size_t kept() const { return kept_.size(); }
+
+  private:
+    std::vector<HoleWrite> kept_;
+    std::uint64_t first_ = 0; ///< the number of the first that is kept
 };
 
 /// Voxels of a hole's box, at most.
