@@ -29,6 +29,14 @@ class RenderCutTest : public RenderTest {
         scene_.function.opacity = {kAll, {0, 1}, 256};
         scene_.function.opacityUnit = 1;
     }
+    /// A volume alone, from where look() was told last. Both outlive it.
+    [[nodiscard]] Scene seen(const Volume& volume, const RenderTransferFunction& function) const {
+        Scene scene;
+        scene.volume = &volume;
+        scene.transferFunction = &function;
+        scene.clip_from_world = scene_.clip_from_world;
+        return scene;
+    }
 
     static constexpr ControlPoint kAll[] = {{0, 0.3}, {1, 0.6}};
 };
@@ -299,12 +307,9 @@ TEST_F(RenderCutTest, APictureInPiecesIsTheSame) {
     const Volume volume = upload(volume_);
     const RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), scene_.function));
     look({20, 12, 9}, {0, 0, 0});
-    Scene scene;
-    scene.volume = &volume;
-    scene.transferFunction = &function;
+    Scene scene = seen(volume, function);
     scene.mesh = &mesh;
     scene.world_from_object = translation(world({0.7, -0.4, 0.9}));
-    scene.clip_from_world = scene_.clip_from_world;
     constexpr VkExtent2D kTall{70, 131};
     const Picture whole = take(blocking().render(scene, kTall));
     std::vector<std::uint32_t> done;
@@ -345,10 +350,7 @@ TEST_F(RenderCutTest, APictureIsCancelled) {
     const Volume volume = upload(volume_);
     const RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), scene_.function));
     look({20, 12, 9}, {0, 0, 0});
-    Scene scene;
-    scene.volume = &volume;
-    scene.transferFunction = &function;
-    scene.clip_from_world = scene_.clip_from_world;
+    const Scene scene = seen(volume, function);
     constexpr VkExtent2D kTall{70, 131};
     const Picture whole = take(blocking().render(scene, kTall));
     for (const bool atTheEnd : {false, true}) {
@@ -368,10 +370,7 @@ TEST_F(RenderCutTest, Refusals) {
     const Volume volume = upload(volume_);
     const RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), scene_.function));
     look({25, 1, 2}, {0, 0, 0});
-    Scene good;
-    good.volume = &volume;
-    good.transferFunction = &function;
-    good.clip_from_world = scene_.clip_from_world;
+    const Scene good = seen(volume, function);
     const auto refused = [&](const auto& change, const char* text) {
         Scene scene = good;
         change(scene);
