@@ -103,22 +103,44 @@ void PieceLook::between(const DistanceError& error, std::uint32_t number, Found&
     if (!crosses(ends[0].value, ends[1].value)) {
         return;
     }
-    for (int step = 0; step < kMostHalvings; ++step) {
-        const dvec3 middle = 0.5 * (ends[0].at + ends[1].at);
-        const double value = valueAt(cell_.terms, middle);
-        const std::size_t replaced = crosses(ends[0].value, value) ? 1 : 0;
-        if (replaced == 0 && !crosses(value, ends[1].value)) {
-            break;
+    const auto between = [&](double part) {
+        const dvec3 at = glm::mix(ends[0].at, ends[1].at, part);
+        return PlacedValue{at, valueAt(cell_.terms, at)};
+    };
+    // Half of the way, or the half around its middle, where the value is too near to an interval's end to tell.
+    const auto halves = [&] {
+        const PlacedValue middle = between(0.5);
+        if (crosses(ends[0].value, middle.value)) {
+            ends[1] = middle;
+            return true;
         }
-        ends[replaced] = {middle, value};
+        if (crosses(middle.value, ends[1].value)) {
+            ends[0] = middle;
+            return true;
+        }
+        const std::array<PlacedValue, 2> around{between(0.25), between(0.75)};
+        if (crosses(around[0].value, around[1].value)) {
+            ends = around;
+            return true;
+        }
+        return false;
+    };
+    for (int step = 0; step < kMostHalvings && halves(); ++step) {
     }
-    double farthest = 0;
+    // The farther end is as far as is offered, and as near to the opaque point as the other.
+    double farthest = -1;
+    dvec3 point{};
+    dvec3 onMesh{};
     for (const PlacedValue& end : ends) {
-        const dvec3 point = space.toWorld(cell_.middle + 0.5 * end.at);
-        farthest = std::max(farthest, glm::distance(point, mesh_.near(triangle_, point)));
+        const dvec3 at = space.toWorld(cell_.middle + 0.5 * end.at);
+        const dvec3 near = mesh_.near(triangle_, at);
+        if (const double distance = glm::distance(at, near); distance > farthest) {
+            farthest = distance;
+            point = at;
+            onMesh = near;
+        }
     }
-    const dvec3 point = space.toWorld(cell_.middle + 0.25 * (ends[0].at + ends[1].at));
-    found.offer(error.above(farthest), number, mesh_.near(triangle_, point), point, false);
+    found.offer(error.above(farthest), number, onMesh, point, false);
 }
 
 } // namespace voxtact::cpu
