@@ -25,7 +25,7 @@ scripts/mutate.py || failed+=(mutate)
 scripts/second_drivers.sh build/release/tests/gpu/voxtact_gpu_tests || [ $? -eq 77 ] || failed+=(drivers)
 scripts/change.py --build || failed+=(change)
 if [ -x build/release/voxtact ]; then # the window: ten minutes of random input under validation
-    python3 tests/view/window.py build/release/voxtact soak 600 || failed+=(soak)
+    python3 -B tests/view/soak.py build/release/voxtact soak 600 || failed+=(soak)
 fi
 
 if [ ${#failed[@]} -gt 0 ]; then

@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Files that come, go and cannot be shown, and what else the window of window.py survives.
+
+  files.py PROGRAM files     other files are opened while the window is there, good ones and bad ones
+  files.py PROGRAM loading   a volume is loaded while the instrument moves, and one is cancelled
+  files.py PROGRAM coarser   a volume that is too large is shown as a coarser copy
+  files.py PROGRAM session   a session whose files are gone, and the files that were opened last
+  files.py PROGRAM lost      the surface and the device are lost (a layer in the folder VOXTACT_FAULT_LAYERS says so)
+  files.py PROGRAM refusals  no display, and what cannot be shown
+
+Exit status: 0 passed, 1 failed.
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+
+from window import HEIGHT, PATIENCE, SCENE, Server, Window, compare, fail, main, make, poses
+
+
+def files(program, folder):
+    for kind, source, name in (("mesh", "builtin:scalpel:600", "tool.stl"), ("volume", "builtin:ct:32", "ct.nii")):
+        subprocess.run([program, "make", kind, source, f"{folder}/{name}"], check=True, capture_output=True,
+                       timeout=PATIENCE)
+    pathlib.Path(folder, "curve.json").write_text('{"points": [[10, 0], [100, 1]]}')
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 130, 60)]) as window:
+        window.until("the first answer", lambda s: s["settled"])
+        pathlib.Path(folder, "other.txt").write_text("1 0 0 3 0 1 0 -8 0 0 1 55 0 0 0 1\n")
+        window.open(f"{folder}/other.txt")
+        state = window.until("the opened pose", lambda s: s["pose"][HEIGHT] == 55 and s["hit"] == 1)
+        window.open(f"{folder}/curve.json")
+        state = window.until("the opened curve", lambda s: s["points"] == [[10, 0], [100, 1]])
+        compare(program, state)
+        window.open(f"{folder}/tool.stl")
+        state = window.until("the opened mesh", lambda s: "/tool.stl" in s["command"] and s["settled"])
+        assert state["points"] == [[10, 0], [100, 1]] and state["pose"][HEIGHT] == 55, state
+        compare(program, state)
+        window.open(f"{folder}/nowhere.nii")
+        state = window.until("an error", lambda s: "nowhere.nii" in s["error"])
+        window.press("Return")
+        window.until("the window going on", lambda s: s["error"] == "")
+        window.press("Next")
+        state = window.until("an answer after the error", lambda s: s["pose"][HEIGHT] == 54 and s["settled"])
+        compare(program, state)
+        window.open(f"{folder}/ct.nii")
+        state = window.until("the opened volume", lambda s: "/ct.nii" in s["command"] and s["settled"])
+        assert "/tool.stl" in state["command"] and state["pose"][HEIGHT] == 54, state
+        compare(program, state)
+        window.press("ctrl+q")
+        window.end()
+
+
+def loading(program, folder):
+    large = make(program, folder, "volume", "builtin:ct:128", "large.nii.gz")
+    larger = make(program, folder, "volume", "builtin:ct:160", "larger.nii.gz")
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 130)]) as window:
+        window.until("the first answer", lambda s: s["settled"] and s["loaded"])
+        window.open(large)
+        # Seen while it is loaded, or there already: a busy machine may look too late.
+        begun = window.until("the loading", lambda s: s["loading"] or "/large.nii.gz" in s["command"])
+        # What is shown goes on meanwhile, and what is done with it is not lost.
+        window.press("Next")
+        state = window.until("the volume and the pose", lambda s: "/large.nii.gz" in s["command"] and s["settled"]
+                             and s["loading"] is None and s["pose"][HEIGHT] == 129)
+        compare(program, state)
+        if begun["loading"]:
+            print(f"while it was loaded: frame {begun['frame']} to {state['frame']}")
+        window.open(larger)
+        window.until("the next loading", lambda s: s["loading"] or "/larger.nii.gz" in s["command"])
+        window.press("Escape")
+        state = window.until("one of the two", lambda s: s["loading"] is None and s["settled"])
+        if "cancelled" in state["status"]:  # else it was there sooner than the key
+            assert "/large.nii.gz" in state["command"], state
+        window.open(f"{folder}/nowhere.nii")
+        window.until("the error", lambda s: "nowhere.nii" in s["error"] and s["loading"] is None)
+        window.press("Return")
+        window.until("the window going on", lambda s: s["error"] == "")
+        pathlib.Path(folder, "broken.json").write_text('{"points": [[10, 0], [5, 1]]}')
+        before = window.state()["points"]
+        window.open(f"{folder}/broken.json")
+        state = window.until("the error of the curve", lambda s: "broken.json" in s["error"])
+        assert state["points"] == before, state
+        window.press("Return")
+        window.until("the window going on", lambda s: s["error"] == "")
+        window.press("ctrl+q")
+        window.end()
+
+
+def coarser(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--volume-side", "20",
+                                                             "--poses", poses(folder, 60)]) as window:
+        state = window.until("the question", lambda s: s["question"])
+        assert "32 x 32 x 32 voxels" in state["question"]["text"], state
+        assert "coarser by 2" in state["question"]["text"], state
+        window.press("Return")
+        state = window.until("the coarser copy", lambda s: s["settled"])
+        assert state["coarser"] == 2 and state["hit"] == 1 and state["count"] > 0, state
+        assert "coarser by 2" in state["command"].splitlines()[0], state
+        # The same answer as of a file that holds the copy: 16 voxels a side of twice the spacing.
+        large = make(program, folder, "volume", "builtin:head:96", "large.nii")
+        window.open(large)
+        state = window.until("the next question", lambda s: s["question"])
+        assert "coarser by 5" in state["question"]["text"], state
+        window.press("Escape")
+        state = window.until("what was shown before", lambda s: s["question"] is None)
+        assert state["coarser"] == 2, state
+        window.open(large)
+        window.until("the question again", lambda s: s["question"])
+        window.press("Return")
+        state = window.until("the other copy", lambda s: s["coarser"] == 5 and s["settled"])
+        assert "/large.nii" in state["command"] and state["hit"] == 1, state
+        window.press("ctrl+q")
+        window.end()
+
+
+def session(program, folder):
+    volume = make(program, folder, "volume", "builtin:ct:32", "ct.nii")
+    tool = make(program, folder, "mesh", "builtin:scalpel:600", "tool.stl")
+    with Server() as server:
+        with Window(program, server, folder, ["--volume", volume, "--mesh", tool, "--device", "cpu", "--poses",
+                                              poses(folder, 60)]) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            window.press("x")
+            state = window.until("a hole", lambda s: s["holes"] == 1 and s["settled"])
+            window.press("Next", "t")
+            state = window.until("another pose", lambda s: s["pose"][HEIGHT] == 59 and s["settled"])
+            window.save_session(f"{folder}/session.json")
+            window.press("ctrl+q")
+            window.end()
+        saved = json.loads(pathlib.Path(folder, "session.json").read_text())
+        assert saved["holes"] and saved["shown"]["handle_axes"] == "view", saved
+        with Window(program, server, folder, ["--session", f"{folder}/session.json"]) as window:
+            again = window.until("the session", lambda s: s["settled"])
+            for name in ("count", "hit", "pose", "holes", "points"):
+                assert again[name] == state[name], (name, again, state)
+            window.press("ctrl+q")
+            window.end()
+        # Its files are elsewhere now.
+        moved = pathlib.Path(folder, "moved")
+        moved.mkdir()
+        for name in ("ct.nii", "tool.stl"):
+            pathlib.Path(folder, name).rename(moved / name)
+        with Window(program, server, folder, ["--session", f"{folder}/session.json"]) as window:
+            asked = window.until("the question", lambda s: s["question"])["question"]
+            assert [file["name"] for file in asked["files"]] == ["volume", "mesh"], asked
+            window.press("Return")  # they are not where the fields still say
+            window.until("the question again", lambda s: s["question"])
+            time.sleep(1)
+            window.type(str(moved / "ct.nii"))
+            window.press("Tab")
+            time.sleep(1)
+            window.type(str(moved / "tool.stl"))
+            window.press("Return")
+            again = window.until("the session with its files", lambda s: s["settled"])
+            assert again["count"] == state["count"] and "moved/ct.nii" in again["command"], again
+            window.press("ctrl+q")
+            window.end()
+        recent = json.loads(pathlib.Path(server.kept.name, "voxtact", "recent.json").read_text())
+        assert recent[0] == f"{folder}/session.json", recent
+        # A list that cannot be read is none.
+        pathlib.Path(server.kept.name, "voxtact", "recent.json").write_text("{")
+        with Window(program, server, folder, [*SCENE, "--device", "cpu"]) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            window.press("ctrl+q")
+            window.end()
+
+
+def lost(program, folder):
+    layers = os.environ.get("VOXTACT_FAULT_LAYERS", "")
+    if not layers:
+        fail("VOXTACT_FAULT_LAYERS names no folder with the layer")
+    fault = pathlib.Path(folder, "fault")
+    faults = {"VK_ADD_LAYER_PATH": layers, "VK_INSTANCE_LAYERS": "VK_LAYER_VOXTACT_fault", "VOXTACT_FAULT": str(fault)}
+
+    def lose(window, what):
+        (fault.parent / "fault.new").write_text(what)
+        (fault.parent / "fault.new").rename(fault)
+        window.press("Next")
+        deadline = time.monotonic() + PATIENCE
+        while fault.exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert not fault.exists(), f"{what}: nothing was to fail"
+
+    with Server() as server:
+        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+                    faults) as window:
+            first = window.until("the first answer", lambda s: s["settled"])
+            assert first["method"] == "compute", first
+            lose(window, "surface")
+            state = window.until("a new surface", lambda s: "surface" in s["status"] and s["settled"])
+            assert state["pose"][HEIGHT] == 59 and state["method"] == "compute", state
+            window.press("x")
+            window.until("a hole", lambda s: s["holes"] == 1 and s["settled"])
+            lose(window, "lost")
+            window.until("the question", lambda s: s["question"])
+            window.press("Return")
+            state = window.until("the host's answer", lambda s: s["settled"] and s["method"] == "cpu")
+            assert state["pose"][HEIGHT] == 58 and state["points"] == first["points"] and state["holes"] == 1, state
+            window.press("ctrl+z", "ctrl+z")
+            window.press("Next")
+            state = window.until("the next answer", lambda s: s["pose"][HEIGHT] == 57 and s["settled"])
+            window.press("ctrl+q")
+            window.end()
+        # The same twice in a moment: it ends, and what was shown is kept.
+        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+                    faults) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            lose(window, "lost")
+            fault.write_text("lost")
+            window.process.wait(timeout=PATIENCE)
+            said = window.process.stderr.read()
+            assert window.process.returncode == 1 and "rescued-session.json" in said, said
+        kept = json.loads(pathlib.Path(server.kept.name, "voxtact", "rescued-session.json").read_text())
+        assert kept["instrument"]["pose"][HEIGHT] == 59, kept
+
+
+def refused(program, status, text, arguments, environment):
+    ran = subprocess.run([program, "view", *arguments], env=environment, capture_output=True, text=True,
+                         timeout=PATIENCE)
+    lines = ran.stderr.splitlines()
+    if ran.returncode != status or len(lines) != 1 or text not in lines[0] or ran.stdout:
+        fail(f"{arguments}: status {ran.returncode} and {ran.stderr!r}, not {status} and a line with {text!r}")
+
+
+def refusals(program, folder):
+    without = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    refused(program, 1, "there is no display to open a window on", [*SCENE], without)
+    session = pathlib.Path(folder) / "session.json"
+    session.write_text('{"voxtact_session": 1, "volume": "builtin:head:16", "mesh": "builtin:scalpel:300"}')
+    refused(program, 1, "transfer_function: ", ["--session", str(session)], without)
+    refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
+    refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"],
+            without)
+    refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
+    refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
+    refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
+    refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
+    session.write_text('{"voxtact_session": 1, "volume": "nowhere.nii", "mesh": "builtin:scalpel:300", '
+                       '"transfer_function": {"points": [[0, 0], [1, 1]]}}')
+    refused(program, 1, "nowhere.nii", ["--session", str(session)], without)
+    with Server() as server:
+        # With a number of frames there may be nobody to ask.
+        for arguments in (["--session", str(session)], ["--volume", "nowhere.nii"]):
+            refused(program, 1, "nowhere.nii", [*arguments, "--frames", "2"], server.environment)
+        refused(program, 1, "--volume-side", [*SCENE, "--volume-side", "8", "--frames", "2"], server.environment)
+        no_driver = {**server.environment, "VK_DRIVER_FILES": "/nowhere", "VK_ICD_FILENAMES": "/nowhere"}
+        refused(program, 1, "Vulkan", [*SCENE], no_driver)
+
+
+if __name__ == "__main__":
+    CHECKS = {"files": files, "loading": loading, "coarser": coarser, "session": session, "lost": lost,
+              "refusals": refusals}
+    sys.exit(main(sys.argv[1:], CHECKS, __doc__))

@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What is shown and asked, by keys and by the instrument's handles, in the window of window.py.
+
+  keys.py PROGRAM keys      the instrument is moved into the head, back and through a list; each answer is compared
+                            with that of the command that the window copies; the window is resized and closed
+  keys.py PROGRAM handles   the instrument is dragged by its handles
+  keys.py PROGRAM methods   the device's ways to answer, each compared in the same way
+  keys.py PROGRAM labels    what is touched by its labels, on the host and on the device
+  keys.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
+  keys.py PROGRAM screenshot   pictures of any size
+
+Exit status: 0 passed, 1 failed.
+"""
+import pathlib
+import subprocess
+import sys
+import time
+
+from window import HEIGHT, PATIENCE, SCENE, Server, Window, compare, counted, main, make, poses
+
+
+def keys(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 130, 40)]) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        assert (state["hit"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
+        compare(program, state)
+        state = window.until("the first clearance", lambda s: s["clearance"])
+        assert state["clearance"]["lo"] > 0 and len(state["clearance"]["volume"]) == 3, state
+        compare(program, state)
+        height = 130
+        while state["hit"] == 0 and height > 0:
+            height -= 10
+            window.press("shift+Next")
+            state = window.until(f"a pose {height} mm high", lambda s: s["pose"][HEIGHT] == height)
+        assert state["hit"] == 1 and state["count"] > 0 and state["triangles"] > 0, state
+        compare(program, state)
+        # Many at once: none is lost.
+        window.press("Prior", "Prior", "Prior", "Next")
+        state = window.until("three up and one down", lambda s: abs(s["pose"][HEIGHT] - height - 2) < 1e-9)
+        compare(program, state)
+        # Nudges that follow each other are one command.
+        window.press("ctrl+z")
+        state = window.until("the first pose again", lambda s: s["pose"][HEIGHT] == 130)
+        assert state["hit"] == 0, state
+        window.press("ctrl+y")
+        window.until("what was undone", lambda s: abs(s["pose"][HEIGHT] - height - 2) < 1e-9)
+        window.press("bracketright")
+        state = window.until("the second pose of the list", lambda s: s["pose"][HEIGHT] == 40 and s["hit"] == 1)
+        compare(program, state)
+        # Another size: frames go on, and the answer stays.
+        before = window.until("the fine picture", lambda s: s["settled"])["frame"]
+        window.tool("windowsize", window.id, "800", "560")
+        window.press("Left")
+        state = window.until("an answer in another size", lambda s: s["pose"][3] == 2 and s["settled"])
+        assert state["frame"] > before, state
+        compare(program, state)
+        # Out of sight for a while.
+        window.tool("windowunmap", "--sync", window.id)
+        time.sleep(1)
+        window.tool("windowmap", "--sync", window.id)
+        window.tool("windowfocus", "--sync", window.id)
+        window.press("Left")
+        state = window.until("an answer in sight again", lambda s: s["pose"][3] == 1 and s["settled"])
+        compare(program, state)
+        window.press("ctrl+q")
+        window.end()
+
+
+def drag(window, x, y, right, down):
+    for step in (("mousemove", str(x), str(y)), ("mousedown", "1"), ("mousemove", str(x + right), str(y + down)),
+                 ("mouseup", "1")):
+        window.tool(*step)
+        time.sleep(0.4)
+
+
+def handles(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 0)]) as window:
+        first = window.until("the first answer", lambda s: s["settled"])
+        # From the middle outward: a drag beside the handles turns the picture round the middle, where the instrument
+        # nearly is.
+        x, y, width, height = (int(number) for number in first["picture"])
+        state, offset = first, 16
+        while state["pose"] == first["pose"] and offset < min(width, height) / 2:
+            drag(window, x + width // 2 + offset, y + height // 2, 3, 12)
+            state = window.state()
+            offset += 5
+        assert state["pose"] != first["pose"], f"no handle up to {offset} points from the middle"
+        state = window.until("the answer there", lambda s: s["settled"])
+        compare(program, state)
+        window.press("ctrl+z")
+        window.until("the pose before the drag", lambda s: s["pose"] == first["pose"])
+        # A ring: from the front the one of y is a circle round the tip. Beside its radius a drag turns the picture, and
+        # the next one looks from the front again.
+        state, away = first, 40
+        while state["pose"] == first["pose"] and away < 62:
+            window.press("1", "f")
+            state = window.until("the picture from the front", lambda s: s["settled"])
+            drag(window, x + width // 2 + away, y + height // 2 + away, -7, 7)
+            state = window.state()
+            away += 2
+        assert state["pose"] != first["pose"], f"no ring up to {away} points to the lower right of the middle"
+        place = [state["pose"][i] - first["pose"][i] for i in (3, 7, 11)]
+        turned = [state["pose"][i] - first["pose"][i] for i in (0, 2, 8, 10)]
+        assert max(map(abs, place)) < 1e-9 and max(map(abs, turned)) > 0.01, state["pose"]
+        state = window.until("the answer after the turn", lambda s: s["settled"])
+        compare(program, state)
+        window.press("ctrl+z")
+        window.until("the pose before the turn", lambda s: s["pose"] == first["pose"])
+        window.press("ctrl+q")
+        window.end()
+
+
+def methods(program, folder):
+    with Server() as server:
+        for method, projection in (("compute", "conservative"), ("query", "view"), ("atomic", "dominant-axis")):
+            with Window(program, server, folder, [*SCENE, "--poses", poses(folder, 60), "--count", method,
+                                                  "--projection", projection]) as window:
+                state = window.until(f"the answer of {method}", lambda s: s["settled"])
+                assert state["count"] > 0 and state["device"] != "host", state
+                compare(program, state)
+                window.press("Next")
+                state = window.until(f"the next answer of {method}", lambda s: s["pose"][HEIGHT] == 59)
+                compare(program, state)
+                window.press("ctrl+q")
+                window.end()
+        counts(program, folder, server)
+
+
+def counts(program, folder, server):
+    """All methods side by side: those of a projection and the filter exact count the same."""
+    with Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses", poses(folder, 60)]) as window:
+        window.until("the answer", lambda s: s["settled"])
+        window.press("k")
+        state = window.until("the counts of all methods", counted)
+        assert len(state["methods"]) >= 8 and not any(one["refused"] for one in state["methods"]), state["methods"]
+        by_projection = {}
+        for one in state["methods"]:
+            if one["filter"] == "exact" and one["exact"] == 1:
+                by_projection.setdefault(one["projection"], []).append((one["hit"], one["count"], one["triangles"]))
+        assert len(by_projection) >= 3, by_projection
+        assert all(len(said) >= 2 and len(set(said)) == 1 for said in by_projection.values()), by_projection
+        assert all(one["hit"] == 1 for one in state["methods"]), state["methods"]
+        live = next(one for one in state["methods"] if one["method"] == "cpu" and one["projection"] == "conservative")
+        assert (live["hit"], live["count"]) == (state["hit"], state["count"]), state
+        window.press("Next")
+        state = window.until("the counts of the next pose", lambda s: counted(s) and s["pose"][HEIGHT] == 59)
+        assert state["methods"][-1]["count"] == state["count"], state
+        window.press("k")
+        window.until("none of them", lambda s: s["methods"] is None)
+        window.press("ctrl+q")
+        window.end()
+
+
+def labels(program, folder):
+    # Any image of whole numbers is a label map; its values are the labels.
+    subprocess.run([program, "make", "volume", "builtin:head:32", f"{folder}/atlas.nii"], check=True,
+                   capture_output=True, timeout=PATIENCE)
+    with Server() as server:
+        for device in (["--device", "cpu"], ["--count", "compute"]):
+            with Window(program, server, folder, [*SCENE, *device, "--poses", poses(folder, 60), "--labels",
+                                                  f"{folder}/atlas.nii"]) as window:
+                state = window.until("the answer with labels", lambda s: s["settled"])
+                assert len(state["labels"]) > 1, state
+                compare(program, state)
+                touched = state["labels"][0]["label"]
+                window.press("ctrl+q")
+                window.end()
+        names = pathlib.Path(folder) / "names.txt"
+        names.write_text(f"{touched} hard_thing\n")
+        with Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses", poses(folder, 60), "--labels",
+                                              f"{folder}/atlas.nii", "--label-names", str(names)]) as window:
+            state = window.until("the answer with names", lambda s: s["settled"])
+            assert state["labels"][0]["name"] == "hard_thing", state
+            compare(program, state)
+            window.press("ctrl+q")
+            window.end()
+
+
+def drill(program, folder):
+    # Of voxels that are small beside the holes.
+    scene = ["--volume", "builtin:head:96", *SCENE[2:]]
+    counts = []
+    with Server() as server:
+        for device in (["--device", "cpu"], ["--count", "compute"]):
+            with Window(program, server, folder, [*scene, *device, "--poses", poses(folder, 60)]) as window:
+                state = window.until("the answer before", lambda s: s["settled"])
+                whole = state["count"]
+                window.press("x")
+                state = window.until("a hole at the tip", lambda s: s["holes"] == 1 and s["settled"])
+                assert 0 < state["count"] < whole, (whole, state)
+                assert state["command"].startswith("# of the volume as it was read, without the hole"), state
+                counts.append((whole, state["count"]))
+                window.press("shift+Next")
+                window.until("another pose", lambda s: s["pose"][HEIGHT] == 50)
+                window.press("x")
+                state = window.until("a second hole", lambda s: s["holes"] == 2 and s["settled"])
+                counts[-1] += (state["count"],)
+                window.press("ctrl+z", "ctrl+z", "ctrl+z")
+                state = window.until("the volume as it was", lambda s: s["holes"] == 0 and s["settled"])
+                assert state["count"] == whole and state["pose"][HEIGHT] == 60, state
+                compare(program, state)
+                window.press("ctrl+y")
+                state = window.until("the first hole again", lambda s: s["holes"] == 1 and s["settled"])
+                assert state["count"] == counts[-1][1], (counts, state)
+                window.press("ctrl+q")
+                window.end()
+    assert counts[0] == counts[1], f"host and device differ: {counts}"
+
+
+def png_size(path):
+    head = pathlib.Path(path).read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", head
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+def screenshot(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 60)]) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        window.dialog("ctrl+p", f"{folder}/window.png")
+        state = window.until("a picture", lambda s: s["status"].startswith("the picture is in"))
+        assert png_size(f"{folder}/window.png") == tuple(int(side) for side in state["picture"][2:]), state
+        window.dialog("ctrl+p", f"{folder}/nowhere/large.png")
+        window.until("the error", lambda s: "nowhere/large.png" in s["error"])
+        window.press("Return")
+        window.until("the window going on", lambda s: s["error"] == "")
+        window.press("ctrl+q")
+        window.end()
+
+
+if __name__ == "__main__":
+    CHECKS = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill,
+              "screenshot": screenshot}
+    sys.exit(main(sys.argv[1:], CHECKS, __doc__))
