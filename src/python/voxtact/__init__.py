@@ -47,8 +47,9 @@ from ._mesh import Mesh, read_mesh
 from ._motion import Motion, pose_between
 from ._picture import Look, look, looks, read_colours
 from ._plan import Plan
-from ._scene import Scene, View, view_from
+from ._scene import Scene
 from ._track import Tracked, Tracker
+from ._view import View, view_from
 from ._volume import Volume, read_volume
 
 __all__ = [

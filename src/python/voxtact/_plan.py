@@ -3,17 +3,58 @@
 from __future__ import annotations
 
 import operator
-from typing import NoReturn, Optional
+from collections.abc import Sequence
+from typing import Any, NoReturn, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import check_made, not_pickled
-from ._errors import NotReadyError
+from ._arguments import Opacity, whole
+from ._common import check_made, listed, not_pickled, number, numbers
+from ._errors import InvalidArgumentError, NotReadyError
 from ._labels import Labels
+from ._mesh import Mesh
 
 _UNSAFE, _SAFE, _POSSIBLE = range(3)
+
+
+def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], avoid_opacity: Opacity, avoid_volume: Any,
+                 needle: Optional[tuple[float, float]], mesh: Optional[Mesh], tip: Optional[npt.ArrayLike],
+                 axis: Optional[npt.ArrayLike], entries: int, entry_label: Union[None, int, str],
+                 entry_radius: Optional[float], border_entries: bool, margin: float, max_length: Optional[float],
+                 max_angle: Optional[float], tolerance: float, maximum: float, most_steps: int,
+                 triangle_clearances: bool) -> dict[str, Any]:
+    """What `Scene.plan` asks the compiled part for; `labels` are the scene's."""
+    if not len(avoid) and avoid_opacity is None:
+        raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
+    if avoid_volume is not None and avoid_opacity is None:
+        raise InvalidArgumentError("avoid_volume needs avoid_opacity=: what of it is not to be touched")
+    if labels is None and (len(avoid) or entry_label is not None):
+        raise InvalidArgumentError("plans that are about labels need a scene with labels=")
+    if entry_label is not None and entry_radius is not None:
+        raise InvalidArgumentError("entry_label and entry_radius both say where entries are; leave out one of them")
+    if mesh is None and (tip is not None or axis is not None):
+        raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
+    if mesh is not None and (needle is not None or tip is None or axis is None):
+        raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
+    wish: dict[str, Any] = {"entries": whole([entries], 1, "entries")[0], "margin": number(margin, "margin"),
+                               "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
+                               "most_steps": whole([most_steps], 1, "most_steps")[0]}
+    if triangle_clearances:
+        wish["triangle_clearances"] = True
+    if labels is not None:
+        wish["avoid"] = [labels.number(label) for label in listed(avoid, "avoid")]
+    if entry_label is not None and labels is not None:
+        wish["entry_label"] = labels.number(entry_label)
+    wish["border_entries"] = bool(border_entries)
+    given = {"needle": needle, "entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
+    wish.update({name: value for name, value in given.items() if value is not None})
+    if mesh is not None and tip is not None and axis is not None:
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
+        wish.update(mesh=mesh._core, tip=numbers(tip, "tip"), axis=numbers(axis, "axis"))
+    return wish
 
 
 class Plan:

@@ -2,153 +2,43 @@
 """Scenes, which are asked."""
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import Any, Literal, NamedTuple, NoReturn, Optional, Union
+from collections.abc import Sequence
+from typing import Any, Literal, NoReturn, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
 from ._answer import Answer, Clearance
+from ._arguments import (
+    Method,
+    Opacity,
+    Poses,
+    Progress,
+    Projection,
+    asked,
+    pair,
+    pairs_in,
+    points,
+    segments_in,
+    told,
+    whole,
+)
 from ._common import listed, not_pickled, number, numbers
 from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
-from ._files import read_opacity
 from ._labels import Labels, read_labels
 from ._mesh import Mesh
 from ._motion import Interpolation, Motion
 from ._picture import Clip, Colour, Light, Show, picture_options, png
-from ._plan import Plan
+from ._plan import Plan, plan_options
 from ._track import Tracker
+from ._view import View
 from ._volume import Volume, read_volume
-
-Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
-Method = Literal["auto", "query", "query-any", "atomic", "subgroup", "compute", "cpu"]
-#: Points (value, opacity), ascending; or text, "40:0,80:1"; or a file. None: from 0 to 1 over the domain.
-Opacity = Union[None, npt.ArrayLike, str, "os.PathLike[str]"]
-#: (N,4,4) or (4,4).
-Poses = npt.ArrayLike
-#: ``f(done, all)``, a bar of tqdm, or tqdm itself.
-Progress = Union[None, Callable[[int, int], object], Any]
 
 _RESOLUTION = 1 / 64
 _MOST_CONTACTS = 2**20
 _INFINITE = float("inf")
-
-
-class View(NamedTuple):
-    """The camera of the projections "view" and "two-view", and of pictures. `view_from` makes one."""
-
-    #: (4,4): Vulkan's clip space (x right, y down, depth 0 to 1); orthographic or perspective
-    clip_from_world: npt.ArrayLike
-    #: pixels
-    width: int = 512
-    height: int = 512
-
-
-def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optional[Mesh] = None,
-              poses: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512)) -> View:
-    """A `View` that frames a volume, as `Scene.picture` does: orthographic, with square pixels.
-
-        scene.detect(knife, poses, projection="view", view=vx.view_from("left", head, knife, poses))
-
-    view
-        "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees
-    mesh, poses
-        what is between the near and the far plane, too: the projection "view" counts nothing beyond them
-    size
-        (width, height), pixels
-    """
-    if not isinstance(volume, Volume) or not (mesh is None or isinstance(mesh, Mesh)):
-        raise TypeError("volume is a voxtact.Volume, and mesh a voxtact.Mesh: voxtact.read_volume() and read_mesh() make them")
-    if not isinstance(view, (str, tuple)):
-        raise TypeError(f"view is a {type(view).__name__}; a name or (azimuth, elevation) is needed")
-    width, height = _whole(size, 2, "size")
-    matrices = None if mesh is None else np.eye(4) if poses is None else numbers(poses, "poses")
-    return View(core.view_from(view, volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)
-
-
-@contextmanager
-def _told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int], object]]]:
-    """What the compiled part calls as callback(done, all)."""
-    if progress is None:
-        yield None
-        return
-    mine = isinstance(progress, type)
-    bar: Any = progress(total=pairs) if mine else progress  # type: ignore[call-arg]
-    if not hasattr(bar, "update"):
-        if not callable(bar):
-            raise TypeError("progress is a function of (done, all), a bar of tqdm, or tqdm itself")
-        yield bar
-        return
-    if getattr(bar, "total", 0) is None:
-        bar.total = pairs
-    before = 0
-
-    def tell(done: int, _: int) -> None:
-        nonlocal before
-        bar.update(done - before)
-        before = done
-
-    try:
-        yield tell
-    finally:
-        if mine:
-            bar.close()
-
-
-def _asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
-    """What the compiled part takes: a mesh and its poses, or a list of such pairs."""
-    if isinstance(mesh, Mesh):
-        if poses is None:
-            raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
-        return mesh._core, numbers(poses, "poses")
-    if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
-        pairs: list[tuple[Any, Any]] = []
-        for one in mesh:
-            if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
-                raise TypeError(f"item {len(pairs)} of the list is no pair (mesh, poses) with a voxtact.Mesh, as "
-                                "voxtact.read_mesh() makes it")
-            pairs.append((one[0]._core, numbers(one[1], "poses")))
-        return pairs, None
-    raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-
-
-def _count_of(poses: npt.NDArray[np.float64]) -> int:
-    return 1 if poses.ndim == 2 else len(poses) if poses.ndim == 3 else 0
-
-
-def _pairs_in(mesh: Any, poses: Any) -> int:
-    return _count_of(poses) if poses is not None else sum(_count_of(one[1]) for one in mesh)
-
-
-def _segments_in(mesh: Any, poses: Any) -> int:
-    counts = [_count_of(poses)] if poses is not None else [_count_of(one[1]) for one in mesh]
-    return sum(max(count - 1, 0) for count in counts)
-
-
-def _points(opacity: Opacity) -> Optional[npt.NDArray[np.float64]]:
-    if opacity is None:
-        return None
-    if isinstance(opacity, (str, os.PathLike)):
-        return read_opacity(opacity)
-    return numbers(opacity, "opacity")
-
-
-def _whole(given: Any, count: int, what: str) -> list[int]:
-    array = np.asarray(given)
-    if array.shape != (count,) or array.dtype.kind not in "iu" or (array < 0).any() or (array >= 2**32).any():
-        raise InvalidArgumentError(f"{what} is {given!r}; {count} whole numbers from 0 to {2**32 - 1} are needed")
-    return [int(each) for each in array]
-
-
-def _pair(given: Any, what: str) -> tuple[float, float]:
-    array = numbers(given, what)
-    if array.shape != (2,):
-        raise InvalidArgumentError(f"{what} is {given!r}; two numbers are needed")
-    return float(array[0]), float(array[1])
 
 
 class Scene:
@@ -187,13 +77,13 @@ class Scene:
         self._volume = read_volume(volume)
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = opened(device)
-        self._domain = None if domain is None else _pair(domain, "domain")
-        self._table_size = _whole([table_size], 1, "table_size")[0]
+        self._domain = None if domain is None else pair(domain, "domain")
+        self._table_size = whole([table_size], 1, "table_size")[0]
         self._closed = False
-        self._core = core.Scene(self._volume._core, _points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
+        self._core = core.Scene(self._volume._core, points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
-                                 _whole([threads], 1, "threads")[0])
+                                 whole([threads], 1, "threads")[0])
 
     # What it is
 
@@ -219,7 +109,7 @@ class Scene:
 
     @opacity.setter
     def opacity(self, opacity: Opacity) -> None:
-        self._core.set_opacity(_points(opacity), self._domain, self._table_size)
+        self._core.set_opacity(points(opacity), self._domain, self._table_size)
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -261,7 +151,7 @@ class Scene:
                 raise InvalidArgumentError(f"ball is {ball!r}; four numbers are needed: x, y, z and the radius, mm")
             self._core.set_ball(place[:3], float(place[3]), number(value, "value"))
         elif box is not None:
-            corner = _whole(box, 6, "box")
+            corner = whole(box, 6, "box")
             self._core.set_box(corner[:3], corner[3:], number(value, "value"))
         else:
             given = np.asarray(voxels)
@@ -270,7 +160,7 @@ class Scene:
             stored = np.ascontiguousarray(given, dtype=self._volume.dtype)
             if stored.dtype.kind in "iu" and (stored != given).any():
                 raise InvalidArgumentError(f"voxels of {given.dtype} do not all fit the volume's {stored.dtype}")
-            self._core.write_box(_whole(at, 3, "at"), stored)
+            self._core.write_box(whole(at, 3, "at"), stored)
 
     # Questions
 
@@ -348,10 +238,10 @@ class Scene:
             if not isinstance(view, tuple):
                 raise TypeError(f"view is a {type(view).__name__}; a voxtact.View is needed")
             options["view"] = view
-        meshes, matrices = _asked(mesh, poses)
+        meshes, matrices = asked(mesh, poses)
         if progress is None:
             return Answer(self._core.detect(meshes, matrices, options, None), self)
-        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+        with told(progress, pairs_in(meshes, matrices)) as tell:
             return Answer(self._core.detect(meshes, matrices, options, tell), self)
 
     def clearance(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
@@ -382,9 +272,9 @@ class Scene:
             wanted = every if labels is True else [self._labels.number(label) for label in listed(labels, "labels")]
         elif labels_at_any_opacity:
             raise InvalidArgumentError("labels_at_any_opacity is about labels: give labels=, too")
-        (steps,) = _whole([most_steps], 1, "most_steps")
-        meshes, matrices = _asked(mesh, poses)
-        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+        (steps,) = whole([most_steps], 1, "most_steps")
+        meshes, matrices = asked(mesh, poses)
+        with told(progress, pairs_in(meshes, matrices)) as tell:
             return Clearance(self._core.clearance(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"), steps, wanted,
                                                   bool(labels_at_any_opacity), tell))
 
@@ -394,8 +284,8 @@ class Scene:
 
         Faster than `clearance`. A margin of 0 is the touch. The host engine measures, also for scenes on a device.
         """
-        meshes, matrices = _asked(mesh, poses)
-        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+        meshes, matrices = asked(mesh, poses)
+        with told(progress, pairs_in(meshes, matrices)) as tell:
             return Answer(self._core.within(meshes, matrices, number(margin, "margin"), tell), None)
 
     def around(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, distance: float,
@@ -406,8 +296,8 @@ class Scene:
         about any axis through the object's origin, and then moved by no more than `distance` mm in any direction. Where
         neither `hit` nor `possible`, nothing does at any of them. The host engine decides, also for scenes on a device.
         """
-        meshes, matrices = _asked(mesh, poses)
-        with _told(progress, _pairs_in(meshes, matrices)) as tell:
+        meshes, matrices = asked(mesh, poses)
+        with told(progress, pairs_in(meshes, matrices)) as tell:
             return Answer(self._core.around(meshes, matrices, number(distance, "distance"), number(angle, "angle"), tell), None)
 
     def tracker(self, mesh: Mesh, *, maximum: float = _INFINITE, resolution: float = _RESOLUTION,
@@ -425,7 +315,7 @@ class Scene:
         """
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-        (steps,) = _whole([most_steps], 1, "most_steps")
+        (steps,) = whole([most_steps], 1, "most_steps")
         return Tracker(core.Tracker(self._core, mesh._core, number(maximum, "maximum"), number(resolution, "resolution"), steps), mesh)
 
     def motion(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
@@ -449,9 +339,9 @@ class Scene:
 
         The host engine checks, also for scenes on a device.
         """
-        (steps,) = _whole([most_steps], 1, "most_steps")
-        meshes, matrices = _asked(mesh, poses)
-        with _told(progress, _segments_in(meshes, matrices)) as tell:
+        (steps,) = whole([most_steps], 1, "most_steps")
+        meshes, matrices = asked(mesh, poses)
+        with told(progress, segments_in(meshes, matrices)) as tell:
             return Motion(self._core.motion(meshes, matrices, interpolation, number(resolution, "resolution"), steps, tell))
 
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
@@ -497,36 +387,12 @@ class Scene:
 
         The host engine plans, also for scenes on a device. Whether the target is inside of the volume is not asked.
         """
-        if not len(avoid) and avoid_opacity is None:
-            raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
-        if avoid_volume is not None and avoid_opacity is None:
-            raise InvalidArgumentError("avoid_volume needs avoid_opacity=: what of it is not to be touched")
-        if self._labels is None and (len(avoid) or entry_label is not None):
-            raise InvalidArgumentError("plans that are about labels need a scene with labels=")
-        if entry_label is not None and entry_radius is not None:
-            raise InvalidArgumentError("entry_label and entry_radius both say where entries are; leave out one of them")
-        if mesh is None and (tip is not None or axis is not None):
-            raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
-        if mesh is not None and (needle is not None or tip is None or axis is None):
-            raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-        wish: dict[str, Any] = {"entries": _whole([entries], 1, "entries")[0], "margin": number(margin, "margin"),
-                                   "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
-                                   "most_steps": _whole([most_steps], 1, "most_steps")[0]}
-        if triangle_clearances:
-            wish["triangle_clearances"] = True
-        if self._labels is not None:
-            wish["avoid"] = [self._labels.number(label) for label in listed(avoid, "avoid")]
-        if entry_label is not None and self._labels is not None:
-            wish["entry_label"] = self._labels.number(entry_label)
-        wish["border_entries"] = bool(border_entries)
-        given = {"needle": needle, "entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
-        wish.update({name: value for name, value in given.items() if value is not None})
-        if mesh is not None and tip is not None and axis is not None:
-            if not isinstance(mesh, Mesh):
-                raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-            wish.update(mesh=mesh._core, tip=numbers(tip, "tip"), axis=numbers(axis, "axis"))
+        wish = plan_options(self._labels, avoid=avoid, avoid_opacity=avoid_opacity, avoid_volume=avoid_volume, needle=needle, mesh=mesh,
+                            tip=tip, axis=axis, entries=entries, entry_label=entry_label, entry_radius=entry_radius,
+                            border_entries=border_entries, margin=margin, max_length=max_length, max_angle=max_angle,
+                            tolerance=tolerance, maximum=maximum, most_steps=most_steps, triangle_clearances=triangle_clearances)
         avoided = None if avoid_volume is None else read_volume(avoid_volume)._core
-        return Plan(self._core.plan(numbers(target, "target"), wish, avoided, _points(avoid_opacity),
+        return Plan(self._core.plan(numbers(target, "target"), wish, avoided, points(avoid_opacity),
                                     self.domain if avoided is None else None), self._labels, bool(triangle_clearances))
 
     # Pictures
@@ -578,11 +444,11 @@ class Scene:
             size, view = (view.width, view.height), view.clip_from_world
         meshes, matrices = None, None
         if mesh is not None:
-            meshes, matrices = _asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
+            meshes, matrices = asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
         count = 0 if meshes is None else 1 if matrices is not None else len(meshes)
         if show == "triangles" and triangles is None:
             triangles = () if mesh is None else self.detect(mesh, matrices, triangles=True).triangles
-        options = picture_options(0 if meshes is None else _pairs_in(meshes, matrices), count, size=_whole(size, 2, "size"),
+        options = picture_options(0 if meshes is None else pairs_in(meshes, matrices), count, size=whole(size, 2, "size"),
                                   view=view, preset=preset, colours=colours, background=background, lighting=lighting,
                                   show=show, through=through, triangles=triangles, mesh_colours=mesh_colours, clip=clip,
                                   clip_meshes=clip_meshes)
