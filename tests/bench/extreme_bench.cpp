@@ -2,7 +2,7 @@
 // A million adversarial cases of the certified answer against the judge of quad_judge.h. Prints how many answers are
 // certain and right, possible, and wrong, and the seed; fails where one is wrong. VOXTACT_TEST_SEED repeats a run,
 // VOXTACT_BENCH_CASES says how many.
-#include "cpu/extreme_cases.h"
+#include "cpu/judges/extreme_cases.h"
 #include "support/scenes.h"
 
 #include <algorithm>

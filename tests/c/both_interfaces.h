@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "support/c_calls.h"
 #include "voxtact/cpu.h"
 

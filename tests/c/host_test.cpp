@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The host engine through the C interface: the C++ interface's answers, every one of them.
 #include "both_interfaces.h"
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "support/c_calls.h"
 #include "support/contact_scenes.h"
 #include "support/scenes.h"

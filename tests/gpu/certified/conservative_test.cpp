@@ -2,9 +2,9 @@
 // The projection `conservative` on the device: the same fragments as on the host, which the certified oracle judges.
 #include "gpu_fixture.h"
 
-#include "cpu/certified_scenes.h"
-#include "cpu/denormal_scenes.h"
-#include "cpu/spike_scene.h"
+#include "cpu/scenes/certified_scenes.h"
+#include "cpu/scenes/denormal_scenes.h"
+#include "cpu/scenes/spike_scene.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"

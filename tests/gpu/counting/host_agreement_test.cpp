@@ -4,7 +4,7 @@
 #include "gpu_fixture.h"
 
 #include "core/method/method_table.h"
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "lab/engines/trace.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"

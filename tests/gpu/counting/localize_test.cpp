@@ -3,7 +3,7 @@
 #include "gpu_fixture.h"
 
 #include "cpu/certified/brick_occupancy.h"
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "lab/engines/localize.h"
 #include "lab/engines/trace.h"
 #include "oracle/oracle.h"

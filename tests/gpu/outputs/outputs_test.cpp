@@ -3,7 +3,7 @@
 // the rasteriser against its own trace, and solids whose normals and depths are known.
 #include "outputs_fixture.h"
 
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"

@@ -3,7 +3,7 @@
 
 #include "core/geometry/clusters.h"
 #include "core/method/method_table.h"
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "gpu/barriers.h"
 #include "gpu/mesh_layout.h"
 #include "support/scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/bent_meshes.h"
+#include "cpu/scenes/bent_meshes.h"
 #include "gpu/context_impl.h"
 #include "raw_fixture.h"
 

@@ -2,7 +2,7 @@
 // Meshes whose vertices come elsewhere between the commands of a command buffer.
 #include "bend_fixture.h"
 
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 #include "shared.h"

@@ -2,7 +2,7 @@
 // Clusters of meshes in the caller's own buffers, whose contents change.
 #include "bend_fixture.h"
 
-#include "cpu/random_scene.h"
+#include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The engine against the reference, bit for bit: whatever it skips, and whatever instructions it uses.
+#include "cpu/scenes/random_scene.h"
+#include "support/scenes.h"
+#include "voxtact/samples.h"
+
+#include <gmock/gmock.h>
+#include <hwy/targets.h>
+
+namespace voxtact::test {
+namespace {
+
+std::vector<std::uint64_t> survivorsOf(const std::vector<cpu::ReferenceCounts>& counts) {
+    std::vector<std::uint64_t> out;
+    for (const cpu::ReferenceCounts& count : counts) {
+        out.push_back(count.survivors);
+    }
+    return out;
+}
+
+std::vector<std::uint64_t> engineCounts(const RandomScene& scene, std::uint32_t threads, bool stopAtFirst = false) {
+    const cpu::Volume volume = std::move(cpu::Volume::create(scene.volume.view())).value();
+    const cpu::TransferFunction function = std::move(cpu::TransferFunction::create(scene.transferFunction())).value();
+    const cpu::Mesh mesh = std::move(cpu::Mesh::create(scene.mesh.view())).value();
+    cpu::Detector detector =
+        std::move(cpu::Detector::create({.threads = threads,
+                                         .boundary = scene.rangeTest ? Boundary::Range : Boundary::Clamp,
+                                         .stopAtFirst = stopAtFirst}))
+            .value();
+    const cpu::BatchItem item{&mesh, &volume, &function, scene.poses};
+    const Result<BatchAnswer> answer = detector.detect({std::span(&item, 1), scene.view, scene.threshold});
+    EXPECT_TRUE(answer.ok()) << answer.error().text;
+    std::vector<std::uint64_t> out;
+    for (const PairAnswer& pair : answer->pairs) {
+        EXPECT_EQ(pair.hit, pair.count > 0);
+        out.push_back(pair.count);
+    }
+    return out;
+}
+
+struct Tally {
+    std::size_t cases = 0;
+    std::size_t hits = 0;
+    std::uint64_t covered = 0;
+    std::uint64_t survivors = 0;
+
+    void add(const std::vector<cpu::ReferenceCounts>& counts) {
+        for (const cpu::ReferenceCounts& count : counts) {
+            ++cases;
+            hits += count.survivors > 0 ? 1U : 0U;
+            covered += count.covered;
+            survivors += count.survivors;
+        }
+    }
+};
+
+TEST(Agreement, RandomScenes) {
+    std::mt19937_64 random(testSeed());
+    Tally tally;
+    for (std::size_t round = 0; round < randomCases(1500, 4); ++round) {
+        const std::uint64_t seed = random();
+        std::mt19937_64 local(seed);
+        const RandomScene scene = makeRandomScene(local, 4);
+        const auto expected = scene.reference();
+        tally.add(expected);
+        ASSERT_EQ(engineCounts(scene, 1), survivorsOf(expected)) << "round " << round << ", scene " << seed;
+    }
+    std::cout << tally.cases << " pairs, " << tally.hits << " with a survivor, " << tally.covered << " fragments, "
+              << tally.survivors << " survivors\n";
+    EXPECT_GT(tally.hits, tally.cases / 10) << "a test that hits nothing proves nothing";
+}
+
+TEST(Agreement, EveryInstructionSet) {
+    std::mt19937_64 random(testSeed());
+    const std::int64_t all = hwy::SupportedTargets();
+    for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+        const std::int64_t target = rest & -rest;
+        SCOPED_TRACE(hwy::TargetName(target));
+        std::cout << hwy::TargetName(target) << "\n";
+        hwy::SetSupportedTargetsForTest(target);
+        for (int round = 0; round < 150; ++round) {
+            const std::uint64_t seed = random();
+            std::mt19937_64 local(seed);
+            const RandomScene scene = makeRandomScene(local, 3);
+            EXPECT_EQ(engineCounts(scene, 1), survivorsOf(scene.reference())) << "scene " << seed;
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST(Agreement, ThreadsAndFirstHits) {
+    std::mt19937_64 random(testSeed());
+    for (int round = 0; round < 100; ++round) {
+        const std::uint64_t seed = random();
+        std::mt19937_64 local(seed);
+        RandomScene scene = makeRandomScene(local, round % 2 == 0 ? 1 : 9);
+        if (round % 4 == 0) {
+            scene.mesh = makeEllipsoid(kEllipsoidTriangles).value();
+        }
+        const auto one = engineCounts(scene, 1);
+        EXPECT_EQ(engineCounts(scene, 5), one) << "scene " << seed;
+        const auto first = engineCounts(scene, 3, true);
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            EXPECT_EQ(first[i], one[i] > 0 ? 1U : 0U) << "scene " << seed;
+        }
+    }
+}
+
+} // namespace
+} // namespace voxtact::test
