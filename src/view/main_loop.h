@@ -3,7 +3,7 @@
 
 #include "view/frame/frame.h"
 #include "view/frame/loader.h"
-#include "view/model/state_folder.h"
+#include "view/model/files/state_folder.h"
 #include "view/panels/marks.h"
 #include "view/reporter.h"
 #include "view/window.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/reporter.h"
 
-#include "view/model/command_text.h"
-#include "view/model/report.h"
+#include "view/model/answers/command_text.h"
+#include "view/model/answers/report.h"
 #include "voxtact/io.h"
 
 #include <ostream>

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "view/model/carving.h"
-#include "view/model/comparison.h"
-#include "view/model/document.h"
-#include "view/model/gizmo.h"
-#include "view/model/histogram.h"
-#include "view/model/history.h"
-#include "view/model/labels.h"
-#include "view/model/live_answer.h"
-#include "view/model/live_clearance.h"
-#include "view/model/loading.h"
-#include "view/model/question.h"
-#include "view/model/slice.h"
-#include "view/model/view_cube.h"
+#include "view/model/answers/comparison.h"
+#include "view/model/answers/live_answer.h"
+#include "view/model/answers/live_clearance.h"
+#include "view/model/document/carving.h"
+#include "view/model/document/document.h"
+#include "view/model/document/history.h"
+#include "view/model/document/labels.h"
+#include "view/model/document/question.h"
+#include "view/model/files/loading.h"
+#include "view/model/shown/gizmo.h"
+#include "view/model/shown/histogram.h"
+#include "view/model/shown/slice.h"
+#include "view/model/shown/view_cube.h"
 
 #include <array>
 #include <chrono>

@@ -4,7 +4,7 @@
 #include "core/base/try.h"
 #include "view/glfw_panels.h"
 #include "view/main_loop.h"
-#include "view/model/session_file.h"
+#include "view/model/files/session_file.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/session.h"
-#include "view/model/progress.h"
+#include "view/model/files/progress.h"
 #include "view/state.h"
 #include "voxtact/render.h"
 

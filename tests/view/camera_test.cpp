@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/camera.h"
-#include "view/model/pace.h"
-#include "view/model/slice.h"
+#include "view/model/shown/camera.h"
+#include "view/model/shown/pace.h"
+#include "view/model/shown/slice.h"
 
 #include "voxtact/samples.h"
 

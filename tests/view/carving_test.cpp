@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/carving.h"
-#include "view/model/command_text.h"
-#include "view/model/histogram.h"
+#include "view/model/answers/command_text.h"
+#include "view/model/document/carving.h"
+#include "view/model/shown/histogram.h"
 #include "view/state.h"
 
 #include "voxtact/samples.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/live_clearance.h"
-#include "view/model/report.h"
+#include "view/model/answers/live_clearance.h"
+#include "view/model/answers/report.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/command_text.h"
-#include "view/model/live_answer.h"
-#include "view/model/report.h"
+#include "view/model/answers/command_text.h"
+#include "view/model/answers/live_answer.h"
+#include "view/model/answers/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

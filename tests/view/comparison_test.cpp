@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
-#include "view/model/comparison.h"
-#include "view/model/report.h"
+#include "view/model/answers/comparison.h"
+#include "view/model/answers/report.h"
 #include "view/panels/panels.h"
 
 #define GLFW_INCLUDE_NONE

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/missing_files.h"
-#include "view/model/progress.h"
-#include "view/model/state_folder.h"
+#include "view/model/files/missing_files.h"
+#include "view/model/files/progress.h"
+#include "view/model/files/state_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/open_file.h"
-#include "view/model/session_file.h"
+#include "view/model/files/open_file.h"
+#include "view/model/files/session_file.h"
 
 #include "voxtact/samples.h"
 

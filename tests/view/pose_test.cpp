@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/pose.h"
+#include "view/model/document/pose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/state.h"
 
-#include "view/model/histogram.h"
+#include "view/model/shown/histogram.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>

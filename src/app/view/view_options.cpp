@@ -5,7 +5,7 @@
 #include "app/options/output_paths.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
-#include "view/model/session_file.h"
+#include "view/model/files/session_file.h"
 #include "voxtact/io.h"
 #include "voxtact/looks.h"
 

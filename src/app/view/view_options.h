@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/options/shared_options.h"
-#include "view/model/document.h"
-#include "view/model/labels.h"
-#include "view/model/progress.h"
+#include "view/model/document/document.h"
+#include "view/model/document/labels.h"
+#include "view/model/files/progress.h"
 #include "view/state.h"
 
 namespace voxtact::app {

@@ -3,7 +3,7 @@
 
 #include "core/base/guard.h"
 #include "core/base/try.h"
-#include "view/model/coarser.h"
+#include "view/model/files/coarser.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "view/frame/device_scene.h"
-#include "view/model/pace.h"
+#include "view/model/shown/pace.h"
 
 namespace voxtact::view {
 

@@ -6,7 +6,7 @@
 #include "view/frame/host_answers.h"
 #include "view/frame/pictures.h"
 #include "view/frame/slice_pass.h"
-#include "view/model/progress.h"
+#include "view/model/files/progress.h"
 
 namespace voxtact::view {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/panels/panels.h"
 
-#include "view/model/command_text.h"
+#include "view/model/answers/command_text.h"
 
 #include <algorithm>
 #include <cmath>

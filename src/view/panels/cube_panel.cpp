@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/view_cube.h"
+#include "view/model/shown/view_cube.h"
 #include "view/panels/onto.h"
 #include "view/panels/panels.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/chart_axis.h"
-#include "view/model/histogram.h"
+#include "view/model/shown/chart_axis.h"
+#include "view/model/shown/histogram.h"
 #include "view/panels/panels.h"
 
 #include "voxtact/looks.h"

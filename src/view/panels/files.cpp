@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/open_file.h"
-#include "view/model/session_file.h"
+#include "view/model/files/open_file.h"
+#include "view/model/files/session_file.h"
 #include "view/panels/panels.h"
 
-#include "view/model/command_text.h"
+#include "view/model/answers/command_text.h"
 #include "voxtact/io.h"
 
 #include <imgui_stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/pose.h"
+#include "view/model/document/pose.h"
 #include "view/panels/panels.h"
 
 #define GLFW_INCLUDE_NONE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/open_file.h"
+#include "view/model/files/open_file.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "view/model/camera.h"
+#include "view/model/shown/camera.h"
 #include "voxtact/data.h"
 
 #include <imgui.h>
