@@ -268,6 +268,19 @@ TEST(CertifiedText, TheErrorOfABoxIsThatOfItsFarthestVertex) {
     }
 }
 
+TEST(CertifiedText, ATriangleMayBeDisplacedAsFarAsItsWorstVertex) {
+    std::mt19937_64 random(testSeed());
+    const Placed placed = drawnPlace(random);
+    for (std::size_t which = 0; which < 3; ++which) {
+        std::array<shader::CertifiedVertex, 3> vertices{};
+        for (shader::CertifiedVertex& vertex : vertices) {
+            vertex = {drawnPoint(random, 0, 1), 1e-6F};
+        }
+        vertices[which].error = 0.125F;
+        EXPECT_GE(certifiedBounds(placed.item, vertices[0], vertices[1], vertices[2]).delta, 0.125F) << which;
+    }
+}
+
 TEST(CertifiedText, AVertexThatIsNowhereMakesATriangleThatMayBeAnywhere) {
     std::mt19937_64 random(testSeed());
     const Placed placed = drawnPlace(random);

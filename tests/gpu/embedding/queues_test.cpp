@@ -143,6 +143,58 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
     }
 }
 
+/// Where a list of cells has no more room, what is left of the queue is no pair's: it is not taken for the first cell
+/// of the first triangle of the first pair, which all of these triangles touch.
+TEST_F(QueuesTest, WhatIsLeftOfAFullQueueIsNoCell) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData solid = makeBytes(take(makeBuiltinVolume("sphere:96")).grid, [](auto...) { return 200.0; });
+    const std::array ramp{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const TransferFunctionDesc table{ramp, {0, 255}, kDefaultTableSize};
+    const auto place = [&](double x, double y, double z) {
+        const Grid& grid = solid.grid;
+        Vec3 out = grid.origin;
+        for (std::size_t column = 0; column < 3; ++column) {
+            const double voxels = std::array{x, y, z}[column] * grid.spacing[column];
+            for (std::size_t row = 0; row < 3; ++row) {
+                out[row] += voxels * grid.direction[3 * column + row];
+            }
+        }
+        return out;
+    };
+    MeshData data;
+    for (std::uint32_t triangle = 0; triangle < 6; ++triangle) {
+        const auto across = [&] { return uniform(random, 20, 95); };
+        const auto corner = [&] { return uniform(random, -0.4, -0.1); };
+        for (const Vec3& at :
+             {place(corner(), corner(), corner()), place(95, across(), across()), place(across(), 95, across())}) {
+            for (const double coordinate : at) {
+                data.positions.push_back(static_cast<float>(coordinate));
+            }
+            data.indices.push_back(static_cast<std::uint32_t>(data.indices.size()));
+        }
+    }
+    const Volume volume = take(Volume::upload(context(), queue(), solid.view(), {.bricks = true}));
+    const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
+    const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
+    const cpu::Volume hostVolume = take(cpu::Volume::create(solid.view()));
+    const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
+    const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+    const std::array poses{identity(), identity()};
+    const BatchItem item{&mesh, &volume, &function, poses};
+    const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
+    const DetectorDesc desc{
+        .method = CountingMethod::Compute, .projection = Projection::Conservative, .outputs = {.triangles = true}};
+    const BatchAnswer onHost =
+        take(take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.triangles = true}}))
+                 .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+    EXPECT_GT(onHost.pairs[0].count, 10000U);
+    for (const std::uint32_t clusters : {1024U, 2048U}) {
+        expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, 2, clusters), onHost,
+                   std::to_string(clusters) + " clusters at once, seed " + std::to_string(seed));
+    }
+}
+
 TEST_F(QueuesTest, RoomsThatCannotBe) {
     for (const std::uint32_t clusters : {1U, 15U, 16385U}) {
         const Result<Results> refused = Results::create(context(), {.clustersAtOnce = clusters});
