@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The queues between the passes of the projection `conservative`: answers do not depend on their room.
 #include "raw_fixture.h"
+#include "shared.h"
 
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
@@ -193,6 +194,31 @@ TEST_F(QueuesTest, WhatIsLeftOfAFullQueueIsNoCell) {
         expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, 2, clusters), onHost,
                    std::to_string(clusters) + " clusters at once, seed " + std::to_string(seed));
     }
+}
+
+/// More rounds than there are headers of queues: a round does not find what an earlier one has left in its header.
+TEST_F(QueuesTest, RoundsBeyondTheHeadersBeginEmpty) {
+    const VolumeData head = take(makeBuiltinVolume("head:32"));
+    const MeshData data = take(makeBuiltinMesh("scalpel:500")); // 8 clusters, 4 of them a round
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const TransferFunctionDesc table{points, {0, 255}, kDefaultTableSize};
+    const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
+    const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
+    const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
+    const cpu::Volume hostVolume = take(cpu::Volume::create(head.view()));
+    const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
+    const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+    std::vector<Mat4> poses(3 * VOXTACT_HEADERS, translation({1e4, 0, 0}));
+    poses.front() = poses[VOXTACT_HEADERS] = poses.back() = identity();
+    const BatchItem item{&mesh, &volume, &function, poses};
+    const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
+    const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Conservative}))
+                                        .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+    EXPECT_GT(onHost.pairs[0].count, 0U);
+    EXPECT_EQ(onHost.pairs[1].count, 0U);
+    expectSame(detect({.method = CountingMethod::Compute, .projection = Projection::Conservative},
+                      {{&item, 1}, {}, kDefaultThreshold}, static_cast<std::uint32_t>(poses.size()), 16),
+               onHost, "16 clusters at once");
 }
 
 TEST_F(QueuesTest, RoomsThatCannotBe) {
