@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-from window import HEIGHT, PATIENCE, SCENE, Server, Window, compare, fail, main, make, poses
+from window import HEIGHT, PATIENCE, SCENE, Server, Window, compare, counted, fail, main, make, poses
 
 
 def files(program, folder):
@@ -204,6 +204,21 @@ def lost(program, folder):
             window.press("ctrl+z", "ctrl+z")
             window.press("Next")
             state = window.until("the next answer", lambda s: s["pose"][HEIGHT] == 57 and s["settled"])
+            window.press("ctrl+q")
+            window.end()
+        # While all methods are compared, which may be the first to hear of it.
+        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+                    faults) as window:
+            window.until("the first answer", lambda s: s["settled"])
+            window.press("k")
+            window.until("the first counts", lambda s: any(one["hit"] is not None for one in s["methods"] or []))
+            lose(window, "lost")
+            window.until("the question", lambda s: s["question"])
+            window.press("Return")
+            state = window.until("the host's answer", lambda s: s["settled"] and s["method"] == "cpu")
+            assert state["pose"][HEIGHT] in (59, 60) and state["hit"] == 1, state
+            state = window.until("the counts again", counted)
+            assert not any(one["refused"] for one in state["methods"]), state["methods"]
             window.press("ctrl+q")
             window.end()
         # The same twice in a moment: it ends, and what was shown is kept.
