@@ -58,6 +58,17 @@ TEST_F(MotionTest, HasARowForEachSegment) {
     EXPECT_LE(std::stod(coarse[2][5]) - std::stod(coarse[2][4]), 2.0 / 40 + 1e-12);
 }
 
+TEST_F(MotionTest, WhatIsMissingIsSaidBeforeTheFirstRow) {
+    Ran ran = run(motion({"--volume", path("nowhere.nii")}));
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_THAT(ran.err, HasSubstr("nowhere.nii': there is no such file or folder"));
+    ran = run(motion({"--output", path("rows.csv"), "--volume", path("path.txt")}));
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_FALSE(std::filesystem::exists(path("rows.csv")));
+}
+
 TEST_F(MotionTest, WritesWhatElseIsAskedFor) {
     output({"make", "volume", "builtin:head:16", path("labels.nii.gz")});
     const auto labelled = rows({"--labels", path("labels.nii.gz"), "--timing", "--interpolation", "slerp"});

@@ -99,6 +99,32 @@ TEST_F(StreamTest, InterruptedFilesAreNotThere) {
     EXPECT_EQ(filesInFolder(), 1U);
 }
 
+/// In and out of the head, so often that it takes a while.
+TEST_F(StreamTest, MotionsComeAsTheyAreKnown) {
+    std::string path20000;
+    for (int i = 0; i < 20000; ++i) {
+        path20000 += "1 0 0 0  0 1 0 0  0 0 1 " + std::to_string(i % 2 == 0 ? 160 : 80) + "  0 0 0 1\n";
+    }
+    writeText(path("path.txt"), path20000);
+    const Arguments motion{"motion",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:500",
+                           "--poses", path("path.txt"), "--format",        "csv"};
+    Child child(motion);
+    const std::vector<std::string> first = child.lines(200);
+    child.signal(SIGINT);
+    const Ran ran = child.end();
+    EXPECT_EQ(ran.status, 128 + SIGINT) << ran.err;
+    EXPECT_TRUE(ran.out.ends_with("\n"));
+    const std::vector<std::string> rows = linesOf(ran.out);
+    EXPECT_GE(rows.size(), 200U);
+    EXPECT_LT(rows.size(), 20000U);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        EXPECT_TRUE(rows[i].starts_with(std::to_string(i - 1) + ",")) << rows[i];
+        EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), ','), 10) << rows[i];
+    }
+    EXPECT_THAT(ran.err, AllOf(StartsWith("voxtact motion: interrupted by SIGINT"),
+                               HasSubstr(std::to_string(rows.size() - 1) + " segments are written")));
+}
+
 TEST_F(StreamTest, WhatIsWrongInTheMiddle) {
     const std::string good = poses(40);
     Child child(detect({"--poses", "-"}));

@@ -36,13 +36,7 @@ std::optional<std::uint64_t> DetectInputs::pairs(const PairJobs& jobs) const {
 }
 
 Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
-    for (const std::string& source : options.jobs.volumes) {
-        // Volumes are read one at a time, so the last may be late: look now whether it is there at all.
-        std::error_code ignored;
-        if (!source.starts_with("builtin:") && !std::filesystem::exists(source, ignored)) {
-            return Error{ErrorCode::File, 0, "cannot read '" + source + "': there is no such file or folder"};
-        }
-    }
+    VOXTACT_TRY(checkVolumesAreThere(options.jobs.volumes));
     DetectInputs inputs;
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
     VOXTACT_TRY(points);

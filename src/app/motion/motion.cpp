@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands.h"
+#include "app/motion/motion_output.h"
 #include "app/motion/motion_run.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace voxtact::app {
@@ -81,6 +83,7 @@ Result<void> readLabels(const MotionOptions& options, MotionInputs& inputs) {
 }
 
 Result<MotionInputs> readInputs(const MotionOptions& options) {
+    VOXTACT_TRY(checkVolumesAreThere(options.volumes));
     MotionInputs inputs;
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
     VOXTACT_TRY(points);
@@ -97,6 +100,46 @@ Result<MotionInputs> readInputs(const MotionOptions& options) {
     }
     VOXTACT_TRY(readLabels(options, inputs));
     return inputs;
+}
+
+/// Of every volume and mesh, until it is done or interrupted.
+Result<void> checkAll(const MotionOptions& options, const MotionInputs& inputs, SegmentChecker& checking,
+                      const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
+    for (std::uint32_t number = 0; number < options.volumes.size() && !interrupted(); ++number) {
+        const Result<MotionVolume> volume = loadMotionVolume(options, inputs, number);
+        VOXTACT_TRY(volume);
+        for (std::uint32_t mesh = 0; mesh < inputs.meshes.size(); ++mesh) {
+            VOXTACT_TRY(checking.check(*volume, number, mesh, inputs.poses, 0, visit));
+        }
+    }
+    return {};
+}
+
+Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker) {
+    const Result<std::unique_ptr<MotionOutput>> output = MotionOutput::create(options, inputs);
+    VOXTACT_TRY(output);
+    Progress progress(options.progress, "voxtact motion: segments",
+                      (inputs.poses.size() - 1) * inputs.meshes.size() * options.volumes.size());
+    SegmentChecker checking(options, inputs, checker);
+    const Result<void> done = checkAll(options, inputs, checking, [&](std::span<const MotionRow> rows) -> Result<void> {
+        VOXTACT_TRY((*output)->add(rows));
+        progress.update((*output)->rows());
+        return {};
+    });
+    VOXTACT_TRY(done);
+    if (interrupted()) {
+        VOXTACT_TRY((*output)->breakOff());
+        return interruptOutcome(options.output.path.empty()
+                                    ? std::to_string((*output)->rows()) + " segments are written"
+                                    : "'" + options.output.path.string() + "' is not written");
+    }
+    VOXTACT_TRY((*output)->finish(checking.milliseconds()));
+    std::vector<std::string> notes;
+    (*output)->ends().addTo(notes);
+    for (const std::string& note : notes) {
+        printNote(note);
+    }
+    return {};
 }
 
 Outcome runMotion(const CLI::App& parser, MotionOptions options) {
@@ -116,38 +159,7 @@ Outcome runMotion(const CLI::App& parser, MotionOptions options) {
     if (options.chunks.asked()) {
         return runMotionChunks(parser, options, *inputs, *checker, readPaths(options));
     }
-    SegmentChecker checking(options, *inputs, *checker);
-    std::vector<MotionRow> rows;
-    Progress progress(options.progress, "voxtact motion: segments",
-                      (inputs->poses.size() - 1) * inputs->meshes.size() * options.volumes.size());
-    checking.showOn(progress);
-    for (std::uint32_t number = 0; number < options.volumes.size() && !interrupted(); ++number) {
-        const Result<MotionVolume> volume = loadMotionVolume(options, *inputs, number);
-        VOXTACT_TRY(volume);
-        for (std::uint32_t mesh = 0; mesh < inputs->meshes.size(); ++mesh) {
-            VOXTACT_TRY(checking.check(*volume, number, mesh, inputs->poses, 0, rows));
-        }
-    }
-    if (interrupted()) {
-        return interruptOutcome("nothing is written");
-    }
-    MotionTable table{options.meshes.sources, options.volumes, inputs->labels, inputs->labelNames, rows, {}};
-    if (options.timing) {
-        table.wallMilliseconds = checking.milliseconds();
-    }
-    const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
-        io::writeTable(out, options.output.format(), table.table());
-        return {};
-    });
-    VOXTACT_TRY(written);
-    MotionEnds ends;
-    ends.add(rows);
-    std::vector<std::string> notes;
-    ends.addTo(notes);
-    for (const std::string& note : notes) {
-        printNote(note);
-    }
-    return {};
+    return writeMotions(options, *inputs, *checker);
 }
 
 } // namespace
@@ -175,7 +187,9 @@ Result<MotionVolume> loadMotionVolume(const MotionOptions& options, const Motion
 }
 
 Result<void> SegmentChecker::check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
-                                   std::span<const Mat4> poses, std::uint64_t firstPose, std::vector<MotionRow>& rows) {
+                                   std::span<const Mat4> poses, std::uint64_t firstPose,
+                                   const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
+    std::vector<MotionRow> rows;
     for (std::size_t first = 0; first + 1 < poses.size() && !interrupted(); first += kBatch) {
         const cpu::BatchItem item{&inputs_.meshes[mesh], &volume.volume, &volume.transferFunction,
                                   poses.subspan(first, std::min(kBatch + 1, poses.size() - first))};
@@ -183,13 +197,12 @@ Result<void> SegmentChecker::check(const MotionVolume& volume, std::uint32_t vol
             checker_.check({std::span(&item, 1), {}, options_.transferFunction.threshold});
         VOXTACT_TRY(answer);
         milliseconds_ += answer->wallMilliseconds;
+        rows.clear();
         for (SegmentMotion motion : answer->segments) {
             motion.pose += static_cast<std::uint32_t>(firstPose + first);
             rows.push_back({mesh, volumeNumber, motion});
         }
-        if (progress_ != nullptr) {
-            progress_->update(rows.size());
-        }
+        VOXTACT_TRY(visit(rows));
     }
     return {};
 }

@@ -47,14 +47,13 @@ class MotionChunks {
     MotionChunks(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker,
                  PoseSource& source)
         : options_(options), inputs_(inputs), checking_(options, inputs, checker), poses_(source),
-          segments_(*source.count() - 1), table_{options.meshes.sources, options.volumes, inputs.labels,
-                                                 inputs.labelNames,      rows_,           {}} {}
+          segments_(*source.count() - 1) {}
 
     [[nodiscard]] ChunkCut cut() const {
         return {std::vector<std::uint64_t>(options_.volumes.size(), segments_ * inputs_.meshes.size()),
                 options_.chunks.chunk()};
     }
-    [[nodiscard]] RunOutput output() const { return tableOutput(options_.output.format(), table_.table()); }
+    [[nodiscard]] RunOutput output() const { return tableOutput(options_.output.format(), tableOf({}).table()); }
     [[nodiscard]] Result<void> write(const ChunkRange& range, const ChunkFiles& files,
                                      const std::function<void(std::uint64_t)>& progress) {
         if (volumeNumber_ != range.group) {
@@ -70,13 +69,11 @@ class MotionChunks {
         writer.omitHead();
         MotionEnds ends;
         for (std::uint64_t done = 0; done < range.count && !interrupted();) {
-            const Result<std::uint64_t> some = writeSome(range.first + done, range.count - done, writer);
+            const Result<std::uint64_t> some = writeSome(range.first + done, range.count - done, writer, ends);
             VOXTACT_TRY(some);
-            ends.add(rows_);
             done += *some;
             progress(done);
         }
-        rows_.clear();
         if (interrupted()) {
             return {};
         }
@@ -88,16 +85,24 @@ class MotionChunks {
     [[nodiscard]] const MotionEnds& ends() const noexcept { return ends_; }
 
   private:
+    [[nodiscard]] MotionTable tableOf(std::span<const MotionRow> rows) const {
+        return {options_.meshes.sources, options_.volumes, inputs_.labels, inputs_.labelNames, rows};
+    }
     /// Of one mesh. How many rows.
-    [[nodiscard]] Result<std::uint64_t> writeSome(std::uint64_t row, std::uint64_t most, io::TableWriter& writer) {
+    [[nodiscard]] Result<std::uint64_t> writeSome(std::uint64_t row, std::uint64_t most, io::TableWriter& writer,
+                                                  MotionEnds& ends) {
         const std::uint64_t segment = row % segments_;
         const std::uint64_t count = std::min({most, segments_ - segment, kMostAtOnce});
         const Result<std::span<const Mat4>> poses = poses_.get(segment, count + 1);
         VOXTACT_TRY(poses);
         rows_.clear();
         VOXTACT_TRY(checking_.check(*volume_, *volumeNumber_, static_cast<std::uint32_t>(row / segments_), *poses,
-                                    segment, rows_));
-        writer.add(table_.table());
+                                    segment, [&](std::span<const MotionRow> rows) -> Result<void> {
+                                        rows_.insert(rows_.end(), rows.begin(), rows.end());
+                                        return {};
+                                    }));
+        ends.add(rows_);
+        writer.add(tableOf(rows_).table());
         return count;
     }
 
@@ -107,7 +112,6 @@ class MotionChunks {
     PoseWindow poses_;
     std::uint64_t segments_; ///< of a mesh
     std::vector<MotionRow> rows_;
-    MotionTable table_;
     std::optional<std::uint32_t> volumeNumber_;
     std::optional<MotionVolume> volume_;
     MotionEnds ends_;

@@ -8,6 +8,7 @@
 #include "app/output/progress.h"
 #include "voxtact/cpu.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -59,13 +60,11 @@ class SegmentChecker {
     SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker)
         : options_(options), inputs_(inputs), checker_(checker) {}
 
-    /// Adds the rows of the segments between poses of which the first has the number `firstPose`; fewer where an
-    /// interrupt comes.
+    /// The rows of the segments between poses of which the first has the number `firstPose`, some at a time; fewer
+    /// where an interrupt comes. Ends where `visit` fails.
     [[nodiscard]] Result<void> check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
                                      std::span<const Mat4> poses, std::uint64_t firstPose,
-                                     std::vector<MotionRow>& rows);
-    /// Is told now and then how many rows there are.
-    void showOn(Progress& progress) { progress_ = &progress; }
+                                     const std::function<Result<void>(std::span<const MotionRow>)>& visit);
     /// That it took so far.
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
 
@@ -73,7 +72,6 @@ class SegmentChecker {
     const MotionOptions& options_;
     const MotionInputs& inputs_;
     cpu::MotionChecker& checker_;
-    Progress* progress_ = nullptr;
     double milliseconds_ = 0;
 };
 

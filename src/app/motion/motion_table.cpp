@@ -80,11 +80,6 @@ io::Table MotionTable::table() const {
     out.rows = rows.size();
     out.cell = [this](std::size_t row, std::size_t column) { return cellOf(*this, rows[row], column); };
     out.facts = {{"voxtact", std::string(programVersion())}};
-    if (wallMilliseconds) {
-        out.timing = {{"segments", std::uint64_t{rows.size()}},
-                      {"wall_ms", *wallMilliseconds},
-                      {"segments_per_s", 1000 * static_cast<double>(rows.size()) / *wallMilliseconds}};
-    }
     return out;
 }
 

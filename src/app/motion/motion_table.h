@@ -7,6 +7,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,7 @@ struct MotionTable {
     const std::vector<std::string>& volumes;
     const std::optional<LabelData>& labels;
     const std::map<std::int32_t, std::string>& labelNames;
-    const std::vector<MotionRow>& rows;
-    std::optional<double> wallMilliseconds; ///< where the last line is to say it
+    std::span<const MotionRow> rows;
 
     /// It refers to all of these.
     [[nodiscard]] io::Table table() const;

@@ -74,6 +74,18 @@ Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress&
     return volume;
 }
 
+Result<void> checkVolumesAreThere(const std::vector<std::string>& sources) {
+    for (const std::string& source : sources) {
+        std::error_code ignored;
+        if (!source.starts_with("builtin:") && !std::filesystem::exists(namedImage(source).path, ignored)) {
+            return Error{ErrorCode::File, 0,
+                         "cannot read " + forMessage(namedImage(source).path.string()) +
+                             ": there is no such file or folder"};
+        }
+    }
+    return {};
+}
+
 Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options) {
     const bool builtin = source.starts_with(kBuiltin);
     const io::MeshReadOptions reading{options.space == "ras" ? io::MeshSpace::RAS : io::MeshSpace::LPS, options.scale};

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "app/motion/motion_output.h"
+
+#include "app/output/standard_streams.h"
+#include "core/base/try.h"
+
+namespace voxtact::app {
+
+Result<std::unique_ptr<MotionOutput>> MotionOutput::create(const MotionOptions& options, const MotionInputs& inputs) {
+    std::optional<io::OutputFile> file;
+    if (!options.output.path.empty()) {
+        Result<io::OutputFile> opened = io::OutputFile::create(options.output.path);
+        VOXTACT_TRY(opened);
+        file = std::move(*opened);
+    }
+    return std::unique_ptr<MotionOutput>(new MotionOutput(options, inputs, std::move(file)));
+}
+
+MotionOutput::MotionOutput(const MotionOptions& options, const MotionInputs& inputs, std::optional<io::OutputFile> file)
+    : options_(options), inputs_(inputs), file_(std::move(file)),
+      writer_(file_ ? file_->stream() : text_, options.output.format()) {}
+
+Result<void> MotionOutput::add(std::span<const MotionRow> rows) {
+    rows_ += rows.size();
+    ends_.add(rows);
+    writer_.add(
+        MotionTable{options_.meshes.sources, options_.volumes, inputs_.labels, inputs_.labelNames, rows}.table());
+    return pass();
+}
+
+/// Hands on what has been written.
+Result<void> MotionOutput::pass() {
+    if (file_) {
+        // A disk that is full now will not have room for the rest.
+        return file_->stream() ? Result<void>() : file_->close();
+    }
+    const std::string part = text_.str();
+    text_.str({});
+    return writeStandardOutput(part);
+}
+
+Result<void> MotionOutput::finish(double wallMilliseconds) {
+    io::TableEnd timing{"timing"};
+    if (options_.timing) {
+        timing.cells = {{"segments", rows_},
+                        {"wall_ms", wallMilliseconds},
+                        {"segments_per_s", 1000 * static_cast<double>(rows_) / wallMilliseconds}};
+    }
+    writer_.end({&timing, 1});
+    if (!file_) {
+        return pass();
+    }
+    VOXTACT_TRY(file_->close());
+    return file_->commit();
+}
+
+Result<void> MotionOutput::breakOff() {
+    if (file_) {
+        return {};
+    }
+    if (rows_ == 0) {
+        VOXTACT_TRY(add({})); // a table without rows has its head, too
+    }
+    writer_.end({}, false);
+    return pass();
+}
+
+} // namespace voxtact::app
