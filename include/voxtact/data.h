@@ -31,7 +31,8 @@ using Mat4 = std::array<double, 16>;
 [[nodiscard]] VOXTACT_API Mat4 translation(const Vec3& offset) noexcept;
 /// c_from_a = multiply(c_from_b, b_from_a)
 [[nodiscard]] VOXTACT_API Mat4 multiply(const Mat4& c_from_b, const Mat4& b_from_a) noexcept;
-/// Fails when the matrix is singular or not finite. Any 4x4 matrix, projective ones too.
+/// Fails when the matrix is singular or not finite. Any 4x4 matrix, projective ones too; of an affine one exactly
+/// affine.
 [[nodiscard]] VOXTACT_API Result<Mat4> inverse(const Mat4& b_from_a);
 /// The image of a point, divided by its w.
 [[nodiscard]] VOXTACT_API Vec3 transformPoint(const Mat4& b_from_a, const Vec3& point) noexcept;

@@ -170,7 +170,7 @@ VXT_CHECKED vxt_result vxt_side_view(const double clip_from_world[16], double si
 VXT_CHECKED vxt_result vxt_multiply(const double c_from_b[16], const double b_from_a[16], double c_from_a[16]);
 /// The image of a point, divided by its w. The two may be the same.
 VXT_CHECKED vxt_result vxt_transform_point(const double b_from_a[16], const double point[3], double transformed[3]);
-/// The inverse of any 4x4 matrix; refuses a singular one. The two may be the same.
+/// The inverse of any 4x4 matrix, of an affine one exactly affine; refuses a singular one. The two may be the same.
 VXT_CHECKED vxt_result vxt_inverse(const double b_from_a[16], double a_from_b[16]);
 
 /// The box of a box's corners under an affine matrix, rounded outward: voxtact::transformBox(). The two may be the

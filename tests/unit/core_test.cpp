@@ -3,6 +3,7 @@
 #include "core/geometry/pair_transform.h"
 #include "core/transfer/opaque_ranges.h"
 #include "core/volume/boundary.h"
+#include "support/scenes.h"
 #include "voxtact/results.h"
 
 #include <gmock/gmock.h>
@@ -41,6 +42,23 @@ TEST(Spaces, InverseRefusesSingularAndNonFinite) {
     tiny[0] = tiny[5] = tiny[10] = 1e-9;
     ASSERT_TRUE(inverse(tiny).ok());
     EXPECT_NEAR(inverse(tiny).value()[0], 1e9, 1);
+}
+
+/// Rounding in the last row would have made a pose of it that is refused.
+TEST(Spaces, TheInverseOfAPoseIsAPose) {
+    std::mt19937_64 random(testSeed());
+    for (int round = 0; round < 100000 && !HasFailure(); ++round) {
+        const Mat4 pose =
+            multiply(translation({uniform(random, -300, 300), uniform(random, -300, 300), uniform(random, -300, 300)}),
+                     randomRotation(random));
+        const Result<Mat4> back = inverse(pose);
+        ASSERT_TRUE(back.ok());
+        EXPECT_TRUE(checkAffine(*back, "the inverse").ok()) << checkAffine(*back, "the inverse").error().text;
+        const Vec3 point = transformPoint(*back, transformPoint(pose, {1, -2, 3}));
+        EXPECT_NEAR(point[0], 1, 1e-9);
+        EXPECT_NEAR(point[1], -2, 1e-9);
+        EXPECT_NEAR(point[2], 3, 1e-9);
+    }
 }
 
 TEST(Spaces, AffineMatricesNameTheElement) {

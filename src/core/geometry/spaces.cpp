@@ -24,6 +24,15 @@ Mat4 multiply(const Mat4& c_from_b, const Mat4& b_from_a) noexcept {
     return fromGlm(toGlm(c_from_b) * toGlm(b_from_a));
 }
 
+namespace {
+
+/// The last row is exactly 0 0 0 1.
+bool isAffine(const Mat4& matrix) {
+    return matrix[3] == 0 && matrix[7] == 0 && matrix[11] == 0 && matrix[15] == 1;
+}
+
+} // namespace
+
 Result<Mat4> inverse(const Mat4& b_from_a) {
     double largest = 0;
     for (const double element : b_from_a) {
@@ -33,7 +42,7 @@ Result<Mat4> inverse(const Mat4& b_from_a) {
         largest = std::max(largest, std::abs(element));
     }
     const glm::dmat4 a_from_b = glm::inverse(toGlm(b_from_a));
-    const Mat4 out = fromGlm(a_from_b);
+    Mat4 out = fromGlm(a_from_b);
     // A residual and not the determinant: the determinant's size depends on the units of the columns.
     const glm::dmat4 product = toGlm(b_from_a) * a_from_b;
     double residual = 0;
@@ -45,6 +54,10 @@ Result<Mat4> inverse(const Mat4& b_from_a) {
     }
     if (largest == 0 || residual > 1e-6) {
         return Error{ErrorCode::InvalidArgument, 0, "the matrix is singular"};
+    }
+    if (isAffine(b_from_a)) { // of a pose it is a pose: rounding must not get into the last row
+        out[3] = out[7] = out[11] = 0;
+        out[15] = 1;
     }
     return out;
 }
@@ -70,7 +83,7 @@ Result<void> checkAffine(const Mat4& matrix, const std::string& what) {
                              " of the matrix is not finite"};
         }
     }
-    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1) {
+    if (!isAffine(matrix)) {
         return Error{ErrorCode::InvalidArgument, 0,
                      what + ": the last row of the matrix is " + number(matrix[3]) + " " + number(matrix[7]) + " " +
                          number(matrix[11]) + " " + number(matrix[15]) + ", it must be 0 0 0 1"};
