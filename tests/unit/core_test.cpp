@@ -44,13 +44,17 @@ TEST(Spaces, InverseRefusesSingularAndNonFinite) {
     EXPECT_NEAR(inverse(tiny).value()[0], 1e9, 1);
 }
 
-/// Rounding in the last row would have made a pose of it that is refused.
+/// Rounding in the last row, which comes with scales, would have made a pose of it that is refused.
 TEST(Spaces, TheInverseOfAPoseIsAPose) {
     std::mt19937_64 random(testSeed());
     for (int round = 0; round < 100000 && !HasFailure(); ++round) {
+        Mat4 scale = identity();
+        scale[0] = uniform(random, 0.3, 3);
+        scale[5] = uniform(random, 0.3, 3);
+        scale[10] = uniform(random, 0.3, 3);
         const Mat4 pose =
             multiply(translation({uniform(random, -300, 300), uniform(random, -300, 300), uniform(random, -300, 300)}),
-                     randomRotation(random));
+                     multiply(randomRotation(random), scale));
         const Result<Mat4> back = inverse(pose);
         ASSERT_TRUE(back.ok());
         EXPECT_TRUE(checkAffine(*back, "the inverse").ok()) << checkAffine(*back, "the inverse").error().text;
