@@ -40,9 +40,9 @@ enum class ClearanceEnd : std::uint32_t {
 struct ClosestPoints {
     std::uint32_t triangle = 0; ///< number in the mesh
     Vec3 mesh{};                ///< on that triangle, world mm
-    /// Opaque, world mm. Where only the values on both sides tell that there is an opaque point between them (the
-    /// opaque part is thinner than what rounding tells apart), it is one of these sides: less than a millionth of a
-    /// voxel beside the opaque point, but for the rounding of a value.
+    /// Opaque, world mm. Where the opaque part is thinner than rounding can hit (a peak of the transfer function, and
+    /// the threshold at its top), a point close to it: an opaque point is then no farther from the triangle, and not
+    /// nearer than ClearanceBounds::lo.
     Vec3 volume{};
     /// Of the distance of these two: mm for each mm that the mesh is moved along the world's x, y and z, and mm for
     /// each radian that it is turned, right-handed, about the parallels of these through the object's origin. As long

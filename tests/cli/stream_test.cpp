@@ -101,11 +101,11 @@ TEST_F(StreamTest, InterruptedFilesAreNotThere) {
 
 /// In and out of the head, so often that it takes a while.
 TEST_F(StreamTest, MotionsComeAsTheyAreKnown) {
-    std::string path20000;
+    std::string text;
     for (int i = 0; i < 20000; ++i) {
-        path20000 += "1 0 0 0  0 1 0 0  0 0 1 " + std::to_string(i % 2 == 0 ? 160 : 80) + "  0 0 0 1\n";
+        text += "1 0 0 0  0 1 0 0  0 0 1 " + std::to_string(i % 2 == 0 ? 160 : 80) + "  0 0 0 1\n";
     }
-    writeText(path("path.txt"), path20000);
+    writeText(path("path.txt"), text);
     const Arguments motion{"motion",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:500",
                            "--poses", path("path.txt"), "--format",        "csv"};
     Child child(motion);

@@ -14,7 +14,7 @@ namespace voxtact::app {
 
 /// A path, of a file or folder with several images one as namedImage() says, or `builtin:NAME`.
 [[nodiscard]] Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress& progress = {});
-/// Volumes are read one at a time, so the last may be late, behind rows of the others: whether they are there at all.
+/// Refuses a volume that is not there. Volumes are read one at a time: this is known before the first row is written.
 [[nodiscard]] Result<void> checkVolumesAreThere(const std::vector<std::string>& sources);
 [[nodiscard]] Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options);
 

@@ -8,6 +8,15 @@
 
 namespace voxtact {
 
+namespace {
+
+/// The last row is exactly 0 0 0 1.
+bool isAffine(const Mat4& matrix) {
+    return matrix[3] == 0 && matrix[7] == 0 && matrix[11] == 0 && matrix[15] == 1;
+}
+
+} // namespace
+
 Mat4 identity() noexcept {
     return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 }
@@ -23,15 +32,6 @@ Mat4 translation(const Vec3& offset) noexcept {
 Mat4 multiply(const Mat4& c_from_b, const Mat4& b_from_a) noexcept {
     return fromGlm(toGlm(c_from_b) * toGlm(b_from_a));
 }
-
-namespace {
-
-/// The last row is exactly 0 0 0 1.
-bool isAffine(const Mat4& matrix) {
-    return matrix[3] == 0 && matrix[7] == 0 && matrix[11] == 0 && matrix[15] == 1;
-}
-
-} // namespace
 
 Result<Mat4> inverse(const Mat4& b_from_a) {
     double largest = 0;

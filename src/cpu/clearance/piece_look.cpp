@@ -39,6 +39,38 @@ std::array<PlacedValue, 2> extremes(const PartCell& cell, const CellPiece& piece
     return ends;
 }
 
+/// Two places in a cell. Where it is certain(), there is an opaque point on the way between them, by the values at
+/// these alone.
+struct Bracket {
+    const PartCell& cell;
+    const OpaqueIntervals& intervals;
+    std::array<PlacedValue, 2> ends;
+
+    [[nodiscard]] bool certain() const { return crosses(ends[0], ends[1]); }
+    /// To half of the way; false where none is certain. Around the middle where its value is too near to an interval's
+    /// end to tell on which side the opaque point is.
+    bool halve() {
+        const PlacedValue middle = at(0.5);
+        for (const std::array<PlacedValue, 2>& half :
+             {std::array{ends[0], middle}, {middle, ends[1]}, {at(0.25), at(0.75)}}) {
+            if (crosses(half[0], half[1])) {
+                ends = half;
+                return true;
+            }
+        }
+        return false;
+    }
+
+  private:
+    [[nodiscard]] PlacedValue at(double part) const {
+        const dvec3 place = glm::mix(ends[0].at, ends[1].at, part);
+        return {place, valueAt(cell.terms, place)};
+    }
+    [[nodiscard]] bool crosses(const PlacedValue& lo, const PlacedValue& hi) const {
+        return intervals.certainlyMeet(lo.value + cell.error, hi.value - cell.error);
+    }
+};
+
 } // namespace
 
 CellPiece pieceAt(const PartCell& cell, const PiecePlace& place) noexcept {
@@ -88,51 +120,24 @@ dvec3 PieceLook::run(const PiecePlace& place, const DistanceError& error, std::u
     return normal;
 }
 
-/// An opaque point on the way from one corner of a piece to another, by the values at these alone: no point of it is
-/// farther from the triangle than the farther end.
+/// An opaque point on the way from one corner of a piece to another: no point of that way is farther from the triangle
+/// than its farther end.
 void PieceLook::between(const DistanceError& error, std::uint32_t number, Found& found) const {
     constexpr int kMostHalvings = 24;
     if (!part_.intervals.certainlyMeet(piece_.lo() + 2 * cell_.error, piece_.hi() - 2 * cell_.error)) {
         return;
     }
-    const VolumeSpace& space = part_.space;
-    std::array<PlacedValue, 2> ends = extremes(cell_, piece_);
-    const auto crosses = [&](double lo, double hi) {
-        return part_.intervals.certainlyMeet(lo + cell_.error, hi - cell_.error);
-    };
-    if (!crosses(ends[0].value, ends[1].value)) {
+    Bracket bracket{cell_, part_.intervals, extremes(cell_, piece_)};
+    if (!bracket.certain()) {
         return;
     }
-    const auto between = [&](double part) {
-        const dvec3 at = glm::mix(ends[0].at, ends[1].at, part);
-        return PlacedValue{at, valueAt(cell_.terms, at)};
-    };
-    // Half of the way, or the half around its middle, where the value is too near to an interval's end to tell.
-    const auto halves = [&] {
-        const PlacedValue middle = between(0.5);
-        if (crosses(ends[0].value, middle.value)) {
-            ends[1] = middle;
-            return true;
-        }
-        if (crosses(middle.value, ends[1].value)) {
-            ends[0] = middle;
-            return true;
-        }
-        const std::array<PlacedValue, 2> around{between(0.25), between(0.75)};
-        if (crosses(around[0].value, around[1].value)) {
-            ends = around;
-            return true;
-        }
-        return false;
-    };
-    for (int step = 0; step < kMostHalvings && halves(); ++step) {
+    for (int step = 0; step < kMostHalvings && bracket.halve(); ++step) {
     }
-    // The farther end is as far as is offered, and as near to the opaque point as the other.
     double farthest = -1;
     dvec3 point{};
     dvec3 onMesh{};
-    for (const PlacedValue& end : ends) {
-        const dvec3 at = space.toWorld(cell_.middle + 0.5 * end.at);
+    for (const PlacedValue& end : bracket.ends) {
+        const dvec3 at = part_.space.toWorld(cell_.middle + 0.5 * end.at);
         const dvec3 near = mesh_.near(triangle_, at);
         if (const double distance = glm::distance(at, near); distance > farthest) {
             farthest = distance;

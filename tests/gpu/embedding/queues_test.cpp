@@ -153,15 +153,7 @@ TEST_F(QueuesTest, WhatIsLeftOfAFullQueueIsNoCell) {
     const std::array ramp{ControlPoint{0, 0}, ControlPoint{255, 1}};
     const TransferFunctionDesc table{ramp, {0, 255}, kDefaultTableSize};
     const auto place = [&](double x, double y, double z) {
-        const Grid& grid = solid.grid;
-        Vec3 out = grid.origin;
-        for (std::size_t column = 0; column < 3; ++column) {
-            const double voxels = std::array{x, y, z}[column] * grid.spacing[column];
-            for (std::size_t row = 0; row < 3; ++row) {
-                out[row] += voxels * grid.direction[3 * column + row];
-            }
-        }
-        return out;
+        return transformPoint(worldFromIndex(solid.grid), {x, y, z});
     };
     MeshData data;
     for (std::uint32_t triangle = 0; triangle < 6; ++triangle) {
