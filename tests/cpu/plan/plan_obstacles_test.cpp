@@ -108,6 +108,35 @@ TEST(PlanObstacles, PatchesAreSafeFromAllOfThemAndForTheLongestPath) {
     EXPECT_GT(safe, 150U); // half of what is usual
 }
 
+/// Around one box: what a thick needle between the entries is near to may be beside all lines that it comes along.
+TEST(PlanObstacles, PatchesAreSafeFromWhatIsOnlyNearToTheNeedlesSide) {
+    std::mt19937_64 random(testSeed());
+    cpu::Planner planner = take(cpu::Planner::create({.threads = 1}));
+    std::size_t near = 0;
+    std::size_t safe = 0;
+    for (std::size_t scenes = 0; scenes < randomCases(4000, 10); ++scenes) {
+        BoxScene scene(random, 1);
+        scene.task.surface.entries = chance(random, 0.5) ? 42 : 162;
+        scene.task.needle.diameter = uniform(random, 4, 7);
+        scene.task.margin = chance(random, 0.5) ? 0 : uniform(random, 0, 1);
+        const double radius = scene.task.needle.diameter / 2;
+        const PlanAnswer answer = take(planner.plan(scene.task));
+        for (const EntryTriangle& triangle : answer.triangles) {
+            for (std::size_t edge = 0; triangle.safe && edge < 3; ++edge) {
+                const dvec3 one = toGlm(answer.paths[triangle.paths[edge]].position);
+                const dvec3 other = toGlm(answer.paths[triangle.paths[(edge + 1) % 3]].position);
+                const double least = scene.clearance(0.5 * (one + other));
+                EXPECT_GT(least, scene.task.margin);
+                near += least < scene.task.margin + radius ? 1 : 0;
+            }
+            safe += triangle.safe ? 1 : 0;
+        }
+        ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GT(safe, 10000U);
+    EXPECT_GT(near, 500U);
+}
+
 TEST(PlanObstacles, AMeshIsTurnedToTheOppositeWithoutALossOfDigits) {
     for (const double tilt : {0.0, 1e-9, 1e-7, 1.2e-6, 1e-5, 1e-3}) {
         const dvec3 along(-tilt, 0, 1);
