@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/certified_bricks.h"
+#include "cpu/certified/corner_ranges.h"
+#include "cpu/certified/triangle_cells.h"
 #include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>
@@ -44,69 +46,22 @@ void findRange(const StoredImage& image, const Kept* voxels, const std::array<st
     out.wideHi = storedValue(hi);
 }
 
-constexpr std::int32_t kCorners = kBrickSide + 1;
-
-/// The least and the greatest entry coordinate at the corners of cells, found along one axis after the other.
-struct CornerRanges {
-    float lo[kCorners][kCorners][kCorners]; ///< [z][y][x]
-    float hi[kCorners][kCorners][kCorners];
-};
-
-template <class Kept>
-void loadCorners(const StoredImage& image, const Kept* voxels, const shader::CertifiedItem& item,
-                 const std::array<std::int32_t, 3>& place, CornerRanges& out) {
-    std::array<std::int64_t, 3> first{};
-    std::array<std::int64_t, 3> last{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        first[axis] = std::int64_t{place[axis]} << kBrickShift;
-        // Cells beyond the last are no cells: whatever stands there is not looked at.
-        last[axis] = std::int64_t{image.size[axis]} + 1;
-    }
-    for (std::int64_t z = 0; z < kCorners; ++z) {
-        for (std::int64_t y = 0; y < kCorners; ++y) {
-            const Kept* row = voxels + std::min(first[1] + y, last[1]) * image.stride[1] +
-                              std::min(first[2] + z, last[2]) * image.stride[2];
-            for (std::int64_t x = 0; x < kCorners; ++x) {
-                out.lo[z][y][x] = shader::certifiedEntry(item, storedValue(row[std::min(first[0] + x, last[0])]));
-                out.hi[z][y][x] = out.lo[z][y][x];
-            }
-        }
-    }
-}
-
-void reduce(CornerRanges& ranges) {
-    const auto merge = [&](int z, int y, int x, int otherZ, int otherY, int otherX) {
-        ranges.lo[z][y][x] = shader::certifiedMin(ranges.lo[z][y][x], ranges.lo[otherZ][otherY][otherX]);
-        ranges.hi[z][y][x] = shader::certifiedMax(ranges.hi[z][y][x], ranges.hi[otherZ][otherY][otherX]);
-    };
-    for (int z = 0; z < kCorners; ++z) {
-        for (int y = 0; y < kCorners; ++y) {
-            for (int x = 0; x < kBrickSide; ++x) {
-                merge(z, y, x, z, y, x + 1);
-            }
-        }
-    }
-    for (int z = 0; z < kCorners; ++z) {
-        for (int y = 0; y < kBrickSide; ++y) {
-            for (int x = 0; x < kBrickSide; ++x) {
-                merge(z, y, x, z, y + 1, x);
-            }
-        }
-    }
-    for (int z = 0; z < kBrickSide; ++z) {
-        for (int y = 0; y < kBrickSide; ++y) {
-            for (int x = 0; x < kBrickSide; ++x) {
-                merge(z, y, x, z + 1, y, x);
-            }
-        }
-    }
-}
-
 void grow(CellBox& box, const std::array<std::int32_t, 3>& cell) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         box.lo[axis] = std::min(box.lo[axis], cell[axis]);
         box.hi[axis] = std::max(box.hi[axis], cell[axis]);
     }
+}
+
+/// Of a brick, those that do not reach beyond the domain.
+CellBox wholeCells(const StoredImage& image, const std::array<std::int32_t, 3>& place) {
+    CellBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int32_t first = place[axis] << kBrickShift; // of padded voxels: cell -1
+        box.lo[axis] = first == 0 ? 1 : 0;
+        box.hi[axis] = std::min(kBrickSide, image.size[axis] - first) - 1;
+    }
+    return box;
 }
 
 } // namespace
@@ -138,26 +93,22 @@ std::uint64_t BrickCells::slice(std::int32_t z) const noexcept {
     return slice;
 }
 
-CertifiedBricks::CertifiedBricks(std::span<const std::uint8_t> mixed) : slots_(mixed.size()), mutex_(new std::mutex) {
+CertifiedBricks::CertifiedBricks(std::span<const std::uint8_t> mixed) : slots_(mixed.size()) {
     std::uint32_t count = 0;
     for (std::size_t brick = 0; brick < mixed.size(); ++brick) {
         slots_[brick] = count;
         count += mixed[brick] != 0 ? 1 : 0;
     }
-    made_ = std::make_unique<std::atomic<bool>[]>(count);
-    cells_ = std::make_unique<BrickCells[]>(count);
+    cells_ = MadeOnce<BrickCells>(count);
+    allOpaque_ = MadeOnce<CellBits>(count);
 }
 
-void CertifiedBricks::make(const VolumeImpl& volume, const shader::CertifiedItem& item,
-                           const shader::OpacityTable& table, std::uint32_t slot,
-                           const std::array<std::int32_t, 3>& place) const {
+const BrickCells& CertifiedBricks::makeCells(const VolumeImpl& volume, const shader::CertifiedItem& item,
+                                             const shader::OpacityTable& table, std::size_t number,
+                                             const std::array<std::int32_t, 3>& place) const {
     BrickCells made;
-    CornerRanges ranges;
-    volume.image.visit([&](const auto* voxels) {
-        findRange(volume.image, voxels, place, made);
-        loadCorners(volume.image, voxels, item, place, ranges);
-    });
-    reduce(ranges);
+    volume.image.visit([&](const auto* voxels) { findRange(volume.image, voxels, place, made); });
+    const CornerRanges ranges = cornerRangesOf(volume.image, item, place);
     const float error = shader::certifiedPointError(item, made.wideLo, made.wideHi);
     for (int z = 0; z < kBrickSide; ++z) {
         for (int y = 0; y < kBrickSide; ++y) {
@@ -173,11 +124,37 @@ void CertifiedBricks::make(const VolumeImpl& volume, const shader::CertifiedItem
             made.mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] = static_cast<std::uint8_t>(row);
         }
     }
-    const std::lock_guard lock(*mutex_);
-    if (!made_[slot].load(std::memory_order_relaxed)) {
-        cells_[slot] = made;
-        made_[slot].store(true, std::memory_order_release);
+    return cells_.keep(slots_[number], made);
+}
+
+const CellBits& CertifiedBricks::makeAllOpaque(const VolumeImpl& volume, const shader::CertifiedItem& item,
+                                               const shader::OpacityTable& table, std::size_t number,
+                                               const std::array<std::int32_t, 3>& place) const {
+    const BrickCells& known = at(volume, item, table, number, place);
+    // A range within one that is opaque everywhere may have ends that are not, but for that much of the table; and what
+    // is asked of a cell is asked of points off by its margin.
+    constexpr float kOpacities = 4 * OPACITY_ERROR;
+    constexpr float kMargins = 2;
+    shader::OpacityTable higher = table;
+    higher.threshold += kOpacities;
+    const float error = shader::certifiedPointError(item, known.wideLo, known.wideHi);
+    const float margin =
+        kMargins * shader::certifiedMargin(item, error, known.wideLo, known.wideHi, TriangleCells::kMostDelta);
+    CellBits made{};
+    const CornerRanges ranges = cornerRangesOf(volume.image, item, place);
+    const CellBox whole = ranges.finite ? wholeCells(volume.image, place) : CellBox{{0, 0, 0}, {-1, -1, -1}};
+    for (int z = whole.lo[2]; z <= whole.hi[2]; ++z) {
+        for (int y = whole.lo[1]; y <= whole.hi[1]; ++y) {
+            unsigned row = 0;
+            for (int x = whole.lo[0]; x <= whole.hi[0]; ++x) {
+                const bool all =
+                    shader::certainlyAllOpaque(higher, ranges.lo[z][y][x] - margin, ranges.hi[z][y][x] + margin);
+                row |= (all ? 1U : 0U) << static_cast<unsigned>(x);
+            }
+            made[static_cast<std::size_t>(y + kBrickSide * z)] = static_cast<std::uint8_t>(row);
+        }
     }
+    return allOpaque_.keep(slots_[number], made);
 }
 
 } // namespace voxtact::cpu

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "certified.h"
-#include "cpu/raster/brick_sums.h"
+#include "cpu/certified/cell_box.h"
 #include "cpu/scene/scene_impl.h"
 
 #include <array>
@@ -15,43 +15,17 @@
 
 namespace voxtact::cpu {
 
-/// Cells of a brick's side.
-inline constexpr std::int32_t kBrickSide = 1 << kBrickShift;
-
-/// A box of cells, both ends inclusive, numbered from -1.
-struct CellBox {
-    std::array<std::int32_t, 3> lo{};
-    std::array<std::int32_t, 3> hi{};
-
-    [[nodiscard]] bool empty() const noexcept { return hi[0] < lo[0] || hi[1] < lo[1] || hi[2] < lo[2]; }
-    [[nodiscard]] bool single() const noexcept { return hi == lo; }
-    [[nodiscard]] BrickBox bricks() const noexcept {
-        BrickBox box;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = (lo[axis] + 1) >> kBrickShift;
-            box.hi[axis] = (hi[axis] + 1) >> kBrickShift;
-        }
-        return box;
-    }
-    /// Those of them that are in a brick, numbered within it from 0. Expects one of bricks().
-    [[nodiscard]] CellBox within(const std::array<std::int32_t, 3>& brick) const noexcept {
-        CellBox box;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int32_t first = (brick[axis] << kBrickShift) - 1;
-            box.lo[axis] = std::max(lo[axis] - first, 0);
-            box.hi[axis] = std::min(hi[axis] - first, kBrickSide - 1);
-        }
-        return box;
-    }
-};
+/// A bit for each cell of a brick: bit x of [y + 8 * z].
+using CellBits = std::array<std::uint8_t, std::size_t{kBrickSide} * kBrickSide>;
+static_assert(kBrickSide == 8, "a row of cells is a byte");
 
 /// What is known of a brick's cells under a transfer function and threshold.
 struct BrickCells {
     /// Stored values near the brick: of its cells, and of those one farther out on every side.
     float wideLo = 0;
     float wideHi = 0;
-    /// A bit for each cell that may have an opaque point (certifiedCellMayBeOpaque()): bit x of [y + 8 * z].
-    std::array<std::uint8_t, kBrickSide * kBrickSide> mayBeOpaque{};
+    /// The cells that may have an opaque point (certifiedCellMayBeOpaque()).
+    CellBits mayBeOpaque{};
     /// The box around these cells, numbered within the brick.
     CellBox around{{kBrickSide, kBrickSide, kBrickSide}, {-1, -1, -1}};
 
@@ -65,7 +39,33 @@ struct BrickCells {
     /// The bits of a slice: row y from bit 8 * y on.
     [[nodiscard]] std::uint64_t slice(std::int32_t z) const noexcept;
 };
-static_assert(kBrickSide == 8, "a row of cells is a byte");
+/// Some values, each made when it is first asked for. Thread-safe.
+template <class Value> class MadeOnce {
+  public:
+    MadeOnce() = default;
+    explicit MadeOnce(std::size_t count)
+        : made_(std::make_unique<std::atomic<bool>[]>(count)), values_(std::make_unique<Value[]>(count)),
+          mutex_(std::make_unique<std::mutex>()) {}
+
+    /// Null: it was not made yet.
+    [[nodiscard]] const Value* find(std::size_t number) const noexcept {
+        return made_[number].load(std::memory_order_acquire) ? &values_[number] : nullptr;
+    }
+    /// Of two threads that have made one at once, the first keeps it.
+    const Value& keep(std::size_t number, const Value& made) const {
+        const std::lock_guard lock(*mutex_);
+        if (!made_[number].load(std::memory_order_relaxed)) {
+            values_[number] = made;
+            made_[number].store(true, std::memory_order_release);
+        }
+        return values_[number];
+    }
+
+  private:
+    std::unique_ptr<std::atomic<bool>[]> made_;
+    std::unique_ptr<Value[]> values_;
+    std::unique_ptr<std::mutex> mutex_;
+};
 
 /// The cells of the bricks that may have an opaque point, each brick's made when it is first asked for.
 /// Thread-safe.
@@ -80,21 +80,29 @@ class CertifiedBricks {
     [[nodiscard]] const BrickCells& at(const VolumeImpl& volume, const shader::CertifiedItem& item,
                                        const shader::OpacityTable& table, std::size_t number,
                                        const std::array<std::int32_t, 3>& place) const {
-        const std::uint32_t slot = slots_[number];
-        if (!made_[slot].load(std::memory_order_acquire)) {
-            make(volume, item, table, slot, place);
-        }
-        return cells_[slot];
+        const BrickCells* made = cells_.find(slots_[number]);
+        return made != nullptr ? *made : makeCells(volume, item, table, number, place);
+    }
+    /// Its cells that are in the domain and opaque all over: certifiedCellAllOpaque() says so of them for every
+    /// triangle that is displaced by TriangleCells::kMostDelta at most.
+    [[nodiscard]] const CellBits& allOpaqueAt(const VolumeImpl& volume, const shader::CertifiedItem& item,
+                                              const shader::OpacityTable& table, std::size_t number,
+                                              const std::array<std::int32_t, 3>& place) const {
+        const CellBits* made = allOpaque_.find(slots_[number]);
+        return made != nullptr ? *made : makeAllOpaque(volume, item, table, number, place);
     }
 
   private:
-    void make(const VolumeImpl& volume, const shader::CertifiedItem& item, const shader::OpacityTable& table,
-              std::uint32_t slot, const std::array<std::int32_t, 3>& place) const;
+    const BrickCells& makeCells(const VolumeImpl& volume, const shader::CertifiedItem& item,
+                                const shader::OpacityTable& table, std::size_t number,
+                                const std::array<std::int32_t, 3>& place) const;
+    const CellBits& makeAllOpaque(const VolumeImpl& volume, const shader::CertifiedItem& item,
+                                  const shader::OpacityTable& table, std::size_t number,
+                                  const std::array<std::int32_t, 3>& place) const;
 
     std::vector<std::uint32_t> slots_; ///< by brick
-    std::unique_ptr<std::atomic<bool>[]> made_;
-    std::unique_ptr<BrickCells[]> cells_;
-    std::unique_ptr<std::mutex> mutex_;
+    MadeOnce<BrickCells> cells_;
+    MadeOnce<CellBits> allOpaque_;
 };
 
 } // namespace voxtact::cpu

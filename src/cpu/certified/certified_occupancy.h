@@ -41,6 +41,11 @@ class CertifiedOccupancy {
         return bricks_.at(volume, item_, table(), brickNumber(brick), brick);
     }
 
+    /// Those of them that are opaque all over.
+    [[nodiscard]] const CellBits& allOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
+        return bricks_.allOpaqueAt(volume, item_, table(), brickNumber(brick), brick);
+    }
+
   private:
     void classify(const VolumeImpl& volume);
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The bits of a brick's cells.
 #include "cpu/certified/certified_bricks.h"
-
+#include "cpu/certified/certified_occupancy.h"
+#include "cpu/certified/triangle_cells.h"
+#include "cpu/scene/stored_voxels.h"
+#include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 namespace voxtact::test {
 namespace {
@@ -59,6 +64,95 @@ TEST(BrickCellsTest, ABoxHasSomeWhereOneOfItsCellsIs) {
         }
         ASSERT_EQ(cells.any(box), expected);
     }
+}
+
+/// A volume of few values, so that whole cells have one, under a table whose entries are at the threshold or next to
+/// it.
+struct FlatScene {
+    explicit FlatScene(std::mt19937_64& random) {
+        Grid grid;
+        for (std::uint32_t& size : grid.size) {
+            size = 1 + static_cast<std::uint32_t>(below(random, 20));
+        }
+        const double flat = uniform(random, 0, 255);
+        data = makeVolume<float>(grid, ScalarType::Float32, [&](auto...) {
+            return chance(random, 0.05) ? uniform(random, 0, 255) : flat + (chance(random, 0.3) ? 1e-4 : 0);
+        });
+        const double threshold = 0.5;
+        std::vector<ControlPoint> points;
+        for (int value = 0; value < 256; value += 5) {
+            const double near = threshold + (static_cast<double>(below(random, 3)) - 1) * 6e-8;
+            points.push_back({static_cast<double>(value), chance(random, 0.2) ? 0 : chance(random, 0.5) ? near : 1});
+        }
+        volume.emplace(take(cpu::Volume::create(data.view())));
+        function.emplace(take(cpu::TransferFunction::create({points, {0, 255}, 52})));
+        occupancy.emplace(volume->impl(), function->impl(), threshold, 1.0 / 64);
+    }
+
+    VolumeData data;
+    std::optional<cpu::Volume> volume;
+    std::optional<cpu::TransferFunction> function;
+    std::optional<cpu::CertifiedOccupancy> occupancy;
+};
+
+/// Of a cell that is in the domain.
+shader::CertifiedCell cellAt(const FlatScene& scene, const std::array<std::int32_t, 3>& cell, float delta) {
+    const cpu::VolumeImpl& volume = scene.volume->impl();
+    std::array<float, 8> values{};
+    volume.image.visit([&](const auto* voxels) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            const std::int64_t x = cell[0] + 1 + static_cast<std::int64_t>(i & 1U);
+            const std::int64_t y = cell[1] + 1 + static_cast<std::int64_t>(i >> 1U & 1U);
+            const std::int64_t z = cell[2] + 1 + static_cast<std::int64_t>(i >> 2U);
+            values[i] = cpu::storedValue(voxels[x + y * volume.image.stride[1] + z * volume.image.stride[2]]);
+        }
+    });
+    std::array<std::int32_t, 3> brick{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        brick[axis] = (cell[axis] + 1) >> kBrickShift;
+    }
+    const BrickCells& known = scene.occupancy->cells(volume, brick);
+    return shader::certifiedCell(scene.occupancy->item(),
+                                 {values[0], values[1], values[2], values[3], values[4], values[5], values[6],
+                                  values[7], known.wideLo, known.wideHi},
+                                 cell[0], cell[1], cell[2], delta);
+}
+
+TEST(BrickCellsTest, WhatIsOpaqueAllOverIsSoForEveryTriangle) {
+    std::mt19937_64 random(testSeed());
+    std::size_t all = 0;
+    std::size_t missed = 0;
+    for (int round = 0; round < 400 && !HasFailure(); ++round) {
+        const FlatScene scene(random);
+        const cpu::VolumeImpl& volume = scene.volume->impl();
+        const auto& size = volume.image.size;
+        for (std::int32_t z = -1; z < size[2]; ++z) {
+            for (std::int32_t y = -1; y < size[1]; ++y) {
+                for (std::int32_t x = -1; x < size[0]; ++x) {
+                    const std::array<std::int32_t, 3> brick{(x + 1) >> kBrickShift, (y + 1) >> kBrickShift,
+                                                            (z + 1) >> kBrickShift};
+                    if (!scene.occupancy->mayBeOpaque(scene.occupancy->brickNumber(brick))) {
+                        continue;
+                    }
+                    const cpu::CellBits& bits = scene.occupancy->allOpaque(volume, brick);
+                    const auto row = static_cast<std::size_t>(((y + 1) & 7) + kBrickSide * ((z + 1) & 7));
+                    const bool said = (bits[row] >> static_cast<unsigned>((x + 1) & 7) & 1U) != 0;
+                    const bool inside =
+                        x >= 0 && y >= 0 && z >= 0 && x < size[0] - 1 && y < size[1] - 1 && z < size[2] - 1;
+                    EXPECT_TRUE(inside || !said);
+                    for (const float delta : {0.0F, 1e-5F, cpu::TriangleCells::kMostDelta}) {
+                        const bool is =
+                            shader::certifiedCellAllOpaque(scene.occupancy->table(), cellAt(scene, {x, y, z}, delta));
+                        EXPECT_TRUE(is || !said) << "round " << round;
+                        missed += is && inside && !said ? 1 : 0;
+                    }
+                    all += said ? 1 : 0;
+                }
+            }
+        }
+    }
+    EXPECT_GT(all, 5000U);
+    EXPECT_LT(missed, 2 * all);
 }
 
 } // namespace

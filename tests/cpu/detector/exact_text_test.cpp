@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The text of shaders/exact.h itself: what neither counts nor the oracle tell apart.
+#include "cpu/scenes/random_scene.h"
 #include "exact.h"
 #include "support/scenes.h"
 
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -69,6 +71,54 @@ TEST(ExactText, ATriangleTurnedRoundIsCutAtTheSameBits) {
         cut += polygon.empty() ? 0 : 1;
     }
     EXPECT_GT(cut, 100);
+}
+
+/// A corner with a w of 1 is no sign that the others have one, whichever it is.
+TEST(ExactText, ATriangleIsSeenInPerspectiveWhereOneOfItsCornersIs) {
+    constexpr int kSide = 64;
+    std::mt19937_64 random(testSeed());
+    int covered = 0;
+    for (int round = 0; round < 2000 && !HasFailure(); ++round) {
+        std::array<ExactCorner, 3> corners{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            ExactCorner& corner = corners[i];
+            corner = drawnCorner(random);
+            corner.w = i == static_cast<std::size_t>(round % 3) ? static_cast<float>(uniform(random, 2, 4)) : 1;
+            corner.x = 0.3F * corner.x * corner.w;
+            corner.y = 0.3F * corner.y * corner.w;
+        }
+        shader::ExactTriangle triangle{};
+        if (!shader::exactSetUp(corners[0], corners[1], corners[2], kSide, kSide, triangle)) {
+            continue;
+        }
+        const auto x = static_cast<int>(below(random, kSide));
+        const auto y = static_cast<int>(below(random, kSide));
+        float tx = 0;
+        float ty = 0;
+        float tz = 0;
+        if (!shader::exactFragment(triangle, x, y, tx, ty, tz)) {
+            continue;
+        }
+        // The weights a of the corners with sum a_i (x_i - X w_i, y_i - Y w_i) = 0, at (X, Y) on the screen.
+        const double atX = (x + 0.5) / kSide * 2 - 1;
+        const double atY = (y + 0.5) / kSide * 2 - 1;
+        std::array<std::array<double, 2>, 3> off{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            off[i] = {corners[i].x - atX * corners[i].w, corners[i].y - atY * corners[i].w};
+        }
+        const auto area = [&](std::size_t i, std::size_t j) { return off[i][0] * off[j][1] - off[i][1] * off[j][0]; };
+        const std::array weights{area(1, 2), area(2, 0), area(0, 1)};
+        const double sum = weights[0] + weights[1] + weights[2];
+        const double expected =
+            (weights[0] * corners[0].tx + weights[1] * corners[1].tx + weights[2] * corners[2].tx) / sum;
+        // Corners are put on 1/256 of a pixel.
+        const double tolerance = 2e-3 / std::abs(sum) + 1e-4;
+        if (tolerance < 0.01) {
+            EXPECT_NEAR(tx, expected, tolerance) << "round " << round;
+            ++covered;
+        }
+    }
+    EXPECT_GT(covered, 50);
 }
 
 } // namespace

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// What is said of the cells of a row without cutting the triangle, against cutting it.
+#include "cpu/certified/triangle_cells.h"
+
+#include "cpu/scenes/random_scene.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <iostream>
+
+namespace voxtact::test {
+namespace {
+
+using cpu::TriangleCells;
+using shader::CertifiedTriangle;
+using shader::VoxelPoint;
+
+using Corners = std::array<VoxelPoint, 3>;
+
+float drawn(std::mt19937_64& random, double lo, double hi) {
+    return static_cast<float>(uniform(random, lo, hi));
+}
+
+/// Slivers, points and lines, planes of voxels' centres and faces, and what is none of these.
+Corners drawnCorners(std::mt19937_64& random) {
+    const double size = std::pow(10, uniform(random, -2, 1.6));
+    const double place = chance(random, 0.2) ? 1000 : 30;
+    Corners corners{};
+    const VoxelPoint middle{drawn(random, 0, place), drawn(random, 0, place), drawn(random, 0, place)};
+    for (VoxelPoint& corner : corners) {
+        corner = {middle.x + drawn(random, -size, size), middle.y + drawn(random, -size, size),
+                  middle.z + drawn(random, -size, size)};
+    }
+    if (chance(random, 0.2)) { // a sliver
+        const float part = drawn(random, -0.5, 1.5);
+        const float off = chance(random, 0.3) ? 0 : drawn(random, 0, 1e-3);
+        corners[2] = {corners[0].x + part * (corners[1].x - corners[0].x) + off,
+                      corners[0].y + part * (corners[1].y - corners[0].y),
+                      corners[0].z + part * (corners[1].z - corners[0].z)};
+    }
+    if (chance(random, 0.2)) {
+        const auto axis = static_cast<std::size_t>(below(random, 3));
+        const float at = 0.5F * std::round(2 * middle.x);
+        for (VoxelPoint& corner : corners) {
+            (axis == 0 ? corner.x : axis == 1 ? corner.y : corner.z) = at;
+        }
+    }
+    if (chance(random, 0.05)) {
+        corners[1] = corners[0];
+    }
+    return corners;
+}
+
+/// `error` of each vertex.
+CertifiedTriangle triangleOf(const Corners& corners, float error) {
+    shader::CertifiedItem item{};
+    item.sizeX = item.sizeY = item.sizeZ = 2000;
+    const float delta =
+        shader::certifiedBounds(item, {corners[0], error}, {corners[1], error}, {corners[2], error}).delta;
+    return shader::certifiedTriangle(corners[0], corners[1], corners[2], delta);
+}
+
+bool cutLeavesSome(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z) {
+    shader::CertifiedCell cell{};
+    cell.hi = {1, 1, 1};
+    VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
+    const VoxelPoint origin{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    return shader::certifiedClip(triangle, cell, origin, polygon) > 0;
+}
+
+/// From the last cell before to the first one after.
+template <class Visit> void forRows(const Corners& corners, const Visit& visit) {
+    std::array<std::int32_t, 3> lo{};
+    std::array<std::int32_t, 3> hi{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto of = [&](std::size_t i) { return shader::voxelAlong(corners[i], static_cast<int>(axis)); };
+        lo[axis] = static_cast<std::int32_t>(std::floor(std::min({of(0), of(1), of(2)}))) - 1;
+        hi[axis] = static_cast<std::int32_t>(std::floor(std::max({of(0), of(1), of(2)}))) + 1;
+    }
+    for (std::int32_t z = lo[2]; z <= hi[2]; ++z) {
+        for (std::int32_t y = lo[1]; y <= hi[1]; ++y) {
+            for (std::int32_t x = lo[0]; x <= hi[0]; x += static_cast<std::int32_t>(TriangleCells::kRow)) {
+                visit(x, y, z);
+            }
+        }
+    }
+}
+
+TEST(TriangleCellsTest, SayWhatCuttingLeaves) {
+    std::mt19937_64 random(testSeed());
+    std::size_t some = 0;
+    std::size_t none = 0;
+    std::size_t unclear = 0;
+    for (std::size_t round = 0; round < randomCases(100000, 10) && !HasFailure(); ++round) {
+        const Corners corners = drawnCorners(random);
+        const CertifiedTriangle triangle =
+            triangleOf(corners, chance(random, 0.3) ? drawn(random, 0, 4.5e-4) : drawn(random, 0, 1e-4));
+        if (!TriangleCells::mayBeAsked(triangle)) {
+            continue;
+        }
+        const TriangleCells cells(triangle);
+        forRows(corners, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+            const TriangleCells::Row row = cells.row(x, y, z);
+            EXPECT_EQ(row.some & row.none, 0U);
+            EXPECT_LT(row.some | row.none, 1U << TriangleCells::kRow);
+            for (std::int32_t i = 0; i < static_cast<std::int32_t>(TriangleCells::kRow); ++i) {
+                const unsigned bit = 1U << static_cast<unsigned>(i);
+                if (((row.some | row.none) & bit) != 0) {
+                    EXPECT_EQ(cutLeavesSome(triangle, x + i, y, z), (row.some & bit) != 0)
+                        << "round " << round << ", cell " << x + i << ", " << y << ", " << z;
+                }
+            }
+            some += static_cast<std::size_t>(std::popcount(row.some));
+            none += static_cast<std::size_t>(std::popcount(row.none));
+            unclear += TriangleCells::kRow - static_cast<std::size_t>(std::popcount(row.some | row.none));
+        });
+    }
+    std::cout << some << " pass, " << none << " do not, " << unclear << " are unclear\n";
+    EXPECT_GT(some, 10000U);
+    EXPECT_LT(unclear, some / 4);
+}
+
+TEST(TriangleCellsTest, FewAreUnclear) {
+    std::mt19937_64 random(testSeed());
+    std::size_t some = 0;
+    std::size_t unclear = 0;
+    for (int round = 0; round < 2000; ++round) {
+        Corners corners{};
+        for (VoxelPoint& corner : corners) {
+            corner = {drawn(random, 10, 16), drawn(random, 10, 16), drawn(random, 10, 16)};
+        }
+        const CertifiedTriangle triangle = triangleOf(corners, 1e-5F);
+        ASSERT_TRUE(TriangleCells::mayBeAsked(triangle));
+        const TriangleCells cells(triangle);
+        forRows(corners, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+            const TriangleCells::Row row = cells.row(x, y, z);
+            some += static_cast<std::size_t>(std::popcount(row.some));
+            unclear += TriangleCells::kRow - static_cast<std::size_t>(std::popcount(row.some | row.none));
+        });
+    }
+    EXPECT_LT(unclear, some / 10) << some;
+}
+
+/// What may be anywhere near, and what is large, is for others.
+TEST(TriangleCellsTest, AreNotAskedOfWhatIsTooUncertain) {
+    const Corners corners{{{1, 1, 1}, {4, 1, 2}, {2, 5, 3}}};
+    EXPECT_TRUE(TriangleCells::mayBeAsked(triangleOf(corners, 1e-5F)));
+    EXPECT_FALSE(TriangleCells::mayBeAsked(triangleOf(corners, 1e-3F)));
+    EXPECT_FALSE(TriangleCells::mayBeAsked(triangleOf({{{0, 0, 0}, {1500, 1, 2}, {2, 5, 3}}}, 1e-5F)));
+}
+
+} // namespace
+} // namespace voxtact::test
