@@ -21,6 +21,10 @@ struct CellBox {
 
     [[nodiscard]] bool empty() const noexcept { return hi[0] < lo[0] || hi[1] < lo[1] || hi[2] < lo[2]; }
     [[nodiscard]] bool single() const noexcept { return hi == lo; }
+    /// A bit for each of its places along x. Expects some cells of a brick, numbered within it.
+    [[nodiscard]] unsigned columns() const noexcept {
+        return (2U << static_cast<unsigned>(hi[0])) - (1U << static_cast<unsigned>(lo[0]));
+    }
     [[nodiscard]] BrickBox bricks() const noexcept {
         BrickBox box;
         for (std::size_t axis = 0; axis < 3; ++axis) {

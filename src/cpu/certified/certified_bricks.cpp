@@ -53,6 +53,17 @@ void grow(CellBox& box, const std::array<std::int32_t, 3>& cell) {
     }
 }
 
+/// Those cells of a row, given by their ranges, that may be opaque wherever the table's hull has a hole.
+std::uint8_t withoutHoles(const shader::OpacityTable& table, std::uint8_t row, const float* lo, const float* hi,
+                          float error) {
+    unsigned kept = 0;
+    for (unsigned left = row; left != 0; left &= left - 1) {
+        const auto x = static_cast<unsigned>(std::countr_zero(left));
+        kept |= shader::certifiedMayBeOpaque(table, lo[x], hi[x], error) ? 1U << x : 0U;
+    }
+    return static_cast<std::uint8_t>(kept);
+}
+
 /// Of a brick, those that do not reach beyond the domain.
 CellBox wholeCells(const StoredImage& image, const std::array<std::int32_t, 3>& place) {
     CellBox box;
@@ -67,7 +78,7 @@ CellBox wholeCells(const StoredImage& image, const std::array<std::int32_t, 3>& 
 } // namespace
 
 bool BrickCells::any(const CellBox& box) const noexcept {
-    const unsigned columns = (2U << static_cast<unsigned>(box.hi[0])) - (1U << static_cast<unsigned>(box.lo[0]));
+    const unsigned columns = box.columns();
     // Eight rows, a slice, in a word.
     const auto firstRow = static_cast<unsigned>(8 * box.lo[1]);
     const auto afterRow = static_cast<unsigned>(8 * (kBrickSide - 1 - box.hi[1]));
@@ -93,7 +104,8 @@ std::uint64_t BrickCells::slice(std::int32_t z) const noexcept {
     return slice;
 }
 
-CertifiedBricks::CertifiedBricks(std::span<const std::uint8_t> mixed) : slots_(mixed.size()) {
+CertifiedBricks::CertifiedBricks(std::span<const std::uint8_t> mixed, const OpaqueHull& hull)
+    : hull_(hull), slots_(mixed.size()) {
     std::uint32_t count = 0;
     for (std::size_t brick = 0; brick < mixed.size(); ++brick) {
         slots_[brick] = count;
@@ -110,18 +122,17 @@ const BrickCells& CertifiedBricks::makeCells(const VolumeImpl& volume, const sha
     volume.image.visit([&](const auto* voxels) { findRange(volume.image, voxels, place, made); });
     const CornerRanges ranges = cornerRangesOf(volume.image, item, place);
     const float error = shader::certifiedPointError(item, made.wideLo, made.wideHi);
+    made.mayBeOpaque = cellsThatMeet(ranges, error, hull_.first, hull_.last);
     for (int z = 0; z < kBrickSide; ++z) {
         for (int y = 0; y < kBrickSide; ++y) {
-            unsigned row = 0;
-            for (int x = 0; x < kBrickSide; ++x) {
-                const bool may = shader::certifiedMayBeOpaque(table, ranges.lo[z][y][x], ranges.hi[z][y][x], error);
-                row |= (may ? 1U : 0U) << static_cast<unsigned>(x);
+            std::uint8_t& row = made.mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)];
+            if (!hull_.whole) {
+                row = withoutHoles(table, row, ranges.lo[z][y], ranges.hi[z][y], error);
             }
             if (row != 0) {
                 grow(made.around, {std::countr_zero(row), y, z});
                 grow(made.around, {static_cast<std::int32_t>(std::bit_width(row)) - 1, y, z});
             }
-            made.mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] = static_cast<std::uint8_t>(row);
         }
     }
     return cells_.keep(slots_[number], made);
@@ -131,27 +142,22 @@ const CellBits& CertifiedBricks::makeAllOpaque(const VolumeImpl& volume, const s
                                                const shader::OpacityTable& table, std::size_t number,
                                                const std::array<std::int32_t, 3>& place) const {
     const BrickCells& known = at(volume, item, table, number, place);
-    // A range within one that is opaque everywhere may have ends that are not, but for that much of the table; and what
-    // is asked of a cell is asked of points off by its margin.
-    constexpr float kOpacities = 4 * OPACITY_ERROR;
+    // What is asked of a cell is asked of points off by its margin.
     constexpr float kMargins = 2;
-    shader::OpacityTable higher = table;
-    higher.threshold += kOpacities;
     const float error = shader::certifiedPointError(item, known.wideLo, known.wideHi);
     const float margin =
         kMargins * shader::certifiedMargin(item, error, known.wideLo, known.wideHi, TriangleCells::kMostDelta);
-    CellBits made{};
     const CornerRanges ranges = cornerRangesOf(volume.image, item, place);
-    const CellBox whole = ranges.finite ? wholeCells(volume.image, place) : CellBox{{0, 0, 0}, {-1, -1, -1}};
-    for (int z = whole.lo[2]; z <= whole.hi[2]; ++z) {
-        for (int y = whole.lo[1]; y <= whole.hi[1]; ++y) {
-            unsigned row = 0;
-            for (int x = whole.lo[0]; x <= whole.hi[0]; ++x) {
-                const bool all =
-                    shader::certainlyAllOpaque(higher, ranges.lo[z][y][x] - margin, ranges.hi[z][y][x] + margin);
-                row |= (all ? 1U : 0U) << static_cast<unsigned>(x);
-            }
-            made[static_cast<std::size_t>(y + kBrickSide * z)] = static_cast<std::uint8_t>(row);
+    const CellBox whole = wholeCells(volume.image, place);
+    if (!ranges.finite || whole.empty()) {
+        return allOpaque_.keep(slots_[number], {});
+    }
+    CellBits made = cellsWithin(ranges, margin, hull_.allFirst, hull_.allLast);
+    for (int z = 0; z < kBrickSide; ++z) {
+        for (int y = 0; y < kBrickSide; ++y) {
+            const bool inside = z >= whole.lo[2] && z <= whole.hi[2] && y >= whole.lo[1] && y <= whole.hi[1];
+            std::uint8_t& row = made[static_cast<std::size_t>(y + kBrickSide * z)];
+            row = inside ? static_cast<std::uint8_t>(row & whole.columns()) : 0;
         }
     }
     return allOpaque_.keep(slots_[number], made);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "certified.h"
-#include "cpu/certified/cell_box.h"
+#include "cpu/certified/corner_ranges.h"
+#include "cpu/certified/opaque_hull.h"
 #include "cpu/scene/scene_impl.h"
 
 #include <array>
@@ -14,10 +15,6 @@
 #include <vector>
 
 namespace voxtact::cpu {
-
-/// A bit for each cell of a brick: bit x of [y + 8 * z].
-using CellBits = std::array<std::uint8_t, std::size_t{kBrickSide} * kBrickSide>;
-static_assert(kBrickSide == 8, "a row of cells is a byte");
 
 /// What is known of a brick's cells under a transfer function and threshold.
 struct BrickCells {
@@ -31,8 +28,7 @@ struct BrickCells {
 
     /// The bits of a row of cells, of those between the columns of a box (numbered within the brick).
     [[nodiscard]] unsigned row(const CellBox& box, std::int32_t y, std::int32_t z) const noexcept {
-        const unsigned columns = (2U << static_cast<unsigned>(box.hi[0])) - (1U << static_cast<unsigned>(box.lo[0]));
-        return mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] & columns;
+        return mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] & box.columns();
     }
     /// Whether some cell of a box (numbered within the brick) may have an opaque point.
     [[nodiscard]] bool any(const CellBox& box) const noexcept;
@@ -72,8 +68,8 @@ template <class Value> class MadeOnce {
 class CertifiedBricks {
   public:
     CertifiedBricks() = default;
-    /// `mixed` is not zero for the bricks that may be asked for.
-    explicit CertifiedBricks(std::span<const std::uint8_t> mixed);
+    /// `mixed` is not zero for the bricks that may be asked for; `hull` is of the table that they will be asked with.
+    CertifiedBricks(std::span<const std::uint8_t> mixed, const OpaqueHull& hull);
 
     /// Of a brick that may be asked for, given by its number and its place; with the same volume, item and table in
     /// every call.
@@ -100,6 +96,7 @@ class CertifiedBricks {
                                   const shader::OpacityTable& table, std::size_t number,
                                   const std::array<std::int32_t, 3>& place) const;
 
+    OpaqueHull hull_;
     std::vector<std::uint32_t> slots_; ///< by brick
     MadeOnce<BrickCells> cells_;
     MadeOnce<CellBits> allOpaque_;

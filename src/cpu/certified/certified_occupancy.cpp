@@ -26,7 +26,7 @@ void CertifiedOccupancy::classify(const VolumeImpl& volume) {
             shader::certifiedRangeMayBeOpaque(opacities, item_, volume.bricks.lo[brick], volume.bricks.hi[brick]);
         mixed_[brick] = may ? 1 : 0;
     }
-    bricks_ = CertifiedBricks(mixed_);
+    bricks_ = CertifiedBricks(mixed_, opaqueHullOf(opacities));
 }
 
 bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const {

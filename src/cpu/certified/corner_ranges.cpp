@@ -3,17 +3,148 @@
 #include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/certified/corner_ranges.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace voxtact::cpu {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, kBrickSide>;
+using FloatV = hn::Vec<Floats>;
+constexpr std::size_t kCells = kBrickSide;
+constexpr std::size_t kCorners = CornerRanges::kCorners;
+/// From a corner to the next one along y and z.
+constexpr std::size_t kRow = kCorners;
+constexpr std::size_t kSlice = kCorners * kCorners;
+
+/// As certifiedMin() and certifiedMax() are: what is not a number stays where it is first.
+HWY_INLINE FloatV lesser(FloatV a, FloatV b) {
+    return hn::IfThenElse(hn::Lt(b, a), b, a);
+}
+HWY_INLINE FloatV greater(FloatV a, FloatV b) {
+    return hn::IfThenElse(hn::Gt(b, a), b, a);
+}
+
+/// From stored values to entry coordinates, as certifiedEntry(). False where one is not finite.
+bool toEntries(const shader::CertifiedItem& item, float* values, std::size_t count) {
+    const Floats d;
+    const FloatV reference = hn::Set(d, item.storedReference);
+    const FloatV scale = hn::Set(d, item.entryScale);
+    const FloatV bias = hn::Set(d, item.entryBias);
+    const FloatV infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    auto finite = hn::Eq(infinity, infinity);
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+        const FloatV entry = hn::Add(hn::Mul(hn::Sub(hn::LoadU(d, values + i), reference), scale), bias);
+        finite = hn::And(finite, hn::Lt(hn::Abs(entry), infinity));
+        hn::StoreU(entry, d, values + i);
+    }
+    bool all = hn::AllTrue(d, finite);
+    for (; i < count; ++i) {
+        values[i] = shader::certifiedEntry(item, values[i]);
+        all = all && shader::certifiedAbs(values[i]) < std::numeric_limits<float>::infinity();
+    }
+    return all;
+}
+
+/// Each of `rows` rows of cells with what is `step` further on.
+HWY_INLINE void merge(float* lo, float* hi, std::size_t slices, std::size_t rows, std::size_t step) {
+    const Floats d;
+    for (std::size_t z = 0; z < slices; ++z) {
+        for (std::size_t y = 0; y < rows; ++y) {
+            const std::size_t row = z * kSlice + y * kRow;
+            for (std::size_t x = 0; x < kCells; x += hn::Lanes(d)) {
+                float* const least = lo + row + x;
+                float* const most = hi + row + x;
+                hn::StoreU(lesser(hn::LoadU(d, least), hn::LoadU(d, least + step)), d, least);
+                hn::StoreU(greater(hn::LoadU(d, most), hn::LoadU(d, most + step)), d, most);
+            }
+        }
+    }
+}
+
+/// From the values at corners to the ranges of cells.
+void reduce(CornerRanges& ranges) {
+    float* const lo = &ranges.lo[0][0][0];
+    float* const hi = &ranges.hi[0][0][0];
+    std::copy_n(lo, kSlice * kCorners, hi);
+    merge(lo, hi, kCorners, kCorners, 1);
+    merge(lo, hi, kCorners, kCells, kRow);
+    merge(lo, hi, kCells, kCells, kSlice);
+}
+
+HWY_INLINE unsigned bitsOf(hn::Mask<Floats> mask) {
+    const Floats d;
+    std::uint8_t bits[8] = {}; // as many as StoreMaskBits() may write
+    hn::StoreMaskBits(d, mask, bits);
+    return bits[0];
+}
+
+/// The cells for which `ask(lo, hi)` is true.
+template <class Ask> HWY_INLINE CellBits cellsFor(const CornerRanges& ranges, const Ask& ask) {
+    const Floats d;
+    CellBits cells{};
+    for (std::size_t z = 0; z < kCells; ++z) {
+        for (std::size_t y = 0; y < kCells; ++y) {
+            unsigned row = 0;
+            for (std::size_t x = 0; x < kCells; x += hn::Lanes(d)) {
+                const FloatV lo = hn::LoadU(d, &ranges.lo[z][y][x]);
+                const FloatV hi = hn::LoadU(d, &ranges.hi[z][y][x]);
+                row |= bitsOf(ask(lo, hi)) << x;
+            }
+            cells[y + kCells * z] = static_cast<std::uint8_t>(row);
+        }
+    }
+    return cells;
+}
+
+/// What is not a number meets all.
+CellBits meeting(const CornerRanges& ranges, float error, float first, float last) {
+    const Floats d;
+    const FloatV wide = hn::Set(d, error);
+    return cellsFor(ranges, [&](FloatV lo, FloatV hi) {
+        return hn::Not(
+            hn::Or(hn::Lt(hn::Add(hi, wide), hn::Set(d, first)), hn::Gt(hn::Sub(lo, wide), hn::Set(d, last))));
+    });
+}
+
+/// What is not a number is nowhere.
+CellBits inside(const CornerRanges& ranges, float error, float first, float last) {
+    const Floats d;
+    const FloatV wide = hn::Set(d, error);
+    return cellsFor(ranges, [&](FloatV lo, FloatV hi) {
+        return hn::And(hn::Ge(hn::Sub(lo, wide), hn::Set(d, first)), hn::Le(hn::Add(hi, wide), hn::Set(d, last)));
+    });
+}
+
+} // namespace
+} // namespace HWY_NAMESPACE
+} // namespace voxtact::cpu
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace voxtact::cpu {
+
+HWY_EXPORT(toEntries);
+HWY_EXPORT(reduce);
+HWY_EXPORT(meeting);
+HWY_EXPORT(inside);
 
 namespace {
 
-constexpr std::int32_t kCorners = CornerRanges::kCorners;
-
+/// The stored values at the corners, to `lo`.
 template <class Kept>
-void loadCorners(const StoredImage& image, const Kept* voxels, const shader::CertifiedItem& item,
-                 const std::array<std::int32_t, 3>& place, CornerRanges& out) {
+void loadCorners(const StoredImage& image, const Kept* voxels, const std::array<std::int32_t, 3>& place,
+                 CornerRanges& out) {
+    constexpr auto kCorners = static_cast<std::int64_t>(CornerRanges::kCorners);
     std::array<std::int64_t, 3> first{};
     std::array<std::int64_t, 3> last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -21,43 +152,16 @@ void loadCorners(const StoredImage& image, const Kept* voxels, const shader::Cer
         // Cells beyond the last are no cells: whatever stands there is not looked at.
         last[axis] = std::int64_t{image.size[axis]} + 1;
     }
+    const std::int64_t inside = std::min(kCorners, last[0] + 1 - first[0]);
     for (std::int64_t z = 0; z < kCorners; ++z) {
         for (std::int64_t y = 0; y < kCorners; ++y) {
             const Kept* row = voxels + std::min(first[1] + y, last[1]) * image.stride[1] +
-                              std::min(first[2] + z, last[2]) * image.stride[2];
-            for (std::int64_t x = 0; x < kCorners; ++x) {
-                out.lo[z][y][x] = shader::certifiedEntry(item, storedValue(row[std::min(first[0] + x, last[0])]));
-                out.hi[z][y][x] = out.lo[z][y][x];
-                out.finite = out.finite && std::isfinite(out.lo[z][y][x]);
+                              std::min(first[2] + z, last[2]) * image.stride[2] + first[0];
+            float* const to = out.lo[z][y];
+            for (std::int64_t x = 0; x < inside; ++x) {
+                to[x] = storedValue(row[x]);
             }
-        }
-    }
-}
-
-void reduce(CornerRanges& ranges) {
-    const auto merge = [&](int z, int y, int x, int otherZ, int otherY, int otherX) {
-        ranges.lo[z][y][x] = shader::certifiedMin(ranges.lo[z][y][x], ranges.lo[otherZ][otherY][otherX]);
-        ranges.hi[z][y][x] = shader::certifiedMax(ranges.hi[z][y][x], ranges.hi[otherZ][otherY][otherX]);
-    };
-    for (int z = 0; z < kCorners; ++z) {
-        for (int y = 0; y < kCorners; ++y) {
-            for (int x = 0; x < kBrickSide; ++x) {
-                merge(z, y, x, z, y, x + 1);
-            }
-        }
-    }
-    for (int z = 0; z < kCorners; ++z) {
-        for (int y = 0; y < kBrickSide; ++y) {
-            for (int x = 0; x < kBrickSide; ++x) {
-                merge(z, y, x, z, y + 1, x);
-            }
-        }
-    }
-    for (int z = 0; z < kBrickSide; ++z) {
-        for (int y = 0; y < kBrickSide; ++y) {
-            for (int x = 0; x < kBrickSide; ++x) {
-                merge(z, y, x, z + 1, y, x);
-            }
+            std::fill(to + inside, to + kCorners, to[inside - 1]);
         }
     }
 }
@@ -67,9 +171,20 @@ void reduce(CornerRanges& ranges) {
 CornerRanges cornerRangesOf(const StoredImage& image, const shader::CertifiedItem& item,
                             const std::array<std::int32_t, 3>& place) {
     CornerRanges ranges;
-    image.visit([&](const auto* voxels) { loadCorners(image, voxels, item, place, ranges); });
-    reduce(ranges);
+    image.visit([&](const auto* voxels) { loadCorners(image, voxels, place, ranges); });
+    constexpr std::size_t kCount = CornerRanges::kCorners * CornerRanges::kCorners * CornerRanges::kCorners;
+    ranges.finite = HWY_DYNAMIC_DISPATCH(toEntries)(item, &ranges.lo[0][0][0], kCount);
+    HWY_DYNAMIC_DISPATCH(reduce)(ranges);
     return ranges;
 }
 
+CellBits cellsThatMeet(const CornerRanges& ranges, float error, float first, float last) {
+    return HWY_DYNAMIC_DISPATCH(meeting)(ranges, error, first, last);
+}
+
+CellBits cellsWithin(const CornerRanges& ranges, float error, float first, float last) {
+    return HWY_DYNAMIC_DISPATCH(inside)(ranges, error, first, last);
+}
+
 } // namespace voxtact::cpu
+#endif

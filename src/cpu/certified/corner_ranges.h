@@ -6,21 +6,32 @@
 #include "cpu/scene/stored_image.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace voxtact::cpu {
 
-/// Of a brick's cells: the least and the greatest entry coordinate at the corners, NaN passed over.
-struct CornerRanges {
-    static constexpr std::int32_t kCorners = kBrickSide + 1;
+/// A bit for each cell of a brick: bit x of [y + 8 * z].
+using CellBits = std::array<std::uint8_t, std::size_t{kBrickSide} * kBrickSide>;
+static_assert(kBrickSide == 8, "a row of cells is a byte");
 
-    bool finite = true;                     ///< all of them
-    float lo[kCorners][kCorners][kCorners]; ///< [z][y][x]; only those of kBrickSide cells a side are set in the end
+/// Of a brick's cells: the least and the greatest entry coordinate at the corners. NaN is the one or the other where
+/// the corner with the lowest coordinates is, else passed over.
+struct CornerRanges {
+    static constexpr std::size_t kCorners = kBrickSide + 1;
+
+    bool finite = true; ///< all corners of all cells
+    /// [z][y][x]; those beyond the cells are of no meaning.
+    float lo[kCorners][kCorners][kCorners];
     float hi[kCorners][kCorners][kCorners];
 };
 
 /// `place`: the brick's number along each axis.
 [[nodiscard]] CornerRanges cornerRangesOf(const StoredImage& image, const shader::CertifiedItem& item,
                                           const std::array<std::int32_t, 3>& place);
+/// The cells whose range, wider by `error` on both sides, neither ends before `first` nor begins after `last`.
+[[nodiscard]] CellBits cellsThatMeet(const CornerRanges& ranges, float error, float first, float last);
+/// Those for which it is within `first` and `last`.
+[[nodiscard]] CellBits cellsWithin(const CornerRanges& ranges, float error, float first, float last);
 
 } // namespace voxtact::cpu

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/certified/opaque_hull.h"
+
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace voxtact::cpu {
+
+namespace {
+
+/// Where the table is nearly at the threshold, a range may be called transparent that has a part which is not, and the
+/// other way round: what is true of a threshold this far off is true of all parts, too.
+constexpr float kNearly = 4 * OPACITY_ERROR;
+
+shader::OpacityTable with(const shader::OpacityTable& table, float more) {
+    shader::OpacityTable out = table;
+    out.threshold += more;
+    return out;
+}
+
+/// The coordinates next to each other between which an answer changes: that of `no`, and that of `yes`. Expects
+/// `ask(no)` to be false and `ask(yes)` to be true.
+template <class Ask> std::pair<float, float> bisect(float no, float yes, const Ask& ask) {
+    for (;;) {
+        const float middle = no + (yes - no) / 2;
+        if (middle == no || middle == yes) {
+            return {no, yes};
+        }
+        (ask(middle) ? yes : no) = middle;
+    }
+}
+
+/// Entries next to each other.
+struct Run {
+    int first = 0;
+    int last = -1;
+};
+
+/// The longest run of entries that reach the threshold.
+Run longestRun(const shader::OpacityTable& table) {
+    Run best;
+    Run run;
+    for (int entry = 0; entry < table.size; ++entry) {
+        if (shader::opacityExtreme(table, entry) >= table.threshold) {
+            run = {run.last == entry - 1 && run.last >= run.first ? run.first : entry, entry};
+            best = run.last - run.first > best.last - best.first ? run : best;
+        }
+    }
+    return best;
+}
+
+/// From what may be opaque to what certainly is.
+bool isNear(float may, float all) {
+    return may == all || std::abs(all - may) < 1;
+}
+
+void setAll(const shader::OpacityTable& table, OpaqueHull& hull) {
+    const shader::OpacityTable higher = with(table, kNearly);
+    const Run run = longestRun(higher);
+    if (run.last < run.first) {
+        return;
+    }
+    const auto first = static_cast<float>(run.first);
+    const auto last = static_cast<float>(run.last);
+    const auto all = [&](float lo, float hi) { return shader::certainlyAllOpaque(higher, lo, hi); };
+    if (!all(first, last)) {
+        return;
+    }
+    hull.allFirst = run.first == 0 ? -OpaqueHull::kInfinity
+                                   : bisect(first - 1, first, [&](float at) { return all(at, last); }).second;
+    hull.allLast = run.last == table.size - 1
+                       ? OpaqueHull::kInfinity
+                       : bisect(last + 1, last, [&](float at) { return all(hull.allFirst, at); }).second;
+    if (!all(hull.allFirst, hull.allLast)) {
+        hull.allFirst = first;
+        hull.allLast = last;
+    }
+}
+
+} // namespace
+
+OpaqueHull opaqueHullOf(const shader::OpacityTable& table) noexcept {
+    OpaqueHull hull;
+    setAll(table, hull);
+    const shader::OpacityTable lower = with(table, -kNearly);
+    const auto end = static_cast<float>(table.size - 1);
+    const auto before = [&](float at) { return shader::mayBeOpaque(lower, 0, at); };
+    const auto after = [&](float at) { return shader::mayBeOpaque(lower, at, end); };
+    if (!before(end)) {
+        return hull; // nothing is
+    }
+    float firstYes = -OpaqueHull::kInfinity;
+    float lastYes = OpaqueHull::kInfinity;
+    hull.first = -OpaqueHull::kInfinity;
+    hull.last = OpaqueHull::kInfinity;
+    if (!before(0)) {
+        std::tie(hull.first, firstYes) = bisect(0, end, before);
+    }
+    if (!after(end)) {
+        std::tie(hull.last, lastYes) = bisect(end, 0, after);
+    }
+    hull.whole = hull.allFirst <= hull.allLast && isNear(firstYes, hull.allFirst) && isNear(lastYes, hull.allLast);
+    return hull;
+}
+
+} // namespace voxtact::cpu
