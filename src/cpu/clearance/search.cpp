@@ -455,11 +455,13 @@ void ClosestSearch::openLeaf(const Pair& pair) {
     if (!piece.mayBeOpaque(part_->intervals)) {
         return;
     }
-    const dvec3 ascent = piece.ascent(part_->space);
     const auto along = [&](const dvec3& normal) { return PieceAlong(piece, part_->space, mesh_->along(normal)); };
-    const std::array<PieceAlong, 2> always{along(ascent), along(-ascent)};
-    PieceAlong own;
     const dvec3 middle = part_->space.toWorld(piece.middle());
+    // The nearest triangle's normal serves most of the others, which share a corner with it or are farther off.
+    const dvec3 shared = middle - mesh_->near(mesh_->cluster(pair.mesh)[pair.nearest], middle);
+    const dvec3 ascent = piece.ascent(part_->space);
+    const std::array<PieceAlong, 2> always{along(shared), along(dot(ascent, shared) < 0 ? -ascent : ascent)};
+    PieceAlong own;
     Pair child = pair;
     const bool mayBeNear = keep(child, [&](const PlacedTriangle& triangle) {
         double lo = 0;
