@@ -2,8 +2,6 @@
 #include "cpu/certified/opaque_hull.h"
 
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 namespace voxtact::cpu {
 
@@ -19,13 +17,12 @@ shader::OpacityTable with(const shader::OpacityTable& table, float more) {
     return out;
 }
 
-/// The coordinates next to each other between which an answer changes: that of `no`, and that of `yes`. Expects
-/// `ask(no)` to be false and `ask(yes)` to be true.
-template <class Ask> std::pair<float, float> bisect(float no, float yes, const Ask& ask) {
+/// A coordinate that is answered with yes, next to one that is not, on the way from `no` to `yes`, which are.
+template <class Ask> float bisect(float no, float yes, const Ask& ask) {
     for (;;) {
         const float middle = no + (yes - no) / 2;
         if (middle == no || middle == yes) {
-            return {no, yes};
+            return yes;
         }
         (ask(middle) ? yes : no) = middle;
     }
@@ -67,11 +64,11 @@ void setAll(const shader::OpacityTable& table, OpaqueHull& hull) {
     if (!all(first, last)) {
         return;
     }
-    hull.allFirst = run.first == 0 ? -OpaqueHull::kInfinity
-                                   : bisect(first - 1, first, [&](float at) { return all(at, last); }).second;
+    hull.allFirst =
+        run.first == 0 ? -OpaqueHull::kInfinity : bisect(first - 1, first, [&](float at) { return all(at, last); });
     hull.allLast = run.last == table.size - 1
                        ? OpaqueHull::kInfinity
-                       : bisect(last + 1, last, [&](float at) { return all(hull.allFirst, at); }).second;
+                       : bisect(last + 1, last, [&](float at) { return all(hull.allFirst, at); });
     if (!all(hull.allFirst, hull.allLast)) {
         hull.allFirst = first;
         hull.allLast = last;
@@ -90,17 +87,9 @@ OpaqueHull opaqueHullOf(const shader::OpacityTable& table) noexcept {
     if (!before(end)) {
         return hull; // nothing is
     }
-    float firstYes = -OpaqueHull::kInfinity;
-    float lastYes = OpaqueHull::kInfinity;
-    hull.first = -OpaqueHull::kInfinity;
-    hull.last = OpaqueHull::kInfinity;
-    if (!before(0)) {
-        std::tie(hull.first, firstYes) = bisect(0, end, before);
-    }
-    if (!after(end)) {
-        std::tie(hull.last, lastYes) = bisect(end, 0, after);
-    }
-    hull.whole = hull.allFirst <= hull.allLast && isNear(firstYes, hull.allFirst) && isNear(lastYes, hull.allLast);
+    hull.first = before(0) ? -OpaqueHull::kInfinity : bisect(0, end, before);
+    hull.last = after(end) ? OpaqueHull::kInfinity : bisect(end, 0, after);
+    hull.whole = hull.allFirst <= hull.allLast && isNear(hull.first, hull.allFirst) && isNear(hull.last, hull.allLast);
     return hull;
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -63,6 +64,33 @@ TEST(BrickCellsTest, ABoxHasSomeWhereOneOfItsCellsIs) {
             }
         }
         ASSERT_EQ(cells.any(box), expected);
+    }
+}
+
+TEST(BrickCellsTest, RangesOfCellsMeetAndAreWithin) {
+    std::mt19937_64 random(testSeed());
+    for (int round = 0; round < 100; ++round) {
+        auto ranges = std::make_unique<cpu::CornerRanges>();
+        const auto place = [&] { return static_cast<float>(below(random, 9)); };
+        for (std::size_t z = 0; z < cpu::CornerRanges::kCorners; ++z) {
+            for (std::size_t y = 0; y < cpu::CornerRanges::kCorners; ++y) {
+                for (std::size_t x = 0; x < cpu::CornerRanges::kCorners; ++x) {
+                    ranges->lo[z][y][x] = place();
+                    ranges->hi[z][y][x] = ranges->lo[z][y][x] + place();
+                }
+            }
+        }
+        const float error = 0.5F * place();
+        const float first = place();
+        const float last = first + place();
+        const cpu::CellBits meet = cpu::cellsThatMeet(*ranges, error, first, last);
+        const cpu::CellBits within = cpu::cellsWithin(*ranges, error, first, last);
+        for (std::size_t cell = 0; cell < 512; ++cell) {
+            const float lo = ranges->lo[cell / 64][cell / 8 % 8][cell % 8] - error;
+            const float hi = ranges->hi[cell / 64][cell / 8 % 8][cell % 8] + error;
+            ASSERT_EQ((meet[cell / 8] >> cell % 8 & 1U) != 0, hi >= first && lo <= last);
+            ASSERT_EQ((within[cell / 8] >> cell % 8 & 1U) != 0, lo >= first && hi <= last);
+        }
     }
 }
 
