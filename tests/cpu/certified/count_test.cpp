@@ -4,9 +4,12 @@
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 
+#include <hwy/targets.h>
+
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <vector>
 
 namespace voxtact::test {
 namespace {
@@ -46,34 +49,56 @@ TEST(CertifiedCount, IsThatOfTheFragmentsThatAreTold) {
 }
 
 /// Most cells are opaque all over: a noise above the threshold with holes in it.
+OracleScene drawnInside(std::mt19937_64& random) {
+    Grid grid;
+    for (std::uint32_t& size : grid.size) {
+        size = 1 + static_cast<std::uint32_t>(below(random, 40));
+    }
+    OracleScene scene;
+    scene.volume = makeVolume<std::uint8_t>(grid, ScalarType::UInt8, [&](auto...) {
+        return chance(random, 0.003) ? 0 : 150 + static_cast<double>(below(random, 100));
+    });
+    const double size = std::pow(10, uniform(random, -1, 1.5));
+    for (int triangle = 0; triangle < 20; ++triangle) {
+        std::array<Vec3, 3> corners{};
+        const Vec3 middle{uniform(random, -1, grid.size[0]), uniform(random, -1, grid.size[1]),
+                          uniform(random, -1, grid.size[2])};
+        for (Vec3& corner : corners) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                corner[axis] = middle[axis] + uniform(random, -size, size);
+            }
+        }
+        addTriangle(scene.mesh, corners[0], corners[1], corners[2]);
+    }
+    return scene;
+}
+
 TEST(CertifiedCount, IsThatInsideOfWhatIsOpaque) {
     std::mt19937_64 random(testSeed());
     std::uint64_t counted = 0;
     for (int round = 0; round < 500 && !HasFailure(); ++round) {
-        Grid grid;
-        for (std::uint32_t& size : grid.size) {
-            size = 1 + static_cast<std::uint32_t>(below(random, 40));
-        }
-        OracleScene scene;
-        scene.volume = makeVolume<std::uint8_t>(grid, ScalarType::UInt8, [&](auto...) {
-            return chance(random, 0.003) ? 0 : 150 + static_cast<double>(below(random, 100));
-        });
-        const double size = std::pow(10, uniform(random, -1, 1.5));
-        for (int triangle = 0; triangle < 20; ++triangle) {
-            std::array<Vec3, 3> corners{};
-            const Vec3 middle{uniform(random, -1, grid.size[0]), uniform(random, -1, grid.size[1]),
-                              uniform(random, -1, grid.size[2])};
-            for (Vec3& corner : corners) {
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    corner[axis] = middle[axis] + uniform(random, -size, size);
-                }
-            }
-            addTriangle(scene.mesh, corners[0], corners[1], corners[2]);
-        }
-        expectTheSame(scene, counted);
+        expectTheSame(drawnInside(random), counted);
     }
     std::cout << counted << " fragments\n";
     EXPECT_GT(counted, 100000U);
+}
+
+TEST(CertifiedCount, IsTheSameByEveryInstructionSet) {
+    std::mt19937_64 random(testSeed());
+    std::vector<OracleScene> scenes;
+    std::vector<std::uint64_t> counts;
+    for (int i = 0; i < 60; ++i) {
+        scenes.push_back(drawnInside(random));
+        counts.push_back(answerTo(scenes.back(), true).count);
+    }
+    const std::int64_t all = hwy::SupportedTargets();
+    for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+        hwy::SetSupportedTargetsForTest(rest & -rest);
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
+            EXPECT_EQ(answerTo(scenes[i], false).count, counts[i]) << hwy::TargetName(rest & -rest) << ", scene " << i;
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
 }
 
 } // namespace
