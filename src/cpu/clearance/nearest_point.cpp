@@ -5,7 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <optional>
 
 namespace voxtact::cpu {
 
@@ -113,24 +116,6 @@ class OpaqueSearch {
     }
 
   private:
-    [[nodiscard]] bool may(std::uint32_t shift, const NodePlace& node) const {
-        if (shift >= kBrickShift) {
-            return searched_.pyramid().has(shift - kBrickShift, node);
-        }
-        NodePlace brick{};
-        CellBox inside;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int32_t first = node[axis] << shift;
-            if (first > volume_.image.size[axis]) {
-                return false;
-            }
-            brick[axis] = first >> kBrickShift;
-            inside.lo[axis] = first & (kBrickSide - 1);
-            inside.hi[axis] = inside.lo[axis] + (1 << shift) - 1;
-        }
-        return part_.cells(volume_, brick).any(inside);
-    }
-
     [[nodiscard]] double distanceTo(std::uint32_t shift, const NodePlace& node) const {
         dvec3 off;
         for (int axis = 0; axis < 3; ++axis) {
@@ -142,8 +127,8 @@ class OpaqueSearch {
     }
 
     void openBox(std::uint32_t shift, const NodePlace& node) {
-        if (shift == 0) {
-            openCell(node);
+        if (shift == kBrickShift) {
+            openBrick(node);
             return;
         }
         NearList<NodePlace, 8> near;
@@ -153,7 +138,7 @@ class OpaqueSearch {
                 child[axis] = 2 * node[axis] + static_cast<std::int32_t>(i >> axis & 1U);
             }
             const double distance = distanceTo(shift - 1, child);
-            if (distance < best_.distance && may(shift - 1, child)) {
+            if (distance < best_.distance && searched_.pyramid().has(shift - 1 - kBrickShift, child)) {
                 near.add(distance, child);
             }
         }
@@ -164,6 +149,73 @@ class OpaqueSearch {
             openBox(shift - 1, child);
         }
     }
+
+    /// The nearest cell first, then what is still nearer than what was found: most bricks have no second one.
+    void openBrick(const NodePlace& brick) {
+        const BrickCells& known = part_.cells(volume_, brick);
+        const CellSquares squares(*this, brick);
+        const auto forCells = [&](const auto& visit) {
+            for (std::int32_t z = known.around.lo[2]; z <= std::min(known.around.hi[2], squares.last[2]); ++z) {
+                for (std::int32_t y = known.around.lo[1]; y <= std::min(known.around.hi[1], squares.last[1]); ++y) {
+                    const double across = squares.at(1, y) + squares.at(2, z);
+                    if (across >= best_.distance * best_.distance) {
+                        continue;
+                    }
+                    for (unsigned row = known.row(known.around, y, z); row != 0; row &= row - 1) {
+                        const std::int32_t x = std::countr_zero(row);
+                        if (x <= squares.last[0]) {
+                            visit(across + squares.at(0, x), NodePlace{x, y, z});
+                        }
+                    }
+                }
+            }
+        };
+        double least = best_.distance * best_.distance;
+        std::optional<NodePlace> nearest;
+        forCells([&](double square, const NodePlace& cell) {
+            if (square < least) {
+                least = square;
+                nearest = cell;
+            }
+        });
+        if (!nearest) {
+            return;
+        }
+        openCell(squares.padded(*nearest));
+        forCells([&](double square, const NodePlace& cell) {
+            if (square < best_.distance * best_.distance && cell != *nearest) {
+                openCell(squares.padded(cell));
+            }
+        });
+    }
+
+    /// How far a brick's cells are along each axis, squared: mm^2.
+    struct CellSquares {
+        CellSquares(const OpaqueSearch& search, const NodePlace& brick) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto at = static_cast<int>(axis);
+                first[axis] = brick[axis] << kBrickShift;
+                last[axis] = search.volume_.image.size[axis] - first[axis];
+                for (std::int32_t cell = 0; cell < kBrickSide; ++cell) {
+                    const double lo = first[axis] + cell - 1 - search.part_.space.centre[at];
+                    const double off = std::max({lo - search.voxel_[at], search.voxel_[at] - (lo + 1), 0.0});
+                    const double length = off * search.part_.space.spacing[at];
+                    of[axis][static_cast<std::size_t>(cell)] = length * length;
+                }
+            }
+        }
+        [[nodiscard]] double at(std::size_t axis, std::int32_t cell) const {
+            return of[axis][static_cast<std::size_t>(cell)];
+        }
+        /// A cell of the brick among those of the volume.
+        [[nodiscard]] NodePlace padded(const NodePlace& cell) const {
+            return {first[0] + cell[0], first[1] + cell[1], first[2] + cell[2]};
+        }
+
+        NodePlace first{}; ///< padded cells
+        NodePlace last{};  ///< numbered within the brick: the volume has none beyond
+        std::array<std::array<double, kBrickSide>, 3> of{};
+    };
 
     void openCell(const NodePlace& node) {
         const PartCell cell = part_.cell(volume_, node);
