@@ -40,8 +40,7 @@ template <class Value> class MadeOnce {
   public:
     MadeOnce() = default;
     explicit MadeOnce(std::size_t count)
-        : made_(std::make_unique<std::atomic<bool>[]>(count)), values_(std::make_unique<Value[]>(count)),
-          mutex_(std::make_unique<std::mutex>()) {}
+        : count_(count), made_(std::make_unique<std::atomic<bool>[]>(count)), mutex_(std::make_unique<std::mutex>()) {}
 
     /// Null: it was not made yet.
     [[nodiscard]] const Value* find(std::size_t number) const noexcept {
@@ -50,6 +49,9 @@ template <class Value> class MadeOnce {
     /// Of two threads that have made one at once, the first keeps it.
     const Value& keep(std::size_t number, const Value& made) const {
         const std::lock_guard lock(*mutex_);
+        if (values_ == nullptr) {
+            values_ = std::make_unique<Value[]>(count_);
+        }
         if (!made_[number].load(std::memory_order_relaxed)) {
             values_[number] = made;
             made_[number].store(true, std::memory_order_release);
@@ -58,8 +60,9 @@ template <class Value> class MadeOnce {
     }
 
   private:
+    std::size_t count_ = 0;
     std::unique_ptr<std::atomic<bool>[]> made_;
-    std::unique_ptr<Value[]> values_;
+    mutable std::unique_ptr<Value[]> values_; ///< null until there is one
     std::unique_ptr<std::mutex> mutex_;
 };
 
