@@ -9,16 +9,15 @@
 #define HWY_TARGET_INCLUDE "cpu/certified/corner_ranges.cpp"
 #include <hwy/foreach_target.h>
 
-#include <hwy/highway.h>
+#include "cpu/certified/simd_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxtact::cpu {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, kBrickSide>;
-using FloatV = hn::Vec<Floats>;
+using Floats = RowFloats;
+using FloatV = RowV;
 constexpr std::size_t kCells = kBrickSide;
 constexpr std::size_t kCorners = CornerRanges::kCorners;
 /// From a corner to the next one along y and z.
@@ -79,13 +78,6 @@ void reduce(CornerRanges& ranges) {
     merge(lo, hi, kCorners, kCorners, 1);
     merge(lo, hi, kCorners, kCells, kRow);
     merge(lo, hi, kCells, kCells, kSlice);
-}
-
-HWY_INLINE unsigned bitsOf(hn::Mask<Floats> mask) {
-    const Floats d;
-    std::uint8_t bits[8] = {}; // as many as StoreMaskBits() may write
-    hn::StoreMaskBits(d, mask, bits);
-    return bits[0];
 }
 
 /// The cells for which `ask(lo, hi)` is true.

@@ -20,6 +20,8 @@ inline CellBox cellsOf(const shader::CertifiedBounds& bounds) {
     return {{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
 }
 
+static_assert(TriangleCells::kRow == kBrickSide, "a brick's rows are asked as they are");
+
 /// Goes through a job's fragments. `Mode::kCounts`: nothing but how many there are is asked. A mode is a type of the
 /// one file that instantiates this with it: compilers put in line what nobody else can call.
 template <class Kept, class Mode> class Decider {

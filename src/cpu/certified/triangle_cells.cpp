@@ -8,16 +8,15 @@
 #define HWY_TARGET_INCLUDE "cpu/certified/triangle_cells.cpp"
 #include <hwy/foreach_target.h>
 
-#include <hwy/highway.h>
+#include "cpu/certified/simd_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxtact::cpu {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, TriangleCells::kRow>;
-using FloatV = hn::Vec<Floats>;
+using Floats = RowFloats;
+using FloatV = RowV;
 
 HWY_INLINE FloatV dotted(FloatV x, FloatV y, FloatV z, const shader::VoxelPoint& at) {
     const Floats d;
@@ -73,13 +72,6 @@ HWY_INLINE FloatV insideAlong(const TriangleAxes& axes, std::size_t axis, const 
     const float first = axes.x[axis] * from.x + axes.y[axis] * from.y + axes.z[axis] * from.z;
     const FloatV at = hn::Add(hn::Set(d, first), hn::Mul(cells, hn::Set(d, axes.x[axis])));
     return insideOf(at, hn::Set(d, axes.lo[axis]), hn::Set(d, axes.hi[axis]));
-}
-
-HWY_INLINE unsigned bitsOf(hn::Mask<Floats> mask) {
-    const Floats d;
-    std::uint8_t bits[8] = {}; // as many as StoreMaskBits() may write
-    hn::StoreMaskBits(d, mask, bits);
-    return bits[0];
 }
 
 /// `from`: the middle of the first cell.

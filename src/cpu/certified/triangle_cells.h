@@ -47,7 +47,7 @@ class TriangleCells {
         unsigned none = 0; ///< it leaves nothing
     };
 
-    /// Nor of large ones.
+    /// Whether something is said of a triangle: nothing of large ones, either.
     [[nodiscard]] static bool mayBeAsked(const shader::CertifiedTriangle& triangle) noexcept {
         constexpr float kMostReach = 1024; // voxels
         return triangle.delta <= kMostDelta && triangle.reach <= kMostReach;
