@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The cells that a work group finds, collected in shared memory and put into the queue of cells at once. Expects
-// certified_scene.glsl, and VOXTACT_CELL_LIST, the most cells of a list.
+// The cells that a work group finds, collected in shared memory and put into the queue of cells at once; and what is
+// certain without a decision. Expects certified_scene.glsl, and VOXTACT_CELL_LIST, the most cells of a list.
 #ifndef VOXTACT_CERTIFIED_CELLS_GLSL
 #define VOXTACT_CERTIFIED_CELLS_GLSL
 
+layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputs = 0;
+/// With outputs every fragment that is certain has a witness, which only a decision finds.
+const bool kWitnesses = kOutputs != 0;
+
+shared uint certainOfGroup; // fragments of one pair
 shared uint listed;
 shared uint list[VOXTACT_CELL_LIST];
 shared uint firstOfList; // in the queue

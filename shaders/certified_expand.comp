@@ -22,7 +22,8 @@ struct LaneCells {
     ivec3 size;
 };
 shared LaneCells ofLane[VOXTACT_COMPUTE_GROUP];
-shared uint parts; // of large triangles
+shared uint pairOfGroup; // of the first lane, and so of most
+shared uint parts;       // of large triangles
 shared uint firstPart;
 shared uint groupsIfLeft; // of certified_finish, for all large triangles
 
@@ -50,8 +51,9 @@ uint bricksThatMayTouch(CertifiedTriangle triangle, CellBox box) {
     return bits;
 }
 
-/// Lists the cells of the lane's small triangle.
-void listCells(CertifiedTriangle triangle, CellBox cells) {
+/// Lists the cells of the lane's small triangle that need a decision. Returns its fragments that are certain without.
+uint listCells(CertifiedTriangle triangle, CellBox cells) {
+    uint certain = 0;
     const CellBox box = bricksOf(cells);
     const uint bricks = bricksThatMayTouch(triangle, box);
     const ivec3 boxSize = box.hi - box.lo + 1;
@@ -63,10 +65,15 @@ void listCells(CertifiedTriangle triangle, CellBox cells) {
         const ivec3 brick = (cell + 1) >> VOXTACT_BRICK_SHIFT;
         const ivec3 inBox = brick - box.lo;
         const uint bit = 1u << (inBox.x + boxSize.x * (inBox.y + boxSize.y * inBox.z));
-        if ((bricks & bit) != 0 && fragmentMayTouch(triangle, cell, brickAt(brick), single)) {
-            list[atomicAdd(listed, 1u)] = gl_LocalInvocationIndex << 8 | uint(i);
+        if ((bricks & bit) != 0) {
+            const int verdict = fragmentVerdict(triangle, cell, brickAt(brick), single, kWitnesses);
+            if (verdict == CERTIFIED_UNDECIDED) {
+                list[atomicAdd(listed, 1u)] = gl_LocalInvocationIndex << 8 | uint(i);
+            }
+            certain += verdict == CERTIFIED_CERTAIN ? 1 : 0;
         }
     }
+    return certain;
 }
 
 void putLarge(TriangleLane own, uint slot, uint count) {
@@ -85,6 +92,7 @@ void main() {
     const uint lane = gl_LocalInvocationIndex;
     if (lane == 0) {
         listed = 0;
+        certainOfGroup = 0;
         parts = 0;
         firstPart = 0;
         groupsIfLeft = 0;
@@ -93,6 +101,10 @@ void main() {
     const TriangleLane own = triangleLane(gl_WorkGroupID.x, lane);
     uint partsOfLane = 0;
     uint slot = 0;
+    uint certain = 0;
+    if (lane == 0) {
+        pairOfGroup = own.pair;
+    }
     if (own.some) {
         const TriangleVertices at = verticesOf(transforms[own.pair], own.number);
         const CertifiedBounds bounds = boundsOf(at);
@@ -108,7 +120,7 @@ void main() {
             }
         } else if (wanted) {
             ofLane[lane] = LaneCells(own.pair, own.number, cells.lo, cells.hi - cells.lo + 1);
-            listCells(triangleOf(at, bounds.delta), cells);
+            certain = listCells(triangleOf(at, bounds.delta), cells);
         }
     }
     barrier();
@@ -123,11 +135,22 @@ void main() {
     if (!fits && lane == 0) {
         leave(VOXTACT_LEFT_SMALL, gl_WorkGroupID.x, 0, kSharesOfSmall);
     }
+    if (fits && certain > 0) { // else certified_finish counts them
+        if (own.pair == pairOfGroup) {
+            atomicAdd(certainOfGroup, certain);
+        } else {
+            addSurvivors(own.pair, certain);
+        }
+    }
     putLarge(own, slot, partsOfLane);
     for (uint i = lane; fits && i < listed; i += VOXTACT_COMPUTE_GROUP) {
         const LaneCells of = ofLane[list[i] >> 8];
         const int number = int(list[i] & 0xffu);
         const int row = number / of.size.x;
         putCell(i, of.pair, of.triangle, of.lo + ivec3(number % of.size.x, row % of.size.y, row / of.size.y));
+    }
+    barrier();
+    if (lane == 0 && certainOfGroup > 0) {
+        addSurvivors(pairOfGroup, certainOfGroup);
     }
 }

@@ -16,7 +16,8 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 
 shared uint bricksKept[VOXTACT_COMPUTE_GROUP / 32];
 
-/// Lists those of a brick's cells that need a decision, and puts them into the queue. False where it has no room.
+/// Lists those of a brick's cells that need a decision, and puts them into the queue; counts those that are certain
+/// without. False, and nothing is counted, where it has no room.
 bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 brick) {
     const uint lane = gl_LocalInvocationIndex;
     const CellBox inside = within(cells, brick);
@@ -27,13 +28,19 @@ bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 bric
         countWork(VOXTACT_WORK_CELLS, uint(most));
     }
     barrier();
+    uint certain = 0;
     for (int i = int(lane); i < most; i += VOXTACT_COMPUTE_GROUP) {
-        if (fragmentMayTouch(triangle, placeIn(inside, i), range, false)) {
+        const int verdict = fragmentVerdict(triangle, placeIn(inside, i), range, false, kWitnesses);
+        if (verdict == CERTIFIED_UNDECIDED) {
             list[atomicAdd(listed, 1u)] = uint(i);
         }
+        certain += verdict == CERTIFIED_CERTAIN ? 1 : 0;
     }
     barrier();
     const bool fits = reserveList();
+    if (fits && certain > 0 && !isCut()) {
+        atomicAdd(certainOfGroup, certain);
+    }
     for (uint i = lane; fits && i < listed; i += VOXTACT_COMPUTE_GROUP) {
         putCell(i, entry.x, entry.y, placeIn(inside, int(list[i])));
     }
@@ -66,6 +73,9 @@ void main() {
         return;
     }
     const CertifiedTriangle triangle = triangleOf(at, bounds.delta);
+    if (lane == 0) {
+        certainOfGroup = 0;
+    }
     bool fits = true;
     for (int block = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && block < count;
          block += int(entry.w) * VOXTACT_COMPUTE_GROUP) {
@@ -98,6 +108,9 @@ void main() {
             }
         }
         barrier();
+    }
+    if (lane == 0 && certainOfGroup > 0) { // behind the barrier of the last block
+        addSurvivors(entry.x, certainOfGroup);
     }
     if (isCut()) { // lanes that run together are: others are not
         atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);

@@ -27,7 +27,7 @@ layout(push_constant) uniform Item { CertifiedConstants constants; };
 const bool kCarry = true;
 
 #include "stored.glsl"
-#include "certified.h"
+#include "certified_overlap.h"
 #include "count.glsl"
 #include "certified_queues.glsl"
 #include "mesh.glsl"
@@ -204,16 +204,32 @@ TriangleLane triangleLane(uint group, uint lane) {
 
 #include "exact_language.h"
 
-/// Whether a fragment needs a decision: false where the cheaper tests show that it has no opaque point.
-bool fragmentMayTouch(CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single) {
+/// Whether a cell reaches beyond the voxels' centres: the domain ends in it.
+bool isAtBorder(ivec3 cell) {
+    const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
+    return any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, last));
+}
+
+/// What the cheaper tests say of a fragment: CERTIFIED_NONE, CERTIFIED_UNDECIDED where it needs a decision, or
+/// CERTIFIED_CERTAIN, which is only said where no witness is wanted.
+int fragmentVerdict(CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single, bool witness) {
     const vec3 centre = vec3(cell) + 0.5;
     if (!single && certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), 0.5)) {
-        return false;
+        return CERTIFIED_NONE;
     }
     const CertifiedCell known =
         certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
-    return certifiedCellMayBeOpaque(opacities(), known) &&
-           certifiedBeginMay(opacities(), triangle, known, cell.x, cell.y, cell.z);
+    if (!certifiedCellMayBeOpaque(opacities(), known)) {
+        return CERTIFIED_NONE;
+    }
+    if (certifiedCellAllOpaque(opacities(), known)) {
+        return witness || isAtBorder(cell) ? CERTIFIED_UNDECIDED
+                                           : certifiedOverlap(triangle, cell.x, cell.y, cell.z);
+    }
+    return certifiedPartMayBeOpaque(opacities(), triangle, known,
+                                    voxelPoint(float(cell.x), float(cell.y), float(cell.z)))
+               ? CERTIFIED_UNDECIDED
+               : CERTIFIED_NONE;
 }
 
 #include "exact_language.h"

@@ -71,6 +71,14 @@ struct OutputRoom {
     std::uint32_t contacts = kDefaultContactRoom; ///< for the output contacts; a longer list is cut
 };
 
+/// A part of a device buffer: where a descriptor of it begins, and how many bytes it has. The buffer is null where
+/// there is nothing.
+struct BufferRange {
+    VkBuffer buffer = VK_NULL_HANDLE; ///< null: there is nothing
+    VkDeviceSize offset = 0;          ///< bytes
+    VkDeviceSize size = 0;            ///< bytes
+};
+
 /// How large Results are, and what they keep. Fixed for their life.
 struct ResultsDesc {
     std::uint32_t maxPairs = 1; ///< pairs of the largest batch
@@ -86,15 +94,20 @@ struct ResultsDesc {
     /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
     /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
+    /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
+    /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
+    /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the
+    /// buffer is left alone. A ring needs such a part for each frame, from one to the next resultBytes(). Null: the
+    /// Results have a buffer of their own.
+    BufferRange into{};
 };
 
-/// A part of a device buffer: where a descriptor of it begins, and how many bytes it has. The offset is a multiple of
-/// 256. The buffer is null where there is nothing.
-struct BufferRange {
-    VkBuffer buffer = VK_NULL_HANDLE; ///< null: there is nothing
-    VkDeviceSize offset = 0;          ///< bytes
-    VkDeviceSize size = 0;            ///< bytes
-};
+/// From the PairResults of one frame of a ring to those of the next, where ResultsDesc::into is given: those of so many
+/// pairs, rounded up to 256 bytes, which every device takes for the offset of a descriptor.
+[[nodiscard]] constexpr VkDeviceSize resultBytes(std::uint32_t maxPairs) noexcept {
+    constexpr VkDeviceSize kAlignment = 256;
+    return (VkDeviceSize{maxPairs} * sizeof(PairResult) + kAlignment - 1) / kAlignment * kAlignment;
+}
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
 /// One cmdDetect() at a time: recording a second one before the first has completed on the device is a race, unless
@@ -102,8 +115,8 @@ struct BufferRange {
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
-    /// Allocates the buffers. Refuses no pairs, more than the device's limits allow (which limit, how large), and
-    /// timestamps on a queue family that has none.
+    /// Allocates the buffers. Refuses no pairs, more than the device's limits allow (which limit, how large),
+    /// timestamps on a queue family that has none, and an `into` that is too small or begins where no descriptor may.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;
     VOXTACT_API Results& operator=(Results&&) noexcept;
@@ -113,12 +126,16 @@ class Results {
     [[nodiscard]] VOXTACT_API std::uint32_t maxPairs() const noexcept;
     /// Pairs of the batch recorded last.
     [[nodiscard]] VOXTACT_API std::uint32_t pairs() const noexcept;
-    /// maxPairs PairResults; usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST; for the next pass on the device.
+    /// maxPairs PairResults, for the next pass on the device: ResultsDesc::into, or all of a buffer with the usage
+    /// STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST.
+    [[nodiscard]] VOXTACT_API BufferRange pairResults() const noexcept;
+    /// The buffer of pairResults(), which begin at its offset.
     [[nodiscard]] VOXTACT_API VkBuffer buffer() const noexcept;
 
     /// The outputs beside the counts on the device, for the next pass: what the detector of the batch recorded last was
-    /// made for; the other parts hold nothing of use. All are of one buffer with the usage of buffer(), ready for
-    /// readers when buffer() is, and each is as large as there was room for. Pairs follow each other in their order.
+    /// made for; the other parts hold nothing of use. All are of one buffer with the usage STORAGE_BUFFER |
+    /// TRANSFER_SRC | TRANSFER_DST, ready for readers when pairResults() are, and each is as large as there was room
+    /// for. Offsets are multiples of 256. Pairs follow each other in their order.
     ///
     /// triangleCounts(): a uint for each triangle of each pair, its survivors. Those of a pair begin after as many as
     /// the pairs before it have triangles.
@@ -171,7 +188,8 @@ class Results {
 /// Thread-safety: none; one thread at a time.
 class ResultRing {
   public:
-    /// `frames`: how many may be in flight, 1 to 4096. Otherwise refuses what Results::create() refuses.
+    /// `frames`: how many may be in flight, 1 to 4096. Otherwise refuses what Results::create() refuses. With
+    /// ResultsDesc::into, the results of `frame` begin resultBytes(maxPairs) * (frame modulo frames) after its offset.
     [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Context& context, std::uint32_t frames,
                                                                const ResultsDesc& desc);
 
@@ -220,8 +238,8 @@ class Detector {
     ///                    dominant-axis: to VERTEX_SHADER / FRAGMENT_SHADER, for the method compute: to
     ///                    COMPUTE_SHADER) by the caller; a buffer of poses made visible to COMPUTE_SHADER; an earlier
     ///                    use of the same Results in this queue may be in flight: the reads that cmdReadBack() and
-    ///                    compute or fragment shaders make of buffer() are waited for
-    ///   leaves           Results::buffer() available and visible to TRANSFER read, and to shader reads in all stages
+    ///                    compute or fragment shaders make of pairResults() are waited for
+    ///   leaves           Results::pairResults() available and visible to TRANSFER read, and to shader reads in all stages
     ///   queries          no occlusion query may be active
     ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3; with
     ///                    outputs: 0..4), push constants, vertex binding 0, index buffer, dynamic viewport and scissor;

@@ -109,6 +109,14 @@ static inline vxt_batch vxt_batch_init(void) {
     return batch;
 }
 
+/// A part of a device buffer with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The buffer is null where there
+/// is nothing.
+typedef struct vxt_buffer_range {
+    VkBuffer buffer;     ///< null: there is nothing
+    VkDeviceSize offset; ///< bytes
+    VkDeviceSize size;   ///< bytes
+} vxt_buffer_range;
+
 /// How large results are, and what they keep: voxtact::ResultsDesc.
 typedef struct vxt_results_desc {
     size_t struct_size;     ///< sizeof
@@ -124,7 +132,15 @@ typedef struct vxt_results_desc {
     /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
     uint32_t clusters_at_once;
     uint32_t reserved; ///< 0
+    /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the results:
+    /// voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
+    vxt_buffer_range into;
 } vxt_results_desc;
+
+/// From the answers of one frame of a ring to those of the next in vxt_results_desc::into: voxtact::resultBytes().
+static inline VkDeviceSize vxt_result_bytes(uint32_t max_pairs) {
+    return (UINT64_C(24) * max_pairs + 255) / 256 * 256;
+}
 
 /// For vxt_results_desc::clusters_at_once.
 #define VXT_NO_CLUSTERS UINT32_C(0xffffffff)
@@ -139,13 +155,6 @@ static inline vxt_results_desc vxt_results_desc_init(void) {
     desc.read_back = 1;
     return desc;
 }
-
-/// A part of a device buffer. The offset is a multiple of 256; the buffer is null where there is nothing.
-typedef struct vxt_buffer_range {
-    VkBuffer buffer;     ///< usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST
-    VkDeviceSize offset; ///< bytes
-    VkDeviceSize size;   ///< bytes
-} vxt_buffer_range;
 
 /// The answers of a batch on the device, for the next pass; as voxtact::Results has them, and device_results.h.
 typedef enum vxt_device_part {

@@ -13,7 +13,8 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
     ResultsDesc out{.maxPairs = desc.max_pairs,
                     .readBack = desc.read_back != 0,
                     .timestamps = desc.timestamps != 0,
-                    .queueFamily = desc.queue_family};
+                    .queueFamily = desc.queue_family,
+                    .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
     }
@@ -26,7 +27,7 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
 BufferRange rangeOf(const Results& results, vxt_device_part part) {
     switch (part) {
     case VXT_DEVICE_PAIRS:
-        return {results.buffer(), 0, results.maxPairs() * sizeof(PairResult)};
+        return results.pairResults();
     case VXT_DEVICE_TRIANGLE_COUNTS:
         return results.triangleCounts();
     case VXT_DEVICE_TRIANGLE_MASK:

@@ -80,13 +80,14 @@ Result<void> makeNoLabels(ContextImpl& context, OutputStore& out) {
     return {};
 }
 
-Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer transforms, VkBuffer results) {
+Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer transforms,
+                             const BufferRange& results) {
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.outputSetLayout, {&size, 1}, "pairs with outputs");
     VOXTACT_TRY(set);
     out.descriptors = std::move(*set);
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, transforms);
-    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, results);
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, results.buffer, results.size, results.offset);
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_OUTPUT_PAIRS, out.pairs.get());
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_OUTPUTS, out.words.get());
     return {};
@@ -104,7 +105,7 @@ BufferRange rangeOf(const std::unique_ptr<OutputStore>& store, OutputPart part) 
 } // namespace
 
 Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc, VkBuffer transforms,
-                                                     VkBuffer results) {
+                                                     const BufferRange& results) {
     VOXTACT_TRY(checkRoom(context, desc));
     auto out = std::make_unique<OutputStore>();
     out->maxPairs = desc.maxPairs;

@@ -25,7 +25,7 @@ struct OutputStore {
 
 /// Refuses room beyond the device's limits (which limit, how large).
 [[nodiscard]] Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc,
-                                                                   VkBuffer transforms, VkBuffer results);
+                                                                   VkBuffer transforms, const BufferRange& results);
 
 /// Room that a batch needs, its contacts aside. Null meshes and label maps need none.
 [[nodiscard]] OutputRoom roomFor(const Batch& batch) noexcept;

@@ -83,7 +83,8 @@ Result<void> makeSetupSet(ResultsImpl& results) {
     results.setup = std::move(*set);
     const VkDescriptorSet handle = results.setup.set;
     writeBuffer(context, handle, VOXTACT_BINDING_SETUP_TRANSFORMS, results.transforms.get(), setupByte(results));
-    writeBuffer(context, handle, VOXTACT_BINDING_SETUP_RESULTS, results.results.get());
+    writeBuffer(context, handle, VOXTACT_BINDING_SETUP_RESULTS, results.results.buffer, results.results.size,
+                results.results.offset);
     writeBuffer(context, handle, VOXTACT_BINDING_SETUP_ITEMS, results.transforms.get(), kSetupBytes,
                 setupByte(results));
     return {};

@@ -77,7 +77,7 @@ void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuf
 /// Results with a count of zero that say which pair they are.
 void recordEmptyResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                         const ResultsImpl& results, std::uint32_t how) {
-    BufferUpdate<PairResult> update(context, commandBuffer, results.results.get());
+    BufferUpdate<PairResult> update(context, commandBuffer, results.results.buffer, results.results.offset);
     eachHostPair(
         batch,
         [&](const BatchItem&, std::uint32_t item, std::uint32_t pose, std::uint32_t pair) {
@@ -96,8 +96,8 @@ void barrierToShaders(const ContextImpl& context, VkCommandBuffer commandBuffer,
 }
 
 void copyQueries(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
-    context.vk.CmdCopyQueryPoolResults(commandBuffer, results.occlusion.get(), 0, results.pairs, results.results.get(),
-                                       0, sizeof(PairResult), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    context.vk.CmdCopyQueryPoolResults(commandBuffer, results.occlusion.get(), 0, results.pairs,
+                                       results.results.buffer, results.results.offset, sizeof(PairResult), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 }
 
 void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,

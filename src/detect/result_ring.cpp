@@ -4,12 +4,26 @@
 #include "core/base/try.h"
 #include "voxtact/detector.h"
 
+#include <algorithm>
+
 namespace voxtact {
 
 namespace {
 
 /// More frames than anybody has in flight.
 constexpr std::uint32_t kMostFrames = 4096;
+
+/// A slot would only know what the slots before it have left.
+Result<void> checkInto(std::uint32_t frames, const ResultsDesc& desc) {
+    const VkDeviceSize needed =
+        (frames - 1) * resultBytes(desc.maxPairs) + VkDeviceSize{desc.maxPairs} * sizeof(PairResult);
+    if (desc.into.buffer == VK_NULL_HANDLE || desc.into.size >= needed) {
+        return {};
+    }
+    return Error{ErrorCode::InvalidArgument, 0,
+                 "ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " + std::to_string(frames) +
+                     " frames of " + std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed)};
+}
 
 } // namespace
 
@@ -23,11 +37,16 @@ Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t fram
                          "a ring of " + std::to_string(frames) +
                              " frames is more than can be in flight: " + std::to_string(kMostFrames) + " at most"};
         }
+        VOXTACT_TRY(checkInto(frames, desc));
         ResultRing out;
+        ResultsDesc slot = desc;
         for (std::uint32_t i = 0; i < frames; ++i) {
-            Result<Results> results = Results::create(context, desc);
+            Result<Results> results = Results::create(context, slot);
             VOXTACT_TRY(results);
             out.slots_.push_back({std::move(*results)});
+            const VkDeviceSize next = std::min(resultBytes(desc.maxPairs), slot.into.size);
+            slot.into.offset += next;
+            slot.into.size -= next;
         }
         return out;
     });

@@ -48,6 +48,25 @@ std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) 
         std::min<VkDeviceSize>(VkDeviceSize{kMostTransformsPerPair} * maxPairs, room), maxPairs));
 }
 
+Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
+    if (desc.into.buffer == VK_NULL_HANDLE) {
+        return {};
+    }
+    // Results of 64-bit queries begin at multiples of 8.
+    const VkDeviceSize alignment = std::max<VkDeviceSize>(context.limits.minStorageBufferOffsetAlignment, 8);
+    if (desc.into.offset % alignment != 0) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "ResultsDesc::into begins at byte " + std::to_string(desc.into.offset) +
+                         "; on this device that must be a multiple of " + std::to_string(alignment)};
+    }
+    if (const VkDeviceSize needed = VkDeviceSize{desc.maxPairs} * sizeof(PairResult); desc.into.size < needed) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " +
+                         std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed)};
+    }
+    return {};
+}
+
 Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.maxPairs == 0) {
         return Error{ErrorCode::InvalidArgument, 0, "ResultsDesc::maxPairs is 0"};
@@ -65,6 +84,7 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
                          " bytes, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
+    VOXTACT_TRY(checkInto(context, desc));
     if (desc.timestamps) {
         constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
         VOXTACT_TRY(context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily"));
@@ -76,10 +96,12 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     return {};
 }
 
-/// The four buffers of a Results, each with what it is for.
-Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
-    const VkDeviceSize resultBytes = VkDeviceSize{out.maxPairs} * sizeof(PairResult);
+/// The buffers of a Results, each with what it is for.
+Result<void> makeBuffers(ResultsImpl& out, const ResultsDesc& desc) {
+    const VkDeviceSize bytes = VkDeviceSize{out.maxPairs} * sizeof(PairResult);
+    const bool ownResults = desc.into.buffer == VK_NULL_HANDLE;
     struct Wanted {
+        bool wanted;
         Buffer& buffer;
         VkDeviceSize size;
         VkBufferUsageFlags usage;
@@ -88,22 +110,24 @@ Result<void> makeBuffers(ResultsImpl& out, bool readBack) {
     };
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
-        {out.transforms, out.queueRoom == 0 ? firstQueueByte(out) : firstQueueByte(out) + queueBytes(out.queueRoom),
+        {true, out.transforms,
+         out.queueRoom == 0 ? firstQueueByte(out) : firstQueueByte(out) + queueBytes(out.queueRoom),
          kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device,
          "pair transforms"},
-        {out.results, resultBytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
-        {out.readBack, out.copyNumberOnHost() + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        {ownResults, out.ownResults, bytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
+        {desc.readBack, out.readBack, out.copyNumberOnHost() + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          MemoryUse::ReadBack, "pair results on the host"},
     };
     for (const Wanted& each : wanted) {
-        if (each.use == MemoryUse::ReadBack && !readBack) {
+        if (!each.wanted) {
             continue;
         }
         Result<Buffer> made = makeBuffer(out.context, each.size, each.usage, each.use, each.name);
         VOXTACT_TRY(made);
         each.buffer = std::move(*made);
     }
-    if (!readBack) {
+    out.results = {ownResults ? out.ownResults.get() : desc.into.buffer, desc.into.offset, bytes};
+    if (!desc.readBack) {
         return {};
     }
     std::memset(static_cast<std::byte*>(out.readBack.mapped) + out.copyNumberOnHost(), 0, sizeof out.copies);
@@ -137,7 +161,8 @@ Result<void> makeDescriptors(ResultsImpl& out) {
     VOXTACT_TRY(set);
     out.descriptors = std::move(*set);
     writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, out.transforms.get());
-    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, out.results.get());
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, out.results.buffer, out.results.size,
+                out.results.offset);
     return {};
 }
 
@@ -179,13 +204,13 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         impl->maxTransforms = transformsFor(c, desc.maxPairs);
         impl->queueRoom = queueRoomFor(desc, bytesFor(c), firstQueueByte(*impl));
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
-        VOXTACT_TRY(makeBuffers(*impl, desc.readBack));
+        VOXTACT_TRY(makeBuffers(*impl, desc));
         for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
             VOXTACT_TRY(make(*impl));
         }
         if (desc.room) {
             Result<std::unique_ptr<OutputStore>> outputs =
-                makeOutputStore(c, desc, impl->transforms.get(), impl->results.get());
+                makeOutputStore(c, desc, impl->transforms.get(), impl->results);
             VOXTACT_TRY(outputs);
             impl->outputs = std::move(*outputs);
         }
@@ -201,8 +226,12 @@ std::uint32_t Results::pairs() const noexcept {
     return live(impl_).pairs;
 }
 
+BufferRange Results::pairResults() const noexcept {
+    return live(impl_).results;
+}
+
 VkBuffer Results::buffer() const noexcept {
-    return live(impl_).results.get();
+    return live(impl_).results.buffer;
 }
 
 Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
@@ -224,8 +253,8 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
         // An earlier copy into the same memory must be done first.
         barrier(r.context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                 VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-        const VkBufferCopy region{0, 0, VkDeviceSize{r.pairs} * sizeof(PairResult)};
-        r.context.vk.CmdCopyBuffer(commandBuffer, r.results.get(), r.readBack.get(), 1, &region);
+        const VkBufferCopy region{r.results.offset, 0, VkDeviceSize{r.pairs} * sizeof(PairResult)};
+        r.context.vk.CmdCopyBuffer(commandBuffer, r.results.buffer, r.readBack.get(), 1, &region);
         if (r.counted) {
             const VkBufferCopy counters{countersByte(r), r.countersOnHost(), sizeof(CertifiedCounters)};
             r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &counters);

@@ -20,7 +20,8 @@ struct ResultsImpl {
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
     std::uint32_t queueRoom = 0;     ///< of the projection conservative, in clusters: shaders/shared.h
     Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
-    Buffer results{};                ///< maxPairs PairResults
+    BufferRange results{};           ///< maxPairs PairResults, of `ownResults` or of the caller's buffer
+    Buffer ownResults{};             ///< empty with ResultsDesc::into
     Buffer readBack{};               ///< the host's copy, CertifiedCounters, the number of it; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "certified.h"
+#include "certified_overlap.h"
 
 #include <array>
 #include <cstddef>
@@ -35,11 +35,10 @@ class TriangleCells {
   public:
     /// Cells of a row.
     static constexpr std::size_t kRow = 8;
-    /// Voxels: by how much a cell is made smaller and larger on each side. Far more than a point of certifiedClip() may
-    /// be displaced, and than rounding adds here.
-    static constexpr float kMargin = 1.0F / 128;
+    /// Voxels: by how much a cell is made smaller and larger on each side.
+    static constexpr float kMargin = CERTIFIED_OVERLAP_MARGIN;
     /// Voxels: nothing is said of triangles that may be displaced farther.
-    static constexpr float kMostDelta = kMargin / 16;
+    static constexpr float kMostDelta = CERTIFIED_OVERLAP_DELTA;
 
     /// A bit for each cell of a row.
     struct Row {
@@ -49,8 +48,7 @@ class TriangleCells {
 
     /// Whether something is said of a triangle: nothing of large ones, either.
     [[nodiscard]] static bool mayBeAsked(const shader::CertifiedTriangle& triangle) noexcept {
-        constexpr float kMostReach = 1024; // voxels
-        return triangle.delta <= kMostDelta && triangle.reach <= kMostReach;
+        return shader::certifiedOverlapMayBeAsked(triangle);
     }
     /// Expects one that may be asked.
     explicit TriangleCells(const shader::CertifiedTriangle& triangle) noexcept;

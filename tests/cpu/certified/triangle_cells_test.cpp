@@ -125,6 +125,33 @@ TEST(TriangleCellsTest, SayWhatCuttingLeaves) {
     EXPECT_LT(unclear, some / 4);
 }
 
+/// The same of one cell at a time, as a device asks it.
+TEST(TriangleCellsTest, OneCellIsSaidToHaveWhatCuttingLeaves) {
+    std::mt19937_64 random(testSeed());
+    std::array<std::size_t, 3> verdicts{};
+    for (std::size_t round = 0; round < randomCases(100000, 10) && !HasFailure(); ++round) {
+        const Corners corners = drawnCorners(random);
+        const CertifiedTriangle triangle =
+            triangleOf(corners, chance(random, 0.3) ? drawn(random, 0, 4.5e-4) : drawn(random, 0, 1e-4));
+        const bool asked = TriangleCells::mayBeAsked(triangle);
+        forRows(corners, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+            for (std::int32_t i = 0; i < static_cast<std::int32_t>(TriangleCells::kRow); ++i) {
+                const int verdict = shader::certifiedOverlap(triangle, x + i, y, z);
+                if (verdict != CERTIFIED_UNDECIDED) {
+                    EXPECT_TRUE(asked);
+                    EXPECT_EQ(verdict == CERTIFIED_CERTAIN, cutLeavesSome(triangle, x + i, y, z))
+                        << "round " << round << ", cell " << x + i << ", " << y << ", " << z;
+                }
+                verdicts[static_cast<std::size_t>(verdict)] += asked ? 1U : 0U;
+            }
+        });
+    }
+    std::cout << verdicts[CERTIFIED_CERTAIN] << " pass, " << verdicts[CERTIFIED_NONE] << " do not, "
+              << verdicts[CERTIFIED_UNDECIDED] << " are unclear\n";
+    EXPECT_GT(verdicts[CERTIFIED_CERTAIN], 10000U);
+    EXPECT_LT(verdicts[CERTIFIED_UNDECIDED], verdicts[CERTIFIED_CERTAIN] / 4);
+}
+
 TEST(TriangleCellsTest, FewAreUnclear) {
     std::mt19937_64 random(testSeed());
     std::size_t some = 0;

@@ -282,6 +282,40 @@ TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
               VXT_ERROR_INVALID_ARGUMENT);
 }
 
+TEST_F(CGpuTest, AnswersGoIntoTheCallersBuffer) {
+    EXPECT_EQ(vxt_result_bytes(11), resultBytes(11));
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    COneItem of(sides, scene);
+    const Owned<vxt_detector> detector = newDetector(vxt_detector_desc_init());
+    RawVulkan raw(gpu().device);
+    const std::vector<std::byte> untouched(1024, std::byte{0xcd});
+    const RawVulkan::HostBuffer mine = raw.makeBuffer(
+        std::span(untouched),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    vxt_results_desc desc = vxt_results_desc_init();
+    desc.into = {mine.buffer, 512, sizeof(PairResult) - 1};
+    vxt_results* none = nullptr;
+    EXPECT_EQ(vxt_results_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(vxt_last_error(context_.get()), "ResultsDesc::into has 23 bytes, 1 pairs need 24");
+    desc.into.size = 512;
+    const Owned<vxt_results> results = newResults(desc);
+    vxt_buffer_range range{};
+    need(vxt_results_on_device(results.get(), VXT_DEVICE_PAIRS, &range));
+    EXPECT_EQ(range.buffer, mine.buffer);
+    EXPECT_EQ(range.offset, 512U);
+    EXPECT_EQ(range.size, sizeof(PairResult));
+    const VkCommandBuffer commands = raw.begin();
+    need(vxt_detector_cmd_detect(detector.get(), commands, &of.batch, results.get()));
+    raw.submitAndWait(commands);
+    const std::vector<std::byte> bytes = raw.readBuffer(mine.buffer, 1024);
+    PairResult pair{};
+    std::memcpy(&pair, bytes.data() + range.offset, sizeof pair);
+    EXPECT_EQ(unpack(pair).count, 128U);
+    EXPECT_TRUE(std::equal(bytes.begin(), bytes.begin() + 512, untouched.begin()));
+    EXPECT_TRUE(std::equal(bytes.begin() + 512 + sizeof pair, bytes.end(), untouched.begin()));
+}
+
 TEST_F(CGpuTest, ARingHasASlotForEachFrame) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
