@@ -139,6 +139,7 @@ void main() {
         if (own.pair == pairOfGroup) {
             atomicAdd(certainOfGroup, certain);
         } else {
+            countWork(VOXTACT_WORK_CERTAIN, certain);
             addSurvivors(own.pair, certain);
         }
     }
@@ -151,6 +152,7 @@ void main() {
     }
     barrier();
     if (lane == 0 && certainOfGroup > 0) {
+        countWork(VOXTACT_WORK_CERTAIN, certainOfGroup);
         addSurvivors(pairOfGroup, certainOfGroup);
     }
 }

@@ -110,6 +110,7 @@ void main() {
         barrier();
     }
     if (lane == 0 && certainOfGroup > 0) { // behind the barrier of the last block
+        countWork(VOXTACT_WORK_CERTAIN, certainOfGroup);
         addSurvivors(entry.x, certainOfGroup);
     }
     if (isCut()) { // lanes that run together are: others are not

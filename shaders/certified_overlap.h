@@ -27,8 +27,8 @@ EXACT bool certifiedOverlapMayBeAsked(CertifiedTriangle triangle) {
     return triangle.delta <= CERTIFIED_OVERLAP_DELTA && triangle.reach <= CERTIFIED_OVERLAP_REACH;
 }
 
-/// How much farther out than 1/2, as a part of an axis' length, a triangle's shadow on it begins: the shadow is from the
-/// least to the greatest of three places, `size` is the sum of the axis' components.
+/// How much farther out than 1/2, as a part of an axis' length, a triangle's shadow on it begins: the shadow is from
+/// the least to the greatest of three places, `size` is the sum of the axis' components.
 EXACT float certifiedShadowGap(float a, float b, float c, float size) {
     const float least = certifiedMin(a, certifiedMin(b, c));
     const float greatest = certifiedMax(a, certifiedMax(b, c));

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
 
-const uint kTotals = 13;
+const uint kTotals = 14;
 const uint kPeaks = 8;
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
@@ -20,10 +20,10 @@ layout(push_constant) uniform Tally { TallyConstants constants; };
 const uint kWordOfTotal[kTotals] =
     uint[](VOXTACT_WORK_CLUSTERS, ENTRIES(VOXTACT_QUEUE_CLUSTERS), ENTRIES(VOXTACT_QUEUE_RUNS),
            ENTRIES(VOXTACT_QUEUE_LARGE), VOXTACT_WORK_BRICKS, VOXTACT_WORK_CELLS, ENTRIES(VOXTACT_QUEUE_CELLS),
-           VOXTACT_WORK_DECIDED, 4 * VOXTACT_QUEUE_CELLS, ENTRIES(VOXTACT_QUEUE_OPEN), ENTRIES(VOXTACT_QUEUE_LEFT),
+           VOXTACT_WORK_CERTAIN, VOXTACT_WORK_DECIDED, 4 * VOXTACT_QUEUE_CELLS, ENTRIES(VOXTACT_QUEUE_OPEN), ENTRIES(VOXTACT_QUEUE_LEFT),
            VOXTACT_WORK_BRICKS_LEFT, VOXTACT_WORK_CELLS_LEFT);
 /// The total that is in work groups, and counts lanes.
-const uint kLanes = 8;
+const uint kLanes = 9;
 
 /// The words, one or two that are added, whose largest a peak is.
 const uvec2 kWordsOfPeak[kPeaks] =

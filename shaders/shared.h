@@ -190,16 +190,17 @@ struct CertifiedConstants {
 #define VOXTACT_WORK_BRICKS_LEFT 28 // looked at by certified_finish, where a queue had no room
 #define VOXTACT_WORK_CELLS_LEFT 29  // the same
 #define VOXTACT_GROUPS_LEFT 30      // work groups of certified_finish that the entries of VOXTACT_QUEUE_LEFT ask for
+#define VOXTACT_WORK_CERTAIN 31     // cells that count without a decision
 // The CertifiedCounters of a batch, behind the headers.
 #define VOXTACT_WORD_COUNTERS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
-#define VOXTACT_COUNTER_WORDS 36
+#define VOXTACT_COUNTER_WORDS 38
 // Entries of each.
 #define VOXTACT_ROOM_RUNS(room) ((room)*VOXTACT_CLUSTER_RUNS)
 #define VOXTACT_ROOM_LARGE(room) ((room) / 4)
 #define VOXTACT_ROOM_CELLS(room) ((room)*32)
 #define VOXTACT_ROOM_LEFT(room) ((room)*2 + VOXTACT_ROOM_LARGE(room))
 // Where each begins, in words behind the first header. `room` is a multiple of 16.
-#define VOXTACT_WORD_CELLS (VOXTACT_WORD_COUNTERS + VOXTACT_COUNTER_WORDS)
+#define VOXTACT_WORD_CELLS (VOXTACT_WORD_COUNTERS + (VOXTACT_COUNTER_WORDS + 3) / 4 * 4)
 #define VOXTACT_WORD_LARGE(room) (VOXTACT_WORD_CELLS + 4 * VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_OPEN(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_ROOM_LARGE(room))
 #define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
@@ -280,7 +281,7 @@ static_assert(sizeof(ComputeConstants) == 80);
 static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
-static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_GROUPS_LEFT < VOXTACT_HEADER_WORDS);
+static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CERTAIN < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);
 static_assert(sizeof(BrickConstants) == 24);
 static_assert(sizeof(RefitConstants) == 28);

@@ -239,9 +239,9 @@ class Detector {
     ///                    COMPUTE_SHADER) by the caller; a buffer of poses made visible to COMPUTE_SHADER; an earlier
     ///                    use of the same Results in this queue may be in flight: the reads that cmdReadBack() and
     ///                    compute or fragment shaders make of pairResults() are waited for
-    ///   leaves           Results::pairResults() available and visible to TRANSFER read, and to shader reads in all stages
-    ///   queries          no occlusion query may be active
-    ///   bound state lost graphics pipeline, descriptor sets 0..2 of the graphics bind point (dominant-axis: 0..3; with
+    ///   leaves           Results::pairResults() available and visible to TRANSFER read, and to shader reads in all
+    ///   stages queries          no occlusion query may be active bound state lost graphics pipeline, descriptor sets
+    ///   0..2 of the graphics bind point (dominant-axis: 0..3; with
     ///                    outputs: 0..4), push constants, vertex binding 0, index buffer, dynamic viewport and scissor;
     ///                    for the method compute instead, and with devicePoses as well: compute pipeline, descriptor
     ///                    sets 0..3 of the compute bind point (0..4 with outputs), push constants

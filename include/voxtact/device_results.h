@@ -52,7 +52,7 @@ struct ContactResult {
     VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
 };
 
-/// What the passes of the projection `conservative` by `compute` did for a batch; 144 bytes, std430. They are described
+/// What the passes of the projection `conservative` by `compute` did for a batch; 152 bytes, std430. They are described
 /// in the manual, "The certified engine on a device". Of each peak: in the round that had most.
 struct CertifiedCounters {
     VOXTACT_TOTAL clusters;     ///< of 64 triangles, once for each pair, that were looked at
@@ -62,6 +62,7 @@ struct CertifiedCounters {
     VOXTACT_TOTAL bricksSeen;   ///< of these triangles, looked at
     VOXTACT_TOTAL cellsSeen;    ///< of all triangles in bricks that may be opaque, looked at
     VOXTACT_TOTAL cellsListed;  ///< of these, need a decision
+    VOXTACT_TOTAL cellsCertain; ///< of cellsSeen, count without one: opaque all over, and a triangle clearly in them
     VOXTACT_TOTAL cellsDecided; ///< by a lane each; the others are of pairs that touch anyway, or had no room
     VOXTACT_TOTAL lanes;        ///< dispatched for them
     VOXTACT_TOTAL cellsOpen;    ///< of these, left undecided by single precision
@@ -90,7 +91,7 @@ static_assert(sizeof(PairResult) == 24);
 static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countHigh) == 4,
               "a 64-bit query result is copied over countLow and countHigh");
 static_assert(sizeof(ContactResult) == 48);
-static_assert(sizeof(CertifiedCounters) == 144);
+static_assert(sizeof(CertifiedCounters) == 152);
 } // namespace voxtact
 #endif
 

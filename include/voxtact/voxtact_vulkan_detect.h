@@ -109,8 +109,8 @@ static inline vxt_batch vxt_batch_init(void) {
     return batch;
 }
 
-/// A part of a device buffer with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The buffer is null where there
-/// is nothing.
+/// A part of a device buffer with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The buffer is null where
+/// there is nothing.
 typedef struct vxt_buffer_range {
     VkBuffer buffer;     ///< null: there is nothing
     VkDeviceSize offset; ///< bytes
@@ -132,8 +132,8 @@ typedef struct vxt_results_desc {
     /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
     uint32_t clusters_at_once;
     uint32_t reserved; ///< 0
-    /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the results:
-    /// voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
+    /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the
+    /// results: voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
     vxt_buffer_range into;
 } vxt_results_desc;
 
@@ -209,6 +209,7 @@ typedef struct vxt_certified_counters {
     uint32_t most_left;       ///< peak of left
     uint32_t most_looks;      ///< peak of bricks_seen and cells_seen together
     uint32_t most_looks_left; ///< peak of bricks_left and cells_left together
+    uint64_t cells_certain;   ///< of cells_seen, count without a decision: opaque all over, a triangle clearly in them
 } vxt_certified_counters;
 
 /// Nothing.

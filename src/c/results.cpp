@@ -54,6 +54,7 @@ vxt_certified_counters fromCounters(const CertifiedCounters& from) noexcept {
     out.bricks_seen = from.bricksSeen;
     out.cells_seen = from.cellsSeen;
     out.cells_listed = from.cellsListed;
+    out.cells_certain = from.cellsCertain;
     out.cells_decided = from.cellsDecided;
     out.lanes = from.lanes;
     out.cells_open = from.cellsOpen;

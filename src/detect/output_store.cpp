@@ -80,8 +80,7 @@ Result<void> makeNoLabels(ContextImpl& context, OutputStore& out) {
     return {};
 }
 
-Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer transforms,
-                             const BufferRange& results) {
+Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer transforms, const BufferRange& results) {
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.outputSetLayout, {&size, 1}, "pairs with outputs");
     VOXTACT_TRY(set);

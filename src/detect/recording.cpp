@@ -96,8 +96,9 @@ void barrierToShaders(const ContextImpl& context, VkCommandBuffer commandBuffer,
 }
 
 void copyQueries(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
-    context.vk.CmdCopyQueryPoolResults(commandBuffer, results.occlusion.get(), 0, results.pairs,
-                                       results.results.buffer, results.results.offset, sizeof(PairResult), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    context.vk.CmdCopyQueryPoolResults(commandBuffer, results.occlusion.get(), 0, results.pairs, results.results.buffer,
+                                       results.results.offset, sizeof(PairResult),
+                                       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 }
 
 void writeTimestamp(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,

@@ -58,9 +58,9 @@ py::object countersOf(const Answer& answer) {
     }
     const CertifiedCounters& of = *answer.counters;
     return py::make_tuple(of.clusters, of.clustersKept, of.runsKept, of.largeParts, of.bricksSeen, of.cellsSeen,
-                          of.cellsListed, of.cellsDecided, of.lanes, of.cellsOpen, of.left, of.bricksLeft, of.cellsLeft,
-                          of.rounds, of.room, of.mostClusters, of.mostRuns, of.mostParts, of.mostCells, of.mostOpen,
-                          of.mostLeft, of.mostLooks, of.mostLooksLeft);
+                          of.cellsListed, of.cellsCertain, of.cellsDecided, of.lanes, of.cellsOpen, of.left,
+                          of.bricksLeft, of.cellsLeft, of.rounds, of.room, of.mostClusters, of.mostRuns, of.mostParts,
+                          of.mostCells, of.mostOpen, of.mostLeft, of.mostLooks, of.mostLooksLeft);
 }
 
 template <class T>

@@ -5,23 +5,17 @@
 //
 //   voxtact_possible_bench [MESH...]
 //
-// VOXTACT_BENCH_VOLUME names the volume (a file) where voxtact::io is built, VOXTACT_BENCH_POSES the poses a scene,
-// VOXTACT_BENCH_RAMP the ramp "lo hi" in the volume's unit, VOXTACT_BENCH_THREADS the threads.
+// VOXTACT_BENCH_POSES are the poses a scene, VOXTACT_BENCH_THREADS the threads; see bench_input.h for others.
+#include "bench/bench_input.h"
 #include "lab/measure/random_poses.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
-#include "voxtact/samples.h"
-#ifdef VOXTACT_BENCH_IO
-#include "voxtact/io.h"
-#endif
 
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <iostream>
 #include <string>
 
 namespace voxtact::test {
@@ -29,18 +23,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-template <class Type> Type take(Result<Type> result) {
-    if (!result.ok()) {
-        std::cerr << result.error().text << '\n';
-        std::exit(1);
-    }
-    return std::move(*result);
-}
-
-std::uint32_t numberFrom(const char* variable, std::uint32_t otherwise) {
-    const char* text = std::getenv(variable);
-    return text == nullptr ? otherwise : static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
-}
+using bench::numberFrom;
+using bench::take;
 
 struct Subject {
     VolumeData data;
@@ -50,26 +34,10 @@ struct Subject {
     cpu::TransferFunction function;
 };
 
-VolumeData loadVolume() {
-#ifdef VOXTACT_BENCH_IO
-    if (const char* path = std::getenv("VOXTACT_BENCH_VOLUME"); path != nullptr) {
-        return take(io::readVolume(path));
-    }
-#endif
-    return take(makeBuiltinVolume("head:256"));
-}
-
 Subject loadSubject() {
-    VolumeData data = loadVolume();
+    VolumeData data = bench::volumeFromEnvironment();
     const ValueRange domain = take(checkVolume(data.view()));
-    double lo = 40;
-    double hi = 80;
-    if (const char* text = std::getenv("VOXTACT_BENCH_RAMP"); text != nullptr) {
-        char* rest = nullptr;
-        lo = std::strtod(text, &rest);
-        hi = std::strtod(rest, nullptr);
-    }
-    const std::array ramp{ControlPoint{lo, 0}, ControlPoint{hi, 1}};
+    const std::array ramp = bench::rampFromEnvironment();
     cpu::Volume volume = take(cpu::Volume::create(data.view()));
     cpu::TransferFunction function = take(cpu::TransferFunction::create({.points = ramp, .domain = domain}));
     return {std::move(data), domain, ramp, std::move(volume), std::move(function)};

@@ -129,6 +129,7 @@ io::NamedCells statsCells(const CertifiedCounters& counters) {
             {"bricks_seen", number(counters.bricksSeen)},
             {"cells_seen", number(counters.cellsSeen)},
             {"cells_listed", number(counters.cellsListed)},
+            {"cells_certain", number(counters.cellsCertain)},
             {"cells_decided", number(counters.cellsDecided)},
             {"lanes", number(counters.lanes)},
             {"cells_open", number(counters.cellsOpen)},

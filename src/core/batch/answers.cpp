@@ -30,7 +30,7 @@ CertifiedCounters together(const CertifiedCounters& a, const CertifiedCounters& 
     C out = a;
     for (const auto total :
          {&C::clusters, &C::clustersKept, &C::runsKept, &C::largeParts, &C::bricksSeen, &C::cellsSeen, &C::cellsListed,
-          &C::cellsDecided, &C::lanes, &C::cellsOpen, &C::left, &C::bricksLeft, &C::cellsLeft}) {
+          &C::cellsCertain, &C::cellsDecided, &C::lanes, &C::cellsOpen, &C::left, &C::bricksLeft, &C::cellsLeft}) {
         out.*total += b.*total;
     }
     out.rounds += b.rounds;

@@ -6,6 +6,8 @@
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/distance.h>
 #include <octomap/octomap.h>
 
 namespace voxtact::lab {
@@ -33,18 +35,26 @@ template <class Scalar> fcl::Transform3<Scalar> transformOf(const FclMatrix& mat
     return out;
 }
 
+template <class Scalar> using Model = fcl::BVHModel<fcl::OBBRSS<Scalar>>;
+
 template <class Scalar>
-FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices) {
+std::shared_ptr<Model<Scalar>> modelOf(std::span<const float> positions, std::span<const std::uint32_t> indices) {
     const auto vertex = [positions](std::uint32_t index) {
         const float* at = positions.data() + 3 * std::size_t{index};
         return fcl::Vector3<Scalar>(static_cast<Scalar>(at[0]), static_cast<Scalar>(at[1]), static_cast<Scalar>(at[2]));
     };
-    const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSS<Scalar>>>();
+    auto mesh = std::make_shared<Model<Scalar>>();
     mesh->beginModel(static_cast<int>(indices.size() / 3));
     for (std::size_t i = 0; i < indices.size(); i += 3) {
         mesh->addTriangle(vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2]));
     }
     mesh->endModel();
+    return mesh;
+}
+
+template <class Scalar>
+FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices) {
+    const auto mesh = modelOf<Scalar>(positions, indices);
     const auto octree = std::make_shared<fcl::OcTree<Scalar>>(volume.tree);
     return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
         const fcl::CollisionRequest<Scalar> request(1, false);
@@ -93,6 +103,35 @@ FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions, s
                     FclScalar scalar) {
     return scalar == FclScalar::Float ? makePeer<float>(volume, positions, indices)
                                       : makePeer<double>(volume, positions, indices);
+}
+
+FclDistance makeFclDistance(const FclVolume& volume, std::span<const float> positions,
+                            std::span<const std::uint32_t> indices) {
+    const auto mesh = modelOf<double>(positions, indices);
+    const auto octree = std::make_shared<fcl::OcTreed>(volume.tree);
+    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
+        const fcl::DistanceRequestd request;
+        fcl::DistanceResultd result;
+        return fcl::distance(mesh.get(), transformOf<double>(world_from_object), octree.get(),
+                             transformOf<double>(matrix), request, result);
+    };
+}
+
+FclMotion makeFclMotion(const FclVolume& volume, std::span<const float> positions,
+                        std::span<const std::uint32_t> indices) {
+    const auto mesh = modelOf<double>(positions, indices);
+    const auto octree = std::make_shared<fcl::OcTreed>(volume.tree);
+    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& from, const FclMatrix& to, FclOnTheWay how,
+                                                           unsigned poses) {
+        const fcl::CCDSolverType solver =
+            how == FclOnTheWay::Poses ? fcl::CCDC_NAIVE : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+        const fcl::ContinuousCollisionRequestd request(poses, 1e-6, fcl::CCDM_SCREW, fcl::GST_LIBCCD, solver);
+        fcl::ContinuousCollisionResultd result;
+        const fcl::Transform3d still = transformOf<double>(matrix);
+        const double at = fcl::continuousCollide(mesh.get(), transformOf<double>(from), transformOf<double>(to),
+                                                 octree.get(), still, still, request, result);
+        return at < 0 || result.is_collide ? at : 1.0;
+    };
 }
 
 } // namespace voxtact::lab

@@ -42,4 +42,21 @@ struct FclVolume;
 [[nodiscard]] FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions,
                                   std::span<const std::uint32_t> indices, FclScalar scalar);
 
+/// The distance of the two as FCL has it: -1 where they collide.
+using FclDistance = std::function<double(const FclMatrix& world_from_object)>;
+/// In double; the mesh as for makeFclPeer().
+[[nodiscard]] FclDistance makeFclDistance(const FclVolume& volume, std::span<const float> positions,
+                                          std::span<const std::uint32_t> indices);
+
+/// How FCL looks for the first contact on the way.
+enum class FclOnTheWay {
+    Poses,   ///< at so many poses, the first and the last among them: CCDC_NAIVE
+    Advance, ///< conservative advancement; -1 where it is not offered
+};
+/// The parameter of the first contact on the screw motion from one pose to another, 1 where there is none.
+using FclMotion = std::function<double(const FclMatrix& from, const FclMatrix& to, FclOnTheWay how, unsigned poses)>;
+/// In double; the mesh as for makeFclPeer().
+[[nodiscard]] FclMotion makeFclMotion(const FclVolume& volume, std::span<const float> positions,
+                                      std::span<const std::uint32_t> indices);
+
 } // namespace voxtact::lab

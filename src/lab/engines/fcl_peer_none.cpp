@@ -20,4 +20,14 @@ FclPeer makeFclPeer(const FclVolume& /*volume*/, std::span<const float> /*positi
     return {};
 }
 
+FclDistance makeFclDistance(const FclVolume& /*volume*/, std::span<const float> /*positions*/,
+                            std::span<const std::uint32_t> /*indices*/) {
+    return {};
+}
+
+FclMotion makeFclMotion(const FclVolume& /*volume*/, std::span<const float> /*positions*/,
+                        std::span<const std::uint32_t> /*indices*/) {
+    return {};
+}
+
 } // namespace voxtact::lab

@@ -38,6 +38,8 @@ class Counters(NamedTuple):
     cells_seen: int
     #: of these, need a decision
     cells_listed: int
+    #: of cells_seen, count without one: opaque all over, and a triangle clearly in them
+    cells_certain: int
     #: by a lane each; the others are of pairs that touch anyway, or had no room
     cells_decided: int
     #: dispatched for them

@@ -290,9 +290,9 @@ TEST_F(CGpuTest, AnswersGoIntoTheCallersBuffer) {
     const Owned<vxt_detector> detector = newDetector(vxt_detector_desc_init());
     RawVulkan raw(gpu().device);
     const std::vector<std::byte> untouched(1024, std::byte{0xcd});
-    const RawVulkan::HostBuffer mine = raw.makeBuffer(
-        std::span(untouched),
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const RawVulkan::HostBuffer mine =
+        raw.makeBuffer(std::span(untouched), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     vxt_results_desc desc = vxt_results_desc_init();
     desc.into = {mine.buffer, 512, sizeof(PairResult) - 1};
     vxt_results* none = nullptr;

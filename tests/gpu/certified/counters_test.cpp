@@ -109,7 +109,9 @@ TEST_F(CountersTest, TheyAreTheWorkOfABatch) {
     EXPECT_LE(c.cellsListed, c.cellsSeen);
     EXPECT_EQ(c.cellsDecided, c.cellsListed); // all had room, and no pair is done before the end of a count
     EXPECT_EQ(c.lanes, (c.cellsDecided + kGroup - 1) / kGroup * kGroup);
-    EXPECT_GE(c.cellsDecided, survivors); // each is a cell that a lane decided
+    EXPECT_GE(c.cellsDecided + c.cellsCertain, survivors); // each is a cell that a lane decided, or clear
+    EXPECT_LT(c.cellsListed, survivors / 2);
+    EXPECT_LE(c.cellsListed + c.cellsCertain, c.cellsSeen);
     EXPECT_LT(c.cellsOpen, c.cellsDecided);
     EXPECT_EQ(c.left, 0U);
     EXPECT_EQ(c.bricksLeft + c.cellsLeft, 0U);
@@ -135,12 +137,34 @@ TEST_F(CountersTest, TotalsDoNotDependOnTheRounds) {
     EXPECT_EQ(c.runsKept, one.runsKept);
     EXPECT_EQ(c.cellsSeen, one.cellsSeen);
     EXPECT_EQ(c.cellsListed, one.cellsListed);
+    EXPECT_EQ(c.cellsCertain, one.cellsCertain);
     EXPECT_LE(c.mostClusters, 4U);
     EXPECT_GE(c.mostClusters * std::uint64_t{c.rounds}, c.clustersKept);
     EXPECT_LE(c.cellsDecided, c.cellsListed);
     // What had no room was looked at once more.
     EXPECT_EQ(c.left > 0, c.cellsLeft > 0);
     EXPECT_EQ(c.mostCells > 16U * 32U || c.mostParts > 4U, c.left > 0);
+}
+
+/// Small triangles and large ones, in cells that are opaque all over: a decision is only made of these where outputs
+/// want a witness, and the count is the same.
+TEST_F(CountersTest, WhatIsClearCountsWithoutADecision) {
+    const Scalpel scene(context(), queue(), 6);
+    const Mesh large = upload(makeFlat(-60, 60, -60, 60, 0.5));
+    const std::array items{scene.item, BatchItem{&large, &scene.volume, &scene.function, scene.poses}};
+    DetectorDesc desc = counted();
+    BlockingDetector clear = detector(desc);
+    desc.outputs.triangles = true;
+    BlockingDetector decided = detector(desc);
+    for (const BatchItem& item : items) {
+        const Batch batch{{&item, 1}, {}, kDefaultThreshold};
+        const BatchAnswer found = take(clear.detect(batch));
+        const BatchAnswer wanted = take(decided.detect(batch));
+        expectSame(found.pairs, wanted.pairs);
+        EXPECT_EQ(wanted.counters->cellsCertain, 0U);
+        EXPECT_GT(found.counters->cellsCertain, wanted.counters->cellsListed / 4);
+        EXPECT_LE(found.counters->cellsListed + found.counters->cellsCertain, wanted.counters->cellsListed);
+    }
 }
 
 TEST_F(CountersTest, OfABlockingDetectorAndOfNothing) {

@@ -71,8 +71,8 @@ struct HeadAndScalpel {
 
     HeadAndScalpel(const Context& context, const QueueAccess& queue, std::mt19937_64& random)
         : volume(take(Volume::upload(context, queue, head.view(), {.bricks = true}))),
-          function(take(TransferFunction::upload(
-              context, queue, {std::array{ControlPoint{40, 0}, ControlPoint{80, 1}}, {0, 255}}))),
+          function(take(TransferFunction::upload(context, queue,
+                                                 {std::array{ControlPoint{40, 0}, ControlPoint{80, 1}}, {0, 255}}))),
           mesh(take(Mesh::upload(context, queue, take(makeScalpel()).view(), {.clusters = true}))),
           poses(randomPoses(head.grid, 21, 1, random)) {
         for (Mat4& pose : poses) { // as a buffer of poses has them
@@ -91,8 +91,8 @@ TEST_F(CallerResultsTest, EveryDetectorWritesWhatItWouldWriteIntoItsOwn) {
     }
     const RawVulkan::HostBuffer poses =
         raw().makeBuffer(std::span<const float>(floats), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const PoseBuffer onDevice = take(PoseBuffer::wrap(
-        context(), {.buffer = poses.buffer, .count = static_cast<std::uint32_t>(scene.poses.size())}));
+    const PoseBuffer onDevice = take(
+        PoseBuffer::wrap(context(), {.buffer = poses.buffer, .count = static_cast<std::uint32_t>(scene.poses.size())}));
     // More room than the batch needs: what is behind its pairs is not written either.
     constexpr std::uint32_t kRoom = 30;
     const VkDeviceSize room = kRoom * sizeof(PairResult);
@@ -127,8 +127,8 @@ TEST_F(CallerResultsTest, EveryDetectorWritesWhatItWouldWriteIntoItsOwn) {
         EXPECT_TRUE(std::all_of(found.begin(), found.begin() + kAhead, isUntouched));
         EXPECT_TRUE(
             std::all_of(found.begin() + static_cast<std::ptrdiff_t>(kAhead + written), found.end(), isUntouched));
-        hits += static_cast<std::size_t>(std::ranges::count_if(
-            take(results.read()), [](const PairResult& pair) { return pair.countLow > 0; }));
+        hits += static_cast<std::size_t>(
+            std::ranges::count_if(take(results.read()), [](const PairResult& pair) { return pair.countLow > 0; }));
     }
     EXPECT_GT(hits, 20U);
 }
@@ -148,7 +148,8 @@ TEST_F(CallerResultsTest, OutputsAreThoseOfResultsWithABufferOfTheirOwn) {
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
         const Detector detector = take(Detector::create(context(), desc));
         const RawVulkan::HostBuffer mine = untouched(kAhead + 30 * sizeof(PairResult));
-        ResultsDesc resultsDesc{.maxPairs = 30, .room = OutputRoom{.triangles = std::uint64_t{30} * scene.mesh.triangles()}};
+        ResultsDesc resultsDesc{.maxPairs = 30,
+                                .room = OutputRoom{.triangles = std::uint64_t{30} * scene.mesh.triangles()}};
         BatchAnswer wanted;
         BatchAnswer found;
         for (BatchAnswer* answer : {&wanted, &found}) {
@@ -183,8 +184,8 @@ TEST_F(CallerResultsTest, EachFrameOfARingHasItsPart) {
     static_assert(resultBytes(kPairs) == 512);
     const VkDeviceSize size = (kFrames - 1) * resultBytes(kPairs) + kPairs * sizeof(PairResult);
     const RawVulkan::HostBuffer mine = untouched(kAhead + size);
-    ResultRing ring = take(
-        ResultRing::create(context(), kFrames, {.maxPairs = kPairs, .into = {mine.buffer, kAhead, size}}));
+    ResultRing ring =
+        take(ResultRing::create(context(), kFrames, {.maxPairs = kPairs, .into = {mine.buffer, kAhead, size}}));
     for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
         std::vector<Mat4> poses(kPairs, translation({0, 0, 9}));
         std::fill_n(poses.begin(), frame + 1, identity());
@@ -208,8 +209,7 @@ TEST_F(CallerResultsTest, WhatHasNoRoomIsRefusedByName) {
                 HasSubstr("ResultsDesc::into has 239 bytes, 10 pairs need 240"));
     EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, 4, 240}}),
                 HasSubstr("ResultsDesc::into begins at byte 4; on this device that must be a multiple of "));
-    const Result<ResultRing> ring =
-        ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 751}});
+    const Result<ResultRing> ring = ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 751}});
     ASSERT_FALSE(ring.ok());
     EXPECT_THAT(ring.error().text, HasSubstr("ResultsDesc::into has 751 bytes, 3 frames of 10 pairs need 752"));
     EXPECT_TRUE(ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 752}}).ok());
