@@ -285,7 +285,7 @@ TEST_F(DetectTest, StatsAreALineBehindTheRows) {
         EXPECT_EQ(std::vector(lines.begin(), lines.end() - 1), linesOf(output(plain)));
         ASSERT_THAT(lines.back(), MatchesRegex("# clusters=[0-9]+ clusters_kept=.*"));
         auto numbers = numbersOf(lines.back());
-        EXPECT_EQ(numbers.size(), 23U);
+        EXPECT_EQ(numbers.size(), 24U);
         EXPECT_GT(numbers.at("clusters"), numbers.at("clusters_kept"));
         EXPECT_GT(numbers.at("cells_decided"), 0U);
         EXPECT_GE(numbers.at("lanes"), numbers.at("cells_decided"));

@@ -45,7 +45,8 @@ TEST_F(DevicesTest, EveryMethodOfEveryDeviceHasAVerdict) {
 
 TEST_F(DevicesTest, SpeedsAndTheChoiceOfAuto) {
     std::map<int, int> chosen;
-    for (const Json& row : Json::parse(output({"devices", "--format", "json"})).at("rows")) {
+    const Json json = Json::parse(output({"devices", "--format", "json"}));
+    for (const Json& row : json.at("rows")) {
         const bool trusted = row.at("trusted") == 1;
         EXPECT_EQ(row.at("pairs_per_s").is_null(), !trusted);
         chosen[row.at("index")] += row.at("auto").get<int>();

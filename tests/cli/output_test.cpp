@@ -66,7 +66,7 @@ TEST_F(OutputTest, JsonSaysWhatItCameFrom) {
 TEST_F(OutputTest, JsonHasStats) {
     const Json json = Json::parse(output(detect({"--format", "json", "--stats", "--timing", "--count", "compute"})));
     EXPECT_GE(json.at("stats").at("clusters"), 1);
-    EXPECT_EQ(json.at("stats").size(), 23U);
+    EXPECT_EQ(json.at("stats").size(), 24U);
     EXPECT_EQ(json.at("timing").at("pairs"), 1);
 }
 

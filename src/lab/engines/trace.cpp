@@ -11,7 +11,9 @@
 #include "gpu/submit.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <tuple>
 
 namespace voxtact {
@@ -157,8 +159,9 @@ Result<std::vector<shader::TracedFragment>> FragmentTrace::survivors(const Batch
         }
         VOXTACT_TRY(count);
         std::vector<shader::TracedFragment> out(*count);
-        std::memcpy(out.data(), static_cast<const std::byte*>(impl_->readBack.mapped) + kHeader,
-                    out.size() * sizeof out[0]);
+        std::ranges::copy_n(static_cast<const std::byte*>(impl_->readBack.mapped) + kHeader,
+                            static_cast<std::ptrdiff_t>(out.size() * sizeof out[0]),
+                            std::as_writable_bytes(std::span(out)).begin());
         std::ranges::sort(out, {}, [](const shader::TracedFragment& f) { return std::tuple(f.triangle, f.y, f.x); });
         return out;
     });
