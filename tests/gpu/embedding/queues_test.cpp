@@ -84,8 +84,12 @@ TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
         const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
         const BatchItem item{&mesh, &volume, &function, poses};
         const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
-        for (const bool stopAtFirst : {false, true}) {
-            const Outputs outputs{.triangles = !stopAtFirst};
+        struct Question {
+            Outputs outputs;
+            bool stopAtFirst;
+        };
+        // Without outputs, cells that are opaque all over are counted at once.
+        for (const auto& [outputs, stopAtFirst] : {Question{{.triangles = true}, false}, {{}, false}, {{}, true}}) {
             const BatchAnswer onHost =
                 take(take(cpu::Detector::create(
                               {.stopAtFirst = stopAtFirst, .projection = Projection::Conservative, .outputs = outputs}))
@@ -141,6 +145,43 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
         EXPECT_GT(onHost.pairs[0].count, 10000U);
         expectSame(detect(desc, {{&item, 1}, {}, scene.threshold}, 3, scene.clusters), onHost,
                    std::to_string(scene.clusters) + " clusters at once, seed " + std::to_string(seed));
+    }
+}
+
+/// Cells that are opaque all over are counted before the list of the others has its room. Where that is refused, the
+/// last pass counts all of them, and they must not have been counted before: by large triangles and by small ones.
+TEST_F(QueuesTest, WhatIsCountedWithoutADecisionIsCountedOnce) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData grid = take(makeBuiltinVolume("sphere:64"));
+    // Blocks of noise and opaque ones: each brick has cells of both kinds.
+    const VolumeData mixed = makeBytes(grid.grid, [&](auto x, auto y, auto z) {
+        const auto block =
+            static_cast<std::uint32_t>(x) / 4 + static_cast<std::uint32_t>(y) / 4 + static_cast<std::uint32_t>(z) / 4;
+        return block % 2 == 0 ? 255.0 : static_cast<double>(random() % 80);
+    });
+    const std::array ramp{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const TransferFunctionDesc table{ramp, {0, 255}, kDefaultTableSize};
+    const Volume volume = take(Volume::upload(context(), queue(), mixed.view(), {.bricks = true}));
+    const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
+    const cpu::Volume hostVolume = take(cpu::Volume::create(mixed.view()));
+    const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
+    const std::array poses{identity(), translation({1e4, 0, 0}), translation({-1, 2.5, 3})};
+    for (const MeshData& data : {hugeTriangles(4, 0.9 * 64, random), take(makeBuiltinMesh("ellipsoid:4000"))}) {
+        const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
+        const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+        const BatchItem item{&mesh, &volume, &function, poses};
+        const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
+        const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Conservative}))
+                                            .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
+        EXPECT_GT(onHost.pairs[0].count, 1000U);
+        const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+        // At 384 there is room for all parts of large triangles, and not for their cells.
+        for (const std::uint32_t clusters : {16U, 384U, 16384U}) {
+            expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, 3, clusters), onHost,
+                       std::to_string(data.indices.size() / 3) + " triangles, " + std::to_string(clusters) +
+                           " clusters at once, seed " + std::to_string(seed));
+        }
     }
 }
 
