@@ -27,8 +27,9 @@ inline constexpr std::uint32_t kEllipsoidTriangles = 49998;
 [[nodiscard]] VOXTACT_API Result<MeshData> makeEllipsoid(std::uint32_t triangles = kEllipsoidTriangles);
 
 /// A straight needle of round section, with round ends: the tip at the object's origin, the shaft along +z. Closed,
-/// outward counter-clockwise, 32 corners around. All of them are on the round needle itself, of which the mesh keeps
-/// within 0.5 % of the radius, at most. Refuses a diameter that is not above 0, mm, and a length that is smaller.
+/// outward counter-clockwise, 32 corners around. All of them are on the round needle itself, inside which the mesh
+/// stays: by at most 0.5 % of the radius along the shaft, 1 % at the ends. Refuses a diameter that is not above 0, mm,
+/// and a length that is smaller.
 [[nodiscard]] VOXTACT_API Result<MeshData> makeNeedle(double diameter, double length);
 /// Of `needle` without numbers, mm.
 inline constexpr double kNeedleDiameter = 2;

@@ -176,8 +176,8 @@ TEST_F(QueuesTest, WhatIsCountedWithoutADecisionIsCountedOnce) {
                                             .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
         EXPECT_GT(onHost.pairs[0].count, 1000U);
         const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
-        // At 384 there is room for all parts of large triangles, and not for their cells.
-        for (const std::uint32_t clusters : {16U, 384U, 16384U}) {
+        // At 96 and 128 there is room for parts of large triangles, and not for all of their cells.
+        for (const std::uint32_t clusters : {16U, 96U, 128U, 16384U}) {
             expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, 3, clusters), onHost,
                        std::to_string(data.indices.size() / 3) + " triangles, " + std::to_string(clusters) +
                            " clusters at once, seed " + std::to_string(seed));
