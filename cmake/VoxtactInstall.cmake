@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 # find_package(voxtact) from an install tree. An export set a target, so that voxtact::voxtact can be found where the
-# packages behind voxtact::cpu and voxtact::io are not there. The program installs itself, in src/app.
+# packages behind voxtact::cpu and voxtact::io are not there.
 #
 # Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu`,
-# `voxtact_io`, `voxtact_render`, `voxtact_samples` and `voxtact_c`. The Python package, `voxtact_python`, installs itself
-# too, in src/python.
+# `voxtact_io`, `voxtact_render`, `voxtact_samples` and `voxtact_c`. The program, `voxtact_program`, installs itself in
+# src/app, and the Python package, `voxtact_python`, in src/python.
 include(CMakePackageConfigHelpers)
 set(voxtact_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/voxtact")
 set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
