@@ -92,13 +92,17 @@ struct Judged {
 /// The engine's weights are exact.
 constexpr oracle::Tolerance kEngine{.weight = 0};
 
-/// Whether a triangle goes far beyond the viewport, or behind the eye. The engine cuts it at its guard band, and what
-/// single precision makes of a cut there is more than the oracle's tolerance of a corner.
+/// Whether a triangle goes far beyond the viewport, behind the eye, or from near the eye to a thousand times as far. The
+/// engine cuts it at its guard band or at the near plane, and what single precision makes of a cut there is more than
+/// the oracle's tolerance of a corner.
 bool reachesFar(const RandomScene& scene, std::uint32_t triangle) {
+    constexpr double kDeep = 1000;
+    const Mat4 clip_from_object = multiply(scene.view.clip_from_world, scene.poses[0]);
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const float* at =
             scene.mesh.positions.data() + std::size_t{3} * scene.mesh.indices[std::size_t{3} * triangle + i];
-        const Mat4 clip_from_object = multiply(scene.view.clip_from_world, scene.poses[0]);
         const auto row = [&](std::size_t r) {
             return clip_from_object[r] * at[0] + clip_from_object[4 + r] * at[1] + clip_from_object[8 + r] * at[2] +
                    clip_from_object[12 + r];
@@ -106,8 +110,10 @@ bool reachesFar(const RandomScene& scene, std::uint32_t triangle) {
         if (!(std::abs(row(0)) < 4 * row(3) && std::abs(row(1)) < 4 * row(3))) {
             return true;
         }
+        nearest = std::min(nearest, row(3));
+        farthest = std::max(farthest, row(3));
     }
-    return false;
+    return farthest > kDeep * nearest;
 }
 
 /// All pixels of a triangle that has another count than the oracle's.
