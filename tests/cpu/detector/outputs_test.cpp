@@ -92,9 +92,9 @@ struct Judged {
 /// The engine's weights are exact.
 constexpr oracle::Tolerance kEngine{.weight = 0};
 
-/// Whether a triangle goes far beyond the viewport, behind the eye, or from near the eye to a thousand times as far. The
-/// engine cuts it at its guard band or at the near plane, and what single precision makes of a cut there is more than
-/// the oracle's tolerance of a corner.
+/// Whether a triangle goes far beyond the viewport, behind the eye, or from near the eye to a thousand times as far.
+/// The engine cuts it at its guard band or at the near plane, and what single precision makes of a cut there is more
+/// than the oracle's tolerance of a corner.
 bool reachesFar(const RandomScene& scene, std::uint32_t triangle) {
     constexpr double kDeep = 1000;
     const Mat4 clip_from_object = multiply(scene.view.clip_from_world, scene.poses[0]);
