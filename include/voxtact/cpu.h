@@ -55,6 +55,9 @@ class Volume {
     /// without padding; any alignment will do. Refuses a box that leaves the grid, the wrong number of bytes, and NaN
     /// or infinite voxels.
     [[nodiscard]] VOXTACT_API Result<void> write(const VoxelBox& box, std::span<const std::byte> voxels);
+    /// Copies the voxels of a box as they are now, in the form that write() takes. Refuses a box that leaves the grid,
+    /// and memory of another size than the box has (InvalidArgument).
+    [[nodiscard]] VOXTACT_API Result<void> read(const VoxelBox& box, std::span<std::byte> voxels) const;
 
     [[nodiscard]] const VolumeImpl& impl() const noexcept { return *impl_; }
 

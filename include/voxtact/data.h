@@ -158,7 +158,7 @@ struct Box {
 struct MeshFacts {
     std::uint32_t vertices = 0;   ///< how many
     std::uint32_t triangles = 0;  ///< how many, degenerate ones included
-    std::uint32_t degenerate = 0; ///< triangles whose area is zero in float: allowed, they give no fragment
+    std::uint32_t degenerate = 0; ///< triangles whose area is zero in float: allowed, no pixel of a view is theirs
     Box bounds;                   ///< object space
 };
 

@@ -82,7 +82,7 @@ typedef struct vxt_mesh_facts {
     vxt_box bounds;      ///< object space
     uint32_t vertices;   ///< how many
     uint32_t triangles;  ///< how many, degenerate ones included
-    uint32_t degenerate; ///< triangles whose area is zero in float: allowed, they give no fragment
+    uint32_t degenerate; ///< triangles whose area is zero in float: allowed, no pixel of a view is theirs
     uint32_t reserved;   ///< 0
 } vxt_mesh_facts;
 

@@ -65,7 +65,12 @@ py::object countersOf(const Answer& answer) {
 
 template <class T>
 py::array inLabelColumns(const Clearances& from, const std::vector<T>& values, const py::object& owner) {
-    return from.labels.empty() ? shown(values, owner) : shown(values, from.labels.size(), owner);
+    if (!from.toLabels) {
+        return shown(values, owner);
+    }
+    return py::array(py::dtype::of<T>(),
+                     {static_cast<py::ssize_t>(from.request->pairs), static_cast<py::ssize_t>(from.labels.size())},
+                     values.data(), owner);
 }
 
 } // namespace

@@ -56,7 +56,8 @@ struct Clearances {
     std::vector<double> hi;
     std::vector<std::uint8_t> end; ///< ClearanceEnd
     std::vector<ClosestRow> closest;
-    std::vector<std::int32_t> labels; ///< where they are to labels: lo, hi and end have a column for each
+    bool toLabels = false;            ///< lo, hi and end have a column for each of these
+    std::vector<std::int32_t> labels; ///< none are labels, too
     double milliseconds = 0;
 
     void add(const ClearanceAnswer& piece);

@@ -33,6 +33,10 @@ bool isSquare(const py::array& array, py::ssize_t first) {
 
 } // namespace
 
+Doubles numbersOf(const py::handle& numbers) {
+    return Doubles(py::reinterpret_borrow<py::object>(numbers));
+}
+
 py::array truths(const std::vector<std::uint8_t>& values, const py::object& owner) {
     return py::array(py::dtype::of<bool>(), {static_cast<py::ssize_t>(values.size())}, values.data(), owner);
 }

@@ -15,6 +15,9 @@ namespace py = pybind11;
 /// Numbers as Python code may give them: any dtype that numpy turns into doubles.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// What numpy makes of it; numpy's exception where these are no numbers.
+[[nodiscard]] Doubles numbersOf(const py::handle& numbers);
+
 /// An array that shows a vector's memory; `owner` keeps it.
 template <class T> py::array shown(const std::vector<T>& values, const py::object& owner) {
     return py::array(py::dtype::of<T>(), {static_cast<py::ssize_t>(values.size())}, values.data(), owner);

@@ -3,6 +3,7 @@
 #include "arrays.h"
 #include "failure.h"
 #include "image.h"
+#include "lock.h"
 #include "voxtact/io.h"
 #include "voxtact/plan.h"
 #include "voxtact/samples.h"
@@ -18,7 +19,7 @@ namespace {
 
 /// Runs what needs no Python, without the interpreter's lock.
 template <class Work> auto unlocked(const Work& work) {
-    py::gil_scoped_release release;
+    const Unlocked unlocked;
     return work();
 }
 

@@ -2,6 +2,7 @@
 #include "device.h"
 
 #include "failure.h"
+#include "lock.h"
 #include "measuring.h"
 
 #include <dlfcn.h>
@@ -421,7 +422,7 @@ void defineDevice(py::module_& module) {
                     [facts] {
                         std::vector<DeviceFacts> all;
                         {
-                            const py::gil_scoped_release release;
+                            const Unlocked unlocked;
                             all = Device::list();
                         }
                         py::list out;
@@ -430,7 +431,7 @@ void defineDevice(py::module_& module) {
                         }
                         return out;
                     })
-        .def_static("open", &Device::open, py::arg("wanted"), py::call_guard<py::gil_scoped_release>())
+        .def_static("open", &Device::open, py::arg("wanted"), py::call_guard<Unlocked>())
         .def_property_readonly("facts", [facts](const Device& of) { return facts(of.facts()); })
         .def_property_readonly("methods", [](const Device& of) {
             py::dict methods;

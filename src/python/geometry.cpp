@@ -4,6 +4,7 @@
 #include "arrays.h"
 #include "failure.h"
 #include "image.h"
+#include "lock.h"
 
 #include <vector>
 
@@ -45,7 +46,7 @@ py::array_t<std::uint32_t> overlapping(const Doubles& left, const py::object& ri
     }
     std::vector<BoxPair> pairs;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         pairs = take(two ? overlappingPairs(boxes, others) : overlappingPairs(boxes));
     }
     py::array_t<std::uint32_t> rows({static_cast<py::ssize_t>(pairs.size()), py::ssize_t{2}});

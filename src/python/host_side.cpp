@@ -13,7 +13,7 @@ namespace voxtact::python {
 
 namespace {
 
-/// Sets of threads that are kept for ways of asking; the oldest make room.
+/// Sets of threads that are kept for ways of asking; others make room.
 constexpr std::size_t kMostKept = 8;
 /// Where a yes or no is asked about so few, waking threads takes longer than the answer.
 constexpr std::size_t kFewTriangles = std::size_t{1} << 14U;
@@ -43,11 +43,12 @@ T& keptOrMade(std::map<Key, OfThisProcess<T>>& all, const Key& key, const Make& 
     if (const auto found = all.find(key); found != all.end() && found->second.get() != nullptr) {
         return *found->second.get();
     }
+    auto made = std::make_unique<T>(take(make())); // what cannot be made is not kept
     if (all.size() >= kMostKept) {
         all.erase(all.begin());
     }
     OfThisProcess<T>& kept = all[key];
-    kept = OfThisProcess<T>(std::make_unique<T>(take(make())));
+    kept = OfThisProcess<T>(std::move(made));
     return *kept.get();
 }
 
@@ -68,6 +69,12 @@ void HostSide::edit(const Edit& edit) {
         const auto& write = std::get<WriteEdit>(edit);
         take(volume_.write(write.box, write.voxels));
     }
+}
+
+std::vector<std::byte> HostSide::voxels(const VolumeView& given) const {
+    std::vector<std::byte> all(given.voxels.size());
+    take(volume_.read(VoxelBox{{}, given.grid.size}, all));
+    return all;
 }
 
 cpu::Detector& HostSide::detectorFor(const Question& question, std::uint32_t threads) {
@@ -122,16 +129,17 @@ std::vector<cpu::BatchItem> HostSide::itemsOf(const Part& part, const LabelData*
     return items;
 }
 
-bool HostSide::isLittle(const Part& part) noexcept {
-    return part.count * part.request.mostTriangles() <= kFewTriangles;
+/// Of a count nothing can be said: one triangle may have all the fragments that there are.
+bool HostSide::isLittle(const Part& part, const Question& question) noexcept {
+    return question.yesNo && part.count * part.request.mostTriangles() <= kFewTriangles;
 }
 
 BatchAnswer HostSide::detect(const Part& part, const Question& question, double threshold, const LabelData* labels) {
-    cpu::Detector& detector = detectorFor(question, question.yesNo && isLittle(part) ? 1 : threads_);
+    cpu::Detector& detector = detectorFor(question, isLittle(part, question) ? 1 : threads_);
     const std::vector<cpu::BatchItem> items = itemsOf(part, labels);
     const cpu::Batch batch{items, viewOf(question, volume_.grid()), threshold};
     const auto ask = [&](const cpu::Batch& asked) { return take(detector.detect(asked)); };
-    return isLittle(part) ? ask(batch) : interruptibly(batch, ask);
+    return isLittle(part, question) ? ask(batch) : interruptibly(batch, ask);
 }
 
 ClearanceAnswer HostSide::measure(const Part& part, const Distance& distance, double threshold) {

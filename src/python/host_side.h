@@ -27,6 +27,8 @@ class HostSide {
 
     void setOpacity(const OpacityDesc& opacity);
     void edit(const Edit& edit);
+    /// As they are after all edits; `given` is what the side was made from.
+    [[nodiscard]] std::vector<std::byte> voxels(const VolumeView& given) const;
     [[nodiscard]] BatchAnswer detect(const Part& part, const Question& question, double threshold,
                                      const LabelData* labels);
     [[nodiscard]] ClearanceAnswer measure(const Part& part, const Distance& distance, double threshold);
@@ -49,7 +51,7 @@ class HostSide {
     [[nodiscard]] cpu::MotionChecker& checkerFor(const Way& way);
     [[nodiscard]] std::vector<cpu::BatchItem> itemsOf(const Part& part, const LabelData* labels) const;
     /// Whether it takes no longer than waking others does.
-    [[nodiscard]] static bool isLittle(const Part& part) noexcept;
+    [[nodiscard]] static bool isLittle(const Part& part, const Question& question) noexcept;
 
     cpu::Volume volume_;
     cpu::TransferFunction function_;

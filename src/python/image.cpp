@@ -3,6 +3,7 @@
 
 #include "arrays.h"
 #include "failure.h"
+#include "lock.h"
 #include "voxtact/cpu.h"
 
 #include <array>
@@ -54,7 +55,7 @@ Image::Image(const py::array& array, const Grid& grid, std::string name, std::ve
     }
     voxels_ = {static_cast<const std::byte*>(array.data()), static_cast<std::size_t>(array.nbytes())};
     const VolumeView seen = view();
-    py::gil_scoped_release release;
+    const Unlocked unlocked;
     range_ = take(checkVolume(seen));
 }
 

@@ -2,6 +2,7 @@
 #include "measuring.h"
 
 #include "failure.h"
+#include "lock.h"
 #include "voxtact/detector.h"
 #include "voxtact/samples.h"
 
@@ -24,7 +25,7 @@ py::list inPython(const std::vector<MethodSpeed>& speeds) {
 py::list measure(const Device& device) {
     std::vector<MethodSpeed> speeds;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const MeasureScene scene = take(makeMeasureScene());
         MeasureDesc desc;
         desc.scene = &scene;
@@ -36,7 +37,7 @@ py::list measure(const Device& device) {
 py::list test(const Device& device) {
     std::vector<MethodSpeed> speeds;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         for (SelfTestVerdict& verdict : take(selfTest(device.context(), device.queue()))) {
             speeds.push_back({std::move(verdict), 0});
         }

@@ -16,8 +16,8 @@ struct Way {
     double resolution = 0;
     std::uint64_t mostSteps = 0;
 
-    [[nodiscard]] auto key() const noexcept { return std::tuple(interpolation, resolution, mostSteps); }
-    using Key = std::tuple<Interpolation, double, std::uint64_t>;
+    [[nodiscard]] auto key() const noexcept { return std::tuple(interpolation, inKey(resolution), mostSteps); }
+    using Key = std::tuple<Interpolation, std::uint64_t, std::uint64_t>;
 };
 
 /// A row of Motions::touches, a touch or the lack of one.

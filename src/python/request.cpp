@@ -30,7 +30,10 @@ template <class Name, class All> Name named(const std::string& word, const char*
 
 View cameraOf(const py::handle& value) {
     const auto parts = value.cast<py::tuple>();
-    return {matrixOf(Doubles::ensure(parts[0]), "clip_from_world"), parts[1].cast<std::uint32_t>(),
+    if (parts.size() != 3) {
+        throw py::cast_error();
+    }
+    return {matrixOf(numbersOf(parts[0]), "clip_from_world"), parts[1].cast<std::uint32_t>(),
             parts[2].cast<std::uint32_t>()};
 }
 
@@ -53,6 +56,9 @@ void read(Question& question, const std::string& name, const py::handle& value) 
         question.outputs.labels = value.cast<bool>();
     } else if (name == "max_depth") {
         question.outputs.maxDepth = value.cast<double>();
+        if (std::isnan(question.outputs.maxDepth)) { // which is looked at only where contacts are asked for
+            refuseArgument("max_depth is nan; it must be positive and finite");
+        }
     } else if (name == "samples_per_voxel") {
         question.samplesPerVoxel = value.cast<std::uint32_t>();
     } else if (name == "resolution") {
@@ -136,11 +142,7 @@ View viewOf(const Question& question, const Grid& grid) {
 Request requestOf(const py::object& meshes, const py::object& poses) {
     Request request;
     const auto add = [&](const py::handle& mesh, const py::handle& matrices) {
-        const Doubles numbers = Doubles::ensure(matrices);
-        if (!numbers) {
-            throw py::error_already_set();
-        }
-        request.add(mesh.cast<std::shared_ptr<Shape>>(), posesOf(numbers, request.items.size()));
+        request.add(mesh.cast<std::shared_ptr<Shape>>(), posesOf(numbersOf(matrices), request.items.size()));
     };
     if (py::isinstance<Shape>(meshes)) {
         add(meshes, poses);

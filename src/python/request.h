@@ -4,6 +4,7 @@
 #include "image.h"
 #include "voxtact/results.h"
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -57,6 +58,11 @@ struct Request {
     }
 };
 
+/// A number of a key: NaN, which is neither less nor greater than any other, is a key like all others.
+[[nodiscard]] inline std::uint64_t inKey(double number) noexcept {
+    return std::bit_cast<std::uint64_t>(number);
+}
+
 /// How a detector answers.
 struct Question {
     Projection projection = Projection::Conservative;
@@ -75,11 +81,11 @@ struct Question {
     /// What a detector is made for, without the view.
     [[nodiscard]] auto key() const noexcept {
         return std::tuple(projection, method, filter, boundary, outputs.triangles, outputs.contacts, outputs.bounds,
-                          outputs.labels, outputs.maxDepth, samplesPerVoxel, resolution, yesNo, overestimate, counters,
-                          mostContacts);
+                          outputs.labels, inKey(outputs.maxDepth), samplesPerVoxel, inKey(resolution), yesNo,
+                          overestimate, counters, mostContacts);
     }
     using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
-                           bool, double, std::uint32_t, double, bool, bool, bool, std::uint32_t>;
+                           bool, std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint32_t>;
 };
 
 /// How a clearance is measured.
@@ -89,8 +95,10 @@ struct Distance {
     std::uint64_t mostSteps = 0;
     bool labelsAtAnyOpacity = false;
 
-    [[nodiscard]] auto key() const noexcept { return std::tuple(tolerance, maximum, mostSteps, labelsAtAnyOpacity); }
-    using Key = std::tuple<double, double, std::uint64_t, bool>;
+    [[nodiscard]] auto key() const noexcept {
+        return std::tuple(inKey(tolerance), inKey(maximum), mostSteps, labelsAtAnyOpacity);
+    }
+    using Key = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, bool>;
 };
 
 /// The camera of a question; without one, the volume from above. Nothing where the projection has none.

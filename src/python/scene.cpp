@@ -2,6 +2,7 @@
 #include "scene.h"
 
 #include "failure.h"
+#include "lock.h"
 #include "voxtact/cpu.h"
 
 #include <algorithm>
@@ -47,9 +48,6 @@ void Scene::checkOpen() const {
 HostSide& Scene::host() {
     if (host_ == nullptr) {
         host_ = std::make_unique<HostSide>(desc_.volume->view(), desc_.opacity, desc_.threads);
-        for (const Edit& edit : edits_) {
-            host_->edit(edit);
-        }
     }
     return *host_;
 }
@@ -59,11 +57,11 @@ DeviceSide& Scene::onDevice(const std::shared_ptr<Device>& device) {
         (void)desc_.device->context(); // says why not
     }
     if (onDevice_.get() == nullptr) {
-        onDevice_ = OfThisProcess<DeviceSide>(
-            std::make_unique<DeviceSide>(device, desc_.volume->view(), desc_.opacity, desc_.labels.get()));
-        for (const Edit& edit : edits_) {
-            onDevice_.get()->edit(edit);
-        }
+        VolumeView volume = desc_.volume->view();
+        const std::vector<std::byte> now = edited_ ? host_->voxels(volume) : std::vector<std::byte>();
+        volume.voxels = edited_ ? now : volume.voxels;
+        onDevice_ =
+            OfThisProcess<DeviceSide>(std::make_unique<DeviceSide>(device, volume, desc_.opacity, desc_.labels.get()));
     }
     return *onDevice_.get();
 }
@@ -77,6 +75,7 @@ void Scene::setOpacity(OpacityDesc opacity) {
     if (onDevice_.get() != nullptr) {
         onDevice_.get()->setOpacity(opacity);
     }
+    const Locked locked;
     desc_.opacity = std::move(opacity);
     ++revision_;
 }
@@ -85,30 +84,22 @@ void Scene::setThreshold(double threshold) {
     checkThreshold(threshold);
     const Turns::Turn turn(turns_);
     checkOpen();
+    const Locked locked;
     desc_.threshold = threshold;
     ++revision_;
 }
 
-void Scene::edit(Edit edit) {
+void Scene::edit(const Edit& edit) {
     const Turns::Turn turn(turns_);
     checkOpen();
+    HostSide& side = host();
     // The device first: both refuse the same edits, and it has more reasons to fail.
     if (onDevice_.get() != nullptr) {
         onDevice_.get()->edit(edit);
     }
-    if (host_ != nullptr) {
-        host_->edit(edit);
-    }
-    append(std::move(edit));
+    side.edit(edit);
+    edited_ = true;
     ++revision_;
-}
-
-void Scene::append(Edit edit) {
-    const auto* write = std::get_if<WriteEdit>(&edit);
-    if (write != nullptr && write->box.size == desc_.volume->data().grid.size) {
-        edits_.clear(); // nothing of what was before is left
-    }
-    edits_.push_back(std::move(edit));
 }
 
 std::shared_ptr<Answer> Scene::answered(std::shared_ptr<const Request> request, const Question& question,
@@ -188,6 +179,7 @@ std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request>
     HostSide& side = host();
     auto found = std::make_shared<Clearances>();
     found->request = request;
+    found->toLabels = true;
     found->labels = std::move(labels);
     inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), side.threads()),
              kMostHostPairs, progress, [&](std::size_t first, std::size_t count) {
@@ -265,7 +257,6 @@ void Scene::close() {
     open_ = false;
     host_.reset();
     onDevice_.reset();
-    edits_.clear();
 }
 
 } // namespace voxtact::python

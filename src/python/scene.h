@@ -22,12 +22,13 @@ struct SceneDesc {
 };
 
 /// A volume, what of it is opaque, and engines to ask. The side that was made first answers; the other one is made when
-/// something needs it (pictures a device, clearances the host), and gets the edits that there were. Threads wait for
+/// something needs it: pictures a device, clearances and edits the host, which has the edited voxels. Threads wait for
 /// each other.
 class Scene {
   public:
     explicit Scene(SceneDesc desc);
 
+    /// It changes with the interpreter's lock held, by whoever's turn it is.
     [[nodiscard]] const SceneDesc& desc() const noexcept { return desc_; }
     /// Another after every change.
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -35,7 +36,7 @@ class Scene {
     // The interpreter's lock must not be held for any of these.
     void setOpacity(OpacityDesc opacity);
     void setThreshold(double threshold);
-    void edit(Edit edit);
+    void edit(const Edit& edit);
     [[nodiscard]] std::shared_ptr<Answer> detect(std::shared_ptr<const Request> request, const Question& question,
                                                  const Progress& progress);
     /// The same request with other outputs; nothing where the scene has changed since.
@@ -67,7 +68,6 @@ class Scene {
 
   private:
     void checkOpen() const;
-    void append(Edit edit);
     [[nodiscard]] HostSide& host();
     [[nodiscard]] DeviceSide& onDevice(const std::shared_ptr<Device>& device);
     /// A yes or no of each pair, of the host's `ask(side, part)`.
@@ -80,7 +80,7 @@ class Scene {
     SceneDesc desc_;
     bool open_ = true;
     std::atomic<std::uint64_t> revision_ = 0;
-    std::vector<Edit> edits_; ///< since the volume was given
+    bool edited_ = false; ///< the volume is the host's, not the one that was given
     Turns turns_;
     std::unique_ptr<HostSide> host_;
     OfThisProcess<DeviceSide> onDevice_;

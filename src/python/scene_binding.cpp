@@ -2,6 +2,7 @@
 // Scenes as Python sees them. Arguments are read with the interpreter's lock, and the work is done without.
 #include "arrays.h"
 #include "failure.h"
+#include "lock.h"
 #include "scene.h"
 
 #include <pybind11/stl.h>
@@ -51,25 +52,25 @@ std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object
                                  std::shared_ptr<Device> device, std::uint32_t threads) {
     OpacityDesc opacity = opacityOf(*volume, points, domain, tableSize);
     SceneDesc desc{std::move(volume), std::move(opacity), threshold, std::move(labels), std::move(device), threads};
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return std::make_shared<Scene>(std::move(desc));
 }
 
 void setOpacity(Scene& scene, const py::object& points, const py::object& domain, std::uint32_t tableSize) {
     OpacityDesc opacity = opacityOf(*scene.desc().volume, points, domain, tableSize);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     scene.setOpacity(std::move(opacity));
 }
 
 void setBall(Scene& scene, const Doubles& centre, double radius, double value) {
-    Edit edit = SetEdit{Ball{vectorOf(centre, "the ball's centre"), radius}, value};
-    const py::gil_scoped_release release;
-    scene.edit(std::move(edit));
+    const Edit edit = SetEdit{Ball{vectorOf(centre, "the ball's centre"), radius}, value};
+    const Unlocked unlocked;
+    scene.edit(edit);
 }
 
 void setBox(Scene& scene, const std::array<std::uint32_t, 3>& first, const std::array<std::uint32_t, 3>& size,
             double value) {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     scene.edit(SetEdit{VoxelBox{first, size}, value});
 }
 
@@ -82,8 +83,8 @@ void writeBox(Scene& scene, const std::array<std::uint32_t, 3>& first, const py:
     }
     const auto* begin = static_cast<const std::byte*>(voxels.data());
     edit.voxels.assign(begin, begin + voxels.nbytes());
-    const py::gil_scoped_release release;
-    scene.edit(std::move(edit));
+    const Unlocked unlocked;
+    scene.edit(edit);
 }
 
 std::shared_ptr<Answer> detect(Scene& scene, const py::object& meshes, const py::object& poses, const py::dict& options,
@@ -91,7 +92,7 @@ std::shared_ptr<Answer> detect(Scene& scene, const py::object& meshes, const py:
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Question question = questionOf(options);
     const Progress progress = progressOf(callback, request->pairs);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.detect(request, question, progress);
 }
 
@@ -101,7 +102,7 @@ std::shared_ptr<Answer> again(Scene& scene, const Answer& answer, const std::str
     outputs.contacts = output == "contacts";
     outputs.bounds = output == "bounds";
     outputs.labels = output == "labels";
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.again(answer, outputs);
 }
 
@@ -109,7 +110,7 @@ std::vector<double> engineSeconds(Scene& scene, const py::object& meshes, const 
                                   const py::dict& options, std::uint32_t times) {
     const Request request = requestOf(meshes, poses);
     const Question question = questionOf(options);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.engineSeconds(request, question, times);
 }
 
@@ -120,7 +121,7 @@ std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, co
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
     const Distance distance{tolerance, maximum, mostSteps, labelsAtAnyOpacity};
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return labels ? scene.labelClearance(request, distance, std::move(*labels), progress)
                   : scene.clearance(request, distance, progress);
 }
@@ -129,7 +130,7 @@ std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py:
                                const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.within(request, margin, progress);
 }
 
@@ -140,7 +141,7 @@ std::shared_ptr<Motions> motion(Scene& scene, const py::object& meshes, const py
     const Way way{interpolationOf(interpolation), resolution, mostSteps};
     checkWays(*request, way.interpolation);
     const Progress progress = progressOf(callback, request->segments());
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.motion(request, way, progress);
 }
 
@@ -148,7 +149,7 @@ std::shared_ptr<Answer> around(Scene& scene, const py::object& meshes, const py:
                                double angle, const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.around(request, {distance, angle}, progress);
 }
 
@@ -160,7 +161,7 @@ std::shared_ptr<Plan> plan(Scene& scene, const Doubles& target, const py::dict& 
         OpacityDesc opacity = opacityOf(volume, points, domain, scene.desc().opacity.tableSize);
         wish.avoided = PlanAvoided{std::move(avoided), std::move(opacity)};
     }
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return scene.plan(wish);
 }
 
@@ -169,7 +170,7 @@ py::array_t<std::uint8_t> picture(Scene& scene, const py::object& meshes, const 
     const PictureWish wish = pictureWishOf(*scene.desc().volume, meshes, poses, options);
     Picture made;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         made = scene.picture(wish, device);
     }
     return pixelsOf(made);
@@ -182,7 +183,7 @@ void defineScene(py::module_& module) {
         .def(py::init(&makeScene), py::arg("volume"), py::arg("opacity"), py::arg("domain"), py::arg("table_size"),
              py::arg("threshold"), py::arg("labels"), py::arg("device"), py::arg("threads"))
         .def("set_opacity", &setOpacity, py::arg("opacity"), py::arg("domain"), py::arg("table_size"))
-        .def("set_threshold", &Scene::setThreshold, py::arg("threshold"), py::call_guard<py::gil_scoped_release>())
+        .def("set_threshold", &Scene::setThreshold, py::arg("threshold"), py::call_guard<Unlocked>())
         .def_property_readonly("opacity",
                                [](const Scene& scene) { return pointsInPython(scene.desc().opacity.points); })
         .def_property_readonly("domain",
@@ -210,7 +211,7 @@ void defineScene(py::module_& module) {
         .def("plan", &plan, py::arg("target"), py::arg("options"), py::arg("avoided"), py::arg("points"),
              py::arg("domain"))
         .def("picture", &picture, py::arg("meshes"), py::arg("poses"), py::arg("options"), py::arg("device"))
-        .def("close", &Scene::close, py::call_guard<py::gil_scoped_release>());
+        .def("close", &Scene::close, py::call_guard<Unlocked>());
 }
 
 } // namespace voxtact::python

@@ -4,6 +4,7 @@
 
 #include "arrays.h"
 #include "failure.h"
+#include "lock.h"
 
 namespace voxtact::python {
 
@@ -28,7 +29,7 @@ void defineTracker(py::module_& module) {
                 const Mat4 world_from_object = matrixOf(pose, "pose");
                 TrackedClearance found;
                 {
-                    const py::gil_scoped_release release;
+                    const Unlocked unlocked;
                     found = tracker.update(world_from_object);
                 }
                 return py::make_tuple(found.hit, found.possible, found.bounds.lo, found.bounds.hi, found.searched);

@@ -2,6 +2,7 @@
 #include "turn.h"
 
 #include "failure.h"
+#include "lock.h"
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +28,7 @@ std::size_t nextPiece(std::size_t count, Clock::duration took) {
 } // namespace
 
 void handleSignals() {
-    const py::gil_scoped_acquire acquire;
+    const Locked locked;
     if (PyErr_CheckSignals() != 0) {
         throw py::error_already_set();
     }
@@ -80,7 +81,7 @@ void inPieces(std::size_t total, std::size_t first, std::size_t most, const Prog
         begin += count;
         count = nextPiece(count, took);
         if (progress) {
-            const py::gil_scoped_acquire acquire;
+            const Locked locked;
             progress(begin);
         }
         if (begin < total) {

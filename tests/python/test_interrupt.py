@@ -117,3 +117,33 @@ def test_ctrl_c_stops_a_long_pose_within_a_second(question):
 
 def test_ctrl_c_stops_a_picture_within_a_second(device):
     check(PICTURE)
+
+
+# A script ends while another thread asks on and on.
+LEFT_ALONE = """
+import sys, threading, time
+import numpy as np
+import voxtact as vx
+scene = vx.Scene("builtin:head:48", opacity=[(40, 0), (80, 1)], threads=1)
+mesh = vx.read_mesh("builtin:scalpel:500")
+poses = np.tile(np.eye(4), (3000, 1, 1))
+poses[:, :3, 3] = np.random.default_rng(1).uniform(-60, 60, (3000, 3))
+asks = {"detect": lambda: scene.detect(mesh, poses), "tells": lambda: scene.detect(mesh, poses, progress=lambda *_: None),
+        "clearance": lambda: scene.clearance(mesh, poses[:300]), "motion": lambda: scene.motion(mesh, poses[:30])}
+begun = threading.Event()
+def work():
+    while True:
+        asks[sys.argv[1]]()
+        begun.set()
+threading.Thread(target=work, daemon=True).start()
+begun.wait()
+time.sleep(float(sys.argv[2]))
+"""
+
+
+@pytest.mark.parametrize("what", ["detect", "tells", "clearance", "motion"])
+def test_a_script_ends_while_another_thread_is_in_a_call(what):
+    for wait in (0.01, 0.07, 0.13):
+        done = subprocess.run([sys.executable, "-c", LEFT_ALONE, what, str(wait)], capture_output=True, text=True,
+                              check=False, timeout=120)
+        assert done.returncode == 0, done.stderr

@@ -308,3 +308,73 @@ def test_broken_files(tmp_path):
     (tmp_path / "poses.txt").write_text("1 2 3\n")
     with pytest.raises(vx.Error, match="line 1"):
         vx.read_poses(tmp_path / "poses.txt")
+
+
+@pytest.mark.parametrize("ask", [lambda scene, *asked, **options: scene.detect(*asked, resolution=np.nan, **options),
+                                 lambda scene, *asked: scene.detect(*asked, max_depth=np.nan),
+                                 lambda scene, *asked: scene.clearance(*asked, tolerance=np.nan),
+                                 lambda scene, *asked: scene.clearance(*asked, maximum=np.nan),
+                                 lambda scene, *asked: scene.motion(*asked, resolution=np.nan)])
+def test_nan_is_refused_each_time_and_changes_no_later_answer(head, knife, ask):
+    poses = random_poses(20, 3)
+    fresh = vx.Scene(head)
+    counts, lows = fresh.detect(knife, poses).count, fresh.clearance(knife, poses).lo
+    assert counts.max() > 1
+    scene = vx.Scene(head)
+    for _ in range(2):
+        with pytest.raises(vx.InvalidArgumentError, match="nan"):
+            ask(scene, knife, poses)
+        scene.detect(knife, poses, yes_no=True)
+        answer = scene.detect(knife, poses)
+        assert (answer.count == counts).all() and answer.exact.any()
+        scene.clearance(knife, poses, maximum=1)
+        assert (scene.clearance(knife, poses).lo == lows).all()
+        assert len(scene.motion(knife, poses).hit) == len(poses) - 1
+
+
+@pytest.mark.parametrize("view", [vx.View("x", 64, 64), vx.View([["a"] * 4] * 4, 64, 64), vx.View(object(), 64, 64)])
+def test_a_view_that_is_no_matrix(scene, knife, view):
+    with pytest.raises((TypeError, ValueError), match="could not convert|float|number"):
+        scene.detect(knife, np.eye(4), projection="view", view=view)
+
+
+def test_properties_while_another_thread_sets_them(head):
+    scene = vx.Scene(head)
+    end = time.monotonic() + 2
+    wrong = []
+
+    def sets():
+        generator = np.random.default_rng()
+        while time.monotonic() < end:
+            values = np.linspace(0, 255, generator.integers(2, 2000))
+            scene.opacity = np.stack([values, values / 255], 1)
+
+    def reads():
+        while time.monotonic() < end:
+            points = scene.opacity
+            repr(scene)
+            if points[0, 0] != 0 or points[-1, 0] != 255 or (np.diff(points[:, 0]) <= 0).any():
+                wrong.append(points)
+
+    threads = [threading.Thread(target=work) for work in (sets, sets, reads, reads)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_labels_that_are_asked_for_twice_or_not_at_all(knife):
+    voxels = np.zeros((20, 22, 24), np.uint8)
+    voxels[5:15, 6:16, 7:17] = 200
+    labels = vx.read_labels((voxels > 0).astype(np.uint8) * 7, affine=np.eye(4), space="lps")
+    scene = vx.Scene(vx.read_volume(voxels, affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)], labels=labels)
+    poses = placed((200, 10, 10), (0, 0, 300))
+    once = scene.clearance(knife, poses, labels=[7])
+    assert np.isfinite(once.lo).all()
+    often = scene.clearance(knife, poses, labels=[7, 0, 7])
+    assert (often.lo[:, 0] == once.lo[:, 0]).all() and (often.lo[:, 2] == once.lo[:, 0]).all()
+    none = scene.clearance(knife, poses, labels=[])
+    assert none.lo.shape == none.hi.shape == none.end.shape == (2, 0) and "2 poses to 0 labels" in repr(none)
+    with pytest.raises(vx.NotReadyError):
+        none.closest

@@ -324,3 +324,52 @@ def test_words():
     answer = scene.detect(cube(150), placed((0, 0, 0), (500, 0, 0)))
     assert repr(answer) == "<voxtact.Answer: 1 of 2 poses touch; conservative, cpu>"
     assert repr(scene.clearance(cube(150), np.eye(4))).startswith("<voxtact.Clearance of 1 poses: the least is 0 to 0 mm")
+
+
+def test_large_whole_numbers_are_not_rounded():
+    for dtype, numbers in ((np.int64, [2**60 + 1, 2**60]), (np.uint64, [2**63, 2**63 + 1]), (np.int32, [2**24 + 1, 0]),
+                           (np.int64, [-2**63, 1 - 2**63]), (np.uint64, [2**64 - 1, 0])):
+        with pytest.raises(vx.InvalidArgumentError, match="exactly"):
+            vx.read_volume(np.array([[numbers]], dtype), affine=np.eye(4))
+    for dtype, numbers in ((np.int64, [2**60, -2**63]), (np.uint64, [2**63, 2**24 - 1]), (np.int32, [2**24, -2**31])):
+        volume = vx.read_volume(np.array([[numbers]], dtype), affine=np.eye(4))
+        assert volume.dtype == np.float32 and [int(voxel) for voxel in volume.array[0, 0]] == numbers
+
+
+def test_edits_that_the_voxels_cannot_have():
+    floats = vx.Scene(vx.read_volume(np.zeros((2, 2, 2), np.float32), affine=np.eye(4)), opacity=[(0, 0), (1, 1)])
+    floats.edit(at=(0, 0, 0), voxels=[[[0.1]]])
+    for voxels in ([[[2**24 + 1]]], [[[np.inf]]], [[[1e300]]]):
+        with pytest.raises(vx.InvalidArgumentError):
+            floats.edit(at=(0, 0, 0), voxels=voxels)
+    bytes_ = vx.Scene(vx.read_volume(np.zeros((2, 2, 2), np.uint8), affine=np.eye(4)))
+    for voxels in ([[[10**30]]], [[[256]]], [[[1.5]]], [[[np.nan]]], [[[-1]]]):
+        with pytest.raises(vx.InvalidArgumentError):
+            bytes_.edit(at=(0, 0, 0), voxels=voxels)
+    for voxels in ([[["5"]]], [[[1j]]], np.zeros((1, 1, 1), "datetime64[s]")):
+        for scene in (floats, bytes_):
+            with pytest.raises(TypeError, match="numbers are needed"):
+                scene.edit(at=(0, 0, 0), voxels=voxels)
+
+
+def test_edits_do_not_pile_up():
+    scene = vx.Scene(vx.read_volume(np.zeros((64, 64, 65), np.int16), affine=np.eye(4)), opacity=[(0, 0), (1, 1)])
+    voxels = np.zeros((64, 64, 64), np.int16)
+
+    def resident():
+        with open("/proc/self/statm", encoding="ascii") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    scene.edit(at=(0, 0, 0), voxels=voxels)
+    before = resident()
+    for _ in range(200):
+        scene.edit(at=(0, 0, 0), voxels=voxels)
+    assert resident() - before < 30 * voxels.nbytes
+
+
+def test_names_that_mean_something_else(tmp_path, knife):
+    with pytest.raises(vx.InvalidArgumentError, match="null"):
+        knife.write(str(tmp_path / "a\0.stl"))
+    with pytest.raises(vx.InvalidArgumentError, match="frame="):
+        vx.read_volume("builtin:head:16", frame=3)
+    assert not list(tmp_path.iterdir())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/volume/voxel_value.h"
 #include "core/base/text.h"
+#include "core/base/try.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,12 +85,17 @@ double valueOf(ScalarType type, const VoxelBytes& voxel) noexcept {
     return static_cast<double>(at<float>(voxel, 0));
 }
 
-Result<ValueRange> checkVoxels(ScalarType type, const VoxelBox& box, std::span<const std::byte> voxels) {
+Result<void> checkVoxelBytes(ScalarType type, const VoxelBox& box, std::size_t bytes) {
     const std::uint64_t expected = std::uint64_t{box.size[0]} * box.size[1] * box.size[2] * bytesPerVoxel(type);
-    if (voxels.size() != expected) {
-        return refuse("there are " + std::to_string(voxels.size()) + " bytes of voxels, the box and the type (" +
+    if (bytes != expected) {
+        return refuse("there are " + std::to_string(bytes) + " bytes of voxels, the box and the type (" +
                       toString(type) + ") need " + std::to_string(expected));
     }
+    return {};
+}
+
+Result<ValueRange> checkVoxels(ScalarType type, const VoxelBox& box, std::span<const std::byte> voxels) {
+    VOXTACT_TRY(checkVoxelBytes(type, box, voxels.size()));
     if (voxels.empty()) {
         return ValueRange{};
     }

@@ -18,6 +18,8 @@ using VoxelBytes = std::array<std::byte, 4>;
 /// The value that a voxel holds.
 [[nodiscard]] double valueOf(ScalarType type, const VoxelBytes& voxel) noexcept;
 
+/// Refuses a number of bytes that a box of such voxels has not.
+[[nodiscard]] Result<void> checkVoxelBytes(ScalarType type, const VoxelBox& box, std::size_t bytes);
 /// Refuses voxels of the wrong number of bytes for a box of such voxels, and floats that are NaN or infinite (the first
 /// is named). Returns the smallest and largest; zeros for an empty box. Voxels of any alignment.
 [[nodiscard]] Result<ValueRange> checkVoxels(ScalarType type, const VoxelBox& box, std::span<const std::byte> voxels);

@@ -164,13 +164,14 @@ void decideMargin(const PairAt& at, double margin, const ClearanceDesc& desc, Th
     out = yesOrNo(out, hit, possible);
 }
 
-/// Numbers of labels that the map does not have are left out.
+/// Each once, however often it is asked for; numbers of labels that the map does not have are left out.
 std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const std::int32_t> wanted) {
     std::vector<std::uint32_t> indices;
     for (const std::int32_t label : wanted) {
         const auto found = std::lower_bound(labels.values.begin(), labels.values.end(), label);
-        if (found != labels.values.end() && *found == label) {
-            indices.push_back(static_cast<std::uint32_t>(found - labels.values.begin()));
+        const auto index = static_cast<std::uint32_t>(found - labels.values.begin());
+        if (found != labels.values.end() && *found == label && std::ranges::find(indices, index) == indices.end()) {
+            indices.push_back(index);
         }
     }
     return indices;

@@ -42,4 +42,17 @@ Result<void> Volume::write(const VoxelBox& box, std::span<const std::byte> voxel
     });
 }
 
+Result<void> Volume::read(const VoxelBox& box, std::span<std::byte> voxels) const {
+    return guard([&]() -> Result<void> {
+        VOXTACT_TRY(voxelBounds(box, impl_->grid));
+        VOXTACT_TRY(checkVoxelBytes(impl_->type, box, voxels.size()));
+        std::byte* to = voxels.data();
+        for (const VoxelRow& row : voxelRows(box, impl_->grid)) {
+            impl_->image.copy(row, impl_->type, to);
+            to += bytesPerVoxel(impl_->type) * box.size[0];
+        }
+        return {};
+    });
+}
+
 } // namespace voxtact::cpu

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace voxtact::cpu {
 
@@ -24,6 +25,14 @@ std::uint16_t keep(std::int16_t voxel) {
 }
 float keep(float voxel) {
     return voxel;
+}
+/// What keep() was given.
+template <class Scalar> Scalar kept(decltype(keep(Scalar{})) voxel) {
+    if constexpr (std::is_same_v<Scalar, std::int16_t>) {
+        return static_cast<std::int16_t>(static_cast<int>(voxel) - 32768);
+    } else {
+        return voxel;
+    }
 }
 
 Stored storedAs(ScalarType type) {
@@ -83,7 +92,7 @@ void replaceRow(StoredImage& image, const VoxelRow& row, const std::byte* voxels
     const Extent extentX = copiesOf(row.firstX, row.endX, image.size[0]);
     const Extent extentY = copiesOf(row.y, row.y + 1, image.size[1]);
     const Extent extentZ = copiesOf(row.z, row.z + 1, image.size[2]);
-    const auto kept = [&](std::int64_t x) {
+    const auto keptAt = [&](std::int64_t x) {
         const std::int64_t source = std::clamp<std::int64_t>(x - 1, row.firstX, std::int64_t{row.endX} - 1);
         Scalar voxel;
         std::memcpy(&voxel, voxels + static_cast<std::size_t>(source - row.firstX) * step, sizeof voxel);
@@ -94,10 +103,23 @@ void replaceRow(StoredImage& image, const VoxelRow& row, const std::byte* voxels
             std::byte* to =
                 image.bytes.data() + static_cast<std::size_t>(z * image.stride[2] + y * image.stride[1]) * sizeof(Kept);
             for (std::int64_t x = extentX.first; x < extentX.end; ++x) {
-                const Kept value = kept(x);
+                const Kept value = keptAt(x);
                 std::memcpy(to + static_cast<std::size_t>(x) * sizeof value, &value, sizeof value);
             }
         }
+    }
+}
+
+template <class Scalar> void copyRow(const StoredImage& image, const VoxelRow& row, std::byte* voxels) {
+    using Kept = decltype(keep(Scalar{}));
+    const std::int64_t first =
+        (std::int64_t{row.z} + 1) * image.stride[2] + (std::int64_t{row.y} + 1) * image.stride[1] + 1;
+    const std::byte* from = image.bytes.data() + static_cast<std::size_t>(first) * sizeof(Kept);
+    for (std::size_t x = row.firstX; x < row.endX; ++x, voxels += sizeof(Scalar)) {
+        Kept voxel;
+        std::memcpy(&voxel, from + x * sizeof voxel, sizeof voxel);
+        const auto value = kept<Scalar>(voxel);
+        std::memcpy(voxels, &value, sizeof value);
     }
 }
 
@@ -177,6 +199,20 @@ void StoredImage::replace(const VoxelRow& row, ScalarType from, const std::byte*
         break;
     }
     replaceRow<float>(*this, row, voxels, step);
+}
+
+void StoredImage::copy(const VoxelRow& row, ScalarType as, std::byte* voxels) const {
+    switch (as) {
+    case ScalarType::UInt8:
+        return copyRow<std::uint8_t>(*this, row, voxels);
+    case ScalarType::Int16:
+        return copyRow<std::int16_t>(*this, row, voxels);
+    case ScalarType::UInt16:
+        return copyRow<std::uint16_t>(*this, row, voxels);
+    case ScalarType::Float32:
+        break;
+    }
+    copyRow<float>(*this, row, voxels);
 }
 
 BrickRanges::BrickRanges(const StoredImage& image) {

@@ -26,6 +26,8 @@ struct StoredImage {
     /// Replaces a row of voxels, wherever it is repeated too, by voxels of the type that the image was made from:
     /// `voxels` is the first of them, and the next is `step` bytes further on; 0: the same once more.
     void replace(const VoxelRow& row, ScalarType from, const std::byte* voxels, std::size_t step);
+    /// The voxels of a row, of the type that the image was made from, one after the other.
+    void copy(const VoxelRow& row, ScalarType as, std::byte* voxels) const;
 
     Stored type = Stored::UInt8;
     std::array<std::int32_t, 3> size{};   ///< voxels of the image

@@ -246,7 +246,7 @@ class Clearance:
         `volume` (3), opaque; and how the distance changes with the pose: `per_translation` (3), mm per mm along the
         world's axes, and `per_rotation` (3), mm per radian about the parallels of these through the object's origin.
         """
-        if self.labels.size:
+        if self.lo.ndim == 2:
             raise NotReadyError("clearances to labels have no closest points")
         return self._core.closest
 
@@ -280,9 +280,11 @@ class Clearance:
         return len(self._core)
 
     def __repr__(self) -> str:
-        if not self.lo.size:
+        if not len(self):
             return "<voxtact.Clearance of no poses>"
-        to = f" to {len(self.labels)} labels" if self.labels.size else ""
+        to = f" to {len(self.labels)} labels" if self.lo.ndim == 2 else ""
+        if not self.lo.size:
+            return f"<voxtact.Clearance of {len(self)} poses{to}>"
         return f"<voxtact.Clearance of {len(self)} poses{to}: the least is {self.lo.min():.4g} to {self.hi.min():.4g} mm>"
 
     def __reduce__(self) -> NoReturn:

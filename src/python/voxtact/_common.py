@@ -2,7 +2,8 @@
 """What volumes and meshes have in common."""
 from __future__ import annotations
 
-from typing import Any, Literal, NoReturn
+import os
+from typing import Any, Literal, NoReturn, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +22,14 @@ _FLOAT = np.dtype(np.float64)
 
 #: What names of volumes and meshes that need no file begin with.
 BUILTIN = "builtin:"
+
+
+def encoded(path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> bytes:
+    """A path for the compiled part, where the end of a text is no zero."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise InvalidArgumentError(f"the path {path!r} has a null character")
+    return name
 
 
 def not_pickled(of: object) -> NoReturn:
@@ -47,6 +56,14 @@ def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
         return array.astype(np.float64, copy=False)
     except OverflowError:
         raise InvalidArgumentError(f"{what} has a number that is too large") from None
+
+
+def exact_in_float32(whole: npt.NDArray[Any]) -> bool:
+    """Whether float32 has every one of these whole numbers."""
+    floats = whole.astype(np.float32)
+    end = np.float32(2.0) ** (8 * whole.dtype.itemsize - (whole.dtype.kind == "i"))
+    back = (floats >= -end) & (floats < end)  # what can be a number of the type again
+    return bool(back.all() and (floats.astype(whole.dtype) == whole).all())
 
 
 def listed(given: Any, what: str) -> list[Any]:

@@ -9,24 +9,25 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
+from ._common import encoded
 from ._errors import InvalidArgumentError
 
 
 def read_poses(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(N,4,4) from the program's files: one matrix a line, 16 numbers row by row; `#` comments."""
-    return core.read_poses(os.fsencode(path))
+    return core.read_poses(encoded(path))
 
 
 def read_camera(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(4,4), clip_from_world, from one of the program's files."""
-    return core.read_camera(os.fsencode(path))
+    return core.read_camera(encoded(path))
 
 
 def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like "40:0,80:1"."""
     if isinstance(source, str) and ":" in source and not os.path.exists(source):
         return core.parse_opacity(source)
-    return core.read_opacity(os.fsencode(source))
+    return core.read_opacity(encoded(source))
 
 
 class Points(NamedTuple):
@@ -40,7 +41,7 @@ class Points(NamedTuple):
 
 def read_points(path: Union[str, os.PathLike[str]]) -> Points:
     """Points from a file: lines `x y z` or `x y z name`; `#` comments."""
-    return Points(*core.read_points(os.fsencode(path)))
+    return Points(*core.read_points(encoded(path)))
 
 
 def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]) -> None:
@@ -48,4 +49,4 @@ def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]
     pixels = np.ascontiguousarray(picture)
     if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
         raise InvalidArgumentError(f"the picture is {pixels.dtype} of shape {pixels.shape}; uint8 of (H, W, 4) is needed")
-    core.write_png(os.fsencode(path), pixels)
+    core.write_png(encoded(path), pixels)

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import check_made, not_pickled, numbers
+from ._common import check_made, encoded, not_pickled, numbers
 from ._errors import InvalidArgumentError
 from ._volume import Volume, read_volume
 
@@ -39,7 +39,7 @@ class Labels:
 
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
         """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
-        return self._core.at(points)
+        return self._core.at(numbers(points, "points"))
 
     def along(self, start: npt.ArrayLike, end: npt.ArrayLike) -> npt.NDArray[np.int32]:
         """The labels that the straight line from one world point (3,) to another crosses, LPS, mm: in that order, each
@@ -67,7 +67,7 @@ class Labels:
 
 def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
     """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables."""
-    return core.read_label_names(os.fsencode(path))
+    return core.read_label_names(encoded(path))
 
 
 def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathLike[str]] = None,

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, Space, check_space, not_pickled, numbers
+from ._common import BUILTIN, Space, check_space, encoded, not_pickled, numbers
 from ._errors import InvalidArgumentError
 
 
@@ -49,7 +49,7 @@ class Mesh:
 
     @property
     def degenerate(self) -> int:
-        """Triangles without an area: allowed, they never touch."""
+        """Triangles without an area: allowed. Projections to a view never see them; the certified answers do."""
         return self._core.degenerate
 
     @property
@@ -64,7 +64,7 @@ class Mesh:
 
     def write(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes STL, OBJ or PLY, by the ending."""
-        self._core.write(os.fsencode(path))
+        self._core.write(encoded(path))
 
     def __repr__(self) -> str:
         lo, hi = self.bounds
@@ -168,7 +168,7 @@ def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
         if isinstance(source, str) and source.startswith(BUILTIN):
             mesh = Mesh._of(core.Mesh.builtin(source[len(BUILTIN):]))
             return read_mesh(mesh, space=space, scale=scale)
-        return Mesh._of(core.Mesh.read(os.fsencode(source), space == "ras", scale))
+        return Mesh._of(core.Mesh.read(encoded(source), space == "ras", scale))
     if isinstance(source, (tuple, list)) and len(source) == 2:
         return _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
     if hasattr(source, "vertices") and hasattr(source, "faces"):

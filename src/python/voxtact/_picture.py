@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import number, numbers
+from ._common import encoded, number, numbers
 from ._errors import InvalidArgumentError
 from ._volume import Volume
 
@@ -51,7 +51,7 @@ def look(name: str, volume: Volume) -> Look:
 
 def read_colours(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """The colours of a transfer function in JSON (docs/cli.md): (N,4), value, red, green and blue; (0,4): it has none."""
-    return core.read_colours(os.fsencode(path))
+    return core.read_colours(encoded(path))
 
 
 def _colour(given: Any, what: str) -> tuple[float, ...]:

@@ -24,7 +24,7 @@ from ._arguments import (
     told,
     whole,
 )
-from ._common import listed, not_pickled, number, numbers
+from ._common import exact_in_float32, listed, not_pickled, number, numbers
 from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
 from ._labels import Labels, read_labels
@@ -139,7 +139,8 @@ class Scene:
         edit(at=(x, y, z), voxels=array)
             those of an array indexed [z, y, x], from voxel (x, y, z) on
 
-        Refuses values that the voxels' type cannot have, and boxes that leave the volume; then nothing is changed.
+        Refuses values that the voxels' type cannot have, and boxes that leave the volume; then nothing is changed. To
+        float32 numbers with a fraction are rounded.
         """
         if sum(choice is not None for choice in (ball, box, at)) != 1:
             raise InvalidArgumentError("an edit has one of ball=, box= and at=")
@@ -155,10 +156,15 @@ class Scene:
             self._core.set_box(corner[:3], corner[3:], number(value, "value"))
         else:
             given = np.asarray(voxels)
+            if given.dtype.kind not in "biuf":
+                given = numbers(given, "voxels")
             if given.ndim != 3:
                 raise InvalidArgumentError(f"voxels have the shape {given.shape}; three dimensions are needed: z, y, x")
-            stored = np.ascontiguousarray(given, dtype=self._volume.dtype)
-            if stored.dtype.kind in "iu" and (stored != given).any():
+            with np.errstate(invalid="ignore", over="ignore"):
+                stored = np.ascontiguousarray(given, dtype=self._volume.dtype)
+            fit = (stored == given).all() if stored.dtype.kind in "iu" else \
+                given.dtype.kind not in "iu" or exact_in_float32(given)
+            if not fit:
                 raise InvalidArgumentError(f"voxels of {given.dtype} do not all fit the volume's {stored.dtype}")
             self._core.write_box(whole(at, 3, "at"), stored)
 

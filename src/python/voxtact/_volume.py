@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, LPS_FROM_RAS, Space, check_space, not_pickled
+from ._common import BUILTIN, LPS_FROM_RAS, Space, check_space, encoded, exact_in_float32, not_pickled
 from ._errors import InvalidArgumentError
 
 _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
@@ -98,7 +98,7 @@ class Volume:
 
     def write(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending."""
-        self._core.write(os.fsencode(path))
+        self._core.write(encoded(path))
 
     def __repr__(self) -> str:
         x, y, z = self._core.size
@@ -153,12 +153,11 @@ def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
         if limits.min <= lo and hi <= limits.max:
             notes.append(f"voxels converted from {array.dtype} to {target}, exactly")
             return array.astype(target)
-    floats = array.astype(np.float32)
-    if max(-lo, hi) > 2**24 and not (floats.astype(np.float64) == array).all():
+    if max(-lo, hi) > 2**24 and not exact_in_float32(array):
         raise InvalidArgumentError(f"voxels of {array.dtype} from {lo} to {hi} fit neither 16-bit integers nor, exactly, "
                                    "float32")
     notes.append(f"voxels converted from {array.dtype} to float32, exactly")
-    return floats
+    return array.astype(np.float32)
 
 
 def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64], ...]:
@@ -291,8 +290,10 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
         if affine is not None or space is not None or axes is not None:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
         if isinstance(source, str) and source.startswith(BUILTIN):
+            if frame is not None or series:
+                raise InvalidArgumentError("frame= and series= are for files and nibabel's images")
             return Volume._of(core.Volume.builtin(source[len(BUILTIN):]))
-        return Volume._of(core.Volume.read(os.fsencode(source), frame, series))
+        return Volume._of(core.Volume.read(encoded(source), frame, series))
     if hasattr(source, "affine") and hasattr(source, "dataobj"):
         return _of_nibabel(source, frame)
     if frame is not None or series:

@@ -138,6 +138,26 @@ TEST(Clearance, MeasuresToLabelsAtAnyOpacity) {
     EXPECT_EQ(says.end, ClearanceEnd::Closed);
 }
 
+/// A label that is asked for twice is answered twice.
+TEST(Clearance, MeasuresToALabelAsOftenAsItIsAskedFor) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const Held held(needle(), makeBytes(grid, [](auto...) { return 255; }), byteRamp(), {0, 255});
+    const LabelData labels = take(makeLabels(makeBytes(grid, [](auto x, auto, auto) { return x < 4 ? 1 : 2; }).view()));
+    const Mat4 pose = translation({30, 10, 10});
+    const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1), &labels};
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    const std::vector<std::int32_t> wanted{1, 2, 1, 3, 1, 3, 2};
+    const std::vector<LabelClearance> found = take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, wanted)).labels;
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        EXPECT_EQ(found[i].label, wanted[i]);
+        const double truth = wanted[i] == 1 ? 30 - 3.5 : wanted[i] == 2 ? 30 - 19.5 : kInfinity;
+        EXPECT_TRUE(found[i].bounds.hi == truth || std::abs(found[i].bounds.hi - truth) < 1e-4)
+            << i << ": " << found[i].bounds.hi;
+    }
+}
+
 TEST(Clearance, RefusesWhatItCannotUse) {
     const auto refused = [](const cpu::ClearanceDesc& desc) {
         const Result<cpu::ClearanceMeter> meter = cpu::ClearanceMeter::create(desc);

@@ -110,9 +110,24 @@ TEST(Edits, AreAsIfTheVolumeWereMadeAnew) {
                 empty = voxels.empty();
             }
             ASSERT_EQ(volume.impl().id == before, empty);
+            const VoxelBox seen = randomBox(random, mirror.grid);
+            VolumeData copy = mirror;
+            const std::vector<std::byte> wanted = copyBox(copy, mirror, seen);
+            std::vector<std::byte> read(wanted.size());
+            ASSERT_TRUE(volume.read(seen, read).ok());
+            ASSERT_TRUE(read == wanted);
             ASSERT_NO_FATAL_FAILURE(expectSame(volume, take(cpu::Volume::create(mirror.view()))));
         }
     }
+}
+
+TEST(Edits, AreReadBackIntoMemoryThatFits) {
+    const VolumeData data = makeBytes(unitGrid(4), [](auto x, auto...) { return x; });
+    const cpu::Volume volume = take(cpu::Volume::create(data.view()));
+    std::vector<std::byte> memory(8);
+    EXPECT_TRUE(volume.read({{2, 2, 2}, {2, 2, 2}}, memory).ok());
+    EXPECT_THAT(volume.read({{2, 2, 2}, {2, 2, 1}}, memory).error().text, HasSubstr("need 4"));
+    EXPECT_THAT(volume.read({{3, 2, 2}, {2, 2, 2}}, memory).error().text, HasSubstr("along x"));
 }
 
 TEST(Edits, AreSeenByTheNextCount) {

@@ -298,7 +298,7 @@ TEST_F(RenderCutTest, ManyMeshesAreEachAtTheirPose) {
     };
     EXPECT_EQ(reds(), 0U);
     others.back().meshColour = {1, 0, 0};
-    EXPECT_GT(reds(), 1U);
+    EXPECT_GT(reds(), 0U);
 }
 
 TEST_F(RenderCutTest, APictureInPiecesIsTheSame) {

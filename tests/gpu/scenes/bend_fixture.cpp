@@ -21,6 +21,23 @@ constexpr std::uint32_t kMostPairs = 2;
 constexpr std::uint32_t kContacts = 1U << 14U;
 constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .labels = true};
 
+/// Whether it depends on which fragments lanes have together how many are counted: one that is divided as far as any
+/// may be can use up the rounds of loops that llvmpipe lets all of them have (docs/facts.md). That pair is undecided
+/// then.
+bool mayBeCut(const DetectorDesc& desc, const BatchAnswer& answer) {
+    return desc.projection == Projection::Conservative && !desc.stopAtFirst &&
+           std::ranges::any_of(answer.pairs,
+                               [](const PairAnswer& pair) { return pair.exactness == Exactness::LowerBound; });
+}
+
+std::vector<bool> hitsOf(const BatchAnswer& answer) {
+    std::vector<bool> hits;
+    for (const PairAnswer& pair : answer.pairs) {
+        hits.push_back(pair.hit);
+    }
+    return hits;
+}
+
 std::vector<std::byte> spread(std::span<const float> positions, const Spacing& spacing) {
     const std::size_t vertices = positions.size() / 3;
     std::vector<float> out((spacing.offset + spacing.stride * (vertices - 1)) / sizeof(float) + 3,
@@ -125,8 +142,15 @@ void BendFixture::expectFresh(std::vector<Way>& ways, const MeshData& shape, std
     raw().submitAndWait(commands);
     for (Way& way : ways) {
         const BatchAnswer expected = answerOf(way, 0);
-        ASSERT_EQ(everythingOf(answerOf(way, which)), everythingOf(expected))
-            << toString(way.detector.desc().projection) << " by " << toString(way.detector.desc().method);
+        const BatchAnswer found = answerOf(way, which);
+        if (mayBeCut(way.detector.desc(), expected) || mayBeCut(way.detector.desc(), found)) {
+            ASSERT_EQ(hitsOf(found), hitsOf(expected));
+            ++cut_;
+        } else {
+            ASSERT_EQ(everythingOf(found), everythingOf(expected))
+                << toString(way.detector.desc().projection) << " by " << toString(way.detector.desc().method);
+            ++whole_;
+        }
         for (const PairAnswer& pair : expected.pairs) {
             hits_ += pair.hit ? 1U : 0U;
         }

@@ -55,7 +55,9 @@ class BendFixture : public RawGpuTest {
     std::optional<LabelMap> labels_;
     std::vector<Mat4> poses_{identity()};
     View view_;
-    std::size_t hits_ = 0; ///< that expectFresh() has seen
+    std::size_t hits_ = 0;  ///< that expectFresh() has seen
+    std::size_t whole_ = 0; ///< answers that it has compared whole
+    std::size_t cut_ = 0;   ///< and as far as a device that ends long loops lets it
 };
 
 } // namespace voxtact::test

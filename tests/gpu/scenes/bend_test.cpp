@@ -83,6 +83,7 @@ TEST_F(MeshBendTest, AnswersAreThoseOfAMeshMadeAfresh) {
         }
     }
     EXPECT_GT(hits_, rounds) << "hardly anything touched";
+    EXPECT_GT(whole_, 4 * cut_);
 }
 
 TEST_F(MeshBendTest, BoxesAreTheHostsForAllKindsOfFloats) {
