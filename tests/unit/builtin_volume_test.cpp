@@ -3,9 +3,13 @@
 #include "support/refusal.h"
 #include "voxtact/samples.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -124,17 +128,17 @@ TEST(BuiltinVolume, CtIsObliqueAndAnisotropic) {
     const VolumeData ct = madeVolume("ct");
     EXPECT_EQ(range<std::int16_t>(ct), (std::pair<std::int16_t, std::int16_t>(-1024, 3071)));
     EXPECT_GT(ct.grid.spacing[2], 2.5 * ct.grid.spacing[0]);
-    std::array<Vec3, 3> axes{};
+    std::array<glm::dvec3, 3> axes{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         axes[axis] = {ct.grid.direction[3 * axis], ct.grid.direction[3 * axis + 1], ct.grid.direction[3 * axis + 2]};
-        EXPECT_LT(axes[axis][axis], 0.99) << "this axis is hardly oblique";
+        EXPECT_LT(axes[axis][static_cast<int>(axis)], 0.99) << "this axis is hardly oblique";
     }
     for (std::size_t a = 0; a < 3; ++a) {
         for (std::size_t b = 0; b < 3; ++b) {
-            EXPECT_NEAR(dot(axes[a], axes[b]), a == b ? 1 : 0, 1e-14);
+            EXPECT_NEAR(glm::dot(axes[a], axes[b]), a == b ? 1 : 0, 1e-14);
         }
     }
-    EXPECT_NEAR(dot(axes[0], cross(axes[1], axes[2])), 1, 1e-14);
+    EXPECT_NEAR(glm::dot(axes[0], glm::cross(axes[1], axes[2])), 1, 1e-14);
 }
 
 TEST(BuiltinVolume, ShellsAreThinAndBetweenZeroAndOne) {
