@@ -2,6 +2,7 @@
 // voxtact._core: what the package voxtact, in voxtact/, is thin on.
 #include "failure.h"
 #include "geometry.h"
+#include "lock.h"
 #include "motions.h"
 #include "pictures.h"
 #include "plans.h"
@@ -27,6 +28,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("DEFAULT_PLAN_MAXIMUM") = kDefaultPlanMaximum;
     module.attr("DEFAULT_PLAN_STEPS") = cpu::PlannerDesc().mostSteps;
     python::watchForks();
+    python::watchEnd();
     python::registerFailures();
     python::defineData(module);
     python::defineGeometry(module);

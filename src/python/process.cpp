@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "process.h"
 
+#include "lock.h"
+
 #include <pthread.h>
 
 namespace voxtact::python {
@@ -16,7 +18,10 @@ std::uint64_t forks() noexcept {
 }
 
 void watchForks() {
-    pthread_atfork(nullptr, nullptr, [] { count.fetch_add(1, std::memory_order_relaxed); });
+    pthread_atfork(nullptr, nullptr, [] {
+        count.fetch_add(1, std::memory_order_relaxed);
+        forgetOtherThreads();
+    });
 }
 
 } // namespace voxtact::python

@@ -44,7 +44,7 @@ Progress progressOf(const py::object& callback, std::size_t all) {
     if (callback.is_none()) {
         return {};
     }
-    return [&callback, all](std::size_t done) { callback(done, all); };
+    return [&callback, all](std::size_t done) { tell(callback, done, all); };
 }
 
 std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object& points, const py::object& domain,

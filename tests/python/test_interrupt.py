@@ -119,16 +119,20 @@ def test_ctrl_c_stops_a_picture_within_a_second(device):
     check(PICTURE)
 
 
-# A script ends while another thread asks on and on.
+# A script ends while another thread asks on and on. The C library's own end lasts a little, in which that thread must
+# find neither an interpreter that is gone nor a library that is.
 LEFT_ALONE = """
-import sys, threading, time
+import ctypes, sys, threading, time
 import numpy as np
 import voxtact as vx
+libc = ctypes.CDLL(None)
+libc.__cxa_atexit(ctypes.cast(libc.usleep, ctypes.c_void_p), ctypes.c_void_p(300_000), None)
 scene = vx.Scene("builtin:head:48", opacity=[(40, 0), (80, 1)], threads=1)
 mesh = vx.read_mesh("builtin:scalpel:500")
 poses = np.tile(np.eye(4), (3000, 1, 1))
 poses[:, :3, 3] = np.random.default_rng(1).uniform(-60, 60, (3000, 3))
 asks = {"detect": lambda: scene.detect(mesh, poses), "tells": lambda: scene.detect(mesh, poses, progress=lambda *_: None),
+        "sleeps": lambda: scene.detect(mesh, poses, progress=lambda *_: time.sleep(0.1)),
         "clearance": lambda: scene.clearance(mesh, poses[:300]), "motion": lambda: scene.motion(mesh, poses[:30])}
 begun = threading.Event()
 def work():
@@ -141,9 +145,36 @@ time.sleep(float(sys.argv[2]))
 """
 
 
-@pytest.mark.parametrize("what", ["detect", "tells", "clearance", "motion"])
+@pytest.mark.parametrize("what", ["detect", "tells", "sleeps", "clearance", "motion"])
 def test_a_script_ends_while_another_thread_is_in_a_call(what):
     for wait in (0.01, 0.07, 0.13):
         done = subprocess.run([sys.executable, "-c", LEFT_ALONE, what, str(wait)], capture_output=True, text=True,
                               check=False, timeout=120)
-        assert done.returncode == 0, done.stderr
+        assert (done.returncode, done.stderr) == (0, ""), done.stderr
+
+
+# The main thread's own last calls are answered, and the child of a fork does not wait for threads that it has not.
+LAST_CALLS = """
+import atexit, os, sys, threading, time
+import numpy as np
+def last():
+    print("last:", len(scene.detect(mesh, np.eye(4))))
+atexit.register(last)
+import voxtact as vx
+scene = vx.Scene("builtin:head:48", opacity=[(40, 0), (80, 1)], threads=1)
+mesh = vx.read_mesh("builtin:scalpel:500")
+poses = np.tile(np.eye(4), (30_000, 1, 1))
+threading.Thread(target=lambda: scene.detect(mesh, poses), daemon=True).start()
+time.sleep(0.05)
+sys.stdout.flush()
+child = os.fork()
+if child == 0:
+    sys.exit(0)
+print("child:", os.waitpid(child, 0)[1])
+"""
+
+
+def test_the_last_calls_of_a_program_are_answered():
+    done = subprocess.run([sys.executable, "-c", LAST_CALLS], capture_output=True, text=True, check=False, timeout=120)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+    assert done.stdout.split("\n")[:3] == ["last: 1", "child: 0", "last: 1"], done.stdout
