@@ -30,6 +30,13 @@ struct BrickCells {
     [[nodiscard]] unsigned row(const CellBox& box, std::int32_t y, std::int32_t z) const noexcept {
         return mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] & box.columns();
     }
+    /// Whether a cell of the brick, numbered as the volume's, may have an opaque point.
+    [[nodiscard]] bool has(const std::array<std::int32_t, 3>& cell) const noexcept {
+        const auto place = [&](std::size_t axis) {
+            return static_cast<unsigned>(cell[axis] + 1) % static_cast<unsigned>(kBrickSide);
+        };
+        return (mayBeOpaque[place(1) + kBrickSide * place(2)] >> place(0) & 1U) != 0;
+    }
     /// Whether some cell of a box (numbered within the brick) may have an opaque point.
     [[nodiscard]] bool any(const CellBox& box) const noexcept;
     /// The bits of a slice: row y from bit 8 * y on.

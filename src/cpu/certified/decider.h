@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/geometry/clusters.h"
-#include "cpu/certified/certified_pair.h"
+#include "cpu/certified/box_look.h"
+#include "cpu/certified/likely_runs.h"
 #include "cpu/certified/row_counter.h"
-#include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,6 @@
 #include <vector>
 
 namespace voxtact::cpu {
-
-inline CellBox cellsOf(const shader::CertifiedBounds& bounds) {
-    return {{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
-}
 
 static_assert(TriangleCells::kRow == kBrickSide, "a brick's rows are asked as they are");
 
@@ -31,7 +27,11 @@ template <class Kept, class Mode> class Decider {
 
   public:
     Decider(const CertifiedJob& job, const Kept* voxels, const CertifiedSink& sink)
-        : job_(job), voxels_(voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()) {}
+        : job_(job), cells_(job, voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()),
+          placed_(job.mesh, job.transform), boxes_(item_, job.transform, job.mesh.tree) {
+        delta_.delta = boxes_.delta();
+        delta_.usable = boxes_.usable();
+    }
 
     CertifiedTally run() {
         if (job_.stopAtFirst) {
@@ -47,19 +47,6 @@ template <class Kept, class Mode> class Decider {
     }
 
   private:
-    /// The most vertices that a cluster has, padding included.
-    static constexpr std::size_t kMostVertices = 3 * std::size_t{kClusterTriangles} + kMeshAlignment;
-
-    /// Vertices of a cluster in voxel space.
-    struct Vertices {
-        float x[kMostVertices];
-        float y[kMostVertices];
-        float z[kMostVertices];
-        float error[kMostVertices];
-
-        [[nodiscard]] CertifiedVertex at(std::size_t i) const { return {{x[i], y[i], z[i]}, error[i]}; }
-    };
-
     struct Triangle {
         std::uint32_t number = 0;
         std::array<std::size_t, 3> vertices{}; ///< in the mesh's arrays
@@ -76,74 +63,51 @@ template <class Kept, class Mode> class Decider {
             job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); }, visit);
     }
 
-    /// A vertex in opaque matter is found sooner than a fragment is decided, so all runs are probed before any is
-    /// decided.
+    /// A vertex in opaque matter is found sooner than a fragment is decided: so first one vertex of every run is
+    /// probed, then all of those runs that one look leaves, and only then these are decided.
     void probeAndDecide() {
         std::vector<std::uint32_t> runs;
         descend([&](std::uint32_t run) {
             runs.push_back(run);
-            probeRun(run);
+            if (delta_.usable) {
+                const std::size_t first = placed_.firstTriangle(run);
+                probe(job_.mesh.numbers[first], placed_.alone(run, first).point, delta_.delta);
+            }
             return !done();
         });
-        for (std::size_t i = 0; i < runs.size() && !done(); ++i) {
-            decideRun(runs[i]);
+        LikelyRuns<Kept> likely(job_, cells_, placed_);
+        const auto goesOn = [this] { return !done(); };
+        for (std::size_t i = 0; i < runs.size() && goesOn(); ++i) {
+            likely.look(runs[i], goesOn, [this](std::uint32_t triangle, const VoxelPoint& vertex, float delta) {
+                probe(triangle, vertex, delta);
+            });
         }
-    }
-
-    void probeRun(std::uint32_t run) {
-        if (!delta_.usable) {
-            return;
-        }
-        const MeshImpl& mesh = job_.mesh;
-        const std::size_t first = beginRun(run);
-        for (std::size_t at = first; at < first + kRunTriangles && mesh.numbers[at] != kNoTriangle; ++at) {
-            for (const std::uint8_t corner : {mesh.corner0[at], mesh.corner1[at], mesh.corner2[at]}) {
-                if (!probed_[corner]) {
-                    probed_[corner] = true;
-                    if (vertexProves(mesh.numbers[at], vertices_.at(corner).point)) {
-                        tally_.certain = 1;
-                        return;
-                    }
-                }
-            }
+        for (std::size_t i = 0; i < likely.all().size() && goesOn(); ++i) {
+            const auto& run = likely.all()[i];
+            forTriangles(run.number, [&](const auto&... corners) {
+                run.isLooked ? decideLooked(likely, run, corners...) : decideTriangle(corners...);
+            });
         }
     }
 
     /// Tells the sink, too.
-    [[nodiscard]] bool vertexProves(std::uint32_t triangle, const VoxelPoint& vertex) const {
-        const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
-        std::array<std::int32_t, 3> cell{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float at = voxelAlong(vertex, static_cast<int>(axis));
-            if (!(at >= -0.5F && at <= static_cast<float>(size[axis]) - 0.5F)) {
-                return false;
+    void probe(std::uint32_t triangle, const VoxelPoint& vertex, float delta) {
+        shader::CertifiedProof proof;
+        if (cells_.vertexProves(vertex, delta, sink_ ? &proof : nullptr)) {
+            tally_.certain = 1;
+            if (sink_) {
+                sink_(triangle, proof);
             }
-            cell[axis] = std::min(at < 0 ? -1 : static_cast<std::int32_t>(at), size[axis] - 1);
         }
-        const CellBox box{cell, cell};
-        const std::array<std::int32_t, 3> brick = box.bricks().lo;
-        if (!job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber(brick))) {
-            return false;
-        }
-        const BrickCells& known = job_.occupancy.cells(job_.volume, brick);
-        if (!known.any(box.within(brick))) {
-            return false;
-        }
-        const shader::CertifiedCorners corners = cornersOf(cell[0], cell[1], cell[2], known);
-        const shader::CertifiedCell here =
-            shader::certifiedCell(item_, corners, cell[0], cell[1], cell[2], delta_.delta);
-        shader::CertifiedWitness witness;
-        if (!shader::certifiedVertexProves(table_, here, vertex, cell[0], cell[1], cell[2], witness)) {
-            return false;
-        }
-        if (sink_) {
-            sink_(triangle, shader::certifiedProof(table_, item_, corners, witness, cell[0], cell[1], cell[2]));
-        }
-        return true;
     }
 
-    /// Whether the triangles in a box of object space may pass through a brick that may have an opaque point.
+    /// Whether the triangles in a box of object space may pass through a cell that may have an opaque point. Sets
+    /// `delta_`.
     [[nodiscard]] bool mayTouch(const RunBox& box) {
+        if (boxes_.usable()) {
+            const CellBox cells = boxes_.cells(box);
+            return !cells.empty() && job_.occupancy.mayBeOpaque(job_.volume, cells);
+        }
         const shader::CertifiedBounds& bounds = delta_ = shader::certifiedBoxBounds(
             item_, job_.transform, {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]});
         const CellBox cells = cellsOf(bounds);
@@ -155,45 +119,50 @@ template <class Kept, class Mode> class Decider {
                              : job_.occupancy.mayBeOpaque(cells.bricks());
     }
 
-    /// The number of the run's first triangle in the mesh's arrays; its vertices are then at hand.
-    std::size_t beginRun(std::uint32_t run) {
-        const std::uint32_t cluster = run / ClusterTree::kRunsOfCluster;
-        const ClusterPlace& place = job_.mesh.clusters[cluster];
-        if (cluster != transformed_) {
-            transform(place);
-            transformed_ = cluster;
-            probed_.fill(false);
-        }
-        return place.firstTriangle + run % ClusterTree::kRunsOfCluster * kRunTriangles;
+    void decideRun(std::uint32_t run) {
+        forTriangles(run, [this](const auto&... corners) { decideTriangle(corners...); });
     }
 
-    void decideRun(std::uint32_t run) {
+    /// Calls `decide(corner, corner, corner)` for a run's triangles, until it is done; `triangle_` is set.
+    template <class Decide> void forTriangles(std::uint32_t run, const Decide& decide) {
         const MeshImpl& mesh = job_.mesh;
-        const std::size_t first = beginRun(run);
+        const std::size_t first = placed_.begin(run);
         for (std::size_t at = first; at < first + kRunTriangles && !done(); ++at) {
             if (mesh.numbers[at] == kNoTriangle) {
                 return;
             }
-            const std::size_t firstVertex = mesh.clusters[transformed_].firstVertex;
+            const std::size_t firstVertex = placed_.firstVertex();
             triangle_ = {
                 mesh.numbers[at],
                 {firstVertex + mesh.corner0[at], firstVertex + mesh.corner1[at], firstVertex + mesh.corner2[at]}};
-            decideTriangle(vertices_.at(mesh.corner0[at]), vertices_.at(mesh.corner1[at]),
-                           vertices_.at(mesh.corner2[at]));
+            decide(placed_.at(mesh.corner0[at]), placed_.at(mesh.corner1[at]), placed_.at(mesh.corner2[at]));
         }
     }
 
-    void transform(const ClusterPlace& place) {
-        const MeshImpl& mesh = job_.mesh;
-        const std::size_t first = place.firstVertex;
-        for (std::size_t i = 0; i < place.vertexCount; ++i) {
-            const CertifiedVertex vertex =
-                shader::certifiedVertex(job_.transform, mesh.x[first + i], mesh.y[first + i], mesh.z[first + i]);
-            vertices_.x[i] = vertex.point.x;
-            vertices_.y[i] = vertex.point.y;
-            vertices_.z[i] = vertex.point.z;
-            vertices_.error[i] = vertex.error;
+    /// A triangle of a run that was looked at: in those cells alone that the look left, and where a look at itself
+    /// leaves them.
+    void decideLooked(const LikelyRuns<Kept>& likely, const typename LikelyRuns<Kept>::Run& run,
+                      const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
+        const shader::CertifiedBounds bounds = shader::certifiedBounds(item_, a, b, c);
+        const CellBox cells = cellsOf(bounds);
+        if (cells.empty()) {
+            return;
         }
+        const TriangleHull hull(a.point, b.point, c.point, bounds.delta);
+        const auto goesOn = [this] { return !done(); };
+        likely.forCells(run, cells, goesOn, [&](std::int32_t x, std::int32_t y, std::int32_t z, const auto& known) {
+            if (!hullMayMeetLinearly(table_, hull.hull(), known, x, y, z)) {
+                return;
+            }
+            const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
+            if (cells.single() || !shader::certifiedPlaneMisses(triangle, middleOf(x, y, z), 0.5F)) {
+                decideCell(triangle, x, y, z, cells_.ofCell({x, y, z}), true);
+            }
+        });
+    }
+
+    [[nodiscard]] static VoxelPoint middleOf(std::int32_t x, std::int32_t y, std::int32_t z) {
+        return {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, static_cast<float>(z) + 0.5F};
     }
 
     void decideTriangle(const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
@@ -222,15 +191,8 @@ template <class Kept, class Mode> class Decider {
 
     /// Those that may have an opaque point, until it is done.
     template <class Visit> void visitBricks(const BrickBox& bricks, const Visit& visit) const {
-        for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
-            for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {
-                for (std::int32_t x = bricks.lo[0]; x <= bricks.hi[0] && !done(); ++x) {
-                    if (job_.occupancy.mayBeOpaque(job_.occupancy.brickNumber({x, y, z}))) {
-                        visit(std::array<std::int32_t, 3>{x, y, z});
-                    }
-                }
-            }
-        }
+        cells_.forBricks(
+            bricks, [this] { return !done(); }, visit);
     }
 
     /// A triangle as it is first placed, in single precision.
@@ -246,7 +208,7 @@ template <class Kept, class Mode> class Decider {
             return shader::certifiedPlaneMisses(triangle, centre, radius);
         }
         void decideCell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) const {
-            decider.decideCell(triangle, x, y, z, known);
+            decider.decideCell(triangle, x, y, z, known, !decider.job_.stopAtFirst);
         }
     };
 
@@ -307,7 +269,7 @@ template <class Kept, class Mode> class Decider {
     }
 
     void decideAgain(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) {
-        const shader::CertifiedCorners corners = cornersOf(x, y, z, known);
+        const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
         shader::CertifiedCell cell = shader::preciseCell(item_, precise_, corners, x, y, z);
         shader::CertifiedWitness witness{};
         int verdict = settleAgain(cell, x, y, z, false, witness);
@@ -363,7 +325,7 @@ template <class Kept, class Mode> class Decider {
     void decideCells(const Placed& triangle, const CellBox& within, const BrickCells& known,
                      const std::array<std::int32_t, 3>& brick, bool single) {
         const auto cell = [&](std::int32_t number, std::size_t axis) {
-            return (brick[axis] << kBrickShift) - 1 + number;
+            return VolumeCells<Kept>::cellOf(brick, number, axis);
         };
         const CertifiedTriangle* counted = triangle.counted();
         const CellBits* allOpaque = counted != nullptr ? &job_.occupancy.allOpaque(job_.volume, brick) : nullptr;
@@ -379,9 +341,7 @@ template <class Kept, class Mode> class Decider {
                 }
                 for (; row != 0; row &= row - 1) {
                     const std::int32_t x = std::countr_zero(row);
-                    const VoxelPoint centre{static_cast<float>(cell(x, 0)) + 0.5F,
-                                            static_cast<float>(cell(y, 1)) + 0.5F,
-                                            static_cast<float>(cell(z, 2)) + 0.5F};
+                    const VoxelPoint centre = middleOf(cell(x, 0), cell(y, 1), cell(z, 2));
                     if (single || !triangle.planeMisses(centre, 0.5F)) {
                         triangle.decideCell(cell(x, 0), cell(y, 1), cell(z, 2), known);
                         if (done()) {
@@ -393,27 +353,14 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    [[nodiscard]] shader::CertifiedCorners cornersOf(std::int32_t x, std::int32_t y, std::int32_t z,
-                                                     const BrickCells& known) const {
-        const auto& stride = job_.volume.image.stride;
-        const Kept* at = voxels_ + (x + 1) + (y + 1) * stride[1] + (z + 1) * stride[2];
-        const auto stored = [&](std::int64_t offset) { return storedValue(at[offset]); };
-        return {stored(0),
-                stored(1),
-                stored(stride[1]),
-                stored(stride[1] + 1),
-                stored(stride[2]),
-                stored(stride[2] + 1),
-                stored(stride[2] + stride[1]),
-                stored(stride[2] + stride[1] + 1),
-                known.wideLo,
-                known.wideHi};
-    }
-
+    /// `isLikely`: it is not looked at first.
     void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
-                    const BrickCells& known) {
-        const shader::CertifiedCorners corners = cornersOf(x, y, z, known);
+                    const BrickCells& known, bool isLikely) {
+        const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
         const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
+        if (!isLikely && !hullMayMeetLinearly(table_, TriangleHull(triangle).hull(), cell, x, y, z)) {
+            return;
+        }
         if (Mode::kCounts && cornerProves(triangle, cell, x, y, z)) {
             ++tally_.certain;
             return;
@@ -446,7 +393,7 @@ template <class Kept, class Mode> class Decider {
     }
 
     const CertifiedJob& job_;
-    const Kept* voxels_;
+    VolumeCells<Kept> cells_;
     const CertifiedSink& sink_;
     shader::CertifiedItem item_;
     shader::OpacityTable table_;
@@ -456,10 +403,9 @@ template <class Kept, class Mode> class Decider {
     shader::PreciseTriangle precise_{}; ///< of number `preciseOf_`
     std::uint32_t preciseOf_ = kNoTriangle;
     std::vector<Open> open_;
-    Vertices vertices_; ///< of cluster `transformed_`
-    std::uint32_t transformed_ = 0xffffffffU;
-    std::array<bool, kMostVertices> probed_{}; ///< of the same cluster
-    shader::CertifiedBounds delta_{};          ///< of the box that was looked at last; not less than its triangles'
+    PlacedCluster placed_;
+    BoxLook boxes_;
+    shader::CertifiedBounds delta_{}; ///< of the box that was looked at last: its delta is not less than its triangles'
 };
 
 } // namespace voxtact::cpu

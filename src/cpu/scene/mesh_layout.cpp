@@ -86,6 +86,37 @@ std::vector<RunBox> runsAt(const MeshImpl& mesh, std::span<const float> position
     return runs;
 }
 
+/// Of a run that begins with triangle `at`.
+void addRunVertices(const MeshImpl& mesh, std::uint32_t at, RunVertices& out) {
+    std::array<bool, 3 * std::size_t{kClusterTriangles}> seen{};
+    out.first.push_back(static_cast<std::uint32_t>(out.corner.size()));
+    for (std::uint8_t i = 0; i < kRunTriangles && mesh.numbers[at + i] != kNoTriangle; ++i) {
+        for (const std::uint8_t corner : {mesh.corner0[at + i], mesh.corner1[at + i], mesh.corner2[at + i]}) {
+            if (!seen[corner]) {
+                seen[corner] = true;
+                out.corner.push_back(corner);
+                out.triangle.push_back(i);
+            }
+        }
+    }
+}
+
+RunVertices runVerticesOf(const MeshImpl& mesh) {
+    RunVertices out;
+    for (const ClusterPlace& place : mesh.clusters) {
+        for (std::uint32_t run = 0; run < ClusterTree::kRunsOfCluster; ++run) {
+            const std::uint32_t within = run * kRunTriangles;
+            if (within < place.triangleCount) {
+                addRunVertices(mesh, place.firstTriangle + within, out);
+            } else { // of the last cluster
+                out.first.push_back(static_cast<std::uint32_t>(out.corner.size()));
+            }
+        }
+    }
+    out.first.push_back(static_cast<std::uint32_t>(out.corner.size()));
+    return out;
+}
+
 } // namespace
 
 MeshImpl::MeshImpl(const MeshView& data, const MeshFacts& checked) : facts(checked) {
@@ -105,6 +136,7 @@ MeshImpl::MeshImpl(const MeshView& data, const MeshFacts& checked) : facts(check
         padded->resize(aligned(static_cast<std::uint32_t>(clusters.size())));
     }
     setBoxes(*this);
+    runVertices = runVerticesOf(*this);
     tree = ClusterTree(runsAt(*this, data.positions));
 }
 

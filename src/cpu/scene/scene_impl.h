@@ -51,6 +51,14 @@ struct ClusterPlace {
     std::uint32_t triangleCount = 0;
 };
 
+/// The vertices of each run of triangles, each once a run. Run r is the (r % kRunsOfCluster)th of cluster
+/// r / kRunsOfCluster.
+struct RunVertices {
+    std::vector<std::uint32_t> first;   ///< of each run, and behind the last
+    std::vector<std::uint8_t> corner;   ///< vertex of the cluster
+    std::vector<std::uint8_t> triangle; ///< of the run: one that has it
+};
+
 struct MeshImpl {
     MeshImpl(const MeshView& data, const MeshFacts& checked);
 
@@ -68,6 +76,7 @@ struct MeshImpl {
     std::vector<std::uint32_t> numbers;                  ///< of triangles in the mesh; of the padding: kNoTriangle
     /// Centres and half sides of the clusters' boxes, padded to kMeshAlignment. Rounded outward.
     std::vector<float> centreX, centreY, centreZ, halfX, halfY, halfZ;
+    RunVertices runVertices;
     ClusterTree tree;
 };
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/certified/run_look.h"
+
+#include <cmath>
+#include <limits>
+
+namespace voxtact::cpu {
+
+namespace {
+
+using shader::VoxelPoint;
+
+struct Range {
+    double lo = 0;
+    double hi = 0;
+
+    [[nodiscard]] double middle() const noexcept { return 0.5 * (lo + hi); }
+    [[nodiscard]] double half() const noexcept { return 0.5 * (hi - lo); }
+};
+
+double lerp(double a, double b, double weight) noexcept {
+    return a + weight * (b - a);
+}
+
+/// The interpolant of a cell from a place in it: its linear part, and how much the rest of it is at most in a box
+/// around that place.
+struct Linear {
+    double value = 0;
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    double rest = 0;
+};
+
+Linear linearIn(const shader::CertifiedCell& cell, const Range& x, const Range& y, const Range& z) noexcept {
+    const double mx = x.middle();
+    const double my = y.middle();
+    const double mz = z.middle();
+    // Along x first: values and differences at the four edges.
+    const double v00 = lerp(cell.x000, cell.x100, mx);
+    const double v10 = lerp(cell.x010, cell.x110, mx);
+    const double v01 = lerp(cell.x001, cell.x101, mx);
+    const double v11 = lerp(cell.x011, cell.x111, mx);
+    const double d00 = double{cell.x100} - cell.x000;
+    const double d10 = double{cell.x110} - cell.x010;
+    const double d01 = double{cell.x101} - cell.x001;
+    const double d11 = double{cell.x111} - cell.x011;
+    const double xy = lerp(d10 - d00, d11 - d01, mz);
+    const double xz = lerp(d01 - d00, d11 - d10, my);
+    const double yz = (v11 - v01) - (v10 - v00);
+    const double xyz = (d11 - d01) - (d10 - d00);
+    Linear out;
+    out.value = lerp(lerp(v00, v10, my), lerp(v01, v11, my), mz);
+    out.x = lerp(lerp(d00, d10, my), lerp(d01, d11, my), mz);
+    out.y = lerp(v10 - v00, v11 - v01, mz);
+    out.z = lerp(v01 - v00, v11 - v10, my);
+    out.rest = std::abs(xy) * x.half() * y.half() + std::abs(xz) * x.half() * z.half() +
+               std::abs(yz) * y.half() * z.half() + std::abs(xyz) * x.half() * y.half() * z.half();
+    return out;
+}
+
+/// Along an axis: the part of the hull's box, and the cell, from its corner.
+Range partOf(float lo, float hi, float delta, float origin, float cellLo, float cellHi) noexcept {
+    float from = 0;
+    float to = 0;
+    shader::certifiedPart(lo - origin, hi - origin, hi - origin, delta, cellLo, cellHi, from, to);
+    return {from, to};
+}
+
+/// The least and the greatest dot product of a point with (x, y, z).
+Range along(const PointHull& hull, double x, double y, double z) noexcept {
+    Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < hull.count; ++i) {
+        const double at = x * hull.x[i] + y * hull.y[i] + z * hull.z[i];
+        range.lo = std::min(range.lo, at);
+        range.hi = std::max(range.hi, at);
+    }
+    return range;
+}
+
+/// Rounding of the interpolation here and of certifiedPartMayBeOpaque() for each triangle is in the error, and in what
+/// is added to it.
+constexpr float kErrors = 3;
+
+VoxelPoint originOf(std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+} // namespace
+
+void RunPoints::add(const shader::CertifiedVertex& vertex, std::uint32_t triangle) noexcept {
+    const VoxelPoint& at = vertex.point;
+    const bool isFirst = count_ == 0;
+    x_[count_] = at.x;
+    y_[count_] = at.y;
+    z_[count_] = at.z;
+    triangles_[count_] = triangle;
+    ++count_;
+    lo_ = isFirst ? at : VoxelPoint{std::min(lo_.x, at.x), std::min(lo_.y, at.y), std::min(lo_.z, at.z)};
+    hi_ = isFirst ? at : VoxelPoint{std::max(hi_.x, at.x), std::max(hi_.y, at.y), std::max(hi_.z, at.z)};
+    // Also NaN is kept.
+    error_ = isFirst || !(vertex.error <= error_) ? vertex.error : error_;
+}
+
+shader::CertifiedBounds RunPoints::bounds(const shader::CertifiedItem& item) const noexcept {
+    return shader::certifiedBounds(item, {lo_, error_}, {hi_, error_}, {hi_, error_});
+}
+
+bool hullMayMeet(const shader::OpacityTable& table, const PointHull& hull, const shader::CertifiedCell& cell,
+                 std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
+    shader::CertifiedCell wide = cell;
+    wide.pointError *= kErrors;
+    const shader::CertifiedTriangle box{hull.lo, hull.hi, hull.hi, {}, 0, hull.delta};
+    return shader::certifiedPartMayBeOpaque(table, box, wide, originOf(x, y, z)) &&
+           hullMayMeetLinearly(table, hull, cell, x, y, z);
+}
+
+bool hullMayMeetLinearly(const shader::OpacityTable& table, const PointHull& hull, const shader::CertifiedCell& cell,
+                         std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
+    const VoxelPoint origin = originOf(x, y, z);
+    const Range partX = partOf(hull.lo.x, hull.hi.x, hull.delta, origin.x, cell.lo.x, cell.hi.x);
+    const Range partY = partOf(hull.lo.y, hull.hi.y, hull.delta, origin.y, cell.lo.y, cell.hi.y);
+    const Range partZ = partOf(hull.lo.z, hull.hi.z, hull.delta, origin.z, cell.lo.z, cell.hi.z);
+    const Linear linear = linearIn(cell, partX, partY, partZ);
+    // A linear function is nowhere in the hull beyond its values at the points.
+    const Range dots = along(hull, linear.x, linear.y, linear.z);
+    const double from = linear.value - linear.x * (origin.x + partX.middle()) - linear.y * (origin.y + partY.middle()) -
+                        linear.z * (origin.z + partZ.middle());
+    const double displaced = 2.0 * hull.delta * (std::abs(linear.x) + std::abs(linear.y) + std::abs(linear.z));
+    const double least = std::max(from + dots.lo - displaced - linear.rest, double{cell.least});
+    const double greatest = std::min(from + dots.hi + displaced + linear.rest, double{cell.greatest});
+    if (!(least <= greatest)) {
+        return true; // not a number, or the hull is beside the cell: others tell
+    }
+    // The part of the range that is added is far more than what certifiedDecide() leaves open at its resolution.
+    constexpr float kPart = 1.0F / 64;
+    const float slack = kErrors * cell.pointError + kPart * (cell.greatest - cell.least);
+    return shader::certifiedMayBeOpaque(table, static_cast<float>(least), static_cast<float>(greatest), slack);
+}
+
+} // namespace voxtact::cpu

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/certified/certified_pair.h"
+#include "cpu/scene/stored_voxels.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// The cells of a job's volume that may have an opaque point. `Kept`: how its voxels are kept.
+template <class Kept> class VolumeCells {
+    using Place = std::array<std::int32_t, 3>;
+
+  public:
+    /// Both must outlive it.
+    VolumeCells(const CertifiedJob& job, const Kept* voxels)
+        : volume_(job.volume), occupancy_(job.occupancy), voxels_(voxels), item_(job.occupancy.item()) {}
+
+    /// A number within a brick as one of the volume's cells.
+    [[nodiscard]] static std::int32_t cellOf(const Place& brick, std::int32_t number, std::size_t axis) {
+        return (brick[axis] << kBrickShift) - 1 + number;
+    }
+
+    /// Expects one that may have an opaque point.
+    [[nodiscard]] const BrickCells& ofBrick(const Place& brick) const { return occupancy_.cells(volume_, brick); }
+    [[nodiscard]] const BrickCells& ofCell(const Place& cell) const { return ofBrick(CellBox{cell, cell}.bricks().lo); }
+
+    /// Calls `visit(brick)` for those bricks that may have an opaque point, as long as `goesOn()`.
+    template <class GoesOn, class Visit>
+    void forBricks(const BrickBox& bricks, const GoesOn& goesOn, const Visit& visit) const {
+        for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
+            for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {
+                for (std::int32_t x = bricks.lo[0]; x <= bricks.hi[0] && goesOn(); ++x) {
+                    if (occupancy_.mayBeOpaque(occupancy_.brickNumber({x, y, z}))) {
+                        visit(Place{x, y, z});
+                    }
+                }
+            }
+        }
+    }
+    /// Calls `visit(x, y, z, known)` for those cells of a box, as long as `goesOn()` says so from brick to brick.
+    template <class GoesOn, class Visit>
+    void forCells(const CellBox& cells, const GoesOn& goesOn, const Visit& visit) const {
+        forBricks(cells.bricks(), goesOn, [&](const Place& brick) {
+            const BrickCells& known = ofBrick(brick);
+            const CellBox within = cells.within(brick);
+            for (std::int32_t z = within.lo[2]; z <= within.hi[2]; ++z) {
+                for (std::int32_t y = within.lo[1]; y <= within.hi[1]; ++y) {
+                    for (unsigned row = known.row(within, y, z); row != 0; row &= row - 1) {
+                        visit(cellOf(brick, std::countr_zero(row), 0), cellOf(brick, y, 1), cellOf(brick, z, 2), known);
+                    }
+                }
+            }
+        });
+    }
+
+    [[nodiscard]] shader::CertifiedCorners corners(std::int32_t x, std::int32_t y, std::int32_t z,
+                                                   const BrickCells& known) const {
+        const auto& stride = volume_.image.stride;
+        const Kept* at = voxels_ + (x + 1) + (y + 1) * stride[1] + (z + 1) * stride[2];
+        const auto stored = [&](std::int64_t offset) { return storedValue(at[offset]); };
+        return {stored(0),
+                stored(1),
+                stored(stride[1]),
+                stored(stride[1] + 1),
+                stored(stride[2]),
+                stored(stride[2] + 1),
+                stored(stride[2] + stride[1]),
+                stored(stride[2] + stride[1] + 1),
+                known.wideLo,
+                known.wideHi};
+    }
+    [[nodiscard]] shader::CertifiedCell cell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known,
+                                             float delta) const {
+        return shader::certifiedCell(item_, corners(x, y, z, known), x, y, z, delta);
+    }
+
+    /// Whether a vertex alone proves a touch; `delta` is not less than that of a triangle that has it.
+    [[nodiscard]] bool vertexProves(const shader::VoxelPoint& vertex, float delta, shader::CertifiedProof* proof) const;
+
+  private:
+    const VolumeImpl& volume_;
+    const CertifiedOccupancy& occupancy_;
+    const Kept* voxels_;
+    shader::CertifiedItem item_;
+};
+
+template <class Kept>
+bool VolumeCells<Kept>::vertexProves(const shader::VoxelPoint& vertex, float delta,
+                                     shader::CertifiedProof* proof) const {
+    const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
+    Place cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float at = voxelAlong(vertex, static_cast<int>(axis));
+        if (!(at >= -0.5F && at <= static_cast<float>(size[axis]) - 0.5F)) {
+            return false;
+        }
+        cell[axis] = std::min(at < 0 ? -1 : static_cast<std::int32_t>(at), size[axis] - 1);
+    }
+    const Place brick = CellBox{cell, cell}.bricks().lo;
+    if (!occupancy_.mayBeOpaque(occupancy_.brickNumber(brick))) {
+        return false;
+    }
+    const BrickCells& known = ofBrick(brick);
+    if (!known.has(cell)) {
+        return false;
+    }
+    const auto [x, y, z] = cell;
+    shader::CertifiedWitness witness;
+    if (!shader::certifiedVertexProves(occupancy_.table(), this->cell(x, y, z, known, delta), vertex, x, y, z,
+                                       witness)) {
+        return false;
+    }
+    if (proof != nullptr) {
+        *proof = shader::certifiedProof(occupancy_.table(), item_, corners(x, y, z, known), witness, x, y, z);
+    }
+    return true;
+}
+
+} // namespace voxtact::cpu
