@@ -98,8 +98,9 @@ void RunPoints::add(const shader::CertifiedVertex& vertex, std::uint32_t triangl
     ++count_;
     lo_ = isFirst ? at : VoxelPoint{std::min(lo_.x, at.x), std::min(lo_.y, at.y), std::min(lo_.z, at.z)};
     hi_ = isFirst ? at : VoxelPoint{std::max(hi_.x, at.x), std::max(hi_.y, at.y), std::max(hi_.z, at.z)};
-    // Also NaN is kept.
-    error_ = isFirst || !(vertex.error <= error_) ? vertex.error : error_;
+    // What is not a finite number stays.
+    const bool isFarther = error_ <= CERTIFIED_FARTHEST && !(vertex.error <= error_);
+    error_ = isFirst || isFarther ? vertex.error : error_;
 }
 
 shader::CertifiedBounds RunPoints::bounds(const shader::CertifiedItem& item) const noexcept {
