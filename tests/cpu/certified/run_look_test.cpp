@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -58,8 +59,13 @@ struct Scene {
         const double spread = std::pow(10, uniform(random, -3, 2));
         float lo = std::numeric_limits<float>::infinity();
         float hi = -lo;
-        for (float& value : values) {
-            value = static_cast<float>(middle + uniform(random, -spread, spread));
+        // Now and then what bends alone: a product of two axes, or of all three.
+        const unsigned product = chance(random, 0.3) ? 1 + static_cast<unsigned>(below(random, 7)) : 0;
+        for (unsigned i = 0; i < 8; ++i) {
+            float& value = values[i];
+            const double off = product != 0 ? ((std::popcount(i & product) & 1) != 0 ? -spread : spread)
+                                            : uniform(random, -spread, spread);
+            value = static_cast<float>(middle + off);
             value = chance(random, 0.5) ? std::round(value) : value;
             lo = std::min(lo, value);
             hi = std::max(hi, value);
