@@ -7,7 +7,8 @@
 namespace voxtact::cpu {
 
 BoxLook::BoxLook(const shader::CertifiedItem& item, const shader::CertifiedPair& pair, const ClusterTree& tree) noexcept
-    : pair_(pair), size_{item.sizeX, item.sizeY, item.sizeZ} {
+    : pair_(pair), last_{static_cast<float>(item.sizeX - 1), static_cast<float>(item.sizeY - 1),
+                         static_cast<float>(item.sizeZ - 1)} {
     const std::span<const RunBox> top = tree.boxes(tree.levels() - 1);
     RunBox all = top.front();
     for (const RunBox& box : top) {

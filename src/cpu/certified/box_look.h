@@ -38,14 +38,26 @@ class BoxLook {
             const float middle = shader::exactDot(row, from[0], from[1], from[2]);
             const float extent =
                 std::abs(row[0]) * radius[0] + std::abs(row[1]) * radius[1] + std::abs(row[2]) * radius[2];
-            shader::certifiedCells(middle - extent, middle + extent, delta_, size_[axis], out.lo[axis], out.hi[axis]);
+            setCells(middle - extent - delta_, middle + extent + delta_, axis, out);
         }
         return out;
     }
 
   private:
+    /// As certifiedCells() has it.
+    void setCells(float from, float to, std::size_t axis, CellBox& out) const noexcept {
+        const float last = last_[axis];
+        if (to < -0.5F || from > last + 0.5F) {
+            out.lo[axis] = 0;
+            out.hi[axis] = -1;
+            return;
+        }
+        out.lo[axis] = from >= 0 ? static_cast<std::int32_t>(std::min(from, last)) : -1;
+        out.hi[axis] = to >= 0 ? static_cast<std::int32_t>(std::min(to, last)) : -1;
+    }
+
     const shader::CertifiedPair& pair_;
-    std::array<int, 3> size_;
+    std::array<float, 3> last_; ///< cell of each axis
     float delta_ = 0;
     bool usable_ = false;
 };

@@ -31,21 +31,32 @@ void CertifiedOccupancy::classify(const VolumeImpl& volume) {
 
 bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const {
     const BrickBox box = cells.bricks();
-    const std::uint32_t mixed = sums_.within(box);
-    if (mixed == 0 || mixed > kMostBricks) {
-        return mixed != 0;
+    if (box.hi == box.lo) {
+        return mayBeOpaque(volume, box.lo, cells);
+    }
+    // Of a few bricks, each is soon looked at.
+    if (box.hi[0] - box.lo[0] > 1 || box.hi[1] - box.lo[1] > 1 || box.hi[2] - box.lo[2] > 1) {
+        const std::uint32_t mixed = sums_.within(box);
+        if (mixed == 0 || mixed > kMostBricks) {
+            return mixed != 0;
+        }
     }
     for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
         for (std::int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
             for (std::int32_t x = box.lo[0]; x <= box.hi[0]; ++x) {
-                const std::array<std::int32_t, 3> brick{x, y, z};
-                if (mayBeOpaque(brickNumber(brick)) && this->cells(volume, brick).any(cells.within(brick))) {
+                if (mayBeOpaque(volume, {x, y, z}, cells)) {
                     return true;
                 }
             }
         }
     }
     return false;
+}
+
+bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick,
+                                     const CellBox& cells) const {
+    const std::size_t number = brickNumber(brick);
+    return mayBeOpaque(number) && bricks_.at(volume, item_, table(), number, brick).any(cells.within(brick));
 }
 
 } // namespace voxtact::cpu

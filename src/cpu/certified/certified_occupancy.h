@@ -47,6 +47,9 @@ class CertifiedOccupancy {
     }
 
   private:
+    /// The same of those in one brick.
+    [[nodiscard]] bool mayBeOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick,
+                                   const CellBox& cells) const;
     void classify(const VolumeImpl& volume);
 
     shader::CertifiedItem item_;
