@@ -22,6 +22,24 @@ using Trilinear = std::array<double, 8>;
 [[nodiscard]] double valueAt(const Trilinear& whole, const glm::dvec3& at) noexcept;
 [[nodiscard]] glm::dvec3 gradientAt(const Trilinear& whole, const glm::dvec3& at) noexcept;
 
+/// Of sums like those of PieceBounds::least(), relative to their largest terms.
+inline constexpr double kSumError = 0x1p-46;
+
+/// A box of voxel space, and two planes that what is opaque in it lies between: in the box's coordinates s from -1 to 1
+/// dot(slope, s) is no less than `from` and no more than `to`.
+struct PieceBounds {
+    glm::dvec3 middle{}; ///< local
+    glm::dvec3 half{};   ///< voxels
+    glm::dvec3 slope{};
+    glm::dvec3 inverse{}; ///< one by `slope`
+    double from = 0;      ///< or minus infinity
+    double to = 0;        ///< or infinity
+    double size = 0;      ///< the sum of the slope's magnitudes
+
+    /// The least dot product with `normal` that an opaque point of the box may have.
+    [[nodiscard]] double least(const VolumeSpace& space, const glm::dvec3& normal) const noexcept;
+};
+
 /// A box of voxel space, of one cell, and what is opaque in it.
 class CellPiece {
   public:
@@ -41,8 +59,8 @@ class CellPiece {
         return intervals.certainlyMeet(lo_ + twice, hi_ - twice) || intervals.contain(lo_, lo_ + twice) ||
                intervals.contain(hi_ - twice, hi_);
     }
-    /// The least dot product with `normal` that an opaque point of the piece may have.
-    [[nodiscard]] double least(const VolumeSpace& space, const glm::dvec3& normal) const noexcept;
+    /// Where in it something may be opaque.
+    [[nodiscard]] PieceBounds bounds(const VolumeSpace& space) const noexcept;
     /// Where the interpolant grows fastest, world.
     [[nodiscard]] glm::dvec3 ascent(const VolumeSpace& space) const noexcept;
     /// Whether the interpolant changes by less than it may be off: dividing the piece decides no more.

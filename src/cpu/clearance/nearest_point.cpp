@@ -72,9 +72,10 @@ class MeshSearch {
     }
 
     void openRun(std::uint32_t run) {
-        const PlacedTriangle* triangles = mesh_.run(run);
+        constexpr std::uint32_t kRuns = ClusterTree::kRunsOfCluster;
         for (std::uint32_t i = 0; i < mesh_.count(run); ++i) {
-            const dvec3 point = closestPoint(triangles[i].corners, from_);
+            const PlacedTriangle triangle = mesh_.triangle(run / kRuns, run % kRuns * kRunTriangles + i);
+            const dvec3 point = closestPoint(triangle.corners, from_);
             const double distance = glm::distance(point, from_);
             if (distance < best_.distance) {
                 best_ = {point, distance, mesh_.first(run) + i};

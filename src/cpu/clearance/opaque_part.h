@@ -35,14 +35,31 @@ class BrickPyramid {
     std::vector<Level> levels_;
 };
 
+/// Of the terms of an entry coordinate.
+inline constexpr double kEntryError = 0x1p-47;
+
+/// Of an entry coordinate: (stored - origin) * factor - 0.5. In double: single precision would be all that keeps the
+/// bounds apart.
+struct EntryScale {
+    double factor = 1;
+    double origin = 0;
+    double terms = 0; ///< the magnitudes of what the origin is made of
+
+    /// No coordinate of stored values up to such a magnitude is off by more: a dozen roundings, and as many of what is
+    /// computed from the terms.
+    [[nodiscard]] double error(double largest) const noexcept;
+};
+
 /// What a cell holds for the search.
 struct PartCell {
     Trilinear terms{};
-    double error = 0;     ///< of an entry coordinate
-    glm::dvec3 middle{};  ///< of the cell, centred voxel coordinates
-    glm::dvec3 domain{};  ///< the middle of its part in the domain, in the cell's coordinates from -1 to 1
-    glm::dvec3 half{1.0}; ///< half the sides of that part
+    double error = 0;    ///< of an entry coordinate
+    glm::dvec3 middle{}; ///< of the cell, centred voxel coordinates
+    glm::dvec3 domain{}; ///< the middle of its part in the domain, in the cell's coordinates from -1 to 1
+    glm::dvec3 half{1};  ///< half the sides of that part
 };
+
+struct PieceRows;
 
 /// One volume under one transfer function, threshold and resolution, as a clearance sees it: made once for all poses.
 /// Thread-safe.
@@ -56,6 +73,9 @@ class OpaquePart {
     }
     /// The cell with this padded number (core/volume/bricks.h), which is not further out than the last one.
     [[nodiscard]] PartCell cell(const VolumeImpl& volume, const NodePlace& padded) const;
+    /// Adds all of such a cell to some rows, for makeTerms().
+    void addCell(const VolumeImpl& volume, const NodePlace& padded, PieceRows& rows) const;
+    [[nodiscard]] const EntryScale& scale() const noexcept { return scale_; }
 
     CertifiedOccupancy occupancy;
     VolumeSpace space;
@@ -63,11 +83,9 @@ class OpaquePart {
     BrickPyramid pyramid;
 
   private:
-    /// Of an entry coordinate: (stored - origin) * scale - 0.5. In double: single precision would be all that keeps the
-    /// bounds apart.
-    double scale_;
-    double origin_;
-    double terms_; ///< the magnitudes of what the origin is made of
+    void setDomain(const VolumeImpl& volume, const NodePlace& padded, PartCell& cell) const;
+
+    EntryScale scale_;
 };
 
 } // namespace voxtact::cpu
