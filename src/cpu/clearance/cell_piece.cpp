@@ -52,21 +52,6 @@ Trilinear within(const Trilinear& whole, const dvec3& middle, const dvec3& half)
     return terms;
 }
 
-double valueAt(const Trilinear& whole, const dvec3& at) noexcept {
-    const double v00 = whole[0] + at.x * whole[kX];
-    const double v10 = whole[kY] + at.x * whole[kX + kY];
-    const double v01 = whole[kZ] + at.x * whole[kX + kZ];
-    const double v11 = whole[kY + kZ] + at.x * whole[kX + kY + kZ];
-    return v00 + at.y * v10 + at.z * (v01 + at.y * v11);
-}
-
-dvec3 gradientAt(const Trilinear& whole, const dvec3& at) noexcept {
-    const double all = whole[kX + kY + kZ];
-    return {whole[kX] + at.y * whole[kX + kY] + at.z * (whole[kX + kZ] + at.y * all),
-            whole[kY] + at.x * whole[kX + kY] + at.z * (whole[kY + kZ] + at.x * all),
-            whole[kZ] + at.x * whole[kX + kZ] + at.y * (whole[kY + kZ] + at.x * all)};
-}
-
 CellPiece::CellPiece(const Trilinear& cell, double error, const dvec3& cellMiddle, const dvec3& middle,
                      const dvec3& half) noexcept
     : terms_(within(cell, middle, half)), error_(error), middle_(cellMiddle + 0.5 * middle), half_(0.5 * half) {

@@ -19,8 +19,18 @@ using Trilinear = std::array<double, 8>;
 [[nodiscard]] Trilinear trilinearOf(const std::array<double, 8>& corners) noexcept;
 /// The same interpolant in a box within: its middle and half its sides, in the coordinates of the first.
 [[nodiscard]] Trilinear within(const Trilinear& whole, const glm::dvec3& middle, const glm::dvec3& half) noexcept;
-[[nodiscard]] double valueAt(const Trilinear& whole, const glm::dvec3& at) noexcept;
-[[nodiscard]] glm::dvec3 gradientAt(const Trilinear& whole, const glm::dvec3& at) noexcept;
+[[nodiscard]] inline double valueAt(const Trilinear& whole, const glm::dvec3& at) noexcept {
+    const double v00 = whole[0] + at.x * whole[1];
+    const double v10 = whole[2] + at.x * whole[3];
+    const double v01 = whole[4] + at.x * whole[5];
+    const double v11 = whole[6] + at.x * whole[7];
+    return v00 + at.y * v10 + at.z * (v01 + at.y * v11);
+}
+[[nodiscard]] inline glm::dvec3 gradientAt(const Trilinear& whole, const glm::dvec3& at) noexcept {
+    return {whole[1] + at.y * whole[3] + at.z * (whole[5] + at.y * whole[7]),
+            whole[2] + at.x * whole[3] + at.z * (whole[6] + at.x * whole[7]),
+            whole[4] + at.x * whole[5] + at.y * (whole[6] + at.x * whole[7])};
+}
 
 /// Of sums like those of PieceBounds::least(), relative to their largest terms.
 inline constexpr double kSumError = 0x1p-46;

@@ -18,7 +18,7 @@ struct CellSieveJob {
     const CellBox& cells;
     glm::dvec3 along{}; ///< from one cell to the next one, what a normal's product with their points changes by
     double base = 0;    ///< of the first cell of the brick, less how far along the normal something reaches
-    double inverse = 0; ///< one by the normal's length, or 0
+    double inverse = 0; ///< Direction::inverse() of the normal
     double least = 0;   ///< mm: none is nearer
     double cut = 0;     ///< mm: what is not nearer is not kept
     double error = 0;   ///< DistanceError::absolute

@@ -83,9 +83,12 @@ HWY_INLINE DoubleV boundAlong(const SieveJob& job, const TriangleV& triangle, st
     return lo;
 }
 
-/// Whether some lane may be kept.
-HWY_INLINE bool someOpen(const SieveJob& job, DoubleV lo, DoubleM open) {
-    return !hn::AllFalse(Doubles(), hn::And(open, hn::Lt(lo, all(job.cut))));
+/// `better()` where a bound does not close already: what becomes of a triangle must not depend on its neighbours in a
+/// vector.
+template <class Better>
+HWY_INLINE DoubleV unlessClosed(const SieveJob& job, DoubleV lo, DoubleM open, const Better& better) {
+    const DoubleM left = hn::And(open, hn::Lt(lo, all(job.cut)));
+    return hn::AllFalse(Doubles(), left) ? lo : hn::IfThenElse(left, greater(better(), lo), lo);
 }
 
 Sieved sieveAlong(const SieveJob& job, std::span<const LeastAlong> directions) {
@@ -107,14 +110,13 @@ Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3
                                                      pointsAt(job.triangles.lo, first) - highest),
                                              zero);
         const DoubleV gap = below(hn::Sqrt(dot(off, off)), job.error);
-        if (!someOpen(job, gap, open)) {
-            return gap;
-        }
-        const TriangleV triangle = trianglesAt(job.triangles, first);
-        const PointV normal = offTriangles(job.triangles, first, triangle, middle);
-        const PointV along = times(normal, space.local_from_voxel);
-        const DoubleV least = hn::Mul(all(0.5), hn::Sub(dot(along, twiceMiddle), dot(abs(along), sides)));
-        return greater(apart(least, reach(normal, triangle), normal, job.error), gap);
+        return unlessClosed(job, gap, open, [&] {
+            const TriangleV triangle = trianglesAt(job.triangles, first);
+            const PointV normal = offTriangles(job.triangles, first, triangle, middle);
+            const PointV along = times(normal, space.local_from_voxel);
+            const DoubleV least = hn::Mul(all(0.5), hn::Sub(dot(along, twiceMiddle), dot(abs(along), sides)));
+            return apart(least, reach(normal, triangle), normal, job.error);
+        });
     });
 }
 
@@ -124,12 +126,10 @@ Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBo
     return sieve(job, [&](std::size_t first, DoubleM open) {
         const TriangleV triangle = trianglesAt(job.triangles, first);
         const DoubleV lo = boundAlong(job, triangle, directions);
-        if (!someOpen(job, lo, open)) {
-            return lo;
-        }
-        const PointV normal = offTriangles(job.triangles, first, triangle, pieces.middle);
-        const DoubleV own = apart(leastOf(pieces, space, normal), reach(normal, triangle), normal, job.error);
-        return greater(own, lo);
+        return unlessClosed(job, lo, open, [&] {
+            const PointV normal = offTriangles(job.triangles, first, triangle, pieces.middle);
+            return apart(leastOf(pieces, space, normal), reach(normal, triangle), normal, job.error);
+        });
     });
 }
 

@@ -17,11 +17,11 @@ namespace voxtact::cpu {
 /// A direction, and the least dot product of an opaque point of something with it.
 struct LeastAlong {
     LeastAlong(const Direction& along, double leastOfIt)
-        : normal(along.normal()), least(leastOfIt), inverse(along.length() > 0 ? 1 / along.length() : 0) {}
+        : normal(along.normal()), least(leastOfIt), inverse(along.inverse()) {}
 
     glm::dvec3 normal;
     double least;
-    double inverse; ///< one by the normal's length; 0 where it has none
+    double inverse; ///< Direction::inverse()
 };
 
 /// Some triangles of a cluster that is not swept.

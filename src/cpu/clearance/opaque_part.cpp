@@ -10,13 +10,6 @@ namespace voxtact::cpu {
 
 namespace {
 
-std::size_t numberOf(const NodePlace& count, const NodePlace& node) {
-    return (static_cast<std::size_t>(node[2]) * static_cast<std::size_t>(count[1]) +
-            static_cast<std::size_t>(node[1])) *
-               static_cast<std::size_t>(count[0]) +
-           static_cast<std::size_t>(node[0]);
-}
-
 template <class Visit> void forEachNode(const NodePlace& count, const Visit& visit) {
     for (std::int32_t z = 0; z < count[2]; ++z) {
         for (std::int32_t y = 0; y < count[1]; ++y) {
@@ -66,16 +59,6 @@ BrickPyramid::BrickPyramid(const std::array<std::int32_t, 3>& count, std::vector
     }
 }
 
-bool BrickPyramid::has(std::uint32_t level, const NodePlace& node) const noexcept {
-    const Level& at = levels_[level];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (node[axis] >= at.count[axis]) {
-            return false;
-        }
-    }
-    return at.wanted[numberOf(at.count, node)] != 0;
-}
-
 OpaquePart::OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
                        double resolution)
     : occupancy(volume, function, threshold, resolution), space(volume.grid),
@@ -113,17 +96,6 @@ void OpaquePart::addCell(const VolumeImpl& volume, const NodePlace& padded, Piec
         rows.cell[i][at] = cell.middle[axis];
         rows.middle[i][at] = cell.domain[axis];
         rows.half[i][at] = cell.half[axis];
-    }
-}
-
-void OpaquePart::setDomain(const VolumeImpl& volume, const NodePlace& padded, PartCell& cell) const {
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::int32_t number = padded[static_cast<std::size_t>(axis)] - 1;
-        cell.middle[axis] = number + 0.5 - space.centre[axis];
-        const double lo = number < 0 ? 0 : -1;
-        const double hi = number == volume.image.size[static_cast<std::size_t>(axis)] - 1 ? 0 : 1;
-        cell.domain[axis] = (lo + hi) / 2;
-        cell.half[axis] = (hi - lo) / 2;
     }
 }
 

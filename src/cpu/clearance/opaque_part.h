@@ -25,13 +25,24 @@ class BrickPyramid {
     /// Level 0 are the bricks.
     [[nodiscard]] std::uint32_t levels() const noexcept { return static_cast<std::uint32_t>(levels_.size()); }
     /// False outside of it.
-    [[nodiscard]] bool has(std::uint32_t level, const NodePlace& node) const noexcept;
+    [[nodiscard]] bool has(std::uint32_t level, const NodePlace& node) const noexcept {
+        const Level& at = levels_[level];
+        return node[0] < at.count[0] && node[1] < at.count[1] && node[2] < at.count[2] &&
+               at.wanted[numberOf(at.count, node)] != 0;
+    }
 
   private:
     struct Level {
         NodePlace count{};
         std::vector<std::uint8_t> wanted;
     };
+    [[nodiscard]] static std::size_t numberOf(const NodePlace& count, const NodePlace& node) noexcept {
+        return (static_cast<std::size_t>(node[2]) * static_cast<std::size_t>(count[1]) +
+                static_cast<std::size_t>(node[1])) *
+                   static_cast<std::size_t>(count[0]) +
+               static_cast<std::size_t>(node[0]);
+    }
+
     std::vector<Level> levels_;
 };
 
@@ -83,7 +94,16 @@ class OpaquePart {
     BrickPyramid pyramid;
 
   private:
-    void setDomain(const VolumeImpl& volume, const NodePlace& padded, PartCell& cell) const;
+    void setDomain(const VolumeImpl& volume, const NodePlace& padded, PartCell& cell) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int32_t number = padded[static_cast<std::size_t>(axis)] - 1;
+            cell.middle[axis] = number + 0.5 - space.centre[axis];
+            const bool first = number < 0;
+            const bool last = number == volume.image.size[static_cast<std::size_t>(axis)] - 1;
+            cell.domain[axis] = (first ? 0.5 : 0.0) - (last ? 0.5 : 0.0);
+            cell.half[axis] = 1 - (first ? 0.5 : 0.0) - (last ? 0.5 : 0.0);
+        }
+    }
 
     EntryScale scale_;
 };

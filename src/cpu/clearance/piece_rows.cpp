@@ -155,13 +155,15 @@ void findApart(const PieceJob& job, PieceRows& rows) {
         const PieceV pieces = boundsAt(rows, job.space, first);
         const PointV normal = offTriangle(triangle, inverse, pieces.middle);
         DoubleV lo = apartAlong(job, pieces, normal);
-        if (!hn::AllFalse(d, hn::Lt(lo, all(job.cut)))) {
+        // What becomes of a piece must not depend on its neighbours in a vector.
+        const DoubleM left = hn::Lt(lo, all(job.cut));
+        if (!hn::AllFalse(d, left)) {
             // Where the interpolant grows fastest.
             const PointV gradient{hn::Div(pieces.slope.x, pieces.half.x), hn::Div(pieces.slope.y, pieces.half.y),
                                   hn::Div(pieces.slope.z, pieces.half.z)};
             const PointV ascent = times(gradient, job.space.voxel_from_local);
             const PointV other = choose(hn::Lt(dot(ascent, normal), zero), all(glm::dvec3(0)) - ascent, ascent);
-            lo = greater(apartAlong(job, pieces, other), lo);
+            lo = hn::IfThenElse(left, greater(apartAlong(job, pieces, other), lo), lo);
         }
         hn::Store(lo, d, rows.apart.data() + first);
     }

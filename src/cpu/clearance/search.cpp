@@ -183,28 +183,10 @@ void ClosestSearch::push(const Pair& pair) {
     heap_.push(kept);
 }
 
-double ClosestSearch::cut() const noexcept {
-    // Of a swept mesh a point says nothing but that it is not apart.
-    if (decides()) {
-        return goal_.maximum;
-    }
-    const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
-    return std::min(found_.hi - (found_.hi < kInfinity ? slack : 0), goal_.maximum);
-}
-
 /// What is left of it is not divided any more.
 void ClosestSearch::drop(const Pair& pair) {
     found_.lo = std::min(found_.lo, pair.lo);
     dropped_.push_back(pair);
-}
-
-/// What is closed is not looked at again: the answer's lower bound is no higher.
-bool ClosestSearch::closes(double lo) {
-    if (lo < cut()) {
-        return false;
-    }
-    found_.lo = std::min(found_.lo, lo);
-    return true;
 }
 
 /// From one certain point to the closest on the mesh, from there to the opaque part, and so on: to a point that is

@@ -69,8 +69,10 @@ class ClosestSearch {
     void openCells(const Pair& pair);
     void openLeaf(const Pair& pair);
     void offer(Pair pair);
+    void offerBox(Pair pair, const PlacedBox& box, const OpaqueBox& region);
     [[nodiscard]] bool sift(Pair& pair, const OpaqueBox& region);
     void improve();
+    void lookInto(const Pair& pair, const OpaqueBox& region);
     /// After gather().
     void offerPiece(Pair pair, const PartCell& cell);
     /// The same of all pieces that are in place in `rows_`, whose pairs are `offered_`: none is left there.
@@ -83,10 +85,24 @@ class ClosestSearch {
     [[nodiscard]] Direction from(const Pair& pair, const glm::dvec3& point);
     /// Sets what `corners_` is about.
     void gather(const Pair& pair);
-    [[nodiscard]] double cut() const noexcept;
+    [[nodiscard]] double cut() const noexcept {
+        // Of a swept mesh a point says nothing but that it is not apart.
+        if (decides()) {
+            return goal_.maximum;
+        }
+        const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
+        return std::min(found_.hi - (found_.hi < std::numeric_limits<double>::infinity() ? slack : 0), goal_.maximum);
+    }
     /// Whether all that is asked is if a sweep is apart.
     [[nodiscard]] bool decides() const noexcept { return mesh_->isSwept() && !goal_.measures; }
-    [[nodiscard]] bool closes(double lo);
+    /// What is closed is not looked at again: the answer's lower bound is no higher.
+    [[nodiscard]] bool closes(double lo) {
+        if (lo < cut()) {
+            return false;
+        }
+        found_.lo = std::min(found_.lo, lo);
+        return true;
+    }
 
     /// Calls `visit(number, triangle)` for those of a pair.
     template <class Visit> void forTriangles(const Pair& pair, const Visit& visit);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a pair is divided into, and which of that is still looked for.
 #include "cpu/clearance/cluster_sieve.h"
+#include "cpu/clearance/nearest_point.h"
 #include "cpu/clearance/search.h"
 
 #include <glm/common.hpp>
@@ -21,6 +22,7 @@ using glm::length;
 /// Bounds of a brick's cells are tighter than those of larger boxes: the volume's are opened first where sizes are
 /// alike.
 constexpr double kPreferVolume = 2;
+constexpr double kWorthALook = 0.5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -91,13 +93,31 @@ void ClosestSearch::open(const Pair& pair) {
 }
 
 void ClosestSearch::openBox(const Pair& pair) {
+    OpaqueBox region;
+    if (!boxes_.opaque(pair.cube(), region)) {
+        return;
+    }
     Pair child = pair;
     --child.meshLevel;
     const auto boxes =
         static_cast<std::uint32_t>(mesh_->mesh().tree.boxes(static_cast<std::uint32_t>(child.meshLevel)).size());
     const std::uint32_t first = pair.mesh * ClusterTree::kFanOut;
     for (child.mesh = first; child.mesh < std::min(first + ClusterTree::kFanOut, boxes); ++child.mesh) {
-        offer(child);
+        offerBox(child, *boxOf(child), region);
+    }
+}
+
+/// A box of the mesh, and what may be opaque in one of the volume.
+void ClosestSearch::offerBox(Pair pair, const PlacedBox& box, const OpaqueBox& region) {
+    pair.lo = std::max(pair.lo, boxes_.gap(region, box.lo, box.hi));
+    if (closes(pair.lo)) {
+        return;
+    }
+    const dvec3 middle = part_->space.toWorld(region.middle());
+    const Direction along = mesh_->along(middle - mesh_->near(box, middle));
+    pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(box)));
+    if (!closes(pair.lo)) {
+        push(pair);
     }
 }
 
@@ -146,13 +166,16 @@ void ClosestSearch::openCells(const Pair& pair) {
     if (!boxes_.opaque(pair.cube(), region) || !(pair.sifted || sift(cell, region))) {
         return;
     }
+    if (!mesh_->isSwept() && found_.hi - cell.lo > kWorthALook * diameters_[0]) {
+        lookInto(cell, region);
+    }
     gather(cell);
     const Direction direction = from(cell, part_->space.toWorld(region.middle()));
     const dvec3 along = direction.normal() * part_->space.local_from_voxel;
     const dvec3 lowest = glm::min(along, dvec3(0));
     const double base = dot(along, region.corner) + lowest.x + lowest.y + lowest.z - direction.reach(corners_);
-    const double inverse = direction.length() > 0 ? 1 / direction.length() : 0;
-    sieveCells({*region.known, region.cells, along, base, inverse, cell.lo, cut(), error_.absolute}, cells_);
+    sieveCells({*region.known, region.cells, along, base, direction.inverse(), cell.lo, cut(), error_.absolute},
+               cells_);
     found_.lo = std::min(found_.lo, cells_.leastGone);
     const NodePlace first{(pair.node[0] << pair.shift) & ~(kBrickSide - 1),
                           (pair.node[1] << pair.shift) & ~(kBrickSide - 1),
@@ -196,22 +219,17 @@ void ClosestSearch::offer(Pair pair) {
         return;
     }
     const PlacedBox* box = boxOf(pair);
-    const auto boxCloses = [&] {
-        pair.lo = box != nullptr ? std::max(pair.lo, boxes_.gap(region, box->lo, box->hi)) : pair.lo;
-        return closes(pair.lo);
-    };
-    if (boxCloses() || (pair.shift <= kBrickShift && !boxes_.narrow(pair.cube(), region)) || boxCloses()) {
+    pair.lo = box != nullptr ? std::max(pair.lo, boxes_.gap(region, box->lo, box->hi)) : pair.lo;
+    if (closes(pair.lo) || (pair.shift <= kBrickShift && !boxes_.narrow(pair.cube(), region))) {
         return;
     }
-    if (pair.meshLevel == kTriangles) {
-        const Direction along = from(pair, part_->space.toWorld(region.middle()));
-        gather(pair);
-        pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(corners_)));
-    } else {
-        const dvec3 middle = part_->space.toWorld(region.middle());
-        const Direction along = mesh_->along(middle - mesh_->near(*box, middle));
-        pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(*box)));
+    if (pair.meshLevel != kTriangles) {
+        offerBox(pair, *box, region);
+        return;
     }
+    const Direction along = from(pair, part_->space.toWorld(region.middle()));
+    gather(pair);
+    pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(corners_)));
     if (!closes(pair.lo)) {
         push(pair);
     }
@@ -256,6 +274,21 @@ void ClosestSearch::offerPiece(Pair pair, const PartCell& cell) {
     }
     if (!closes(pair.lo)) {
         push(pair);
+    }
+}
+
+/// The nearer a point is known, the fewer cells are offered.
+void ClosestSearch::lookInto(const Pair& pair, const OpaqueBox& region) {
+    const PlacedTriangle nearest = mesh_->triangle(pair.mesh, pair.nearest);
+    const std::uint32_t number = pair.mesh * kClusterTriangles + pair.nearest;
+    const dvec3 onMesh = nearest.near(part_->space.toWorld(region.middle()));
+    const unsigned up = static_cast<unsigned>(kBrickShift) - pair.shift;
+    const NodePlace brick{pair.node[0] >> up, pair.node[1] >> up, pair.node[2] >> up};
+    const OpaquePoint opaque = nearestInBrick(*part_, *searched_, *volume_, brick, onMesh, found_.hi);
+    if (opaque.distance < found_.hi) {
+        const dvec3 nearer = nearest.near(opaque.point);
+        found_.offer(error_.above(opaque.distance), number, onMesh, opaque.point, true);
+        found_.offer(error_.above(glm::distance(nearer, opaque.point)), number, nearer, opaque.point, true);
     }
 }
 

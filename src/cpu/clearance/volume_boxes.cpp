@@ -103,11 +103,6 @@ double VolumeBoxes::least(const OpaqueBox& box, const dvec3& normal) const {
                     dot(along, box.corner) + lowest.x + lowest.y + lowest.z + leastCell(*box.known, box.cells, along));
 }
 
-double VolumeBoxes::gap(const OpaqueBox& box, const dvec3& lo, const dvec3& hi) const {
-    const dvec3 off = glm::max(glm::max(box.lo - hi, lo - box.hi), dvec3(0));
-    return error_.below(length(off * part_->space.spacing));
-}
-
 double VolumeBoxes::apart(const OpaqueBox& box, const Direction& along, double reach) const {
     return along.length() > 0 ? error_.below((least(box, along.normal()) - reach) / along.length()) : 0;
 }
