@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace voxtact::cpu {
 
@@ -12,6 +13,7 @@ namespace {
 
 using glm::dvec3;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kX = 1;
 constexpr std::size_t kY = 2;
 constexpr std::size_t kZ = 4;
@@ -23,27 +25,6 @@ template <class Numbers, class Visit> void alongAxis(Numbers& numbers, std::size
             visit(numbers[i], numbers[i | axis]);
         }
     }
-}
-
-/// Of sums like those of least(), relative to their largest terms.
-constexpr double kSumError = 0x1p-46;
-
-/// The least value of dot(w, s) for s in the cube from -1 to 1 with dot(c, s) >= b, or somewhat less: any multiplier
-/// gives such a bound (weak duality), and the greatest is at one of those that are tried.
-double leastAbove(const dvec3& w, const dvec3& c, double b) {
-    double best = -(std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
-    const double size = std::abs(b) + std::abs(c.x) + std::abs(c.y) + std::abs(c.z);
-    for (int i = 0; i < 3; ++i) {
-        const double multiplier = w[i] / c[i];
-        const dvec3 left = w - multiplier * c;
-        const double bound =
-            multiplier * b - (std::abs(left.x) + std::abs(left.y) + std::abs(left.z)) - kSumError * multiplier * size;
-        // Not for NaN either.
-        if (multiplier > 0 && bound > best) {
-            best = bound;
-        }
-    }
-    return best;
 }
 
 } // namespace
@@ -69,21 +50,6 @@ Trilinear within(const Trilinear& whole, const dvec3& middle, const dvec3& half)
         });
     }
     return terms;
-}
-
-double valueAt(const Trilinear& whole, const dvec3& at) noexcept {
-    const double v00 = whole[0] + at.x * whole[kX];
-    const double v10 = whole[kY] + at.x * whole[kX + kY];
-    const double v01 = whole[kZ] + at.x * whole[kX + kZ];
-    const double v11 = whole[kY + kZ] + at.x * whole[kX + kY + kZ];
-    return v00 + at.y * v10 + at.z * (v01 + at.y * v11);
-}
-
-dvec3 gradientAt(const Trilinear& whole, const dvec3& at) noexcept {
-    const double all = whole[kX + kY + kZ];
-    return {whole[kX] + at.y * whole[kX + kY] + at.z * (whole[kX + kZ] + at.y * all),
-            whole[kY] + at.x * whole[kX + kY] + at.z * (whole[kY + kZ] + at.x * all),
-            whole[kZ] + at.x * whole[kX + kZ] + at.y * (whole[kY + kZ] + at.x * all)};
 }
 
 CellPiece::CellPiece(const Trilinear& cell, double error, const dvec3& cellMiddle, const dvec3& middle,
@@ -114,20 +80,37 @@ bool CellPiece::mayBeOpaque(const OpaqueIntervals& intervals) noexcept {
     return intervals.meet(lo_, hi_, hull_);
 }
 
-double CellPiece::least(const VolumeSpace& space, const dvec3& normal) const noexcept {
-    const dvec3 w = (normal * space.local_from_voxel) * half_;
-    const dvec3 c{terms_[kX], terms_[kY], terms_[kZ]};
+PieceBounds CellPiece::bounds(const VolumeSpace& space) const noexcept {
+    const dvec3 slope{terms_[kX], terms_[kY], terms_[kZ]};
     // What the linear part may differ from the interpolant.
     const double bent = std::abs(terms_[kX + kY]) + std::abs(terms_[kX + kZ]) + std::abs(terms_[kY + kZ]) +
                         std::abs(terms_[kX + kY + kZ]) + error_;
-    double least = -(std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
-    if (hull_.lo > lo_) {
-        least = std::max(least, leastAbove(w, c, hull_.lo - bent - terms_[0]));
+    return {space.toWorld(middle_),
+            half_,
+            slope,
+            1.0 / slope,
+            hull_.lo > lo_ ? hull_.lo - bent - terms_[0] : -kInfinity,
+            hull_.hi < hi_ ? hull_.hi + bent - terms_[0] : kInfinity,
+            std::abs(slope.x) + std::abs(slope.y) + std::abs(slope.z)};
+}
+
+/// The least of dot(w, s) in the cube from -1 to 1: a plane times any multiplier of its sign gives a bound (weak
+/// duality), and the greatest is at one of those that are tried, or without a plane.
+double PieceBounds::least(const VolumeSpace& space, const dvec3& normal) const noexcept {
+    const dvec3 w = (normal * space.local_from_voxel) * half;
+    double best = -(std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+    for (int i = 0; i < 3; ++i) {
+        const double multiplier = w[i] * inverse[i];
+        const double plane = multiplier > 0 ? from : to;
+        const dvec3 left = w - multiplier * slope;
+        const double bound = multiplier * plane - (std::abs(left.x) + std::abs(left.y) + std::abs(left.z)) -
+                             kSumError * std::abs(multiplier) * (std::abs(plane) + size);
+        // Not for NaN either.
+        if (bound > best) {
+            best = bound;
+        }
     }
-    if (hull_.hi < hi_) {
-        least = std::max(least, leastAbove(w, -c, terms_[0] - bent - hull_.hi));
-    }
-    return dot(normal, space.toWorld(middle_)) + least;
+    return dot(normal, middle) + best;
 }
 
 dvec3 CellPiece::ascent(const VolumeSpace& space) const noexcept {

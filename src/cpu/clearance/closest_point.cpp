@@ -13,9 +13,6 @@ using glm::cross;
 using glm::dot;
 using glm::dvec3;
 
-/// Of the product of two sides' squares: a triangle's area in square is no smaller, or it has none.
-constexpr double kNoArea = 1e-20;
-
 double share(double part, double whole) {
     return std::clamp(part / whole, 0.0, 1.0);
 }

@@ -9,6 +9,9 @@ namespace voxtact::cpu {
 
 using WorldTriangle = std::array<glm::dvec3, 3>;
 
+/// Of the product of two sides' squares: a triangle's area in square is no smaller, or it has none.
+inline constexpr double kNoArea = 1e-20;
+
 /// A point of the triangle, its corners' mean with weights from 0 to 1: the one closest to `from`, up to rounding.
 [[nodiscard]] glm::dvec3 closestPoint(const WorldTriangle& triangle, const glm::dvec3& from) noexcept;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/mesh_place.h"
+#include "cpu/clearance/cluster_sieve.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -27,7 +28,7 @@ constexpr double kGreatest = 1e100;
 void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object,
                       const std::optional<Sweep>& sweep) {
     // Another mesh may be where one was before; after 2^32 pairs nothing is in place.
-    const bool fits = whole_ && clusters_.size() == mesh.clusters.size() && vertices_.size() == mesh.x.size() &&
+    const bool fits = whole_ && clusters_.size() == mesh.clusters.size() && vertices_[2].size() == mesh.x.size() &&
                       boxes_.size() == mesh.tree.levels() && boxes_[0].size() == mesh.tree.boxes(0).size();
     if (!fits || ++pair_ == 0) {
         whole_ = false;
@@ -36,8 +37,10 @@ void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4
             boxes_[level].resize(mesh.tree.boxes(level).size());
         }
         clusters_.assign(mesh.clusters.size(), 0);
-        vertices_.resize(mesh.x.size());
-        triangles_.resize(kClusterTriangles * clusters_.size());
+        placed_.resize(clusters_.size());
+        for (std::vector<double>& row : vertices_) {
+            row.resize(mesh.x.size());
+        }
         pair_ = 1;
         whole_ = true;
     }
@@ -137,18 +140,6 @@ PlacedBox MeshPlace::placed(const RunBox& box, double own) const {
     return out;
 }
 
-const PlacedTriangle* MeshPlace::run(std::uint32_t run) {
-    return cluster(run / ClusterTree::kRunsOfCluster) + run % ClusterTree::kRunsOfCluster * kRunTriangles;
-}
-
-const PlacedTriangle* MeshPlace::cluster(std::uint32_t cluster) {
-    if (clusters_[cluster] != pair_) {
-        placeCluster(cluster);
-        clusters_[cluster] = pair_;
-    }
-    return &triangles_[std::size_t{cluster} * kClusterTriangles];
-}
-
 std::uint32_t MeshPlace::countOfCluster(std::uint32_t cluster) const {
     const ClusterPlace& place = mesh_->clusters[cluster];
     std::uint32_t triangles = place.triangleCount;
@@ -165,6 +156,10 @@ std::uint32_t MeshPlace::count(std::uint32_t run) const {
         ++count;
     }
     return count;
+}
+
+dvec3 MeshPlace::vertex(std::size_t at) const {
+    return {vertices_[0][at], vertices_[1][at], vertices_[2][at]};
 }
 
 MeshPlace::PlacedVertex MeshPlace::placedVertex(const dvec3& local, double own) const {
@@ -184,27 +179,49 @@ MeshPlace::PlacedVertex MeshPlace::placedVertex(const dvec3& local, double own) 
 
 void MeshPlace::placeCluster(std::uint32_t cluster) {
     const ClusterPlace& place = mesh_->clusters[cluster];
+    const PlaceJob job{local_from_object_,
+                       origin_,
+                       space_->voxel_from_local,
+                       {&mesh_->x[place.firstVertex], &mesh_->y[place.firstVertex], &mesh_->z[place.firstVertex]},
+                       {&mesh_->corner0[place.firstTriangle], &mesh_->corner1[place.firstTriangle],
+                        &mesh_->corner2[place.firstTriangle]},
+                       place.vertexCount,
+                       place.triangleCount};
+    const std::array<double*, 3> local{&vertices_[0][place.firstVertex], &vertices_[1][place.firstVertex],
+                                       &vertices_[2][place.firstVertex]};
+    placeVertices(job, local);
+    placeTriangles(job, {local[0], local[1], local[2]}, placed_[cluster]);
+    if (sweep_) {
+        placeSwept(cluster);
+    }
+}
+
+/// Where else they may be.
+void MeshPlace::placeSwept(std::uint32_t cluster) {
+    const ClusterPlace& place = mesh_->clusters[cluster];
     clusterVertices_.resize(std::max<std::size_t>(clusterVertices_.size(), place.vertexCount));
     for (std::size_t i = 0; i < place.vertexCount; ++i) {
         const std::size_t at = place.firstVertex + i;
-        const dvec3 vertex(static_cast<double>(mesh_->x[at]), static_cast<double>(mesh_->y[at]),
-                           static_cast<double>(mesh_->z[at]));
-        vertices_[at] = local_from_object_ * vertex + origin_;
-        const bool own = sweep_ && sweep_->each != nullptr;
-        clusterVertices_[i] = placedVertex(vertices_[at], own ? sweep_->eachScale * sweep_->each->vertices[at] : 0);
+        const double own = sweep_->each != nullptr ? sweep_->eachScale * sweep_->each->vertices[at] : 0;
+        clusterVertices_[i] = placedVertex(vertex(at), own);
     }
+    PlacedCluster& out = placed_[cluster];
     for (std::uint32_t i = 0; i < countOfCluster(cluster); ++i) {
         const std::size_t at = std::size_t{place.firstTriangle} + i;
-        PlacedTriangle& out = triangles_[std::size_t{cluster} * kClusterTriangles + i];
-        const std::array<std::uint8_t, 3> corners{mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]};
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            out.corners[corner] = vertices_[std::size_t{place.firstVertex} + corners[corner]];
-            const PlacedVertex& vertex = clusterVertices_[corners[corner]];
-            out.lo = corner == 0 ? vertex.lo : glm::min(out.lo, vertex.lo);
-            out.hi = corner == 0 ? vertex.hi : glm::max(out.hi, vertex.hi);
-            out.wide = corner == 0 ? vertex.wide : std::max(out.wide, vertex.wide);
-            out.own = corner == 0 ? vertex.own : std::max(out.own, vertex.own);
+        PlacedVertex all = clusterVertices_[mesh_->corner0[at]];
+        for (const std::uint8_t corner : {mesh_->corner1[at], mesh_->corner2[at]}) {
+            const PlacedVertex& one = clusterVertices_[corner];
+            all.lo = glm::min(all.lo, one.lo);
+            all.hi = glm::max(all.hi, one.hi);
+            all.wide = std::max(all.wide, one.wide);
+            all.own = std::max(all.own, one.own);
         }
+        for (int axis = 0; axis < 3; ++axis) {
+            out.lo[static_cast<std::size_t>(axis)][i] = all.lo[axis];
+            out.hi[static_cast<std::size_t>(axis)][i] = all.hi[axis];
+        }
+        out.wide[i] = all.wide;
+        out.own[i] = all.own;
     }
 }
 
@@ -216,15 +233,15 @@ void MeshPlace::addCorners(std::uint32_t cluster, std::uint64_t triangles, Point
         const auto number = static_cast<std::size_t>(std::countr_zero(left));
         const std::size_t at = std::size_t{place.firstTriangle} + number;
         if (sweep_) {
-            points.wide = std::max(points.wide, triangles_[std::size_t{cluster} * kClusterTriangles + number].wide);
+            points.wide = std::max(points.wide, placed_[cluster].wide[number]);
         }
         for (const std::uint8_t corner : {mesh_->corner0[at], mesh_->corner1[at], mesh_->corner2[at]}) {
             if (!added[corner]) {
                 added[corner] = true;
-                const dvec3& vertex = vertices_[std::size_t{place.firstVertex} + corner];
-                points.x[points.count] = vertex.x;
-                points.y[points.count] = vertex.y;
-                points.z[points.count] = vertex.z;
+                const dvec3 point = vertex(std::size_t{place.firstVertex} + corner);
+                points.x[points.count] = point.x;
+                points.y[points.count] = point.y;
+                points.z[points.count] = point.z;
                 ++points.count;
             }
         }

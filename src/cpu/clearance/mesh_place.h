@@ -44,10 +44,17 @@ class MeshPlace {
     [[nodiscard]] const PlacedBox& box(std::uint32_t level, std::uint32_t node);
     /// The box in centred voxel coordinates around a box of object space, wherever it may be.
     void voxelBounds(const RunBox& box, glm::dvec3& lo, glm::dvec3& hi) const;
-    /// Of a run (ClusterTree): kRunTriangles of them, as many as it has in place. Valid until the next begin().
-    [[nodiscard]] const PlacedTriangle* run(std::uint32_t run);
-    /// Of a cluster: kClusterTriangles of them.
-    [[nodiscard]] const PlacedTriangle* cluster(std::uint32_t cluster);
+    /// The triangles of a cluster: as many as it has are in place. Valid until the next begin().
+    [[nodiscard]] const PlacedCluster& cluster(std::uint32_t cluster) {
+        if (clusters_[cluster] != pair_) {
+            placeCluster(cluster);
+            clusters_[cluster] = pair_;
+        }
+        return placed_[cluster];
+    }
+    [[nodiscard]] PlacedTriangle triangle(std::uint32_t clusterOfIt, std::uint32_t number) {
+        return cluster(clusterOfIt).triangle(number);
+    }
     /// Adds the corners of some triangles of a cluster, each once: a bit for each triangle.
     void addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const;
     /// How many triangles a run has.
@@ -75,6 +82,7 @@ class MeshPlace {
     /// A point that comes so much closer to another.
     [[nodiscard]] static glm::dvec3 towards(const glm::dvec3& to, const glm::dvec3& from, double by) noexcept;
     void placeCluster(std::uint32_t cluster);
+    void placeSwept(std::uint32_t cluster);
     void findError(const Mat4& world_from_object);
 
     const MeshImpl* mesh_ = nullptr;
@@ -95,10 +103,11 @@ class MeshPlace {
         double wide = 0; ///< mm, as PlacedBox has them
         double own = 0;
     };
+    [[nodiscard]] glm::dvec3 vertex(std::size_t at) const;
     [[nodiscard]] PlacedVertex placedVertex(const glm::dvec3& local, double own) const;
-    std::vector<glm::dvec3> vertices_;          ///< local
-    std::vector<PlacedVertex> clusterVertices_; ///< of the cluster that is placed
-    std::vector<PlacedTriangle> triangles_;
+    std::array<std::vector<double>, 3> vertices_; ///< local x, y and z
+    std::vector<PlacedVertex> clusterVertices_;   ///< of the cluster that is placed
+    std::vector<PlacedCluster> placed_;
 };
 
 } // namespace voxtact::cpu

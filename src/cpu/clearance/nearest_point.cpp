@@ -72,9 +72,10 @@ class MeshSearch {
     }
 
     void openRun(std::uint32_t run) {
-        const PlacedTriangle* triangles = mesh_.run(run);
+        constexpr std::uint32_t kRuns = ClusterTree::kRunsOfCluster;
         for (std::uint32_t i = 0; i < mesh_.count(run); ++i) {
-            const dvec3 point = closestPoint(triangles[i].corners, from_);
+            const PlacedTriangle triangle = mesh_.triangle(run / kRuns, run % kRuns * kRunTriangles + i);
+            const dvec3 point = closestPoint(triangle.corners, from_);
             const double distance = glm::distance(point, from_);
             if (distance < best_.distance) {
                 best_ = {point, distance, mesh_.first(run) + i};
@@ -105,6 +106,11 @@ class OpaqueSearch {
                  double within)
         : part_(part), searched_(searched), volume_(volume), from_(from), voxel_(part.space.toVoxel(from)) {
         best_.distance = within;
+    }
+
+    OpaquePoint runIn(const NodePlace& brick) {
+        openBrick(brick);
+        return best_;
     }
 
     OpaquePoint run() {
@@ -150,15 +156,21 @@ class OpaqueSearch {
         }
     }
 
+    /// mm^2: what is not nearer is not looked into.
+    [[nodiscard]] double worthwhile() const { return best_.distance * best_.distance; }
+
     /// The nearest cell first, then what is still nearer than what was found: most bricks have no second one.
     void openBrick(const NodePlace& brick) {
         const BrickCells& known = part_.cells(volume_, brick);
         const CellSquares squares(*this, brick);
+        if (squares.least(known.around) >= worthwhile()) {
+            return;
+        }
         const auto forCells = [&](const auto& visit) {
             for (std::int32_t z = known.around.lo[2]; z <= std::min(known.around.hi[2], squares.last[2]); ++z) {
                 for (std::int32_t y = known.around.lo[1]; y <= std::min(known.around.hi[1], squares.last[1]); ++y) {
                     const double across = squares.at(1, y) + squares.at(2, z);
-                    if (across >= best_.distance * best_.distance) {
+                    if (across >= worthwhile()) {
                         continue;
                     }
                     for (unsigned row = known.row(known.around, y, z); row != 0; row &= row - 1) {
@@ -170,7 +182,7 @@ class OpaqueSearch {
                 }
             }
         };
-        double least = best_.distance * best_.distance;
+        double least = worthwhile();
         std::optional<NodePlace> nearest;
         forCells([&](double square, const NodePlace& cell) {
             if (square < least) {
@@ -183,7 +195,7 @@ class OpaqueSearch {
         }
         openCell(squares.padded(*nearest));
         forCells([&](double square, const NodePlace& cell) {
-            if (square < best_.distance * best_.distance && cell != *nearest) {
+            if (square < worthwhile() && cell != *nearest) {
                 openCell(squares.padded(cell));
             }
         });
@@ -206,6 +218,18 @@ class OpaqueSearch {
         }
         [[nodiscard]] double at(std::size_t axis, std::int32_t cell) const {
             return of[axis][static_cast<std::size_t>(cell)];
+        }
+        /// To some of the brick's cells.
+        [[nodiscard]] double least(const CellBox& cells) const {
+            double sum = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                double square = std::numeric_limits<double>::infinity();
+                for (std::int32_t cell = cells.lo[axis]; cell <= cells.hi[axis]; ++cell) {
+                    square = std::min(square, at(axis, cell));
+                }
+                sum += square;
+            }
+            return sum;
         }
         /// A cell of the brick among those of the volume.
         [[nodiscard]] NodePlace padded(const NodePlace& cell) const {
@@ -251,6 +275,11 @@ MeshPoint nearestOnMesh(MeshPlace& mesh, const dvec3& from, double within) {
 OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
                           const dvec3& from, double within) {
     return OpaqueSearch(part, searched, volume, from, within).run();
+}
+
+OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
+                           const NodePlace& brick, const dvec3& from, double within) {
+    return OpaqueSearch(part, searched, volume, from, within).runIn(brick);
 }
 
 bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region, dvec3& at) noexcept {

@@ -29,6 +29,10 @@ struct OpaquePoint {
 [[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
                                         const glm::dvec3& from, double within);
 
+/// The same in a brick alone.
+[[nodiscard]] OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
+                                         const NodePlace& brick, const glm::dvec3& from, double within);
+
 /// Goes along a cell's interpolant from a point of a region of it until the value is certainly opaque; false where it
 /// does not get there. `at`: the cell's coordinates from -1 to 1.
 [[nodiscard]] bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/opaque_part.h"
+#include "cpu/clearance/piece_rows.h"
 #include "cpu/scene/stored_voxels.h"
 
 #include <algorithm>
@@ -8,16 +9,6 @@
 namespace voxtact::cpu {
 
 namespace {
-
-/// Of the terms of an entry coordinate.
-constexpr double kEntryError = 0x1p-47;
-
-std::size_t numberOf(const NodePlace& count, const NodePlace& node) {
-    return (static_cast<std::size_t>(node[2]) * static_cast<std::size_t>(count[1]) +
-            static_cast<std::size_t>(node[1])) *
-               static_cast<std::size_t>(count[0]) +
-           static_cast<std::size_t>(node[0]);
-}
 
 template <class Visit> void forEachNode(const NodePlace& count, const Visit& visit) {
     for (std::int32_t z = 0; z < count[2]; ++z) {
@@ -35,6 +26,18 @@ std::vector<std::uint8_t> wantedBricks(const CertifiedOccupancy& occupancy, std:
         wanted[brick] = occupancy.mayBeOpaque(brick) ? 1 : 0;
     }
     return wanted;
+}
+
+/// Calls `visit(corner, stored)` for a cell's corners.
+template <class Visit> void forCorners(const StoredImage& image, const NodePlace& padded, const Visit& visit) {
+    image.visit([&](const auto* voxels) {
+        const auto* first = voxels + padded[0] + padded[1] * image.stride[1] + padded[2] * image.stride[2];
+        for (std::size_t i = 0; i < 8; ++i) {
+            const std::int64_t offset =
+                ((i & 1U) != 0 ? 1 : 0) + ((i & 2U) != 0 ? image.stride[1] : 0) + ((i & 4U) != 0 ? image.stride[2] : 0);
+            visit(i, static_cast<double>(storedValue(first[offset])));
+        }
+    });
 }
 
 } // namespace
@@ -56,52 +59,44 @@ BrickPyramid::BrickPyramid(const std::array<std::int32_t, 3>& count, std::vector
     }
 }
 
-bool BrickPyramid::has(std::uint32_t level, const NodePlace& node) const noexcept {
-    const Level& at = levels_[level];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (node[axis] >= at.count[axis]) {
-            return false;
-        }
-    }
-    return at.wanted[numberOf(at.count, node)] != 0;
-}
-
 OpaquePart::OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
                        double resolution)
     : occupancy(volume, function, threshold, resolution), space(volume.grid),
       intervals(function.table, occupancy.item().threshold),
       pyramid(volume.bricks.count, wantedBricks(occupancy, volume.bricks.lo.size())),
-      scale_(static_cast<double>(function.table.size()) / (function.domain.hi - function.domain.lo)),
-      origin_(function.domain.lo - volume.storedIntercept),
-      terms_(std::abs(function.domain.lo) + std::abs(volume.storedIntercept)) {}
+      scale_{static_cast<double>(function.table.size()) / (function.domain.hi - function.domain.lo),
+             function.domain.lo - volume.storedIntercept,
+             std::abs(function.domain.lo) + std::abs(volume.storedIntercept)} {}
+
+double EntryScale::error(double largest) const noexcept {
+    return kEntryError * (std::abs(factor) * (std::max(largest, terms) + terms) + 1);
+}
 
 PartCell OpaquePart::cell(const VolumeImpl& volume, const NodePlace& padded) const {
-    const StoredImage& image = volume.image;
     PartCell out;
     std::array<double, 8> corners{};
-    double largest = terms_;
-    image.visit([&](const auto* voxels) {
-        const auto* first = voxels + padded[0] + padded[1] * image.stride[1] + padded[2] * image.stride[2];
-        for (std::size_t i = 0; i < 8; ++i) {
-            const std::int64_t offset =
-                ((i & 1U) != 0 ? 1 : 0) + ((i & 2U) != 0 ? image.stride[1] : 0) + ((i & 4U) != 0 ? image.stride[2] : 0);
-            const double stored = static_cast<double>(storedValue(first[offset]));
-            largest = std::max(largest, std::abs(stored));
-            corners[i] = (stored - origin_) * scale_ - 0.5;
-        }
+    double largest = 0;
+    forCorners(volume.image, padded, [&](std::size_t i, double stored) {
+        largest = std::max(largest, std::abs(stored));
+        corners[i] = (stored - scale_.origin) * scale_.factor - 0.5;
     });
-    // A dozen roundings, and as many of what is computed from the terms.
-    out.error = kEntryError * (std::abs(scale_) * (largest + terms_) + 1);
+    out.error = scale_.error(largest);
     out.terms = trilinearOf(corners);
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::int32_t number = padded[static_cast<std::size_t>(axis)] - 1;
-        out.middle[axis] = number + 0.5 - space.centre[axis];
-        const double lo = number < 0 ? 0 : -1;
-        const double hi = number == image.size[static_cast<std::size_t>(axis)] - 1 ? 0 : 1;
-        out.domain[axis] = (lo + hi) / 2;
-        out.half[axis] = (hi - lo) / 2;
-    }
+    setDomain(volume, padded, out);
     return out;
+}
+
+void OpaquePart::addCell(const VolumeImpl& volume, const NodePlace& padded, PieceRows& rows) const {
+    const std::size_t at = rows.count++;
+    forCorners(volume.image, padded, [&](std::size_t i, double stored) { rows.terms[i][at] = stored; });
+    PartCell cell;
+    setDomain(volume, padded, cell);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        rows.cell[i][at] = cell.middle[axis];
+        rows.middle[i][at] = cell.domain[axis];
+        rows.half[i][at] = cell.half[axis];
+    }
 }
 
 } // namespace voxtact::cpu

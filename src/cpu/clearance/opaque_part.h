@@ -25,24 +25,52 @@ class BrickPyramid {
     /// Level 0 are the bricks.
     [[nodiscard]] std::uint32_t levels() const noexcept { return static_cast<std::uint32_t>(levels_.size()); }
     /// False outside of it.
-    [[nodiscard]] bool has(std::uint32_t level, const NodePlace& node) const noexcept;
+    [[nodiscard]] bool has(std::uint32_t level, const NodePlace& node) const noexcept {
+        const Level& at = levels_[level];
+        return node[0] < at.count[0] && node[1] < at.count[1] && node[2] < at.count[2] &&
+               at.wanted[numberOf(at.count, node)] != 0;
+    }
 
   private:
     struct Level {
         NodePlace count{};
         std::vector<std::uint8_t> wanted;
     };
+    [[nodiscard]] static std::size_t numberOf(const NodePlace& count, const NodePlace& node) noexcept {
+        return (static_cast<std::size_t>(node[2]) * static_cast<std::size_t>(count[1]) +
+                static_cast<std::size_t>(node[1])) *
+                   static_cast<std::size_t>(count[0]) +
+               static_cast<std::size_t>(node[0]);
+    }
+
     std::vector<Level> levels_;
+};
+
+/// Of the terms of an entry coordinate.
+inline constexpr double kEntryError = 0x1p-47;
+
+/// Of an entry coordinate: (stored - origin) * factor - 0.5. In double: single precision would be all that keeps the
+/// bounds apart.
+struct EntryScale {
+    double factor = 1;
+    double origin = 0;
+    double terms = 0; ///< the magnitudes of what the origin is made of
+
+    /// No coordinate of stored values up to such a magnitude is off by more: a dozen roundings, and as many of what is
+    /// computed from the terms.
+    [[nodiscard]] double error(double largest) const noexcept;
 };
 
 /// What a cell holds for the search.
 struct PartCell {
     Trilinear terms{};
-    double error = 0;     ///< of an entry coordinate
-    glm::dvec3 middle{};  ///< of the cell, centred voxel coordinates
-    glm::dvec3 domain{};  ///< the middle of its part in the domain, in the cell's coordinates from -1 to 1
-    glm::dvec3 half{1.0}; ///< half the sides of that part
+    double error = 0;    ///< of an entry coordinate
+    glm::dvec3 middle{}; ///< of the cell, centred voxel coordinates
+    glm::dvec3 domain{}; ///< the middle of its part in the domain, in the cell's coordinates from -1 to 1
+    glm::dvec3 half{1};  ///< half the sides of that part
 };
+
+struct PieceRows;
 
 /// One volume under one transfer function, threshold and resolution, as a clearance sees it: made once for all poses.
 /// Thread-safe.
@@ -56,6 +84,9 @@ class OpaquePart {
     }
     /// The cell with this padded number (core/volume/bricks.h), which is not further out than the last one.
     [[nodiscard]] PartCell cell(const VolumeImpl& volume, const NodePlace& padded) const;
+    /// Adds all of such a cell to some rows, for makeTerms().
+    void addCell(const VolumeImpl& volume, const NodePlace& padded, PieceRows& rows) const;
+    [[nodiscard]] const EntryScale& scale() const noexcept { return scale_; }
 
     CertifiedOccupancy occupancy;
     VolumeSpace space;
@@ -63,11 +94,18 @@ class OpaquePart {
     BrickPyramid pyramid;
 
   private:
-    /// Of an entry coordinate: (stored - origin) * scale - 0.5. In double: single precision would be all that keeps the
-    /// bounds apart.
-    double scale_;
-    double origin_;
-    double terms_; ///< the magnitudes of what the origin is made of
+    void setDomain(const VolumeImpl& volume, const NodePlace& padded, PartCell& cell) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int32_t number = padded[static_cast<std::size_t>(axis)] - 1;
+            cell.middle[axis] = number + 0.5 - space.centre[axis];
+            const bool first = number < 0;
+            const bool last = number == volume.image.size[static_cast<std::size_t>(axis)] - 1;
+            cell.domain[axis] = (first ? 0.5 : 0.0) - (last ? 0.5 : 0.0);
+            cell.half[axis] = 1 - (first ? 0.5 : 0.0) - (last ? 0.5 : 0.0);
+        }
+    }
+
+    EntryScale scale_;
 };
 
 } // namespace voxtact::cpu

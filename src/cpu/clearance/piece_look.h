@@ -15,7 +15,7 @@ namespace voxtact::cpu {
 /// A piece along a direction.
 struct PieceAlong {
     PieceAlong() = default;
-    PieceAlong(const CellPiece& piece, const VolumeSpace& space, const Direction& chosen)
+    PieceAlong(const PieceBounds& piece, const VolumeSpace& space, const Direction& chosen)
         : direction(chosen), least(piece.least(space, chosen.normal())) {}
 
     /// How far some of a mesh that reaches so far is apart from it, at least, but for roundings.

@@ -37,8 +37,40 @@ struct PlacedTriangle {
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& from) const noexcept { return closestPoint(corners, from); }
 };
 
+/// Lanes of the longest vector that is used. Rows are aligned for it, and as long as some such.
+inline constexpr std::size_t kMostDoubles = 8;
+inline constexpr std::size_t kRowAlignment = kMostDoubles * sizeof(double);
+
+/// The triangles of a cluster in place, row by row: what PlacedTriangle has of each, for vectors.
+struct alignas(kRowAlignment) PlacedCluster {
+    using Row = std::array<double, kClusterTriangles>;
+    std::array<std::array<Row, 3>, 3> corners{}; ///< of each corner x, y and z
+    std::array<Row, 3> lo{};
+    std::array<Row, 3> hi{};
+    /// For directions, which need not be exact: one by the square of each side, from a to b, a to c and b to c, and of
+    /// the sides' cross product; that is 0 where a triangle has no area.
+    std::array<Row, 4> inverses{};
+    Row wide{}; ///< of a swept mesh alone
+    Row own{};
+
+    [[nodiscard]] PlacedTriangle triangle(std::size_t number) const noexcept {
+        PlacedTriangle out;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto at = static_cast<std::size_t>(axis);
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                out.corners[corner][axis] = corners[corner][at][number];
+            }
+            out.lo[axis] = lo[at][number];
+            out.hi[axis] = hi[at][number];
+        }
+        out.wide = wide[number];
+        out.own = own[number];
+        return out;
+    }
+};
+
 /// Some points of triangles.
-struct PointList {
+struct alignas(kRowAlignment) PointList {
     static constexpr std::size_t kMost = 3 * std::size_t{kClusterTriangles};
     std::array<double, kMost> x{};
     std::array<double, kMost> y{};

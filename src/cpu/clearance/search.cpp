@@ -18,16 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-/// Of pairs that are equally near, the smaller ones first: to find some point soon.
-bool ClosestSearch::After::operator()(const Pair& a, const Pair& b) const noexcept {
-    if (a.lo != b.lo) {
-        return a.lo > b.lo;
-    }
-    const int sizeA = a.meshLevel + a.shift - a.depth;
-    const int sizeB = b.meshLevel + b.shift - b.depth;
-    return sizeA > sizeB;
-}
-
 Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
                          const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from,
                          CancelFlag cancel) {
@@ -42,6 +32,8 @@ Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const Opaque
     boxes_.begin(volume, part, searched, error_);
     bool improved = false;
     heap_.clear();
+    rows_.count = 0;
+    offered_.clear();
     dropped_.clear();
     dive_.reset();
     if (goal.known) {
@@ -65,15 +57,15 @@ Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const Opaque
         push(*dive_);
     }
     if (!heap_.empty()) {
-        found_.lo = std::min(found_.lo, heap_.front().lo);
+        found_.lo = std::min(found_.lo, heap_.least());
     }
     found_.lo = std::min(found_.lo, found_.hi);
     return found_;
 }
 
 OpenPairs ClosestSearch::left() const {
-    OpenPairs open = heap_;
-    open.insert(open.end(), dropped_.begin(), dropped_.end());
+    OpenPairs open = dropped_;
+    heap_.addTo(open);
     return open;
 }
 
@@ -85,11 +77,11 @@ bool ClosestSearch::goesOn() {
     if (decides() && found_.lo <= 0 && (!goal_.untilMet || ++stepsInDoubt_ > kMostInDoubt)) {
         return false; // it is not apart, and that is all that is asked
     }
-    if (found_.hi <= goal_.enough || (!dive_ && (heap_.empty() || heap_.front().lo >= cut()))) {
+    if (found_.hi <= goal_.enough || (!dive_ && (heap_.empty() || heap_.least() >= cut()))) {
         return false;
     }
     // Rounding has set the lower bound already: some more steps may find a nearer point, and then it is enough.
-    if (!dive_ && heap_.front().lo >= found_.lo && ++stepsInDoubt_ > kMostInDoubt) {
+    if (!dive_ && heap_.least() >= found_.lo && ++stepsInDoubt_ > kMostInDoubt) {
         return false;
     }
     found_.exhausted = found_.steps == goal_.mostSteps;
@@ -172,10 +164,7 @@ ClosestSearch::Pair ClosestSearch::next() {
         dive_.reset();
         return pair;
     }
-    std::pop_heap(heap_.begin(), heap_.end(), After());
-    const Pair pair = heap_.back();
-    heap_.pop_back();
-    return pair;
+    return heap_.pop();
 }
 
 /// Until some point is found, what is nearest of a pair is opened at once, be something else nearer: what is offered
@@ -187,36 +176,17 @@ void ClosestSearch::push(const Pair& pair) {
             dive_ = pair;
             return;
         }
-        if (After()(*dive_, pair)) {
+        if (dive_->isAfter(pair)) {
             std::swap(kept, *dive_);
         }
     }
-    heap_.push_back(kept);
-    std::push_heap(heap_.begin(), heap_.end(), After());
-}
-
-double ClosestSearch::cut() const noexcept {
-    // Of a swept mesh a point says nothing but that it is not apart.
-    if (decides()) {
-        return goal_.maximum;
-    }
-    const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
-    return std::min(found_.hi - (found_.hi < kInfinity ? slack : 0), goal_.maximum);
+    heap_.push(kept);
 }
 
 /// What is left of it is not divided any more.
 void ClosestSearch::drop(const Pair& pair) {
     found_.lo = std::min(found_.lo, pair.lo);
     dropped_.push_back(pair);
-}
-
-/// What is closed is not looked at again: the answer's lower bound is no higher.
-bool ClosestSearch::closes(double lo) {
-    if (lo < cut()) {
-        return false;
-    }
-    found_.lo = std::min(found_.lo, lo);
-    return true;
 }
 
 /// From one certain point to the closest on the mesh, from there to the opaque part, and so on: to a point that is

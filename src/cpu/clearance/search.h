@@ -3,10 +3,14 @@
 
 #include "cpu/cancel.h"
 #include "cpu/clearance/cell_piece.h"
+#include "cpu/clearance/cell_sieve.h"
 #include "cpu/clearance/found.h"
 #include "cpu/clearance/label_part.h"
 #include "cpu/clearance/mesh_place.h"
 #include "cpu/clearance/opaque_part.h"
+#include "cpu/clearance/pair_heap.h"
+#include "cpu/clearance/piece_look.h"
+#include "cpu/clearance/piece_rows.h"
 #include "cpu/clearance/volume_boxes.h"
 
 #include <cstdint>
@@ -30,29 +34,6 @@ struct SearchGoal {
     bool untilMet = false; ///< a point as near as enough is looked for, though it is known that lo will be 0
 };
 
-/// A box of the mesh, or some triangles of a cluster, and a box of the volume, or a piece of a cell.
-struct SearchPair {
-    static constexpr std::int8_t kTriangles = -1;
-
-    double lo = 0;                        ///< mm: they are no nearer
-    std::uint32_t mesh = 0;               ///< box of its level, or cluster
-    std::uint64_t triangles = 0;          ///< a bit for each of the cluster's that may be near enough
-    std::int8_t meshLevel = kTriangles;   ///< of the mesh's tree
-    std::uint8_t nearest = 0;             ///< of the triangles
-    std::uint8_t shift = 0;               ///< the box is 2^shift cells a side
-    std::uint8_t depth = 0;               ///< the piece is 2^-depth of its cell a side
-    bool sifted = false;                  ///< each of the triangles was looked at against this box
-    NodePlace node{};                     ///< times 2^shift cells: its first padded cell
-    std::array<std::uint16_t, 3> piece{}; ///< times 2^-depth
-
-    [[nodiscard]] CellCube cube() const noexcept { return {node, shift}; }
-    [[nodiscard]] PiecePlace place() const noexcept { return {node, depth, piece}; }
-    [[nodiscard]] bool isLeaf() const noexcept { return meshLevel == kTriangles && shift == 0; }
-};
-
-/// What a search left open: another one may begin there, for a mesh that is nowhere where it was not in the first one.
-using OpenPairs = std::vector<SearchPair>;
-
 /// Looks for the opaque point that is closest to a mesh, best first (Hart, Nilsson and Raphael, 1968): over pairs of a
 /// box of the mesh's tree and a box of the volume's, down to triangles and pieces of cells. One thread's; kept from
 /// pair to pair for its memory.
@@ -71,12 +52,8 @@ class ClosestSearch {
     /// Level 1 of a tree has a box for each cluster; a mesh of one cluster has no such level.
     static constexpr std::int8_t kClusters = 1;
     static constexpr std::uint8_t kMostDepth = 16;
-    /// Boxes of so many cells are not halved: their cells are gone through.
-    static constexpr std::uint8_t kLeastShift = 2;
-
-    struct After {
-        bool operator()(const Pair& a, const Pair& b) const noexcept;
-    };
+    /// Boxes of so many cells are not halved: their cells are gone through. A sweep's are one by one.
+    [[nodiscard]] std::uint8_t leastShift() const noexcept { return mesh_->isSwept() ? 2 : 3; }
 
     void begin(const OpenPairs* from);
     void beginWithAll();
@@ -92,24 +69,50 @@ class ClosestSearch {
     void openCells(const Pair& pair);
     void openLeaf(const Pair& pair);
     void offer(Pair pair);
+    void offerBox(Pair pair, const PlacedBox& box, const OpaqueBox& region);
     [[nodiscard]] bool sift(Pair& pair, const OpaqueBox& region);
     void improve();
+    void lookInto(const Pair& pair, const OpaqueBox& region);
     /// After gather().
     void offerPiece(Pair pair, const PartCell& cell);
+    /// The same of all pieces that are in place in `rows_`, whose pairs are `offered_`: none is left there.
+    void offerRows();
+    /// The same of whole cells, soon or when they are offered.
+    void addCell(const Pair& pair);
+    void offerCells();
     void push(const Pair& pair);
 
     [[nodiscard]] Direction from(const Pair& pair, const glm::dvec3& point);
     /// Sets what `corners_` is about.
     void gather(const Pair& pair);
-    [[nodiscard]] double cut() const noexcept;
+    [[nodiscard]] double cut() const noexcept {
+        // Of a swept mesh a point says nothing but that it is not apart.
+        if (decides()) {
+            return goal_.maximum;
+        }
+        const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
+        return std::min(found_.hi - (found_.hi < std::numeric_limits<double>::infinity() ? slack : 0), goal_.maximum);
+    }
     /// Whether all that is asked is if a sweep is apart.
     [[nodiscard]] bool decides() const noexcept { return mesh_->isSwept() && !goal_.measures; }
-    [[nodiscard]] bool closes(double lo);
+    /// What is closed is not looked at again: the answer's lower bound is no higher.
+    [[nodiscard]] bool closes(double lo) {
+        if (lo < cut()) {
+            return false;
+        }
+        found_.lo = std::min(found_.lo, lo);
+        return true;
+    }
 
     /// Calls `visit(number, triangle)` for those of a pair.
     template <class Visit> void forTriangles(const Pair& pair, const Visit& visit);
     /// Keeps those of a pair's triangles whose `bound(triangle)` does not close; false where none is left.
     template <class Bound> bool keep(Pair& pair, const Bound& bound);
+    /// The same along a direction, whose least dot product with an opaque point is known.
+    bool keepAlong(Pair& pair, const Direction& along, double least);
+    /// The same by what is left of a pair's triangles: `sieve(job)`.
+    template <class Sieve> bool keepBy(Pair& pair, const Sieve& sieve);
+    bool keepByPiece(Pair& pair, const PieceBounds& piece, const std::array<PieceAlong, 2>& always);
 
     MeshPlace* mesh_ = nullptr;
     const VolumeImpl* volume_ = nullptr;
@@ -123,7 +126,10 @@ class ClosestSearch {
     std::uint64_t stepsInDoubt_ = 0;     ///< since the lower bound was known
     std::array<double, 32> diameters_{}; ///< mm, of boxes by their shift
     PointList corners_;                  ///< of the triangles at hand
-    std::vector<Pair> heap_;
+    SievedCells cells_;
+    PieceRows rows_;
+    std::vector<Pair> offered_;
+    PairHeap heap_;
     std::vector<Pair> dropped_; ///< too small to be divided
     std::optional<Pair> dive_;  ///< as long as there is no point: the nearest of what was offered last
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a pair is divided into, and which of that is still looked for.
-#include "cpu/clearance/piece_look.h"
+#include "cpu/clearance/cluster_sieve.h"
+#include "cpu/clearance/nearest_point.h"
 #include "cpu/clearance/search.h"
 
 #include <glm/common.hpp>
@@ -21,15 +22,16 @@ using glm::length;
 /// Bounds of a brick's cells are tighter than those of larger boxes: the volume's are opened first where sizes are
 /// alike.
 constexpr double kPreferVolume = 2;
+constexpr double kWorthALook = 0.5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
 template <class Visit> void ClosestSearch::forTriangles(const Pair& pair, const Visit& visit) {
-    const PlacedTriangle* triangles = mesh_->cluster(pair.mesh);
+    const PlacedCluster& triangles = mesh_->cluster(pair.mesh);
     for (std::uint64_t left = pair.triangles; left != 0; left &= left - 1) {
         const auto number = static_cast<unsigned>(std::countr_zero(left));
-        visit(number, triangles[number]);
+        visit(number, triangles.triangle(number));
     }
 }
 
@@ -52,16 +54,36 @@ template <class Bound> bool ClosestSearch::keep(Pair& pair, const Bound& bound) 
     return kept != 0;
 }
 
+template <class Sieve> bool ClosestSearch::keepBy(Pair& pair, const Sieve& sieve) {
+    const Sieved left = sieve(SieveJob{mesh_->cluster(pair.mesh), pair.triangles, pair.lo, cut(), error_.absolute});
+    found_.lo = std::min(found_.lo, left.leastGone);
+    pair.triangles = left.kept;
+    pair.nearest = left.nearest;
+    pair.lo = left.least;
+    return left.kept != 0;
+}
+
+bool ClosestSearch::keepAlong(Pair& pair, const Direction& along, double least) {
+    if (!mesh_->isSwept()) {
+        const std::array<LeastAlong, 1> directions{LeastAlong(along, least)};
+        return keepBy(pair, [&](const SieveJob& job) { return sieveAlong(job, directions); });
+    }
+    return keep(pair, [&](const PlacedTriangle& triangle) {
+        const double reach = along.reach(triangle);
+        return along.length() > 0 ? error_.below((least - reach) / along.length()) : 0;
+    });
+}
+
 void ClosestSearch::open(const Pair& pair) {
     if (pair.isLeaf()) {
         openLeaf(pair);
     } else if (pair.meshLevel == kTriangles) {
-        if (pair.shift > kLeastShift) {
+        if (pair.shift > leastShift()) {
             openVolume(pair);
         } else {
             openCells(pair);
         }
-    } else if (pair.shift > kLeastShift && boxOf(pair)->diameter < kPreferVolume * diameters_[pair.shift]) {
+    } else if (pair.shift > leastShift() && boxOf(pair)->diameter < kPreferVolume * diameters_[pair.shift]) {
         openVolume(pair);
     } else if (pair.meshLevel > kClusters) {
         openBox(pair);
@@ -71,13 +93,31 @@ void ClosestSearch::open(const Pair& pair) {
 }
 
 void ClosestSearch::openBox(const Pair& pair) {
+    OpaqueBox region;
+    if (!boxes_.opaque(pair.cube(), region)) {
+        return;
+    }
     Pair child = pair;
     --child.meshLevel;
     const auto boxes =
         static_cast<std::uint32_t>(mesh_->mesh().tree.boxes(static_cast<std::uint32_t>(child.meshLevel)).size());
     const std::uint32_t first = pair.mesh * ClusterTree::kFanOut;
     for (child.mesh = first; child.mesh < std::min(first + ClusterTree::kFanOut, boxes); ++child.mesh) {
-        offer(child);
+        offerBox(child, *boxOf(child), region);
+    }
+}
+
+/// A box of the mesh, and what may be opaque in one of the volume.
+void ClosestSearch::offerBox(Pair pair, const PlacedBox& box, const OpaqueBox& region) {
+    pair.lo = std::max(pair.lo, boxes_.gap(region, box.lo, box.hi));
+    if (closes(pair.lo)) {
+        return;
+    }
+    const dvec3 middle = part_->space.toWorld(region.middle());
+    const Direction along = mesh_->along(middle - mesh_->near(box, middle));
+    pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(box)));
+    if (!closes(pair.lo)) {
+        push(pair);
     }
 }
 
@@ -99,15 +139,7 @@ void ClosestSearch::openCluster(const Pair& pair) {
     const dvec3 middle = part_->space.toWorld(region.middle());
     const PlacedBox* box = boxOf(child);
     const Direction along = box != nullptr ? mesh_->along(middle - mesh_->near(*box, middle)) : from(child, middle);
-    if (along.length() > 0) {
-        const double least = boxes_.least(region, along.normal());
-        if (!keep(child, [&](const PlacedTriangle& triangle) {
-                return error_.below((least - along.reach(triangle)) / along.length());
-            })) {
-            return;
-        }
-    }
-    if (sift(child, region)) {
+    if (keepAlong(child, along, boxes_.least(region, along.normal())) && sift(child, region)) {
         push(child);
     }
 }
@@ -134,13 +166,17 @@ void ClosestSearch::openCells(const Pair& pair) {
     if (!boxes_.opaque(pair.cube(), region) || !(pair.sifted || sift(cell, region))) {
         return;
     }
+    if (!mesh_->isSwept() && found_.hi - cell.lo > kWorthALook * diameters_[0]) {
+        lookInto(cell, region);
+    }
     gather(cell);
     const Direction direction = from(cell, part_->space.toWorld(region.middle()));
     const dvec3 along = direction.normal() * part_->space.local_from_voxel;
     const dvec3 lowest = glm::min(along, dvec3(0));
     const double base = dot(along, region.corner) + lowest.x + lowest.y + lowest.z - direction.reach(corners_);
-    const double size = direction.length();
-    const double least = cell.lo;
+    sieveCells({*region.known, region.cells, along, base, direction.inverse(), cell.lo, cut(), error_.absolute},
+               cells_);
+    found_.lo = std::min(found_.lo, cells_.leastGone);
     const NodePlace first{(pair.node[0] << pair.shift) & ~(kBrickSide - 1),
                           (pair.node[1] << pair.shift) & ~(kBrickSide - 1),
                           (pair.node[2] << pair.shift) & ~(kBrickSide - 1)};
@@ -148,17 +184,33 @@ void ClosestSearch::openCells(const Pair& pair) {
     cell.sifted = false;
     for (std::int32_t z = region.cells.lo[2]; z <= region.cells.hi[2]; ++z) {
         for (std::int32_t y = region.cells.lo[1]; y <= region.cells.hi[1]; ++y) {
-            for (unsigned row = region.known->row(region.cells, y, z); row != 0; row &= row - 1) {
+            const auto number = static_cast<std::size_t>(y + kBrickSide * z);
+            for (unsigned row = cells_.kept[number]; row != 0; row &= row - 1) {
                 const std::int32_t x = std::countr_zero(row);
-                const double apart = base + along.x * x + along.y * y + along.z * z;
-                cell.lo = size > 0 ? std::max(least, error_.below(apart / size)) : least;
-                if (!closes(cell.lo)) {
-                    cell.node = {first[0] + x, first[1] + y, first[2] + z};
+                cell.lo = cells_.lo[number * kBrickSide + static_cast<std::size_t>(x)];
+                cell.node = {first[0] + x, first[1] + y, first[2] + z};
+                if (mesh_->isSwept()) {
                     offerPiece(cell, part_->cell(*volume_, cell.node));
+                } else {
+                    addCell(cell);
                 }
             }
         }
     }
+    offerCells();
+}
+
+void ClosestSearch::addCell(const Pair& pair) {
+    if (rows_.count == PieceRows::kMost) {
+        offerCells();
+    }
+    part_->addCell(*volume_, pair.node, rows_);
+    offered_.push_back(pair);
+}
+
+void ClosestSearch::offerCells() {
+    makeTerms(part_->scale(), rows_);
+    offerRows();
 }
 
 void ClosestSearch::offer(Pair pair) {
@@ -167,22 +219,17 @@ void ClosestSearch::offer(Pair pair) {
         return;
     }
     const PlacedBox* box = boxOf(pair);
-    const auto boxCloses = [&] {
-        pair.lo = box != nullptr ? std::max(pair.lo, boxes_.gap(region, box->lo, box->hi)) : pair.lo;
-        return closes(pair.lo);
-    };
-    if (boxCloses() || (pair.shift <= kBrickShift && !boxes_.narrow(pair.cube(), region)) || boxCloses()) {
+    pair.lo = box != nullptr ? std::max(pair.lo, boxes_.gap(region, box->lo, box->hi)) : pair.lo;
+    if (closes(pair.lo) || (pair.shift <= kBrickShift && !boxes_.narrow(pair.cube(), region))) {
         return;
     }
-    if (pair.meshLevel == kTriangles) {
-        const Direction along = from(pair, part_->space.toWorld(region.middle()));
-        gather(pair);
-        pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(corners_)));
-    } else {
-        const dvec3 middle = part_->space.toWorld(region.middle());
-        const Direction along = mesh_->along(middle - mesh_->near(*box, middle));
-        pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(*box)));
+    if (pair.meshLevel != kTriangles) {
+        offerBox(pair, *box, region);
+        return;
     }
+    const Direction along = from(pair, part_->space.toWorld(region.middle()));
+    gather(pair);
+    pair.lo = std::max(pair.lo, boxes_.apart(region, along, along.reach(corners_)));
     if (!closes(pair.lo)) {
         push(pair);
     }
@@ -191,6 +238,9 @@ void ClosestSearch::offer(Pair pair) {
 /// Keeps the triangles that may be near enough to a box.
 bool ClosestSearch::sift(Pair& pair, const OpaqueBox& region) {
     pair.sifted = true;
+    if (!mesh_->isSwept()) {
+        return keepBy(pair, [&](const SieveJob& job) { return sieveByBox(job, part_->space, {region.lo, region.hi}); });
+    }
     const dvec3 middle = part_->space.toWorld(region.middle());
     return keep(pair, [&](const PlacedTriangle& triangle) {
         const double lo = boxes_.gap(region, triangle.lo, triangle.hi);
@@ -210,7 +260,7 @@ void ClosestSearch::gather(const Pair& pair) {
 
 /// From the triangle that was nearest before to a point.
 Direction ClosestSearch::from(const Pair& pair, const dvec3& point) {
-    return mesh_->along(point - mesh_->near(mesh_->cluster(pair.mesh)[pair.nearest], point));
+    return mesh_->along(point - mesh_->near(mesh_->triangle(pair.mesh, pair.nearest), point));
 }
 
 void ClosestSearch::offerPiece(Pair pair, const PartCell& cell) {
@@ -218,30 +268,65 @@ void ClosestSearch::offerPiece(Pair pair, const PartCell& cell) {
     if (!piece.mayBeOpaque(part_->intervals) || !searched_->meets(pair.place())) {
         return;
     }
-    const dvec3 middle = part_->space.toWorld(piece.middle());
-    if (const Direction along = from(pair, middle); along.length() > 0) {
-        pair.lo = std::max(pair.lo, error_.below(PieceAlong(piece, part_->space, along).from(along.reach(corners_))));
+    const PieceBounds bounds = piece.bounds(part_->space);
+    if (const Direction along = from(pair, bounds.middle); along.length() > 0) {
+        pair.lo = std::max(pair.lo, error_.below(PieceAlong(bounds, part_->space, along).from(along.reach(corners_))));
     }
     if (!closes(pair.lo)) {
         push(pair);
     }
 }
 
-void ClosestSearch::openLeaf(const Pair& pair) {
-    const PartCell cell = part_->cell(*volume_, pair.node);
-    CellPiece piece = pieceAt(cell, pair.place());
-    if (!piece.mayBeOpaque(part_->intervals)) {
-        return;
+/// The nearer a point is known, the fewer cells are offered.
+void ClosestSearch::lookInto(const Pair& pair, const OpaqueBox& region) {
+    const PlacedTriangle nearest = mesh_->triangle(pair.mesh, pair.nearest);
+    const std::uint32_t number = pair.mesh * kClusterTriangles + pair.nearest;
+    const dvec3 onMesh = nearest.near(part_->space.toWorld(region.middle()));
+    const unsigned up = static_cast<unsigned>(kBrickShift) - pair.shift;
+    const NodePlace brick{pair.node[0] >> up, pair.node[1] >> up, pair.node[2] >> up};
+    const OpaquePoint opaque = nearestInBrick(*part_, *searched_, *volume_, brick, onMesh, found_.hi);
+    if (opaque.distance < found_.hi) {
+        const dvec3 nearer = nearest.near(opaque.point);
+        found_.offer(error_.above(opaque.distance), number, onMesh, opaque.point, true);
+        found_.offer(error_.above(glm::distance(nearer, opaque.point)), number, nearer, opaque.point, true);
     }
-    const auto along = [&](const dvec3& normal) { return PieceAlong(piece, part_->space, mesh_->along(normal)); };
-    const dvec3 middle = part_->space.toWorld(piece.middle());
-    // The nearest triangle's normal serves most of the others, which share a corner with it or are farther off.
-    const dvec3 shared = middle - mesh_->near(mesh_->cluster(pair.mesh)[pair.nearest], middle);
-    const dvec3 ascent = piece.ascent(part_->space);
-    const std::array<PieceAlong, 2> always{along(shared), along(dot(ascent, shared) < 0 ? -ascent : ascent)};
+}
+
+void ClosestSearch::offerRows() {
+    findRanges(rows_);
+    std::uint64_t left = 0;
+    for (std::size_t i = 0; i < rows_.count; ++i) {
+        EntryInterval hull;
+        if (part_->intervals.meet(rows_.lo[i], rows_.hi[i], hull) && searched_->meets(offered_[i].place())) {
+            rows_.hullLo[i] = hull.lo;
+            rows_.hullHi[i] = hull.hi;
+            left |= std::uint64_t{1} << i;
+        }
+    }
+    if (left != 0) {
+        const Pair& any = offered_.front();
+        findApart({mesh_->cluster(any.mesh), any.nearest, corners_, part_->space, cut(), error_.absolute}, rows_);
+    }
+    for (; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        Pair& pair = offered_[i];
+        pair.lo = std::max(pair.lo, rows_.apart[i]);
+        if (!closes(pair.lo)) {
+            push(pair);
+        }
+    }
+    rows_.count = 0;
+    offered_.clear();
+}
+
+bool ClosestSearch::keepByPiece(Pair& pair, const PieceBounds& piece, const std::array<PieceAlong, 2>& always) {
+    if (!mesh_->isSwept()) {
+        const std::array<LeastAlong, 2> directions{LeastAlong(always[0].direction, always[0].least),
+                                                   LeastAlong(always[1].direction, always[1].least)};
+        return keepBy(pair, [&](const SieveJob& job) { return sieveByPiece(job, part_->space, piece, directions); });
+    }
     PieceAlong own;
-    Pair child = pair;
-    const bool mayBeNear = keep(child, [&](const PlacedTriangle& triangle) {
+    return keep(pair, [&](const PlacedTriangle& triangle) {
         double lo = 0;
         for (const PieceAlong& one : always) {
             lo = std::max(lo, error_.below(one.from(triangle)));
@@ -250,21 +335,35 @@ void ClosestSearch::openLeaf(const Pair& pair) {
             }
         }
         // Triangles that share the closest corner are seen along the same normal.
-        const dvec3 normal = middle - mesh_->near(triangle, middle);
+        const dvec3 normal = piece.middle - mesh_->near(triangle, piece.middle);
         if (normal != own.direction.normal()) {
-            own = along(normal);
+            own = PieceAlong(piece, part_->space, mesh_->along(normal));
         }
         return std::max(lo, error_.below(own.from(triangle)));
     });
-    if (!mayBeNear) {
+}
+
+void ClosestSearch::openLeaf(const Pair& pair) {
+    const PartCell cell = part_->cell(*volume_, pair.node);
+    CellPiece piece = pieceAt(cell, pair.place());
+    if (!piece.mayBeOpaque(part_->intervals)) {
+        return;
+    }
+    const PieceBounds bounds = piece.bounds(part_->space);
+    const auto along = [&](const dvec3& normal) { return PieceAlong(bounds, part_->space, mesh_->along(normal)); };
+    // The nearest triangle's normal serves most of the others, which share a corner with it or are farther off.
+    const dvec3 shared = from(pair, bounds.middle).normal();
+    const dvec3 ascent = piece.ascent(part_->space);
+    Pair child = pair;
+    if (!keepByPiece(child, bounds, {along(shared), along(dot(ascent, shared) < 0 ? -ascent : ascent)})) {
         return;
     }
     // A look takes as long as all of that.
-    const PlacedTriangle& nearest = mesh_->cluster(pair.mesh)[child.nearest];
+    const PlacedTriangle nearest = mesh_->triangle(pair.mesh, child.nearest);
     const PieceAlong seen =
         along(PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
                   .run(pair.place(), error_, pair.mesh * kClusterTriangles + child.nearest, found_));
-    if (!keep(child, [&](const PlacedTriangle& triangle) { return error_.below(seen.from(triangle)); })) {
+    if (!keepAlong(child, seen.direction, seen.least)) {
         return;
     }
     const bool inDoubt = !piece.someOpaque(part_->intervals);
@@ -280,8 +379,14 @@ void ClosestSearch::openLeaf(const Pair& pair) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             child.piece[axis] = static_cast<std::uint16_t>(2 * pair.piece[axis] + (i >> axis & 1U));
         }
-        offerPiece(child, cell);
+        if (mesh_->isSwept()) {
+            offerPiece(child, cell);
+        } else {
+            rows_.add(cell, child.place());
+            offered_.push_back(child);
+        }
     }
+    offerRows();
 }
 
 } // namespace voxtact::cpu

@@ -249,9 +249,6 @@ dvec3 Sweep::nearest(const PlacedTriangle& triangle, const dvec3& from) const no
     return best;
 }
 
-Direction::Direction(const dvec3& normal, const Sweep* sweep) noexcept
-    : normal_(normal), length_(glm::length(normal)), sweep_(sweep) {}
-
 double Direction::reach(const PlacedBox& box) const noexcept {
     if (sweep_ != nullptr) {
         return sweep_->reach(normal_, box) + length_ * box.wide;

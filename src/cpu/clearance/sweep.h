@@ -4,6 +4,7 @@
 #include "cpu/clearance/placed.h"
 #include "cpu/clearance/vertex_reach.h"
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
@@ -62,10 +63,16 @@ class Direction {
   public:
     Direction() = default;
     /// `sweep` may be null, and must outlive it.
-    Direction(const glm::dvec3& normal, const Sweep* sweep) noexcept;
+    Direction(const glm::dvec3& normal, const Sweep* sweep) noexcept
+        : normal_(normal), length_(glm::length(normal)), sweep_(sweep) {}
 
     [[nodiscard]] const glm::dvec3& normal() const noexcept { return normal_; }
     [[nodiscard]] double length() const noexcept { return length_; }
+    /// One by the length; 0 where that is too short for its square to be right.
+    [[nodiscard]] double inverse() const noexcept {
+        constexpr double kShortest = 1e-140;
+        return length_ > kShortest ? 1 / length_ : 0;
+    }
 
     [[nodiscard]] double reach(const PlacedBox& box) const noexcept;
     [[nodiscard]] double reach(const PlacedTriangle& triangle) const noexcept;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/volume_boxes.h"
+#include "cpu/clearance/cell_sieve.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,21 +20,6 @@ using glm::length;
 /// The least dot product of `along` with a point of a box.
 double leastInBox(const dvec3& along, const dvec3& lo, const dvec3& hi) {
     return 0.5 * (dot(along, lo + hi) - dot(glm::abs(along), hi - lo));
-}
-
-/// The least dot product of `along` with the lowest corner of a cell that may be opaque, from the brick's first cell.
-double leastCell(const BrickCells& known, const CellBox& cells, const dvec3& along) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::int32_t z = cells.lo[2]; z <= cells.hi[2]; ++z) {
-        for (std::int32_t y = cells.lo[1]; y <= cells.hi[1]; ++y) {
-            const unsigned row = known.row(cells, y, z);
-            if (row != 0) {
-                const int x = along.x >= 0 ? std::countr_zero(row) : static_cast<int>(std::bit_width(row)) - 1;
-                least = std::min(least, along.x * x + along.y * y + along.z * z);
-            }
-        }
-    }
-    return least;
 }
 
 } // namespace
@@ -115,11 +101,6 @@ double VolumeBoxes::least(const OpaqueBox& box, const dvec3& normal) const {
     const dvec3 lowest = glm::min(along, dvec3(0));
     return std::max(byBox,
                     dot(along, box.corner) + lowest.x + lowest.y + lowest.z + leastCell(*box.known, box.cells, along));
-}
-
-double VolumeBoxes::gap(const OpaqueBox& box, const dvec3& lo, const dvec3& hi) const {
-    const dvec3 off = glm::max(glm::max(box.lo - hi, lo - box.hi), dvec3(0));
-    return error_.below(length(off * part_->space.spacing));
 }
 
 double VolumeBoxes::apart(const OpaqueBox& box, const Direction& along, double reach) const {

@@ -6,6 +6,9 @@
 #include "cpu/clearance/opaque_part.h"
 #include "cpu/clearance/sweep.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 namespace voxtact::cpu {
 
 /// 2^shift padded cells a side.
@@ -45,7 +48,10 @@ class VolumeBoxes {
     /// The least dot product of an opaque point with a normal.
     [[nodiscard]] double least(const OpaqueBox& box, const glm::dvec3& normal) const;
     /// How far it is from a box of centred voxel coordinates.
-    [[nodiscard]] double gap(const OpaqueBox& box, const glm::dvec3& lo, const glm::dvec3& hi) const;
+    [[nodiscard]] double gap(const OpaqueBox& box, const glm::dvec3& lo, const glm::dvec3& hi) const {
+        const glm::dvec3 off = glm::max(glm::max(box.lo - hi, lo - box.hi), glm::dvec3(0));
+        return error_.below(glm::length(off * part_->space.spacing));
+    }
     /// How far along a direction: `reach` is how far something of the mesh is along it.
     [[nodiscard]] double apart(const OpaqueBox& box, const Direction& along, double reach) const;
     /// The same of all of the box, which is soon known.

@@ -77,8 +77,8 @@ void PoseToleranceSearch::run(PairAnswer& out) const {
 
 /// By the points that the search found, or the closest of all.
 bool PoseToleranceSearch::isReached(const Found& swept) const {
-    const auto triangleOf = [this](const Found& found) -> const PlacedTriangle& {
-        return memory_.mesh.cluster(found.triangle / kClusterTriangles)[found.triangle % kClusterTriangles];
+    const auto triangleOf = [this](const Found& found) {
+        return memory_.mesh.triangle(found.triangle / kClusterTriangles, found.triangle % kClusterTriangles);
     };
     const bool isMet = swept.hi < kInfinity;
     const dvec3 onMesh = isMet ? memory_.mesh.nearest(triangleOf(swept), swept.inVolume) : dvec3(0);
@@ -97,7 +97,7 @@ bool PoseToleranceSearch::isReached(const Found& swept) const {
     if (isMet && (touchesAlong(onMesh, nearest) || touchesAlong(onMesh, swept.inVolume - onMesh))) {
         return true;
     }
-    const PlacedTriangle& triangle = triangleOf(still);
+    const PlacedTriangle triangle = triangleOf(still);
     return std::any_of(triangle.corners.begin(), triangle.corners.end(),
                        [&](const dvec3& corner) { return touchesAlong(corner, nearest); });
 }

@@ -4,9 +4,14 @@
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
 
-#include <gtest/gtest.h>
+#include "voxtact/samples.h"
 
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 
 namespace voxtact::test {
@@ -35,6 +40,39 @@ TEST(Clearance, DoesNotDependOnItsCompany) {
         EXPECT_TRUE(same(alone[i], together[i])) << i;
         EXPECT_TRUE(same(alone[i], held.measure(scene.poses[i], {.threads = 1}, scene.threshold))) << i;
     }
+}
+
+/// Vectors of any length give the numbers that those of two give, to the last bit.
+TEST(Clearance, IsTheSameByEveryInstructionSet) {
+    std::mt19937_64 random(testSeed());
+    std::size_t apart = 0;
+    for (int round = 0; round < 30; ++round) {
+        RandomScene scene = makeRandomScene(random, 6);
+        if (round % 3 == 0) {
+            scene.mesh = take(makeEllipsoid(3000));
+        }
+        for (Mat4& pose : scene.poses) {
+            pose =
+                multiply(translation({uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9)}), pose);
+        }
+        const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
+        const auto measured = [&] { return held.measure(scene.poses, {.threads = 1}, scene.threshold); };
+        const std::vector<PairClearance> best = measured();
+        for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+            hwy::SetSupportedTargetsForTest(rest & -rest);
+            const std::vector<PairClearance> found = measured();
+            for (std::size_t i = 0; i < best.size(); ++i) {
+                EXPECT_TRUE(same(best[i], found[i]))
+                    << hwy::TargetName(rest & -rest) << ", round " << round << ", pose " << i << ": "
+                    << found[i].bounds.lo - best[i].bounds.lo << ", " << found[i].bounds.hi - best[i].bounds.hi;
+            }
+            hwy::SetSupportedTargetsForTest(0);
+        }
+        apart += static_cast<std::size_t>(std::ranges::count_if(
+            best, [](const PairClearance& pair) { return pair.bounds.lo > 0 && pair.bounds.hi < kInfinity; }));
+    }
+    std::cout << apart << " are apart\n";
+    EXPECT_GT(apart, 30U);
 }
 
 /// A meter keeps memory from pair to pair: a mesh of another size may come to be where one was.
