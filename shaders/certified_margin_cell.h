@@ -365,22 +365,9 @@ EXACT int marginDecide(OpacityTable table, MarginSpace by, CertifiedTriangle tri
     return open > 0 ? CERTIFIED_UNDECIDED : CERTIFIED_NONE;
 }
 
-/// The first look at a cell of a triangle: CERTIFIED_UNDECIDED where it needs a decision.
-EXACT int marginFirstLook(OpacityTable table, MarginSpace by, CertifiedTriangle triangle, CertifiedCell cell,
-                          VoxelPoint corner) {
-    if (marginIsNothing(cell) || !certifiedCellMayBeOpaque(table, cell)) {
-        return CERTIFIED_NONE;
-    }
-    const MarginTriangle about = marginTriangle(by, triangle, corner, 1.0f);
-    const MarginBox box = marginCellBox(cell);
-    const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5f);
-    const VoxelPoint near = marginNear(by, about, middle).at;
-    const VoxelPoint nearest = marginClamped(box, near);
-    MarginSamples samples = marginNoSamples();
-    return (marginWithin(by, about.slack, near, middle) && marginPointProves(table, cell, middle, samples)) ||
-                   (marginWithin(by, about.slack, near, nearest) && marginPointProves(table, cell, nearest, samples))
-               ? CERTIFIED_CERTAIN
-               : CERTIFIED_UNDECIDED;
+/// Whether a cell needs a decision: it may have something opaque.
+EXACT bool marginCellMay(OpacityTable table, CertifiedCell cell) {
+    return !marginIsNothing(cell) && certifiedCellMayBeOpaque(table, cell);
 }
 
 /// Places that are looked at first: a vertex, and what is a little nearer to it than the margin along each axis.

@@ -13,16 +13,13 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_shares.glsl"
 
 int decideCell(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
-    const MarginSpace by = marginOf(constants.item);
-    const vec3 middle = vec3(cell) + 0.5;
-    if (marginCubeBeyond(by, triangle, voxelPoint(middle.x, middle.y, middle.z), 0.5)) {
+    if (!marginCellNeeds(triangle, cell, range)) {
         return CERTIFIED_NONE;
     }
     const CertifiedCell known =
         certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
-    const VoxelPoint corner = voxelPoint(float(cell.x), float(cell.y), float(cell.z));
-    const int first = marginFirstLook(opacities(), by, triangle, known, corner);
-    return first == CERTIFIED_UNDECIDED ? marginDecide(opacities(), by, triangle, known, corner) : first;
+    return marginDecide(opacities(), marginOf(constants.item), triangle, known,
+                        voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
 }
 
 void decideShare(Share given) {

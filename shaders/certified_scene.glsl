@@ -193,17 +193,13 @@ void markWithin(uint pair) {
     atomicOr(results[pair].countLow, 1u);
 }
 
-/// The first look at a cell of a triangle: CERTIFIED_UNDECIDED where it needs a decision.
-int marginCellVerdict(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
-    const MarginSpace by = marginOf(constants.item);
+/// Whether a cell of a triangle needs a decision.
+bool marginCellNeeds(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
     const vec3 middle = vec3(cell) + 0.5;
-    if (marginCubeBeyond(by, triangle, voxelPoint(middle.x, middle.y, middle.z), 0.5)) {
-        return CERTIFIED_NONE;
-    }
     const CertifiedCell known =
         certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
-    return marginFirstLook(opacities(), by, triangle, known,
-                           voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
+    return !marginCubeBeyond(marginOf(constants.item), triangle, voxelPoint(middle.x, middle.y, middle.z), 0.5) &&
+           marginCellMay(opacities(), known);
 }
 
 bool marginBrickMay(CertifiedTriangle triangle, ivec3 brick) {

@@ -92,12 +92,9 @@ struct Decider {
         const shader::CertifiedCorners corners{values[0], values[1], values[2], values[3], values[4],
                                                values[5], values[6], values[7], wide[0],   wide[1]};
         const shader::CertifiedCell known = shader::certifiedCell(item, corners, at[0], at[1], at[2], triangle.delta);
-        const int first = shader::marginFirstLook(table, by, triangle, known, corner);
-        if (first == CERTIFIED_UNDECIDED || (whole && first == CERTIFIED_CERTAIN)) {
+        if (whole || shader::marginCellMay(table, known)) {
             ++out.decided;
             take(shader::marginDecide(table, by, triangle, known, corner));
-        } else {
-            take(first);
         }
     }
 

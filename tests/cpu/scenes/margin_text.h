@@ -16,7 +16,7 @@ struct MarginVerdict {
 };
 
 /// What the device says of a mesh without clusters, to whose vertices no probe is made. `whole`: nothing is skipped,
-/// neither bricks nor cells nor what a first look says, and all cells of the volume are decided.
+/// neither bricks nor cells: all cells of the volume are decided.
 [[nodiscard]] MarginVerdict marginVerdict(const MeshView& mesh, const cpu::Volume& volume,
                                           const cpu::TransferFunction& function, const Mat4& world_from_object,
                                           double threshold, double margin, bool whole = false);
