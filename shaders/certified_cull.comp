@@ -104,12 +104,33 @@ bool placeProves(VoxelPoint vertex, VoxelPoint at, float delta) {
 #endif
 }
 
+#ifdef MARGIN
+/// Whether a brick that is within the margin of a vertex, all of it, has something opaque.
+bool bricksProve(VoxelPoint vertex, float delta) {
+    const MarginSpace by = marginOf(constants.item);
+    const CellBox box = bricksOf(cellsOf(marginBounds(constants.item, by, CertifiedReach(vertex, vertex, delta))));
+    const bool sensible = constants.item.storedUnit > 0.0 && // whole numbers: none is NaN
+                          min(by.grow.x, min(by.grow.y, by.grow.z)) >= MARGIN_BRICK_RADIUS && !isEmpty(box) &&
+                          all(lessThan(box.hi - box.lo, ivec3(kMostBricksOfABox)));
+    const int count = sensible ? volumeOf(box) : 0;
+    bool found = false;
+    for (int i = 0; i < min(count, kMostBricksOfABox) && !found; ++i) {
+        const ivec3 brick = placeIn(box, i);
+        const vec3 middle = brickCentre(brick);
+        const vec4 range = brickAt(brick);
+        found = marginBrickProves(opacities(), constants.item, by, vertex, delta,
+                                  voxelPoint(middle.x, middle.y, middle.z), range.x, range.y);
+    }
+    return found;
+}
+#endif
+
 /// Whether the first vertex of a node proves a touch; `delta` is no less than that of the node's triangles.
 bool vertexProves(CertifiedPair transform, uint number, float delta) {
     const vec3 position = positionOf(constants.mesh, 3 * triangleAt(number * kNodeTriangles));
     const VoxelPoint at = certifiedVertex(transform, position.x, position.y, position.z).point;
 #ifdef MARGIN
-    bool found = false;
+    bool found = bricksProve(at, delta);
     for (int probe = 0; probe < MARGIN_PROBES && !found; ++probe) {
         found = placeProves(at, marginProbe(marginOf(constants.item), at, probe), delta);
     }

@@ -398,6 +398,37 @@ EXACT bool marginProbeProves(OpacityTable table, MarginSpace by, CertifiedCell c
            marginPointProves(table, cell, place, samples);
 }
 
+/// Half the side of a brick, in voxels.
+#define MARGIN_BRICK_RADIUS 4.0f
+
+/// Whether a brick of stored values from `lo` to `hi` has something opaque, and is within the margin of a vertex, all
+/// of it. The two values are those of voxels in it, and where no voxel is NaN the interpolant is continuous between
+/// them.
+EXACT bool marginBrickProves(OpacityTable table, CertifiedItem item, MarginSpace by, VoxelPoint vertex, float delta,
+                             VoxelPoint middle, float lo, float hi) {
+    const VoxelPoint from = voxelDifference(vertex, middle);
+    PRECISE float reach = voxelLength(from) + MARGIN_BRICK_RADIUS;
+    const float slack = marginSlack(by, delta, reach);
+    bool all = true;
+    for (int i = 0; i < 8; ++i) {
+        const VoxelPoint corner = voxelPoint((i & 1) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS,
+                                             (i & 2) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS,
+                                             (i & 4) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS);
+        all = all && marginWithin(by, slack, from, corner);
+    }
+    const float first = certifiedEntry(item, lo);
+    const float second = certifiedEntry(item, hi);
+    const float error = certifiedPointError(item, lo, hi);
+    const float least = certifiedMin(first, second);
+    const float greatest = certifiedMax(first, second);
+    PRECISE float leastAbove = least + error;
+    PRECISE float greatestBelow = greatest - error;
+    PRECISE float leastBelow = least - error;
+    PRECISE float greatestAbove = greatest + error;
+    return all && (certainlySomeOpaque(table, leastAbove, greatestBelow) ||
+                   certainlyAllOpaque(table, leastBelow, greatestAbove));
+}
+
 #include "exact_language.h"
 
 #ifdef __cplusplus

@@ -4,10 +4,14 @@
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/margin_text.h"
 
-#include "certified.h"
+#include "certified_margin_cell.h"
+#include "core/method/certified_constants.h"
+#include "core/transfer/table_extremes.h"
+#include "cpu/scene/scene_impl.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
 #include "oracle/clearance_oracle.h"
+#include "support/contact_scenes.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +111,50 @@ TEST(MarginText, TellsKnownDistancesApart) {
         EXPECT_EQ(verdict(known.distance * 2), CERTIFIED_CERTAIN);
         EXPECT_EQ(verdict(known.distance / 2), CERTIFIED_NONE);
     }
+}
+
+/// A brick that proves something opaque near a vertex: the host finds it, too.
+TEST(MarginText, ABrickProvesOnlyWhatIsThere) {
+    std::mt19937_64 random(testSeed());
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    Grid grid = obliqueGrid(random, true);
+    grid.size = {15, 15, 15}; // 2x2x2 bricks
+    const std::vector<ControlPoint> points{{100, 0}, {101, 1}, {102, 0}};
+    std::size_t proven = 0;
+    for (int round = 0; round < 400; ++round) {
+        // Either side of the peak, on one side of it, or in it.
+        const double least = uniform(random, 60, 101);
+        const double range = uniform(random, 0, 60);
+        const VolumeData image = makeVolume<std::uint16_t>(
+            grid, ScalarType::UInt16, [&](auto...) { return std::floor(least + uniform(random, 0, range)); });
+        const cpu::Volume volume = take(cpu::Volume::create(image.view()));
+        const cpu::TransferFunction function = take(cpu::TransferFunction::create({points, {0, 256}, 256}));
+        const double margin = uniform(random, 8, 25);
+        const cpu::VolumeImpl& at = volume.impl();
+        const TableExtremes extremes(function.impl().table);
+        const shader::CertifiedItem item = withMargin(
+            certifiedItem(at.grid, 1, at.storedIntercept, {0, 256}, 256, 0.45, kDefaultResolution), at.grid, margin);
+        const shader::OpacityTable table{item.tableSize, item.tableLevels, item.threshold, extremes.values().data()};
+        const shader::VoxelPoint vertex{static_cast<float>(uniform(random, -8, 14)),
+                                        static_cast<float>(uniform(random, -4, 10)),
+                                        static_cast<float>(uniform(random, -4, 10))};
+        const std::size_t brick = random() % 8;
+        const auto middle = [&](std::size_t axis) { return (brick >> axis & 1U) != 0U ? 11.0F : 3.0F; };
+        if (!shader::marginBrickProves(table, item, shader::marginOf(item), vertex, 1e-4F,
+                                       {middle(0), middle(1), middle(2)}, at.bricks.lo[brick], at.bricks.hi[brick])) {
+            continue;
+        }
+        ++proven;
+        const Vec3 world = transformPoint(worldFromIndex(grid), {vertex.x, vertex.y, vertex.z});
+        MeshData data;
+        addTriangle(data, world, world, world);
+        const cpu::Mesh mesh = take(cpu::Mesh::create(data.view()));
+        const Mat4 pose = identity();
+        const cpu::BatchItem asked{&mesh, &volume, &function, {&pose, 1}};
+        EXPECT_TRUE(take(meter.within({{&asked, 1}, {}, 0.45}, margin)).pairs.at(0).hit) << "round " << round;
+    }
+    EXPECT_GT(proven, 10U);
+    EXPECT_LT(proven, 300U);
 }
 
 } // namespace
