@@ -122,11 +122,19 @@ TEST(MarginText, ABrickProvesOnlyWhatIsThere) {
     const std::vector<ControlPoint> points{{100, 0}, {101, 1}, {102, 0}};
     std::size_t proven = 0;
     for (int round = 0; round < 400; ++round) {
-        // Either side of the peak, on one side of it, or in it.
+        const std::size_t brick = random() % 8;
+        // Noise at either side of the peak, on one side of it, or in it; or a single voxel, in the brick.
         const double least = uniform(random, 60, 101);
         const double range = uniform(random, 0, 60);
-        const VolumeData image = makeVolume<std::uint16_t>(
-            grid, ScalarType::UInt16, [&](auto...) { return std::floor(least + uniform(random, 0, range)); });
+        const bool single = round % 2 == 0;
+        std::array<std::size_t, 3> voxel{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            voxel[axis] = random() % 7 + 8 * (brick >> axis & 1U);
+        }
+        const VolumeData image = makeVolume<std::uint16_t>(grid, ScalarType::UInt16, [&](auto x, auto y, auto z) {
+            return single ? (std::array<std::size_t, 3>{x, y, z} == voxel ? 140.0 : 60.0)
+                          : std::floor(least + uniform(random, 0, range));
+        });
         const cpu::Volume volume = take(cpu::Volume::create(image.view()));
         const cpu::TransferFunction function = take(cpu::TransferFunction::create({points, {0, 256}, 256}));
         const double margin = uniform(random, 8, 25);
@@ -138,7 +146,6 @@ TEST(MarginText, ABrickProvesOnlyWhatIsThere) {
         const shader::VoxelPoint vertex{static_cast<float>(uniform(random, -8, 14)),
                                         static_cast<float>(uniform(random, -4, 10)),
                                         static_cast<float>(uniform(random, -4, 10))};
-        const std::size_t brick = random() % 8;
         const auto middle = [&](std::size_t axis) { return (brick >> axis & 1U) != 0U ? 11.0F : 3.0F; };
         if (!shader::marginBrickProves(table, item, shader::marginOf(item), vertex, 1e-4F,
                                        {middle(0), middle(1), middle(2)}, at.bricks.lo[brick], at.bricks.hi[brick])) {
