@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative`, what of a mesh may touch: a lane a cluster of a pair, or, with RUNS, a run of a cluster
 // that was kept. Those whose boxes meet a brick that may be opaque go on to the next pass. Where stopAtFirst is wanted,
-// a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its pair.
+// a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its pair. With
+// MARGIN the boxes are grown by it, and what is as far from the vertex along the grid's axes is looked at as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -77,10 +78,9 @@ bool mayTouch(CellBox cells) {
     return found;
 }
 
-/// Whether the first vertex of a node proves a touch; `delta` is no less than that of the node's triangles.
-bool vertexProves(CertifiedPair transform, uint number, float delta) {
-    const vec3 position = positionOf(constants.mesh, 3 * triangleAt(number * kNodeTriangles));
-    const VoxelPoint at = certifiedVertex(transform, position.x, position.y, position.z).point;
+/// Whether the place `at` is opaque, and so proves a touch: it is the vertex, or, with a margin, within that of it.
+/// `delta`: by what the vertex may be off.
+bool placeProves(VoxelPoint vertex, VoxelPoint at, float delta) {
     const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
     const vec3 place = vec3(at.x, at.y, at.z);
     if (!(all(greaterThanEqual(place, vec3(-0.5))) && all(lessThanEqual(place, vec3(last) + 0.5)))) {
@@ -92,9 +92,52 @@ bool vertexProves(CertifiedPair transform, uint number, float delta) {
         return false;
     }
     const CertifiedCell known = certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, delta);
+    if (!certifiedCellMayBeOpaque(opacities(), known)) {
+        return false;
+    }
+#ifdef MARGIN
+    return marginProbeProves(opacities(), marginOf(constants.item), known, vertex, at,
+                             voxelPoint(float(cell.x), float(cell.y), float(cell.z)), delta);
+#else
     CertifiedWitness witness;
-    return certifiedCellMayBeOpaque(opacities(), known) &&
-           certifiedVertexProves(opacities(), known, at, cell.x, cell.y, cell.z, witness);
+    return certifiedVertexProves(opacities(), known, at, cell.x, cell.y, cell.z, witness);
+#endif
+}
+
+#ifdef MARGIN
+/// Whether a brick that is within the margin of a vertex, all of it, has something opaque.
+bool bricksProve(VoxelPoint vertex, float delta) {
+    const MarginSpace by = marginOf(constants.item);
+    const CellBox box = bricksOf(cellsOf(marginBounds(constants.item, by, CertifiedReach(vertex, vertex, delta))));
+    const bool sensible = constants.item.storedUnit > 0.0 && // whole numbers: none is NaN
+                          min(by.grow.x, min(by.grow.y, by.grow.z)) >= MARGIN_BRICK_RADIUS && !isEmpty(box) &&
+                          all(lessThan(box.hi - box.lo, ivec3(kMostBricksOfABox)));
+    const int count = sensible ? volumeOf(box) : 0;
+    bool found = false;
+    for (int i = 0; i < min(count, kMostBricksOfABox) && !found; ++i) {
+        const ivec3 brick = placeIn(box, i);
+        const vec3 middle = brickCentre(brick);
+        const vec4 range = brickAt(brick);
+        found = marginBrickProves(opacities(), constants.item, by, vertex, delta,
+                                  voxelPoint(middle.x, middle.y, middle.z), range.x, range.y);
+    }
+    return found;
+}
+#endif
+
+/// Whether the first vertex of a node proves a touch; `delta` is no less than that of the node's triangles.
+bool vertexProves(CertifiedPair transform, uint number, float delta) {
+    const vec3 position = positionOf(constants.mesh, 3 * triangleAt(number * kNodeTriangles));
+    const VoxelPoint at = certifiedVertex(transform, position.x, position.y, position.z).point;
+#ifdef MARGIN
+    bool found = bricksProve(at, delta);
+    for (int probe = 0; probe < MARGIN_PROBES && !found; ++probe) {
+        found = placeProves(at, marginProbe(marginOf(constants.item), at, probe), delta);
+    }
+    return found;
+#else
+    return placeProves(at, at, delta);
+#endif
 }
 
 void main() {
@@ -110,7 +153,12 @@ void main() {
 #endif
     if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
         const CertifiedPair transform = transforms[node.pair];
+#ifdef MARGIN
+        const CertifiedBounds bounds = marginBounds(constants.item, marginOf(constants.item),
+                                                    certifiedBoxReach(transform, boxOf(node.number)));
+#else
         const CertifiedBounds bounds = certifiedBoxBounds(constants.item, transform, boxOf(node.number));
+#endif
         keep = mayTouch(cellsOf(bounds));
         // Outputs want to know more than that.
         if (kStopAtFirst && kOutputsWanted == 0 && keep && bounds.usable &&

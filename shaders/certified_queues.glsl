@@ -9,6 +9,15 @@
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Queues { uint queues[]; };
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Quads { uvec4 quads[]; };
 
+// With a margin all triangles are large, and no cell is left open.
+#ifdef MARGIN
+#define LARGE_ROOM VOXTACT_MARGIN_ROOM_LARGE(constants.queueRoom)
+#define LEFT_WORD VOXTACT_MARGIN_WORD_LEFT(constants.queueRoom)
+#else
+#define LARGE_ROOM VOXTACT_ROOM_LARGE(constants.queueRoom)
+#define LEFT_WORD VOXTACT_WORD_LEFT(constants.queueRoom)
+#endif
+
 uint queueCount(uint queue) {
     return queues[constants.headerWord + 4 * queue + 3];
 }
@@ -54,7 +63,11 @@ const uint kNoPair = 0xffffffffu;
 /// What is left of a triangle is dealt to work groups of certified_finish by so many bricks; of small triangles, each
 /// of these work groups has one of so many shares of the cells. No lane then has more than some tens of cells, however
 /// large the triangles are.
+#ifdef MARGIN
+const uint kBricksOfGroup = 2;
+#else
 const uint kBricksOfGroup = 8;
+#endif
 const uint kSharesOfSmall = 3;
 
 uint groupsOfBricks(uint bricks) {
@@ -70,7 +83,7 @@ void leave(uint what, uint number, uint brick, uint groups) {
                         (first + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER;
     atomicAdd(queues[word + 2], layers);
     atomicMin(queues[word + 2], VOXTACT_LEFT_MOST_LAYERS);
-    quads[quadOf(VOXTACT_WORD_LEFT(constants.queueRoom), entry)] =
+    quads[quadOf(LEFT_WORD, entry)] =
         uvec4(what << VOXTACT_LEFT_SHIFT | number, brick, groups, first);
 }
 

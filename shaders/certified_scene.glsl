@@ -27,6 +27,9 @@ layout(push_constant) uniform Item { CertifiedConstants constants; };
 const bool kCarry = true;
 
 #include "stored.glsl"
+#ifdef MARGIN
+#include "certified_margin_cell.h"
+#endif
 #include "certified_overlap.h"
 #include "count.glsl"
 #include "certified_queues.glsl"
@@ -126,13 +129,22 @@ CertifiedTriangle triangleOf(TriangleVertices at, float delta) {
 }
 
 CertifiedBounds boundsOf(TriangleVertices at) {
+#ifdef MARGIN
+    return marginBounds(constants.item, marginOf(constants.item),
+                        certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]));
+#else
     return certifiedBounds(constants.item, at.voxel[0], at.voxel[1], at.voxel[2]);
+#endif
 }
 
 /// Also where the number of cells overflows.
 bool isLarge(CellBox cells) {
+#ifdef MARGIN
+    return true; // of the small ones, no cells are listed
+#else
     const ivec3 sides = cells.hi - cells.lo + 1;
     return any(greaterThan(sides, ivec3(kMostCellsOfALane))) || volumeOf(cells) > kMostCellsOfALane;
+#endif
 }
 
 vec3 brickCentre(ivec3 brick) {
@@ -147,7 +159,11 @@ CellBox within(CellBox cells, ivec3 brick) {
 /// Whether a triangle is so far off that no precision will place it, most likely: certified_finish then needs but one
 /// look at a brick that may be opaque.
 bool isLost(CertifiedPair transform, CertifiedBounds bounds) {
+#ifdef MARGIN
+    return !bounds.usable; // there is no other precision with a margin
+#else
     return !bounds.usable && !(bounds.delta * transform.reference.w <= CERTIFIED_MOST_DELTA);
+#endif
 }
 
 /// The work groups of certified_finish for a large triangle that is left.
@@ -170,6 +186,29 @@ bool isCut() {
 bool isDone(uint pair) {
     return kStopAtFirst && results[pair].countLow > 0;
 }
+
+#ifdef MARGIN
+/// Something is opaque within the margin.
+void markWithin(uint pair) {
+    atomicOr(results[pair].countLow, 1u);
+}
+
+/// Whether a cell of a triangle needs a decision.
+bool marginCellNeeds(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
+    const vec3 middle = vec3(cell) + 0.5;
+    const CertifiedCell known =
+        certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
+    return !marginCubeBeyond(marginOf(constants.item), triangle, voxelPoint(middle.x, middle.y, middle.z), 0.5) &&
+           marginCellMay(opacities(), known);
+}
+
+bool marginBrickMay(CertifiedTriangle triangle, ivec3 brick) {
+    const vec3 middle = brickCentre(brick);
+    return brickMayBeOpaque(brickAt(brick)) &&
+           !marginCubeBeyond(marginOf(constants.item), triangle, voxelPoint(middle.x, middle.y, middle.z),
+                             float(kBrickSide / 2));
+}
+#endif
 
 /// The triangle of that place in the mesh's runs.
 uint triangleAt(uint place) {

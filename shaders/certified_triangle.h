@@ -109,18 +109,22 @@ EXACT void certifiedCells(float lo, float hi, float delta, int size, OUT(int) fi
     last = to < float(size - 1) ? (to >= 0.0f ? int(to) : -1) : size - 1;
 }
 
-EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex0, CertifiedVertex vertex1,
-                                      CertifiedVertex vertex2) {
+/// The box of voxel space that something lies in, but for `delta` along each axis.
+struct CertifiedReach {
+    VoxelPoint lo, hi;
+    float delta;
+};
+
+EXACT CertifiedReach certifiedReach(CertifiedVertex vertex0, CertifiedVertex vertex1, CertifiedVertex vertex2) {
     const VoxelPoint a = vertex0.point;
     const VoxelPoint b = vertex1.point;
     const VoxelPoint c = vertex2.point;
-    const VoxelPoint lo =
-        voxelPoint(certifiedMin(a.x, certifiedMin(b.x, c.x)), certifiedMin(a.y, certifiedMin(b.y, c.y)),
-                   certifiedMin(a.z, certifiedMin(b.z, c.z)));
-    const VoxelPoint hi =
-        voxelPoint(certifiedMax(a.x, certifiedMax(b.x, c.x)), certifiedMax(a.y, certifiedMax(b.y, c.y)),
-                   certifiedMax(a.z, certifiedMax(b.z, c.z)));
-    const float side = voxelLength(voxelDifference(hi, lo));
+    CertifiedReach found;
+    found.lo = voxelPoint(certifiedMin(a.x, certifiedMin(b.x, c.x)), certifiedMin(a.y, certifiedMin(b.y, c.y)),
+                          certifiedMin(a.z, certifiedMin(b.z, c.z)));
+    found.hi = voxelPoint(certifiedMax(a.x, certifiedMax(b.x, c.x)), certifiedMax(a.y, certifiedMax(b.y, c.y)),
+                          certifiedMax(a.z, certifiedMax(b.z, c.z)));
+    const float side = voxelLength(voxelDifference(found.hi, found.lo));
     PRECISE float reach = side + 2.0f;
     PRECISE float shift = CERTIFIED_CLIP_ERROR * reach;
     PRECISE float error01 = vertex0.error + vertex1.error;
@@ -128,14 +132,24 @@ EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex
     PRECISE float delta = certifiedMax(vertex0.error, certifiedMax(vertex1.error, vertex2.error)) + shift;
     // The sum is not finite where one of them is not: the maximum may pass over a NaN. Infinity meets all cells,
     // wherever rounding has put the points.
-    delta = error012 <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
+    found.delta = error012 <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
+    return found;
+}
+
+/// The cells that what lies in it may pass through.
+EXACT CertifiedBounds certifiedBoundsOf(CertifiedItem item, CertifiedReach reach) {
     CertifiedBounds bounds;
-    bounds.delta = delta;
-    bounds.usable = delta <= CERTIFIED_MOST_DELTA;
-    certifiedCells(lo.x, hi.x, delta, item.sizeX, bounds.firstX, bounds.lastX);
-    certifiedCells(lo.y, hi.y, delta, item.sizeY, bounds.firstY, bounds.lastY);
-    certifiedCells(lo.z, hi.z, delta, item.sizeZ, bounds.firstZ, bounds.lastZ);
+    bounds.delta = reach.delta;
+    bounds.usable = reach.delta <= CERTIFIED_MOST_DELTA;
+    certifiedCells(reach.lo.x, reach.hi.x, reach.delta, item.sizeX, bounds.firstX, bounds.lastX);
+    certifiedCells(reach.lo.y, reach.hi.y, reach.delta, item.sizeY, bounds.firstY, bounds.lastY);
+    certifiedCells(reach.lo.z, reach.hi.z, reach.delta, item.sizeZ, bounds.firstZ, bounds.lastZ);
     return bounds;
+}
+
+EXACT CertifiedBounds certifiedBounds(CertifiedItem item, CertifiedVertex vertex0, CertifiedVertex vertex1,
+                                      CertifiedVertex vertex2) {
+    return certifiedBoundsOf(item, certifiedReach(vertex0, vertex1, vertex2));
 }
 
 /// A box of object space.
@@ -152,9 +166,8 @@ EXACT float certifiedExtent(vec4 row, VoxelPoint radius) {
     return certifiedAbs(row[0]) * radius.x + certifiedAbs(row[1]) * radius.y + certifiedAbs(row[2]) * radius.z;
 }
 
-/// The cells that the triangles in a box of object space may pass through: those of certifiedBounds() are among them,
-/// and its delta is no larger.
-EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair, CertifiedBox box) {
+/// Of the triangles in a box of object space: certifiedReach() of each is in it, and its delta is no larger.
+EXACT CertifiedReach certifiedBoxReach(CertifiedPair pair, CertifiedBox box) {
     // Halves first: the sum of two large floats may overflow.
     const VoxelPoint centre =
         voxelPoint(box.loX * 0.5f + box.hiX * 0.5f, box.loY * 0.5f + box.hiY * 0.5f, box.loZ * 0.5f + box.hiZ * 0.5f);
@@ -173,17 +186,17 @@ EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair,
     PRECISE float reach = 4.0f * voxelLength(extent) + 4.0f;
     PRECISE float shift = reach * CERTIFIED_CLIP_ERROR;
     PRECISE float delta = 4.0f * error + shift;
-    delta = delta <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
-    CertifiedBounds bounds;
-    bounds.delta = delta;
-    bounds.usable = delta <= CERTIFIED_MOST_DELTA;
-    certifiedCells(middle.point.x - extent.x, middle.point.x + extent.x, delta, item.sizeX, bounds.firstX,
-                   bounds.lastX);
-    certifiedCells(middle.point.y - extent.y, middle.point.y + extent.y, delta, item.sizeY, bounds.firstY,
-                   bounds.lastY);
-    certifiedCells(middle.point.z - extent.z, middle.point.z + extent.z, delta, item.sizeZ, bounds.firstZ,
-                   bounds.lastZ);
-    return bounds;
+    CertifiedReach found;
+    found.delta = delta <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
+    found.lo = voxelPoint(middle.point.x - extent.x, middle.point.y - extent.y, middle.point.z - extent.z);
+    found.hi = voxelPoint(middle.point.x + extent.x, middle.point.y + extent.y, middle.point.z + extent.z);
+    return found;
+}
+
+/// The cells that the triangles in a box of object space may pass through: those of certifiedBounds() are among them,
+/// and its delta is no larger.
+EXACT CertifiedBounds certifiedBoxBounds(CertifiedItem item, CertifiedPair pair, CertifiedBox box) {
+    return certifiedBoundsOf(item, certifiedBoxReach(pair, box));
 }
 
 EXACT CertifiedTriangle certifiedTriangle(VoxelPoint a, VoxelPoint b, VoxelPoint c, float delta) {

@@ -140,13 +140,14 @@ struct CertifiedItem {
     float storedReference; // near the middle of the transfer function's domain
     float storedUnit;      // the integer behind 1.0 of a normalised texel; 0 for float texels
     float threshold;
-    float resolution; // voxels
+    float resolution; // voxels; with a margin: it, as certified_margin.h says
     int tableSize;
     int tableLevels;
     int sizeX; // voxels
     int sizeY;
     int sizeZ;
-    float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there
+    float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there. With
+                    // a margin: what marginOf() takes from there
 };
 
 /// Push constants of the projection `conservative`, of all its passes.
@@ -206,6 +207,11 @@ struct CertifiedConstants {
 #define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_RUNS(room) (VOXTACT_WORD_CLUSTERS(room) + 2 * (room))
 #define VOXTACT_WORD_LEFT(room) (VOXTACT_WORD_RUNS(room) + 2 * VOXTACT_ROOM_RUNS(room))
+// With a margin the queue of open cells is not used: its words, behind the queue of large triangles, give that one more
+// room, and then have what is left.
+#define VOXTACT_MARGIN_ROOM_LARGE(room) ((room)*3)
+#define VOXTACT_MARGIN_ROOM_LEFT(room) ((room) + VOXTACT_MARGIN_ROOM_LARGE(room))
+#define VOXTACT_MARGIN_WORD_LEFT(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_MARGIN_ROOM_LARGE(room))
 #define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
 // What certified_finish is left, where the queue of cells or of large triangles was full: a number and what it is of.
 #define VOXTACT_LEFT_SMALL 0  // the small triangles of a work group of certified_expand
@@ -282,6 +288,7 @@ static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CERTAIN < VOXTACT_HEADER_WORDS);
+static_assert(VOXTACT_MARGIN_WORD_LEFT(16) + 4 * VOXTACT_MARGIN_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);
 static_assert(sizeof(BrickConstants) == 24);
 static_assert(sizeof(RefitConstants) == 28);

@@ -35,6 +35,12 @@ struct DetectorDesc {
     /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
     /// compute beside graphics.
     bool devicePoses = false;
+    /// conservative with stopAtFirst and without outputs: what is asked is whether anything opaque is within so much of
+    /// the mesh's surface; world mm, 0 to 1,000,000. 0 is the touch, by the same programs as without it. `hit` and
+    /// `possible` then say what cpu::ClearanceMeter::within() says, where that and this are sure: what touches is
+    /// within every margin, but a margin of less than about a thousandth of a voxel may leave it *possible*.
+    /// InvalidArgument for what is not a number from 0 to 1,000,000, other projections, counts, and outputs.
+    double margin = 0;
 };
 
 /// One mesh at some poses against one volume under one transfer function.

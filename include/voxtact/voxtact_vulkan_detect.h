@@ -26,6 +26,8 @@ typedef struct vxt_detector_desc {
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
     uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
     uint32_t device_poses;      ///< items may have vxt_item::poses; the queue then needs compute, too; default 0
+    /// CONSERVATIVE with stop_at_first: whether anything opaque is within so many mm is asked; 0 to 1e6; 0: the touch
+    double margin;
 } vxt_detector_desc;
 
 /// A view by precise queries.

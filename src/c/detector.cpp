@@ -23,7 +23,8 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .stopAtFirst = desc.stop_at_first != 0,
             .counters = desc.counters != 0,
             .overestimate = desc.overestimate != 0,
-            .devicePoses = desc.device_poses != 0};
+            .devicePoses = desc.device_poses != 0,
+            .margin = desc.margin};
 }
 
 } // namespace

@@ -17,6 +17,12 @@
 #include "voxtact_shaders/certified_finish_comp.h"
 #include "voxtact_shaders/certified_finish_outputs_comp.h"
 #include "voxtact_shaders/certified_large_comp.h"
+#include "voxtact_shaders/certified_margin_cull_comp.h"
+#include "voxtact_shaders/certified_margin_decide_comp.h"
+#include "voxtact_shaders/certified_margin_expand_comp.h"
+#include "voxtact_shaders/certified_margin_finish_comp.h"
+#include "voxtact_shaders/certified_margin_large_comp.h"
+#include "voxtact_shaders/certified_margin_refine_comp.h"
 #include "voxtact_shaders/certified_refine_comp.h"
 #include "voxtact_shaders/certified_tally_comp.h"
 
@@ -28,6 +34,7 @@ namespace {
 struct PassKind {
     std::span<const std::uint32_t> plain;
     std::span<const std::uint32_t> withOutputs;
+    std::span<const std::uint32_t> withMargin;
     const char* name;
     std::uint32_t queue;
 };
@@ -35,13 +42,23 @@ struct PassKind {
 /// In the order in which they run. The first has no queue.
 constexpr std::uint32_t kNoQueue = VOXTACT_QUEUES;
 const PassKind kPasses[] = {
-    {spirv::certified_cull_comp, spirv::certified_cull_comp, "conservative cull", kNoQueue},
-    {spirv::certified_refine_comp, spirv::certified_refine_comp, "conservative refine", VOXTACT_QUEUE_CLUSTERS},
-    {spirv::certified_expand_comp, spirv::certified_expand_comp, "conservative expand", VOXTACT_QUEUE_RUNS},
-    {spirv::certified_large_comp, spirv::certified_large_comp, "conservative large", VOXTACT_QUEUE_LARGE},
-    {spirv::certified_decide_comp, spirv::certified_decide_outputs_comp, "conservative decide", VOXTACT_QUEUE_CELLS},
-    {spirv::certified_finish_comp, spirv::certified_finish_outputs_comp, "conservative finish", VOXTACT_QUEUE_OPEN},
+    {spirv::certified_cull_comp, spirv::certified_cull_comp, spirv::certified_margin_cull_comp, "conservative cull",
+     kNoQueue},
+    {spirv::certified_refine_comp, spirv::certified_refine_comp, spirv::certified_margin_refine_comp,
+     "conservative refine", VOXTACT_QUEUE_CLUSTERS},
+    {spirv::certified_expand_comp, spirv::certified_expand_comp, spirv::certified_margin_expand_comp,
+     "conservative expand", VOXTACT_QUEUE_RUNS},
+    {spirv::certified_large_comp, spirv::certified_large_comp, spirv::certified_margin_large_comp, "conservative large",
+     VOXTACT_QUEUE_LARGE},
+    {spirv::certified_decide_comp, spirv::certified_decide_outputs_comp, spirv::certified_margin_decide_comp,
+     "conservative decide", VOXTACT_QUEUE_CELLS},
+    {spirv::certified_finish_comp, spirv::certified_finish_outputs_comp, spirv::certified_margin_finish_comp,
+     "conservative finish", VOXTACT_QUEUE_OPEN},
 };
+
+std::span<const std::uint32_t> programOf(const PassKind& kind, const DetectorDesc& desc) {
+    return desc.margin > 0 ? kind.withMargin : desc.outputs.any() ? kind.withOutputs : kind.plain;
+}
 
 /// Behind a pass, for the next one: what it has put into queues.
 void queuesBarrier(const ContextImpl& context, VkCommandBuffer commandBuffer) {
@@ -63,7 +80,7 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
         const PassKind& kind = kPasses[i];
         Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, outputs ? kind.withOutputs : kind.plain, constants,
+            makeComputePipeline(context, programOf(kind, desc), constants,
                                 outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
         VOXTACT_TRY(made);
         pass.pipelines_[i] = std::move(*made);
@@ -110,6 +127,9 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
     shader::CertifiedConstants constants{};
     constants.item = certifiedItem(volume.grid, slope, volume.valueIntercept, function.domain, function.table.size(),
                                    batch.threshold, desc_.resolution);
+    if (desc_.margin > 0) {
+        constants.item = withMargin(constants.item, volume.grid, desc_.margin);
+    }
     constants.item.storedUnit = static_cast<float>(volume.storedUnit);
     constants.mesh = meshConstants(mesh);
     constants.triangleCount = mesh.triangleCount;
@@ -123,13 +143,13 @@ void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, co
     std::uint32_t firstPair = 0;
     std::uint32_t rounds = 0;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    const RoundLimits limits{.clusters = clustersOfRound(results.queueRoom, desc_.stopAtFirst),
+    const RoundLimits limits{.clusters = clustersOfRound(results.queueRoom, desc_.stopAtFirst && !(desc_.margin > 0)),
                              .pairs = context_->limits.maxComputeWorkGroupCount[1],
                              .looks = looksOfRound(results.queueRoom)};
     for (const BatchItem& item : batch.items) {
         layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
         shader::CertifiedConstants constants = constantsOf(batch, item, results);
-        eachRound(meshLooks(item), limits, [&](const Round& round) {
+        eachRound(meshLooks(item, desc_.margin), limits, [&](const Round& round) {
             constants.firstPair = firstPair + round.firstPair;
             constants.firstCluster = round.firstCluster;
             constants.endCluster = round.endCluster;
@@ -157,6 +177,10 @@ void CertifiedPass::recordRound(VkCommandBuffer commandBuffer, const ResultsImpl
     vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
         vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[i].get());
+        if (desc_.margin > 0 && kPasses[i].queue == VOXTACT_QUEUE_OPEN) {
+            queuesBarrier(*context_, commandBuffer); // no cell is left open
+            continue;
+        }
         if (kPasses[i].queue == kNoQueue) {
             const std::uint32_t clusters = constants.endCluster - constants.firstCluster;
             vk.CmdDispatch(commandBuffer, (clusters + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, pairs, 1);

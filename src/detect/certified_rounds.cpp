@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "detect/certified_rounds.h"
+#include "core/method/certified_constants.h"
 #include "detect/batch.h"
 #include "gpu/scene_impl.h"
 
+#include <array>
 #include <cmath>
 
 namespace voxtact {
@@ -13,6 +15,26 @@ namespace {
 /// 1.9. It meets less than 4 (e/8 + 2)^2 bricks, of 512 cells each, and the cells of its box are less than (e + 3)^3:
 /// the lesser of the two is never more than 58 e^2. Its box has less than (e/8 + 2)^3 bricks, for another 4.
 constexpr double kLooksOfSquare = 64;
+
+/// The same with a margin that reaches G voxels along an axis, B = 2 G + 3. A triangle with a side of e voxels looks at
+/// the cells of its box, of a side of e + B, at most: while e is no more than B, that is less than 4 B^3 + 4 B e^2. A
+/// longer one, 3 voxels at least, has columns of bricks over (e + B + 13)^2 < 41 e^2 voxels of the plane across the
+/// axis that it is steepest along, each of 4 + G / 2 bricks at most near the plane of the triangle: 328 (4 + G / 2) e^2
+/// cells. Their bricks are fewer by far, but for the small triangles, which have 27 and less than a 64th of the cells
+/// more.
+struct MarginLooks {
+    double ofTriangle;
+    double ofSquare;
+};
+
+MarginLooks marginLooks(const Grid& grid, double margin) {
+    const std::array<double, 3> reach = voxelsOfMargin(grid, margin);
+    const double most = std::max({reach[0], reach[1], reach[2]});
+    const double box = 2 * most + 3;
+    constexpr double kBricks = 27;
+    constexpr double kWithBricks = 1 + 1.0 / 64;
+    return {kWithBricks * 4 * box * box * box + kBricks, kWithBricks * std::max(4 * box, 328 * (4 + most / 2))};
+}
 
 /// The most that a pose makes of a length, in voxels, squared.
 double squaredScale(const Grid& grid, const Mat4& texture_from_world, const Mat4& world_from_object) noexcept {
@@ -31,7 +53,7 @@ double squaredScale(const Grid& grid, const Mat4& texture_from_world, const Mat4
 
 } // namespace
 
-MeshLooks meshLooks(const BatchItem& item) noexcept {
+MeshLooks meshLooks(const BatchItem& item, double margin) noexcept {
     const MeshImpl& mesh = item.mesh->impl();
     MeshLooks looks;
     looks.pairs = static_cast<std::uint32_t>(item.pairs());
@@ -55,6 +77,16 @@ MeshLooks meshLooks(const BatchItem& item) noexcept {
     }
     looks.scale = kLooksOfSquare * scale;
     looks.most = kLooksOfSquare * VOXTACT_CLUSTER_TRIANGLES * diagonal;
+    if (margin > 0) {
+        const MarginLooks with = marginLooks(volume.grid, margin);
+        looks.scale = with.ofSquare * scale;
+        looks.each = with.ofTriangle * VOXTACT_CLUSTER_TRIANGLES;
+        double cells = 2; // and bricks
+        for (const std::uint32_t size : volume.grid.size) {
+            cells *= size + 1.0;
+        }
+        looks.most = cells * VOXTACT_CLUSTER_TRIANGLES;
+    }
     return looks;
 }
 

@@ -34,15 +34,18 @@ struct MeshLooks {
     /// At its large triangles, by the clusters before each number; empty where that is not known.
     std::span<const double> before{};
     double scale = 1; ///< what these are to be multiplied by
+    double each = 0;  ///< beside them, of each cluster
     double most = 0;  ///< of one cluster, whatever the others say
 
     [[nodiscard]] double of(std::uint32_t first, std::uint32_t end) const noexcept {
-        return before.empty() ? 0 : std::min(scale * (before[end] - before[first]), most * (end - first));
+        return before.empty()
+                   ? 0
+                   : std::min(scale * (before[end] - before[first]) + each * (end - first), most * (end - first));
     }
 };
 
-/// Of an item whose mesh is on the device.
-[[nodiscard]] MeshLooks meshLooks(const BatchItem& item) noexcept;
+/// Of an item whose mesh is on the device; with a margin, world mm, all triangles are looked at as large ones are.
+[[nodiscard]] MeshLooks meshLooks(const BatchItem& item, double margin = 0) noexcept;
 
 /// The pairs of an item, and the clusters of each, that one round has.
 struct Round {

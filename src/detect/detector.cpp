@@ -123,6 +123,27 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
     return checkOverestimate(context, desc);
 }
 
+Result<void> checkMargin(const DetectorDesc& desc) {
+    VOXTACT_TRY(voxtact::checkMargin(desc.margin));
+    if (!(desc.margin > 0)) {
+        return {};
+    }
+    if (!rowOf(desc.projection).certified) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string("DetectorDesc::margin is for the projection conservative, not for ") +
+                         toString(desc.projection)};
+    }
+    if (!desc.stopAtFirst) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "DetectorDesc::margin is answered by yes or no: it needs DetectorDesc::stopAtFirst"};
+    }
+    if (desc.outputs.any()) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "DetectorDesc::margin is answered by yes or no, without DetectorDesc::outputs"};
+    }
+    return {};
+}
+
 /// What the pass itself refuses of a checked batch.
 Result<void> checkPass(const AnyPass& any, const Batch& batch) {
     return std::visit(
@@ -155,6 +176,7 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         VOXTACT_TRY(c.alive());
         VOXTACT_TRY(checkMethod(context, desc.method));
         VOXTACT_TRY(checkDesc(c, desc));
+        VOXTACT_TRY(checkMargin(desc));
         VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =
             rowOf(desc.projection).certified                    ? withPass(c, desc, CertifiedPass::create(c, desc))

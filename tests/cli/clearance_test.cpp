@@ -175,9 +175,42 @@ TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(line({"--clearance", "--max-clearance", "0"}), HasSubstr("--max-clearance"));
     EXPECT_THAT(line({"--clearance", "--count", "atomic"}), HasSubstr("leave out --count atomic"));
     EXPECT_THAT(line({"--margin", "1", "--projection", "view"}), HasSubstr("leave out --projection view"));
+    EXPECT_THAT(line({"--margin", "1", "--count", "atomic"}), HasSubstr("or give --count cpu or compute"));
+    EXPECT_THAT(line({"--margin", "1e7", "--count", "compute"}), HasSubstr("is not a number from 0 to 1000000"));
+    EXPECT_THAT(line({"--margin", "1", "--clearance", "--count", "compute"}), HasSubstr("leave out --count compute"));
+    EXPECT_THAT(line({"--margin", "1", "--stats"}), HasSubstr("--stats"));
     EXPECT_THAT(line({"--margin", "1", "--contacts", "c.csv"}), HasSubstr("--margin is answered by yes or no"));
     EXPECT_THAT(line({"--clearance", "--closest", path("poses.txt") + "/../poses.txt"}), HasSubstr("--closest"));
     EXPECT_EQ(filesInFolder(), 1U);
+}
+
+class ClearanceDeviceTest : public ClearanceTest {
+  protected:
+    void SetUp() override {
+        static const Ran devices = run({"devices", "--format", "csv"});
+        if (devices.status != 0 && VOXTACT_REQUIRE_DEVICE != 0) {
+            FAIL() << "this build requires a Vulkan device: " << devices.err;
+        }
+        if (devices.status != 0) {
+            GTEST_SKIP() << devices.err;
+        }
+        ClearanceTest::SetUp();
+    }
+};
+
+/// A device says the same, but for the method's name.
+TEST_F(ClearanceDeviceTest, AMarginIsTheDevicesToo) {
+    for (const char* margin : {"0", "5"}) {
+        auto onHost = rows({"--margin", margin});
+        auto onDevice = rows({"--margin", margin, "--count", "compute"});
+        ASSERT_EQ(onDevice.size(), 3U);
+        for (std::size_t i = 0; i < onDevice.size(); ++i) {
+            EXPECT_EQ(onDevice[i].at("method"), "compute");
+            onDevice[i]["method"] = "cpu";
+            EXPECT_EQ(onDevice[i], onHost[i]) << margin << ", pose " << i;
+        }
+    }
+    EXPECT_THAT(output(detect({"--margin", "5", "--count", "compute", "--stats"})), HasSubstr("# clusters="));
 }
 
 } // namespace

@@ -136,6 +136,7 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.resolution = options.method.resolution.value_or(kDefaultResolution);
     desc.stopAtFirst = options.yesNo() && rowOf(desc.projection).certified;
     desc.counters = options.stats;
+    desc.margin = options.distance.margin.value_or(0);
     return desc;
 }
 

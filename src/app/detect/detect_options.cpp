@@ -2,6 +2,7 @@
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_run.h"
 #include "core/base/try.h"
+#include "core/method/certified_constants.h"
 #include "core/method/method_table.h"
 
 #include <algorithm>
@@ -57,7 +58,13 @@ Result<void> checkHost(const DetectOptions& options) {
     return {};
 }
 
-/// Only the host measures, and only what is certified.
+/// Whether what is near is asked of a device.
+bool isMarginOnDevice(const DetectOptions& options) {
+    return options.distance.margin && !options.distance.clearance && options.method.count &&
+           options.method.count == CountingMethod::Compute;
+}
+
+/// Only the host measures, and only what is certified; a margin alone is the device's, too.
 Result<void> checkDistance(DetectOptions& options) {
     const DistanceOptions& distance = options.distance;
     const std::string clearance = "it is about clearances, and --clearance is not given";
@@ -89,13 +96,18 @@ Result<void> checkDistance(DetectOptions& options) {
     }
     const std::string option = distance.clearance ? "--clearance" : distance.margin ? "--margin" : "--pose-tolerance";
     MethodOptions& method = options.method;
-    if (method.count && !rowOf(*method.count).host) {
+    if (method.count && !rowOf(*method.count).host && !isMarginOnDevice(options)) {
         return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +
-                           ", or give --count cpu");
+                           ", or give --count cpu" + (option == "--margin" ? " or compute" : ""));
     }
     if (method.projection && !rowOf(*method.projection).certified) {
         return badArgument(option + " is certified; leave out --projection " + toString(*method.projection) +
                            ", or give --projection conservative");
+    }
+    if (isMarginOnDevice(options)) {
+        method.projection = Projection::Conservative;
+        const Result<void> margin = checkMargin(*distance.margin);
+        return margin.ok() ? margin : badArgument("--margin: " + margin.error().text);
     }
     method.count = CountingMethod::Cpu;
     return {};
@@ -145,7 +157,7 @@ Result<void> checkStats(const DetectOptions& options) {
     if (!options.stats) {
         return {};
     }
-    if (options.distance.any()) {
+    if (options.distance.any() && !isMarginOnDevice(options)) {
         return badArgument("--stats counts what a device does, and distances are the host's; leave it out");
     }
     if (options.method.count && rowOf(*options.method.count).host) {

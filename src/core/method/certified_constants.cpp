@@ -149,4 +149,79 @@ shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double inter
     return item;
 }
 
+Result<void> checkMargin(double margin) {
+    constexpr double kMostMargin = 1e6;
+    if (!(margin >= 0 && margin <= kMostMargin)) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "the margin " + number(margin) + " mm is not a number from 0 to 1000000"};
+    }
+    return {};
+}
+
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// a less what of it is along the unit vector `along`.
+Vec3 across(const Vec3& a, const Vec3& along) {
+    const double part = dot(a, along);
+    return {a[0] - part * along[0], a[1] - part * along[1], a[2] - part * along[2]};
+}
+
+Vec3 unit(const Vec3& a) {
+    const double length = std::sqrt(dot(a, a));
+    return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// The sides of a voxel, world mm.
+std::array<Vec3, 3> voxelSides(const Grid& grid) {
+    std::array<Vec3, 3> sides{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            sides[axis][row] = grid.direction[3 * axis + row] * grid.spacing[axis];
+        }
+    }
+    return sides;
+}
+
+} // namespace
+
+std::array<double, 3> voxelsOfMargin(const Grid& grid, double margin) noexcept {
+    const std::array<Vec3, 3> sides = voxelSides(grid);
+    std::array<double, 3> out{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        // How far the side rises over the plane of the two others.
+        const Vec3 first = unit(sides[(axis + 1) % 3]);
+        const Vec3 second = unit(across(sides[(axis + 2) % 3], first));
+        const Vec3 rise = across(across(sides[axis], first), second);
+        out[axis] = margin / std::sqrt(dot(rise, rise));
+    }
+    return out;
+}
+
+shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, double margin) noexcept {
+    constexpr double kOutward = 1 + 0x1p-18; // more than rounding here, to float, and in the sums of marginBounds()
+    const std::array<Vec3, 3> sides = voxelSides(grid);
+    double longest = 0;
+    for (const Vec3& side : sides) {
+        longest = std::max(longest, std::sqrt(dot(side, side)));
+    }
+    const Vec3 x = unit(sides[0]);
+    const Vec3 y = unit(across(sides[1], x));
+    const Vec3 z = unit(across(across(sides[2], x), y));
+    const std::array<double, 6> flat{dot(x, sides[0]), dot(x, sides[1]), dot(x, sides[2]),
+                                     dot(y, sides[1]), dot(y, sides[2]), dot(z, sides[2])};
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        item.scale[i] = static_cast<float>(flat[i] / longest);
+    }
+    const std::array<double, 3> grow = voxelsOfMargin(grid, margin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        item.scale[6 + axis] = static_cast<float>(grow[axis] * kOutward);
+    }
+    item.resolution = static_cast<float>(margin / longest);
+    return item;
+}
+
 } // namespace voxtact

@@ -5,6 +5,8 @@
 #include "shared.h"
 #include "voxtact/data.h"
 
+#include <array>
+
 namespace voxtact {
 
 /// Refuses a resolution outside of 2^-12 to 1 voxel, and NaN.
@@ -22,5 +24,14 @@ namespace voxtact {
 [[nodiscard]] shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double intercept,
                                                   const ValueRange& domain, std::size_t tableSize, double threshold,
                                                   double resolution) noexcept;
+
+/// Refuses a margin that is not a number from 0 to 1,000,000 mm.
+[[nodiscard]] Result<void> checkMargin(double margin);
+
+/// How far a margin, mm, reaches from a point, in voxels along each axis.
+[[nodiscard]] std::array<double, 3> voxelsOfMargin(const Grid& grid, double margin) noexcept;
+
+/// An item that is asked what is within a margin, mm, more than 0: marginOf() of shaders/certified_margin.h reads it.
+[[nodiscard]] shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, double margin) noexcept;
 
 } // namespace voxtact

@@ -2,6 +2,7 @@
 // Clearances of random scenes against the oracle, which knows nothing of clusters, bricks and directions.
 #include "cpu/scenes/certified_scenes.h"
 #include "cpu/scenes/engine_fixture.h"
+#include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_scene.h"
 #include "oracle/clearance_oracle.h"
 #include "support/scenes.h"
@@ -36,26 +37,6 @@ struct Held {
     cpu::BatchItem item;
     cpu::Batch batch;
 };
-
-/// Like those of the certified tests, at some distance, and some with axes that are not at right angles.
-CertifiedCase makeClearanceCase(std::uint64_t seed, std::uint64_t number) {
-    CertifiedCase c = makeCertifiedCase(seed, number);
-    std::mt19937_64 random(seed ^ (number * 0x9e3779b97f4a7c15ULL));
-    Grid& grid = c.scene.volume.grid;
-    if (chance(random, 0.2)) {
-        for (std::size_t row = 0; row < 3; ++row) {
-            grid.direction[3 + row] += uniform(random, -0.6, 0.6) * grid.direction[row];
-            grid.direction[6 + row] += uniform(random, -0.6, 0.6) * grid.direction[3 + row];
-        }
-    }
-    if (chance(random, 0.8)) {
-        const Mat4 turn = randomRotation(random);
-        const double by = std::pow(10, uniform(random, -2, 1));
-        c.scene.world_from_object =
-            multiply(translation({by * turn[0], by * turn[1], by * turn[2]}), c.scene.world_from_object);
-    }
-    return c;
-}
 
 /// Of coordinates, mm: what the oracle rounds.
 double largestCoordinate(const OracleScene& scene) {

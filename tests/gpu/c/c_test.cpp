@@ -156,6 +156,31 @@ TEST_F(CGpuTest, CountsWhatThePassesOfConservativeDo) {
     EXPECT_EQ(counters.most_looks, counters.bricks_seen + counters.cells_seen);
 }
 
+TEST_F(CGpuTest, DecidesWhatIsWithinAMargin) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    RandomScene scene = halfOpaque(); // up to x = 0.5, and z = 1
+    scene.poses = {identity(), translation({0.7, 0, 0}), translation({0, 0, 0.9})};
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    EXPECT_EQ(desc.margin, 0);
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.stop_at_first = 1;
+    desc.margin = 0.3;
+    const BatchAnswer answer = ask(*newBlocking(desc), item);
+    ASSERT_EQ(answer.pairs.size(), 3U);
+    EXPECT_TRUE(answer.pairs[0].hit);
+    EXPECT_TRUE(answer.pairs[1].hit);                              // 0.2 away
+    EXPECT_FALSE(answer.pairs[2].hit || answer.pairs[2].possible); // 0.4
+    desc.stop_at_first = 0;
+    vxt_detector* none = nullptr;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+}
+
 TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
     if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
         GTEST_SKIP() << "no conservative by compute on this device";

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The projection `conservative` with a margin, what is left: what the queue of cells or of large triangles had no room
+// for, found and decided here. Each entry of that has as many work groups as its bricks need.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#define MARGIN
+#include "shared.h"
+#include "voxtact/device_results.h"
+
+layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
+#include "certified_scene.glsl"
+#include "certified_shares.glsl"
+
+int decideCell(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
+    if (!marginCellNeeds(triangle, cell, range)) {
+        return CERTIFIED_NONE;
+    }
+    const CertifiedCell known =
+        certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
+    return marginDecide(opacities(), marginOf(constants.item), triangle, known,
+                        voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
+}
+
+void decideShare(Share given) {
+    Share share = given;
+    const TriangleVertices at = verticesOf(transforms[share.pair], share.number);
+    const CertifiedBounds bounds = boundsOf(at);
+    const CellBox cells = cellsOf(bounds);
+    if (isEmpty(cells)) {
+        return;
+    }
+    if (!bounds.usable) {
+        // All of it: each lane has bricks of its own.
+        share.firstBrick = int(gl_LocalInvocationIndex);
+        share.stride = VOXTACT_COMPUTE_GROUP;
+        share.bricks = 0x7fffffff;
+        share.skip = 0;
+    }
+    const CertifiedTriangle triangle = triangleOf(at, bounds.delta);
+    const CellBox box = bricksOf(cells);
+    const int count = volumeOf(box);
+    uint bricksSeen = 0;
+    uint cellsSeen = 0;
+    bool undecided = false;
+    bool found = false;
+    int i = share.firstBrick;
+    for (int turn = 0; turn < share.bricks && i < count && !found; ++turn) {
+        const ivec3 brick = placeIn(box, i);
+        i += share.stride + ((i & 63) == 63 ? share.skip : 0);
+        ++bricksSeen;
+        const vec4 range = brickAt(brick);
+        if (!bounds.usable && brickMayBeOpaque(range)) {
+            undecided = true;
+            break;
+        }
+        if (!bounds.usable || !marginBrickMay(triangle, brick)) {
+            continue;
+        }
+        const CellBox inside = within(cells, brick);
+        const int most = volumeOf(inside);
+        for (int place = share.first; place < most && !found; place += share.step) {
+            ++cellsSeen;
+            const int verdict = decideCell(triangle, placeIn(inside, place), range);
+            undecided = undecided || verdict == CERTIFIED_UNDECIDED;
+            found = verdict == CERTIFIED_CERTAIN;
+        }
+    }
+    // All lanes look at the same bricks.
+    countWork(VOXTACT_WORK_BRICKS_LEFT, bounds.usable && gl_LocalInvocationIndex > 0 ? 0 : bricksSeen);
+    countWork(VOXTACT_WORK_CELLS_LEFT, cellsSeen);
+    if (isCut()) {
+        atomicOr(results[share.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+    } else if (found) {
+        markWithin(share.pair);
+    } else if (undecided) {
+        atomicOr(results[share.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+    }
+}
+
+void main() {
+    const uint layer = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    const uint groups = queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
+    // One turn, unless the device has not as many work groups.
+    for (uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y + layer * gl_WorkGroupID.z;
+         group < groups; group += layer * gl_NumWorkGroups.z) {
+        const Share share = shareOfGroup(group);
+        if (share.some && !isDone(share.pair)) {
+            decideShare(share);
+        }
+    }
+}

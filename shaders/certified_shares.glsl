@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// What a work group of certified_finish has of what is left, and what a lane has of that. Expects certified_scene.glsl.
+#ifndef VOXTACT_CERTIFIED_SHARES_GLSL
+#define VOXTACT_CERTIFIED_SHARES_GLSL
+
+/// Which of a triangle's bricks and cells a lane decides.
+struct Share {
+    bool some;
+    uint pair;
+    uint number; // of the triangle
+    bool single; // one cell, that was left undecided
+    ivec3 cell;
+    bool large;     // the triangle must be; else it must not, unless it is a single cell
+    int firstBrick; // of the triangle's
+    int bricks;     // at most
+    int stride;     // to the next brick
+    int skip;       // bricks after every 64th
+    int first;      // of each brick's cells
+    int step;
+};
+
+shared uvec4 entryOfGroup; // of the queue of what is left
+shared uint groupsOfLane[VOXTACT_COMPUTE_GROUP];
+
+const Share kNoShare = Share(false, 0, 0, false, ivec3(0), false, 0, 0, 1, 0, 0, 1);
+
+/// The bricks of a large triangle, or of its part that has every skip + 1st block of 64, that are the `turn`th of those
+/// from `brick` on which a work group has.
+Share shareOfLarge(uint pair, uint triangle, uint brick, uint skip, uint turn) {
+    const uint place = brick % VOXTACT_COMPUTE_GROUP + turn * kBricksOfGroup;
+    const uint block = brick / VOXTACT_COMPUTE_GROUP + place / VOXTACT_COMPUTE_GROUP * (skip + 1);
+    const uint first = block * VOXTACT_COMPUTE_GROUP + place % VOXTACT_COMPUTE_GROUP;
+    return Share(true, pair, triangle, false, ivec3(0), true, int(first), int(kBricksOfGroup), 1,
+                 int(skip * VOXTACT_COMPUTE_GROUP), int(gl_LocalInvocationIndex), VOXTACT_COMPUTE_GROUP);
+}
+
+/// Of the large triangles of a work group of certified_expand: the one that has the `turn`th of their work groups here.
+Share shareOfTriangles(uint group, uint turn) {
+    const uint lane = gl_LocalInvocationIndex;
+    const TriangleLane own = triangleLane(group, lane);
+    groupsOfLane[lane] = 0;
+    if (own.some) {
+        const CertifiedBounds bounds = boundsOf(verticesOf(transforms[own.pair], own.number));
+        const CellBox cells = cellsOf(bounds);
+        if (!isEmpty(cells) && (isLarge(cells) || !bounds.usable)) {
+            groupsOfLane[lane] = groupsOfTriangle(transforms[own.pair], bounds, cells);
+        }
+    }
+    barrier();
+    uint before = 0;
+    uint of = 0;
+    while (of < VOXTACT_COMPUTE_GROUP && turn - before >= groupsOfLane[of]) {
+        before += groupsOfLane[of];
+        ++of;
+    }
+    if (of == VOXTACT_COMPUTE_GROUP) {
+        return kNoShare;
+    }
+    const TriangleLane found = triangleLane(group, of);
+    return shareOfLarge(found.pair, found.number, 0, 0, turn - before);
+}
+
+/// What a work group has of what is left. Asked by all lanes together.
+Share shareOfGroup(uint group) {
+    const uint lane = gl_LocalInvocationIndex;
+    if (lane == 0) {
+        entryOfGroup = uvec4(0);
+    }
+    barrier();
+    const uint entries = queueCount(VOXTACT_QUEUE_LEFT);
+    for (uint i = lane; i < entries; i += VOXTACT_COMPUTE_GROUP) {
+        const uvec4 entry = quads[quadOf(LEFT_WORD, i)];
+        if (group - entry.w < entry.z) {
+            entryOfGroup = entry;
+        }
+    }
+    barrier();
+    const uvec4 entry = entryOfGroup;
+    barrier();
+    if (entry.z == 0) {
+        return kNoShare;
+    }
+    const uint what = entry.x >> VOXTACT_LEFT_SHIFT;
+    const uint number = entry.x & ((1u << VOXTACT_LEFT_SHIFT) - 1);
+    const uint turn = group - entry.w;
+    if (what == VOXTACT_LEFT_SMALL) {
+        const TriangleLane own = triangleLane(number, lane);
+        return Share(own.some, own.pair, own.number, false, ivec3(0), false, 0, VOXTACT_CELLS_OF_A_LANE, 1, 0,
+                     int(turn), int(kSharesOfSmall));
+    }
+    if (what == VOXTACT_LEFT_GROUP) {
+        return shareOfTriangles(number, turn);
+    }
+    const uvec4 part = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
+#ifdef MARGIN
+    if (part.w == 0) { // one brick
+        return Share(true, part.x, part.y, false, ivec3(0), true, int(entry.y), 1, 1, 0, int(lane),
+                     VOXTACT_COMPUTE_GROUP);
+    }
+#endif
+    return shareOfLarge(part.x, part.y, entry.y, part.w - 1, turn);
+}
+
+#endif

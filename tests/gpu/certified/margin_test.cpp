@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// What is within a margin, on the device: bit for bit what the same text says on the host, never against the host's
+// own cpu::ClearanceMeter::within(), and where distances are known.
+#include "certified/few_kinds.h"
+#include "raw_fixture.h"
+
+#include "certified.h"
+#include "cpu/scenes/margin_cases.h"
+#include "cpu/scenes/margin_text.h"
+#include "detect/certified_rounds.h"
+#include "support/scenes.h"
+#include "voxtact/cpu.h"
+#include "voxtact/samples.h"
+
+#include <gmock/gmock.h>
+
+#include <iostream>
+#include <limits>
+#include <map>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// Scenes are made larger or smaller, so that one set of pipelines has them all.
+constexpr double kMargin = 2;
+
+DetectorDesc within(double margin) {
+    return {.method = CountingMethod::Compute,
+            .projection = Projection::Conservative,
+            .stopAtFirst = true,
+            .margin = margin};
+}
+
+int verdictOf(const PairAnswer& answer) {
+    EXPECT_FALSE(answer.hit && answer.possible);
+    EXPECT_EQ(answer.count, answer.hit ? 1U : 0U);
+    EXPECT_EQ(answer.exactness, Exactness::LowerBound);
+    EXPECT_EQ(answer.projection, Projection::Conservative);
+    return answer.hit ? CERTIFIED_CERTAIN : answer.possible ? CERTIFIED_UNDECIDED : CERTIFIED_NONE;
+}
+
+void expectNoContradiction(const PairAnswer& device, const PairAnswer& host) {
+    EXPECT_FALSE(device.hit && !host.hit && !host.possible);
+    EXPECT_FALSE(!device.hit && !device.possible && host.hit);
+}
+
+class MarginTest : public RawGpuTest {
+  protected:
+    /// One pair.
+    PairAnswer ask(BlockingDetector& device, const oracle::OraclePair& pair, bool clusters) const {
+        const Volume volume = take(Volume::upload(context(), queue(), pair.volume, {.bricks = true}));
+        const TransferFunction function = take(TransferFunction::upload(context(), queue(), pair.transferFunction));
+        const Mesh mesh = take(Mesh::upload(context(), queue(), pair.mesh, {.clusters = clusters}));
+        const BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
+        return take(device.detect({{&item, 1}, {}, pair.threshold})).pairs.at(0);
+    }
+
+    struct Answered {
+        std::vector<PairAnswer> pairs;
+        CertifiedCounters counters{};
+    };
+    Answered ask(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
+        const Detector detector = take(Detector::create(context(), desc));
+        Results results = take(Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters}));
+        const VkCommandBuffer commands = raw().begin();
+        take(detector.cmdDetect(commands, batch, results));
+        take(results.cmdReadBack(commands));
+        raw().submitAndWait(commands);
+        Answered out;
+        for (const PairResult& pair : take(results.read())) {
+            out.pairs.push_back(unpack(pair));
+        }
+        if (desc.counters) {
+            out.counters = take(results.counters());
+        }
+        return out;
+    }
+};
+
+TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
+    constexpr std::uint64_t kTypes = 4;
+    const std::uint64_t ofEach = randomCases(75, 3);
+    const std::uint64_t seed = testSeed();
+    BlockingDetector device = detector(within(kMargin));
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    FewKindsOfImage few(ofEach);
+    std::map<int, std::size_t> said;
+    std::uint64_t cases = 0;
+    for (std::uint64_t number = 0; cases < kTypes * ofEach && !HasFailure(); ++number) {
+        MarginCase c = makeMarginCase(seed, number, meter);
+        if (!few.take(c.scene.volume.view())) {
+            continue;
+        }
+        ++cases;
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(number));
+        scaleTo(c, kMargin);
+        const oracle::OraclePair pair = c.scene.pair();
+        const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
+        const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
+        const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
+        const cpu::BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
+        const PairAnswer onHost = take(meter.within({{&item, 1}, {}, pair.threshold}, kMargin)).pairs.at(0);
+        const int text =
+            marginVerdict(pair.mesh, volume, function, pair.world_from_object, pair.threshold, kMargin).verdict;
+        const PairAnswer plain = ask(device, pair, false);
+        EXPECT_EQ(verdictOf(plain), text);
+        expectNoContradiction(plain, onHost);
+        // With clusters, a look at a vertex may prove what the text leaves undecided.
+        const PairAnswer clusters = ask(device, pair, true);
+        EXPECT_TRUE(verdictOf(clusters) == text || (text == CERTIFIED_UNDECIDED && clusters.hit));
+        expectNoContradiction(clusters, onHost);
+        ++said[text];
+    }
+    std::cout << "  " << cases << " cases: " << said[CERTIFIED_CERTAIN] << " within, " << said[CERTIFIED_NONE]
+              << " not, " << said[CERTIFIED_UNDECIDED] << " undecided\n";
+    EXPECT_GT(said[CERTIFIED_CERTAIN], cases / 10);
+    EXPECT_GT(said[CERTIFIED_NONE], cases / 10);
+}
+
+TEST_F(MarginTest, TellsKnownDistancesApart) {
+    std::mt19937_64 random(testSeed());
+    BlockingDetector device = detector(within(kMargin));
+    for (int round = 0; round < 24 && !HasFailure(); ++round) {
+        KnownPlane known = makeKnownPlane(random, round);
+        SCOPED_TRACE("round " + std::to_string(round));
+        const double relative = known.slack / known.distance;
+        const Mat4 pose = identity();
+        const auto at = [&](double distance) {
+            scaleTo(known, distance);
+            return verdictOf(ask(device,
+                                 {known.mesh.view(),
+                                  known.volume.view(),
+                                  {known.points, known.domain, kDefaultTableSize},
+                                  {},
+                                  pose,
+                                  known.threshold},
+                                 round % 2 == 0));
+        };
+        EXPECT_EQ(at(kMargin * (1 + relative)), CERTIFIED_NONE);
+        EXPECT_EQ(at(kMargin * (1 - relative)), CERTIFIED_CERTAIN);
+        EXPECT_EQ(at(kMargin * 2), CERTIFIED_NONE);
+        EXPECT_EQ(at(kMargin / 2), CERTIFIED_CERTAIN);
+    }
+}
+
+/// One opaque voxel in an empty image, and a point, a segment and a triangle beside, above and diagonally from it.
+TEST_F(MarginTest, OfASingleVoxel) {
+    BlockingDetector device = detector(within(kMargin));
+    Grid grid;
+    grid.size = {24, 20, 22};
+    grid.spacing = {0.5, 1, 0.8};
+    const VolumeData image =
+        makeBytes(grid, [](auto x, auto y, auto z) { return x == 12 && y == 10 && z == 11 ? 255.0 : 0.0; });
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    // Opaque from half of 255 on: along an axis, half a voxel from its centre.
+    const Vec3 centre{6, 10, 8.8};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            for (const double beyond : {-0.01, 0.01}) {
+                Vec3 tip = centre;
+                tip[axis] += side * (kMargin + grid.spacing[axis] / 2 + beyond);
+                Vec3 far = tip;
+                far[axis] += side * 5;
+                far[(axis + 1) % 3] += 1;
+                MeshData mesh;
+                addTriangle(mesh, tip, far, axis == 0 ? tip : far);
+                SCOPED_TRACE("axis " + std::to_string(axis) + ", " + std::to_string(side * beyond));
+                EXPECT_EQ(
+                    verdictOf(ask(
+                        device, {mesh.view(), image.view(), {points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
+                        axis == 1)),
+                    beyond > 0 ? CERTIFIED_NONE : CERTIFIED_CERTAIN);
+            }
+        }
+    }
+}
+
+/// A scalpel, or what is larger, at some poses in and about a head.
+struct Head {
+    VolumeData head = take(makeBuiltinVolume("head:48"));
+    std::array<ControlPoint, 2> points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    MeshData data;
+    Volume volume;
+    TransferFunction function;
+    Mesh mesh;
+    cpu::Volume hostVolume = take(cpu::Volume::create(head.view()));
+    cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create({points, {0, 255}, kDefaultTableSize}));
+    cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
+    std::vector<Mat4> poses;
+    BatchItem item{};
+
+    Head(const Context& context, const QueueAccess& queue, MeshData given, std::size_t count, std::uint64_t seed,
+         bool clusters = true)
+        : data(std::move(given)), volume(take(Volume::upload(context, queue, head.view(), {.bricks = true}))),
+          function(take(TransferFunction::upload(context, queue, {points, {0, 255}, kDefaultTableSize}))),
+          mesh(take(Mesh::upload(context, queue, data.view(), {.clusters = clusters}))) {
+        std::mt19937_64 random(seed);
+        poses = randomPoses(head.grid, count, 1.2, random);
+        item = {&mesh, &volume, &function, poses};
+    }
+    [[nodiscard]] Batch batch() const { return {{&item, 1}, {}, kDefaultThreshold}; }
+    [[nodiscard]] std::vector<PairAnswer> onHost(double margin) const {
+        cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+        const cpu::BatchItem at{&hostMesh, &hostVolume, &hostFunction, poses};
+        return take(meter.within({{&at, 1}, {}, kDefaultThreshold}, margin)).pairs;
+    }
+};
+
+void expectSame(const std::vector<PairAnswer>& a, const std::vector<PairAnswer>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(verdictOf(a[i]), verdictOf(b[i])) << "pair " << i;
+    }
+}
+
+TEST_F(MarginTest, NothingDependsOnTheRooms) {
+    const std::uint64_t seed = testSeed();
+    constexpr std::uint32_t kPoses = 10;
+    std::size_t left = 0;
+    for (const bool clusters : {true, false}) {
+        const Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:1500")), kPoses, seed, clusters);
+        for (const double margin : {1.0, 9.0}) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", margin " + std::to_string(margin));
+            DetectorDesc desc = within(margin);
+            desc.counters = true;
+            const Answered one = ask(desc, scene.batch(), kPoses, 16384);
+            const Answered many = ask(desc, scene.batch(), kPoses, 16);
+            expectSame(one.pairs, many.pairs);
+            const std::vector<PairAnswer> host = scene.onHost(margin);
+            for (std::size_t i = 0; i < kPoses; ++i) {
+                expectNoContradiction(one.pairs[i], host[i]);
+                EXPECT_FALSE(one.pairs[i].possible) << "pair " << i;
+            }
+            EXPECT_EQ(one.counters.left, 0U);
+            EXPECT_EQ(one.counters.cellsOpen, 0U);
+            EXPECT_LE(many.counters.mostLooks, 16U * 65536U + 4U * 64U * 32U);
+            left += many.counters.left;
+        }
+    }
+    EXPECT_GT(left, 0U);
+}
+
+/// Triangles that are near more bricks than a lane looks at.
+TEST_F(MarginTest, OfTrianglesThroughAllOfIt) {
+    const std::uint64_t seed = testSeed();
+    MeshData flat = makeFlat(-90, 90, -90, 90, 0);
+    constexpr std::uint32_t kPoses = 12;
+    const Head scene(context(), queue(), flat, kPoses, seed);
+    DetectorDesc desc = within(11);
+    desc.counters = true;
+    const Answered found = ask(desc, scene.batch(), kPoses, 16384);
+    expectSame(found.pairs, ask(desc, scene.batch(), kPoses, 16).pairs);
+    const std::vector<PairAnswer> host = scene.onHost(11);
+    for (std::size_t i = 0; i < kPoses; ++i) {
+        expectNoContradiction(found.pairs[i], host[i]);
+    }
+    EXPECT_LE(static_cast<double>(found.counters.bricksSeen + found.counters.cellsSeen),
+              kPoses * meshLooks(scene.item, 11).of(0, 1));
+}
+
+/// What certainly touches is within every margin, what is within one is within a larger one; and a margin of 0 is the
+/// touch.
+TEST_F(MarginTest, GrowsWithTheMargin) {
+    const std::uint64_t seed = testSeed();
+    constexpr std::uint32_t kPoses = 24;
+    const Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, seed);
+    DetectorDesc touch = within(0);
+    std::vector<PairAnswer> before = ask(touch, scene.batch(), kPoses, 2048).pairs;
+    std::size_t hits = 0;
+    for (const double margin : {0.02, 3.0, 20.0}) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", margin " + std::to_string(margin));
+        const std::vector<PairAnswer> now = ask(within(margin), scene.batch(), kPoses, 2048).pairs;
+        const std::vector<PairAnswer> host = scene.onHost(margin);
+        for (std::size_t i = 0; i < kPoses; ++i) {
+            EXPECT_FALSE(before[i].hit && !now[i].hit) << "pair " << i;
+            expectNoContradiction(now[i], host[i]);
+            hits += now[i].hit ? 1U : 0U;
+        }
+        before = now;
+    }
+    EXPECT_GT(hits, kPoses / 4);
+    EXPECT_LT(hits, 3 * kPoses);
+}
+
+/// Poses on the device make the same pairs.
+TEST_F(MarginTest, OfPosesOnTheDevice) {
+    constexpr std::uint32_t kPoses = 10;
+    Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, testSeed());
+    std::vector<float> floats;
+    for (Mat4& pose : scene.poses) {
+        for (double& element : pose) {
+            floats.push_back(static_cast<float>(element));
+            element = static_cast<double>(floats.back());
+        }
+    }
+    const RawVulkan::HostBuffer buffer =
+        raw().makeBuffer(std::span<const float>(floats), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const PoseBuffer poses =
+        take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .stride = 64, .count = kPoses}));
+    DetectorDesc desc = within(kMargin);
+    const std::vector<PairAnswer> wanted = ask(desc, scene.batch(), kPoses, 2048).pairs;
+    desc.devicePoses = true;
+    scene.item.world_from_object = {};
+    scene.item.poses = &poses;
+    expectSame(ask(desc, scene.batch(), kPoses, 2048).pairs, wanted);
+}
+
+TEST_F(MarginTest, RefusesWhatHasNoAnswer) {
+    const auto refusal = [&](const DetectorDesc& desc) {
+        const Result<Detector> made = Detector::create(context(), desc);
+        EXPECT_FALSE(made.ok());
+        EXPECT_EQ(made.error().code, ErrorCode::InvalidArgument);
+        return made.ok() ? std::string() : made.error().text;
+    };
+    for (const double margin :
+         {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1000001.0}) {
+        EXPECT_THAT(refusal(within(margin)), HasSubstr("mm is not a number from 0 to 1000000"));
+    }
+    DetectorDesc counts = within(1);
+    counts.stopAtFirst = false;
+    EXPECT_THAT(refusal(counts), HasSubstr("it needs DetectorDesc::stopAtFirst"));
+    DetectorDesc outputs = within(1);
+    outputs.outputs.triangles = true;
+    EXPECT_THAT(refusal(outputs), HasSubstr("without DetectorDesc::outputs"));
+    EXPECT_THAT(refusal({.method = CountingMethod::Compute, .margin = 1}),
+                HasSubstr("DetectorDesc::margin is for the projection conservative, not for view"));
+    EXPECT_THAT(refusal({.margin = 1}), HasSubstr("DetectorDesc::margin is for the projection conservative"));
+    EXPECT_TRUE(Detector::create(context(), within(1000000)).ok());
+}
+
+} // namespace
+} // namespace voxtact::test
