@@ -94,11 +94,12 @@ Result<Engines> makeMethodEngines(const device::Session& session, const CompareS
             result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + why);
         }
     }
-    if (engines.size() == 0 && !result.notes.empty()) {
+    Result<Engines> made = engines.take();
+    if (made.ok() && made->empty()) {
         return Error{ErrorCode::Unsupported, 0,
                      "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
     }
-    return engines.take();
+    return made;
 }
 
 Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work) {
