@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How many files does a change take? Applies tests/change/method.patch, a dummy counting method, to a copy of the
-sources, and counts its files.
+"""How many files does a change take? Applies tests/change/method.patch, a dummy counting method, and output.patch, a
+dummy output, to copies of the sources, and counts their files.
 
 usage: change.py [--build]
 
---build: builds the program of the copy too, and asks it whether the new method passes its self-test and counts what
-the others count. That takes as long as a build. The exit status is 1 when the patch does not fit, takes more files than
-docs/change.md says, or the method does not count right.
+--build: builds the programs of the copies too, and asks them whether the new method passes its self-test and counts
+what the others count, and whether the new output is the count. That takes as long as two builds. The exit status is 1
+when a patch does not fit, takes more files than docs/change.md says, or what it adds is not right.
 """
 import argparse
 import json
@@ -18,9 +18,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PATCH = ROOT / "tests" / "change" / "method.patch"
 METHOD = "swap"
-MOST_FILES = 5 # steps 1 to 3 of docs/change.md, "A counting method"
+OUTPUT = "again"
 COPIED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "shaders", "src", "third_party", "LICENSE")
 
 
@@ -52,7 +51,7 @@ def build(source):
     return folder / "voxtact"
 
 
-def check(program):
+def check_method(program):
     devices = json.loads(run(program, "devices", "--format", "json"))
     verdicts = [row for row in devices["rows"] if row["method"] == METHOD]
     if not verdicts or not all(verdict["trusted"] for verdict in verdicts):
@@ -65,25 +64,47 @@ def check(program):
         fail(f"detect --count {METHOD} printed {rows}")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", action="store_true")
-    arguments = parser.parse_args()
-    # Apart from each other: a test does the one while the other builds for minutes.
-    scratch = ROOT / "build" / ("change-build" if arguments.build else "change")
+def check_output(program):
+    for method, projection in (("cpu", "conservative"), ("cpu", "view"), ("compute", "conservative"), ("query", "view")):
+        out = run(program, "detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count", method,
+                  "--projection", projection, f"--{OUTPUT}", "--format", "json", "--progress", "never")
+        rows = json.loads(out)["rows"]
+        if not any(row["count"] for row in rows) or any(row["count"] != row[OUTPUT] for row in rows):
+            fail(f"the output {OUTPUT} of {method} {projection} is not the count: {rows}")
+
+
+# Each with what docs/change.md says: the steps 1 to 3 of a counting method, and all of an output but its documentation.
+CHANGES = (
+    ("a counting method", "method.patch", 5, "src/core/method/method_table.h", f'"{METHOD}"', check_method),
+    ("an output", "output.patch", 9, "src/detect/output_parts.cpp", f'"{OUTPUT}"', check_output),
+)
+
+
+def measure(scratch, builds, what, name, most, place, mark, check):
+    patch = ROOT / "tests" / "change" / name
     shutil.rmtree(scratch, ignore_errors=True)
     copy_sources(scratch)
     # The copy lies in a checkout, of which git would take it for a part.
-    run("git", "apply", PATCH, cwd=scratch, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(scratch.parent)})
-    if f'"{METHOD}"' not in (scratch / "src" / "core" / "method" / "method_table.h").read_text():
-        fail("git left the patch out")
-    files = [line.split()[1] for line in PATCH.read_text().splitlines() if line.startswith("+++ ")]
-    if len(files) > MOST_FILES:
-        fail(f"a counting method takes {len(files)} files, more than {MOST_FILES}: {', '.join(files)}")
-    if arguments.build:
+    run("git", "apply", patch, cwd=scratch, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(scratch.parent)})
+    if mark not in (scratch / place).read_text():
+        fail(f"git left {name} out")
+    files = [line.split()[1] for line in patch.read_text().splitlines() if line.startswith("+++ ")]
+    if len(files) > most:
+        fail(f"{what} takes {len(files)} files, more than {most}: {', '.join(files)}")
+    if builds:
         check(build(scratch))
-    print(f"change: a counting method takes {len(files)} files" + (", and counts" if arguments.build else ""))
+    print(f"change: {what} takes {len(files)} files" + (", and is right" if builds else ""))
     shutil.rmtree(scratch, ignore_errors=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", action="store_true")
+    builds = parser.parse_args().build
+    # Apart from each other: a test does the one while the other builds for minutes.
+    scratch = ROOT / "build" / ("change-build" if builds else "change")
+    for change in CHANGES:
+        measure(scratch, builds, *change)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "detect/output_parts.h"
+#include "core/base/live.h"
 #include "core/batch/sort_contacts.h"
+#include "detect/output_store.h"
+#include "detect/results_impl.h"
 
 #include <algorithm>
 #include <bit>
@@ -116,34 +119,43 @@ Result<void> unpackContacts(const OutputWords& of, BatchAnswer& answer) {
 
 constexpr std::uint64_t kMaskBits = 32;
 
-constexpr std::array<OutputPartRow, kOutputParts> kParts{{
-    {.output = &Outputs::bounds,
-     .bit = OUTPUT_BOUNDS,
-     .first = &shader::OutputPair::firstBound,
-     .room = [](const OutputRoom&, std::uint64_t pairs) -> std::uint64_t { return pairs * OUTPUT_BOUND_WORDS; },
-     .ofPair = [](const OutputItem&) -> std::uint64_t { return OUTPUT_BOUND_WORDS; },
-     .unpack = unpackBounds},
-    {.output = &Outputs::triangles,
+/// Their order.
+enum Part : std::size_t { kTriangles, kMask, kBounds, kLabels, kContacts, kPartCount };
+static_assert(kPartCount <= kMostOutputParts);
+
+constexpr std::array<OutputPartRow, kPartCount> kParts{{
+    {.name = "triangles",
+     .output = &Outputs::triangles,
      .bit = OUTPUT_TRIANGLES,
      .first = &shader::OutputPair::firstTriangle,
      .room = [](const OutputRoom& room, std::uint64_t) -> std::uint64_t { return room.triangles; },
      .ofPair = [](const OutputItem& item) -> std::uint64_t { return item.triangles; },
      .unpack = unpackTriangles},
     // Each pair begins with a word of its own.
-    {.output = &Outputs::triangles,
+    {.name = nullptr,
+     .output = &Outputs::triangles,
      .bit = OUTPUT_TRIANGLES,
      .first = &shader::OutputPair::firstMask,
      .room = [](const OutputRoom& room, std::uint64_t pairs) -> std::uint64_t {
          return room.triangles == 0 ? 0 : room.triangles / kMaskBits + pairs;
      },
      .ofPair = [](const OutputItem& item) -> std::uint64_t { return (item.triangles + kMaskBits - 1) / kMaskBits; }},
-    {.output = &Outputs::labels,
+    {.name = "bounds",
+     .output = &Outputs::bounds,
+     .bit = OUTPUT_BOUNDS,
+     .first = &shader::OutputPair::firstBound,
+     .room = [](const OutputRoom&, std::uint64_t pairs) -> std::uint64_t { return pairs * OUTPUT_BOUND_WORDS; },
+     .ofPair = [](const OutputItem&) -> std::uint64_t { return OUTPUT_BOUND_WORDS; },
+     .unpack = unpackBounds},
+    {.name = "labels",
+     .output = &Outputs::labels,
      .bit = OUTPUT_LABELS,
      .first = &shader::OutputPair::firstLabel,
      .room = [](const OutputRoom& room, std::uint64_t) -> std::uint64_t { return room.labels; },
      .ofPair = [](const OutputItem& item) -> std::uint64_t { return item.labels == nullptr ? 0 : item.labels->size(); },
      .unpack = unpackLabels},
-    {.output = &Outputs::contacts,
+    {.name = "contacts",
+     .output = &Outputs::contacts,
      .bit = OUTPUT_CONTACTS,
      .first = &shader::OutputPair::contacts,
      .room = [](const OutputRoom& room, std::uint64_t) -> std::uint64_t {
@@ -155,7 +167,7 @@ constexpr std::array<OutputPartRow, kOutputParts> kParts{{
 
 } // namespace
 
-const std::array<OutputPartRow, kOutputParts>& outputParts() noexcept {
+std::span<const OutputPartRow> outputParts() noexcept {
     return kParts;
 }
 
@@ -165,6 +177,34 @@ std::uint32_t outputsConstant(const Outputs& outputs) noexcept {
         bits |= outputs.*part.output ? part.bit : 0U;
     }
     return bits;
+}
+
+void clearOutputs(BatchAnswer& answer) noexcept {
+    answer.triangles.clear();
+    answer.contacts.clear();
+    answer.contactsFound = 0;
+    answer.bounds.clear();
+    answer.labels.clear();
+}
+
+BufferRange Results::triangleCounts() const noexcept {
+    return rangeOf(live(impl_).outputs.get(), kTriangles);
+}
+
+BufferRange Results::triangleMask() const noexcept {
+    return rangeOf(live(impl_).outputs.get(), kMask);
+}
+
+BufferRange Results::contacts() const noexcept {
+    return rangeOf(live(impl_).outputs.get(), kContacts);
+}
+
+BufferRange Results::bounds() const noexcept {
+    return rangeOf(live(impl_).outputs.get(), kBounds);
+}
+
+BufferRange Results::labelCounts() const noexcept {
+    return rangeOf(live(impl_).outputs.get(), kLabels);
 }
 
 } // namespace voxtact

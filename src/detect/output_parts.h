@@ -17,11 +17,10 @@ struct OutputItem {
     std::shared_ptr<const std::vector<std::int32_t>> labels{}; ///< null: no label map
 };
 
-/// The parts of an outputs buffer, in their order.
-enum OutputPart : std::size_t { kBoundsPart, kTrianglesPart, kMaskPart, kLabelsPart, kContactsPart, kOutputParts };
-
-/// Where each part begins, in words, and, as the last, where all of them end. Each begins where a descriptor may.
-using OutputLayout = std::array<std::uint64_t, kOutputParts + 1>;
+/// Parts of an outputs buffer, at most.
+inline constexpr std::size_t kMostOutputParts = 16;
+/// Where each part begins, in words, and, behind the last, where all of them end. Each begins where a descriptor may.
+using OutputLayout = std::array<std::uint64_t, kMostOutputParts + 1>;
 
 /// The words of a part as the host has them, and what they are of.
 struct OutputWords {
@@ -33,6 +32,7 @@ struct OutputWords {
 /// Everything that is known of a part. Either each pair has words of its own, in the order of the pairs, which are
 /// zero before the batch, or all pairs share one list that begins with OUTPUT_HEADER_WORDS.
 struct OutputPartRow {
+    const char* name;                                                        ///< of the output; null: a second part
     bool Outputs::*output;                                                   ///< what asks for it
     std::uint32_t bit;                                                       ///< OUTPUT_*, as the shaders know it
     std::uint32_t shader::OutputPair::*first;                                ///< where a pair's words begin
@@ -41,10 +41,13 @@ struct OutputPartRow {
     Result<void> (*unpack)(const OutputWords& words, BatchAnswer& answer){}; ///< null: it stays on the device
 };
 
-/// By OutputPart.
-[[nodiscard]] const std::array<OutputPartRow, kOutputParts>& outputParts() noexcept;
+/// In their order.
+[[nodiscard]] std::span<const OutputPartRow> outputParts() noexcept;
 
 /// VOXTACT_CONSTANT_OUTPUTS of a pipeline: the OUTPUT_* bits of what is asked for.
 [[nodiscard]] std::uint32_t outputsConstant(const Outputs& outputs) noexcept;
+
+/// Empties an answer of outputs.
+void clearOutputs(BatchAnswer& answer) noexcept;
 
 } // namespace voxtact

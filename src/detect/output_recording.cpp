@@ -29,7 +29,7 @@ std::uint64_t usedOf(const OutputStore& store, const OutputPartRow& part) {
 }
 
 void clear(const ContextImpl& context, VkCommandBuffer commandBuffer, const OutputStore& store) {
-    for (std::size_t i = 0; i < kOutputParts; ++i) {
+    for (std::size_t i = 0; i < outputParts().size(); ++i) {
         const OutputPartRow& part = outputParts()[i];
         const std::uint64_t words = usedOf(store, part);
         if (words > 0 && part.ofPair != nullptr) {
@@ -70,7 +70,7 @@ void recordPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
         shader::OutputPair pair = pairOf(batch.items[i], batch.threshold, store.recorded);
         pair.contactRoom = store.room.contacts;
         for (std::uint32_t pose = 0; pose < store.items[i].pairs; ++pose) {
-            for (std::size_t part = 0; part < kOutputParts; ++part) {
+            for (std::size_t part = 0; part < outputParts().size(); ++part) {
                 const OutputPartRow& row = outputParts()[part];
                 pair.*row.first = static_cast<std::uint32_t>(next[part]);
                 next[part] += row.ofPair == nullptr ? 0 : row.ofPair(store.items[i]);
@@ -95,7 +95,7 @@ void recordOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, co
 }
 
 void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, const OutputStore& store) {
-    for (std::size_t i = 0; i < kOutputParts; ++i) {
+    for (std::size_t i = 0; i < outputParts().size(); ++i) {
         const OutputPartRow& part = outputParts()[i];
         const std::uint64_t words = part.unpack == nullptr ? 0 : usedOf(store, part);
         if (words > 0) {
@@ -107,7 +107,7 @@ void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
 
 Result<void> unpackOutputs(const OutputStore& store, BatchAnswer& answer) {
     const auto* const words = static_cast<const std::uint32_t*>(store.readBack.mapped);
-    for (std::size_t i = 0; i < kOutputParts; ++i) {
+    for (std::size_t i = 0; i < outputParts().size(); ++i) {
         const OutputPartRow& part = outputParts()[i];
         if (part.unpack != nullptr && store.recorded.*part.output) {
             VOXTACT_TRY(part.unpack({words + store.layout[i], store.items, store.room}, answer));

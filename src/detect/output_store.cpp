@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/output_store.h"
-#include "core/base/live.h"
 #include "core/base/try.h"
-#include "detect/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/scene_impl.h"
 
@@ -21,18 +19,23 @@ std::uint64_t aligned(std::uint64_t word) {
 
 OutputLayout layoutOf(const OutputRoom& room, std::uint64_t pairs) {
     OutputLayout layout{};
-    for (std::size_t part = 0; part < kOutputParts; ++part) {
+    const std::size_t parts = outputParts().size();
+    for (std::size_t part = 0; part < parts; ++part) {
         const std::uint64_t end = layout[part] + outputParts()[part].room(room, pairs);
-        layout[part + 1] = part + 1 < kOutputParts ? aligned(end) : end;
+        layout[part + 1] = part + 1 < parts ? aligned(end) : end;
     }
     return layout;
+}
+
+std::uint64_t wordsOf(const OutputLayout& layout) {
+    return layout[outputParts().size()];
 }
 
 Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
     const std::uint64_t most = context.limits.maxStorageBufferRange;
     // Sums of larger ones could overflow.
     const bool huge = desc.room->triangles > most || desc.room->labels > most;
-    if (huge || layoutOf(*desc.room, desc.maxPairs).back() * kWord > most) {
+    if (huge || wordsOf(layoutOf(*desc.room, desc.maxPairs)) * kWord > most) {
         return Error{ErrorCode::LimitExceeded, 0,
                      "the outputs of " + std::to_string(desc.maxPairs) + " pairs with room for " +
                          std::to_string(desc.room->triangles) + " triangles, " + std::to_string(desc.room->labels) +
@@ -49,7 +52,7 @@ Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
 }
 
 Result<void> makeBuffers(ContextImpl& context, const ResultsDesc& desc, OutputStore& out) {
-    const VkDeviceSize bytes = out.layout.back() * kWord;
+    const VkDeviceSize bytes = wordsOf(out.layout) * kWord;
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Result<Buffer> pairs = makeBuffer(context, VkDeviceSize{desc.maxPairs} * sizeof(shader::OutputPair), kTo,
                                       MemoryUse::Device, "output pairs");
@@ -92,15 +95,6 @@ Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer tr
     return {};
 }
 
-/// Empty where there is no store, or no room for the part.
-BufferRange rangeOf(const std::unique_ptr<OutputStore>& store, OutputPart part) {
-    const std::uint64_t words = store == nullptr ? 0 : outputParts()[part].room(store->room, store->maxPairs);
-    if (words == 0) {
-        return {};
-    }
-    return {store->words.get(), store->layout[part] * kWord, words * kWord};
-}
-
 } // namespace
 
 Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc, VkBuffer transforms,
@@ -130,24 +124,9 @@ VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noex
     return item.labels == nullptr ? store.noLabelsSet.set : item.labels->impl().descriptors.set;
 }
 
-BufferRange Results::triangleCounts() const noexcept {
-    return rangeOf(live(impl_).outputs, kTrianglesPart);
-}
-
-BufferRange Results::triangleMask() const noexcept {
-    return rangeOf(live(impl_).outputs, kMaskPart);
-}
-
-BufferRange Results::contacts() const noexcept {
-    return rangeOf(live(impl_).outputs, kContactsPart);
-}
-
-BufferRange Results::bounds() const noexcept {
-    return rangeOf(live(impl_).outputs, kBoundsPart);
-}
-
-BufferRange Results::labelCounts() const noexcept {
-    return rangeOf(live(impl_).outputs, kLabelsPart);
+BufferRange rangeOf(const OutputStore* store, std::size_t part) noexcept {
+    const std::uint64_t words = store == nullptr ? 0 : outputParts()[part].room(store->room, store->maxPairs);
+    return words == 0 ? BufferRange{} : BufferRange{store->words.get(), store->layout[part] * kWord, words * kWord};
 }
 
 } // namespace voxtact

@@ -40,6 +40,9 @@ void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
 /// From the host's copy. Internal where that holds a pair, triangle or label that the batch does not have.
 [[nodiscard]] Result<void> unpackOutputs(const OutputStore& store, BatchAnswer& answer);
 
+/// Where a part is, by its number in outputParts(); empty where there is no store, or no room for the part.
+[[nodiscard]] BufferRange rangeOf(const OutputStore* store, std::size_t part) noexcept;
+
 /// The set that VOXTACT_SET_LABELS is bound to.
 [[nodiscard]] VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noexcept;
 

@@ -285,11 +285,7 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
     return guard([&]() -> Result<void> {
         const ResultsImpl& r = live(impl_);
         VOXTACT_TRY(checkReadable(r));
-        answer.triangles.clear();
-        answer.contacts.clear();
-        answer.contactsFound = 0;
-        answer.bounds.clear();
-        answer.labels.clear();
+        clearOutputs(answer);
         if (r.outputs == nullptr || r.pairs == 0) {
             return {};
         }

@@ -13,7 +13,7 @@
 #include "lab/engines/opaque_cells.h"
 #include "lab/measure/machine.h"
 #include "lab/measure/numbers.h"
-#include "lab/measure/random_poses.h"
+#include "lab/measure/poses.h"
 #include "lab/measure/stopwatch.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"

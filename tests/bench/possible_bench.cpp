@@ -7,7 +7,7 @@
 //
 // VOXTACT_BENCH_POSES are the poses a scene, VOXTACT_BENCH_THREADS the threads; see bench_input.h for others.
 #include "bench/bench_input.h"
-#include "lab/measure/random_poses.h"
+#include "lab/measure/poses.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 

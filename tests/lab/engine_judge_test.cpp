@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What compare --localize and bench --certified make of answers that differ.
-#include "lab/bench/bench.h"
+#include "lab/bench/parts.h"
 #include "lab/compare/localize.h"
 
 #include <gtest/gtest.h>

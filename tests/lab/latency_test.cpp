@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What bench --latency makes of ticks: who must answer what, the way of the mesh, the quantiles.
-#include "lab/bench/latency.h"
-#include "lab/measure/moving_poses.h"
+#include "lab/bench/parts.h"
 #include "lab/measure/numbers.h"
+#include "lab/measure/poses.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 
@@ -16,11 +16,12 @@
 namespace voxtact::test {
 namespace {
 
+using lab::BenchMode;
+using lab::BenchResult;
+using lab::BenchRow;
 using lab::EngineFacts;
-using lab::judgeTick;
-using lab::LatencyResult;
-using lab::LatencyRow;
-using lab::TickTruth;
+using lab::judgePose;
+using lab::PoseTruth;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -33,53 +34,53 @@ EngineFacts facts(const char* name, const char* question, bool certified) {
         .name = name, .projection = certified ? "conservative" : "view", .question = question, .certified = certified};
 }
 
-TickTruth truth(std::uint64_t certified, std::uint64_t view, bool possible = false) {
+PoseTruth truth(std::uint64_t certified, std::uint64_t view, bool possible = false) {
     return {answer(certified, CountingMethod::Cpu, possible), answer(view, CountingMethod::Cpu)};
 }
 
 TEST(TickJudgeTest, CertifiedAnswersAreTheHosts) {
-    TickTruth must = truth(3, 0);
-    EXPECT_EQ(judgeTick(facts("compute", "count", true), answer(3, CountingMethod::Compute), must), "");
-    EXPECT_EQ(judgeTick(facts("compute", "yes/no", true), answer(1, CountingMethod::Compute), must), "");
-    EXPECT_EQ(judgeTick(facts("compute", "count", true), answer(2, CountingMethod::Compute), must),
+    PoseTruth must = truth(3, 0);
+    EXPECT_EQ(judgePose(facts("compute", "count", true), answer(3, CountingMethod::Compute), must), "");
+    EXPECT_EQ(judgePose(facts("compute", "yes/no", true), answer(1, CountingMethod::Compute), must), "");
+    EXPECT_EQ(judgePose(facts("compute", "count", true), answer(2, CountingMethod::Compute), must),
               "compute conservative count says 2, it must be 3");
-    EXPECT_EQ(judgeTick(facts("compute", "yes/no", true), answer(3, CountingMethod::Compute), must),
+    EXPECT_EQ(judgePose(facts("compute", "yes/no", true), answer(3, CountingMethod::Compute), must),
               "compute conservative yes/no says 3, it must be 1");
-    TickTruth perhaps = truth(0, 0, true);
-    EXPECT_EQ(judgeTick(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu, true), perhaps), "");
-    EXPECT_EQ(judgeTick(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu), perhaps),
+    PoseTruth perhaps = truth(0, 0, true);
+    EXPECT_EQ(judgePose(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu, true), perhaps), "");
+    EXPECT_EQ(judgePose(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu), perhaps),
               "cpu conservative yes/no says 0, it must be possible");
 }
 
 TEST(TickJudgeTest, ACountThatIsALowerBoundIsComparedAllTheSame) {
     // The certified count of a pair with undecided cells is a lower bound, and still everybody's.
-    TickTruth must = truth(3, 0);
+    PoseTruth must = truth(3, 0);
     must.certified.exactness = Exactness::LowerBound;
     PairAnswer other = answer(2, CountingMethod::Compute);
     other.exactness = Exactness::LowerBound;
-    EXPECT_NE(judgeTick(facts("compute", "count", true), other, must), "");
+    EXPECT_NE(judgePose(facts("compute", "count", true), other, must), "");
 }
 
 TEST(TickJudgeTest, TheRasteriserAgreesWithItselfAndComputeWithTheHost) {
-    TickTruth must = truth(9, 100);
-    EXPECT_EQ(judgeTick(facts("query", "count", false), answer(101, CountingMethod::Query), must), "") << "rounding";
-    EXPECT_EQ(judgeTick(facts("atomic", "count", false), answer(101, CountingMethod::Atomic), must), "");
-    EXPECT_EQ(judgeTick(facts("atomic", "count", false), answer(100, CountingMethod::Atomic), must),
+    PoseTruth must = truth(9, 100);
+    EXPECT_EQ(judgePose(facts("query", "count", false), answer(101, CountingMethod::Query), must), "") << "rounding";
+    EXPECT_EQ(judgePose(facts("atomic", "count", false), answer(101, CountingMethod::Atomic), must), "");
+    EXPECT_EQ(judgePose(facts("atomic", "count", false), answer(100, CountingMethod::Atomic), must),
               "atomic view count says 100, it must be 101");
-    EXPECT_EQ(judgeTick(facts("query-any", "count", false), answer(1, CountingMethod::QueryAny), must), "");
+    EXPECT_EQ(judgePose(facts("query-any", "count", false), answer(1, CountingMethod::QueryAny), must), "");
     EXPECT_EQ(
-        judgeTick(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
+        judgePose(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
         "query-any view count says no hit where cpu counts 100: more than what roundings of a rasteriser explain");
-    EXPECT_EQ(judgeTick(facts("compute", "count", false), answer(100, CountingMethod::Compute), must), "");
-    EXPECT_EQ(judgeTick(facts("compute", "count", false), answer(101, CountingMethod::Compute), must),
+    EXPECT_EQ(judgePose(facts("compute", "count", false), answer(100, CountingMethod::Compute), must), "");
+    EXPECT_EQ(judgePose(facts("compute", "count", false), answer(101, CountingMethod::Compute), must),
               "compute view count says 101, it must be 100");
 }
 
 TEST(TickJudgeTest, ARasteriserThatIsWrongAltogetherIsNoRounding) {
     const EngineFacts query = facts("query", "count", false);
     const auto says = [&](std::uint64_t count, std::uint64_t host) {
-        TickTruth must = truth(9, host);
-        return judgeTick(query, answer(count, CountingMethod::Query), must);
+        PoseTruth must = truth(9, host);
+        return judgePose(query, answer(count, CountingMethod::Query), must);
     };
     EXPECT_EQ(says(0, 1000), "query view count says 0 where cpu counts 1000: more than what roundings of a rasteriser "
                              "explain");
@@ -90,10 +91,10 @@ TEST(TickJudgeTest, ARasteriserThatIsWrongAltogetherIsNoRounding) {
     EXPECT_NE(says(1565, 1000), "");
     EXPECT_EQ(says(436, 1000), "");
     EXPECT_NE(says(435, 1000), "");
-    TickTruth must = truth(9, 1000);
+    PoseTruth must = truth(9, 1000);
     PairAnswer empty = answer(1000, CountingMethod::Query);
     empty.hit = false;
-    EXPECT_NE(judgeTick(query, empty, must), "") << "survivors and no hit";
+    EXPECT_NE(judgePose(query, empty, must), "") << "survivors and no hit";
 }
 
 TEST(MovingPosesTest, StrokesGoInAndOutWithoutAJump) {
@@ -138,18 +139,18 @@ TEST(QuantileTest, AreBetweenTheNearestRanks) {
     EXPECT_DOUBLE_EQ(lab::quantileOf({1, 2}, 0.25), 1.25);
 }
 
-LatencyRow row(EngineFacts engine, std::size_t ticks) {
-    return {.mesh = "m", .triangles = 12, .engine = std::move(engine), .ticks = std::vector<double>(ticks, 5.0)};
+BenchRow row(EngineFacts engine, std::size_t ticks) {
+    return {.mesh = "m", .triangles = 12, .engine = std::move(engine), .wall = std::vector<double>(ticks, 0.005)};
 }
 
 TEST(LatencyOutputTest, AQuantileNeedsATickBeyondIt) {
-    LatencyResult result;
+    BenchResult result;
     for (const std::size_t ticks : {99U, 100U, 1000U}) {
         result.rows.push_back(row(facts("compute", "count", true), ticks));
         result.rows.back().engine.threads = 0;
     }
     std::ostringstream out;
-    writeLatency(out, io::Format::Json, {.ticks = 1000}, result);
+    writeBench(out, io::Format::Json, {.mode = BenchMode::Latency, .number = 1000}, result);
     const auto rows = nlohmann::json::parse(out.str())["rows"];
     EXPECT_TRUE(rows[0]["p99_us"].is_null());
     EXPECT_EQ(rows[1]["p99_us"], 5);
@@ -159,7 +160,7 @@ TEST(LatencyOutputTest, AQuantileNeedsATickBeyondIt) {
     EXPECT_THAT(out.str(), HasSubstr("fewer than 1000 ticks"));
     result.rows.erase(result.rows.begin(), result.rows.begin() + 2);
     std::ostringstream whole;
-    writeLatency(whole, io::Format::Csv, {.ticks = 1000}, result);
+    writeBench(whole, io::Format::Csv, {.mode = BenchMode::Latency, .number = 1000}, result);
     EXPECT_THAT(whole.str(), Not(HasSubstr("fewer than")));
 }
 

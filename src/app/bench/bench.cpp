@@ -124,7 +124,7 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
     addMeshOptions(parser, options.meshes);
     parser.get_option("--mesh")->required(false);
     addTransferFunctionOptions(parser, options.transferFunction);
-    addWholeNumber(parser, "--number", options.settings.poses, 1,
+    addWholeNumber(parser, "--number", options.settings.number, 1,
                    "how many poses of each kind; with --paper 7; with --latency ticks, 10000; with "
                    "--batches of the largest, 100000");
     addSeed(parser, options.settings.seed);
@@ -155,7 +155,7 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     if (parser.count("--repetitions") > 0 && options.latency) {
         return badArgument("--repetitions is not for --latency; --number says how many ticks there are");
     }
-    if (options.latency && options.settings.poses > kMostTicks) {
+    if (options.latency && options.settings.number > kMostTicks) {
         return badArgument("--number: there can be " + std::to_string(kMostTicks) + " ticks");
     }
     if (options.paperSettings.scale > 1 && !options.paperSettings.data.empty()) {
@@ -164,43 +164,25 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     return {};
 }
 
-BenchOptions latencyOf(BenchOptions options, const CLI::App& parser) {
-    LatencySettings& latency = options.latencySettings;
-    latency.ticks = parser.count("--number") > 0 ? options.settings.poses : latency.ticks;
-    latency.timeLimit = parser.count("--time-limit") > 0 ? options.paperSettings.timeLimit : latency.timeLimit;
-    latency.seed = options.settings.seed;
-    options.settings.mode = BenchMode::Latency;
-    return options;
-}
-
-BenchOptions batchesOf(BenchOptions options, const CLI::App& parser) {
-    BatchesSettings& batches = options.batchesSettings;
-    batches.most = parser.count("--number") > 0 ? options.settings.poses : batches.most;
-    batches.repetitions = parser.count("--repetitions") > 0 ? options.settings.repetitions : batches.repetitions;
-    batches.timeLimit = parser.count("--time-limit") > 0 ? options.paperSettings.timeLimit : batches.timeLimit;
-    batches.seed = options.settings.seed;
-    options.settings.mode = BenchMode::Batches;
-    return options;
-}
-
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
     options.paper = !options.certified && !options.outputs && !options.latency && !options.batches;
     VOXTACT_TRY(checkTogether(options, parser));
+    const auto take = [&parser](const char* option, auto from, auto& to) { to = parser.count(option) > 0 ? from : to; };
     if (options.paper) {
-        PaperSettings& paper = options.paperSettings;
-        paper.poses = parser.count("--number") > 0 ? options.settings.poses : paper.poses;
-        paper.repetitions = parser.count("--repetitions") > 0 ? options.settings.repetitions : paper.repetitions;
-        paper.seed = options.settings.seed;
+        take("--number", options.settings.number, options.paperSettings.poses);
+        take("--repetitions", options.settings.repetitions, options.paperSettings.repetitions);
+        options.paperSettings.seed = options.settings.seed;
         return runPaper(options, parser);
     }
-    if (options.latency) {
-        return runLatency(latencyOf(options, parser), parser);
-    }
-    if (options.batches) {
-        return runBatches(batchesOf(options, parser), parser);
-    }
-    options.settings.mode = options.outputs ? BenchMode::Outputs : BenchMode::Certified;
+    options.settings = defaultSettings(options.latency   ? BenchMode::Latency
+                                       : options.batches ? BenchMode::Batches
+                                       : options.outputs ? BenchMode::Outputs
+                                                         : BenchMode::Certified);
+    take("--number", given.settings.number, options.settings.number);
+    take("--repetitions", given.settings.repetitions, options.settings.repetitions);
+    take("--time-limit", given.paperSettings.timeLimit, options.settings.timeLimit);
+    options.settings.seed = given.settings.seed;
     return runBenchEngines(options, parser);
 }
 

@@ -20,7 +20,7 @@ Result<void> writeOutputs(const BenchOptions& options, const PaperResult& result
                                       }}};
     if (!options.report.empty()) {
         deliveries.push_back({options.report, [&](std::ostream& out) {
-                                  return writeReport(out, ReportKind::Paper, paperSummary(result), paperJson(result));
+                                  return writeReport(out, ReportKind::Paper, paperJson(result));
                               }});
     }
     return deliverAll(std::move(deliveries));

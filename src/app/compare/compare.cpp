@@ -44,13 +44,12 @@ Examples:
 
 Result<void> writeOutputs(const CompareOptions& options, const Scene& scene, const CompareResult& result) {
     std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
-                                          writeCompare(out, options.output.format(), scene, result);
+                                          writeOutput(out, options.output.format(), compareOutput(scene, result));
                                           return {};
                                       }}};
     if (!options.report.empty()) {
         deliveries.push_back({options.report, [&](std::ostream& out) {
-                                  return writeReport(out, ReportKind::Compare, summarize(result),
-                                                     compareJson(scene, result));
+                                  return writeReport(out, ReportKind::Compare, jsonOf(compareOutput(scene, result)));
                               }});
     }
     return deliverAll(std::move(deliveries));

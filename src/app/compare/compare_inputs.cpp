@@ -2,8 +2,9 @@
 #include "app/compare/compare_inputs.h"
 
 #include "app/options/inputs.h"
+#include "app/options/lab_run.h"
 #include "core/base/try.h"
-#include "lab/measure/random_poses.h"
+#include "lab/measure/poses.h"
 #include "voxtact/io.h"
 
 namespace voxtact::app {
@@ -56,24 +57,12 @@ Result<Scene> readScene(const CompareOptions& options) {
     if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
         return badArgument("one --volume and one --mesh are needed, not several");
     }
-    Scene scene{std::make_shared<VolumePart>(), std::make_shared<MeshPart>(), {}, {}, {}, {}};
-    VolumePart& part = *scene.volume;
-    Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
-    VOXTACT_TRY(points);
-    Result<VolumeData> volume = loadVolume(options.volumes.front());
+    Result<VolumePart> volume = loadVolumePart(options.volumes.front(), options.transferFunction);
     VOXTACT_TRY(volume);
-    const Result<ValueRange> range = checkVolume(volume->view());
-    VOXTACT_TRY(range);
-    Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
+    Result<MeshPart> mesh = loadMeshPart(options.meshes.sources.front(), options.meshes);
     VOXTACT_TRY(mesh);
-    part.domain = tableDomain(options.transferFunction, volume->type, *range);
-    part.points = points->empty() ? defaultRamp(part.domain) : std::move(*points);
-    part.tableSize = options.transferFunction.tableSize;
-    part.threshold = options.transferFunction.threshold;
-    part.name = options.volumes.front();
-    part.data = std::move(*volume);
-    scene.mesh->name = options.meshes.sources.front();
-    scene.mesh->data = std::move(*mesh);
+    Scene scene{
+        std::make_shared<VolumePart>(std::move(*volume)), std::make_shared<MeshPart>(std::move(*mesh)), {}, {}, {}, {}};
     VOXTACT_TRY(chooseCamera(options, scene));
     VOXTACT_TRY(choosePoses(options, scene));
     return scene;

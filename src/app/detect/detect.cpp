@@ -219,23 +219,6 @@ Outcome runDetect(const CLI::App& parser, DetectOptions options) {
     return endOf({}, notes);
 }
 
-void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
-    addPath(parser, "--triangles", options.triangles, "a CSV file for the touched triangles: pose,triangle,count");
-    addPath(
-        parser, "--contacts", options.contacts,
-        "a .csv, .ply, .vtp or .mrk.json file for the places where survivors are, with normal and depth; see below");
-    addNumber(
-        parser, "--max-depth", [&options](double depth) { options.maxDepth = depth; },
-        "mm, how far a contact's depth is followed", [](double depth) { return depth > 0; }, "above 0", "10");
-    addWholeNumber(
-        parser, "--most-contacts", [&options](std::uint32_t most) { options.mostContacts = most; }, {.least = 1},
-        "contacts that are kept; a longer list is cut, with a note", kDefaultMostContacts);
-    addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
-    addPath(parser, "--label-names", options.labelNames,
-            "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
-    parser.add_flag("--bounds", options.bounds, "adds the world box of the survivors to each row");
-}
-
 void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
     parser.add_flag("--clearance", options.clearance,
                     "adds clearance_lo and clearance_hi: between them lies the least distance between the surface and "

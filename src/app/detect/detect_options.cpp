@@ -188,28 +188,16 @@ Result<void> checkExtra(const DetectOptions& options) {
                            contactEndings());
     }
     if (const bool yesNo = options.answer == "yes-no"; options.yesNo() && extra.outputs().any()) {
-        const char* option = !extra.contacts.empty()    ? "--contacts"
-                             : !extra.triangles.empty() ? "--triangles"
-                             : extra.bounds             ? "--bounds"
-                                                        : "--labels";
         return badArgument(std::string(yesNo ? "--answer yes-no stops at the first contact, and "
                                        : options.distance.margin
                                            ? "--margin is answered by yes or no, without contacts, and "
                                            : "--pose-tolerance is answered by yes or no, without contacts, and ") +
-                           option + " is about all of them; leave out one of the two");
+                           extra.asking() + " is about all of them; leave out one of the two");
     }
     return {};
 }
 
 } // namespace
-
-Outputs ExtraOptions::outputs() const {
-    return {.triangles = !triangles.empty(),
-            .contacts = !contacts.empty(),
-            .bounds = bounds,
-            .labels = !labels.empty(),
-            .maxDepth = maxDepth.value_or(kDefaultMaxDepth)};
-}
 
 bool canBeConservative(const MethodOptions& method) {
     const bool byMethod = !method.count || rowOf(*method.count).certified;

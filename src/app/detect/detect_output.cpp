@@ -11,7 +11,6 @@
 
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <sstream>
 
 namespace voxtact::app {
@@ -26,10 +25,6 @@ constexpr auto kTextWait = std::chrono::milliseconds(300);
 constexpr auto kLongTextWait = std::chrono::seconds(3);
 constexpr std::size_t kFewTextRows = 32;
 constexpr std::size_t kManyTextRows = 4096;
-
-double rounded(double value, double parts) {
-    return std::round(value * parts) / parts;
-}
 
 /// Of ClearanceEnd.
 constexpr std::size_t kClearanceEnds = static_cast<std::size_t>(ClearanceEnd::Budget) + 1;
@@ -193,8 +188,8 @@ Result<void> DetectOutput::add(std::span<const Row> rows) {
     state.rows += rows.size();
     if (state.options.extra.bounds && !state.options.extra.contacts.empty()) {
         for (const Row& row : rows) {
-            if (row.bounds && state.bounds.size() < state.options.extra.contactRoom()) {
-                state.bounds.push_back({*row.bounds, row.job, row.pose});
+            if (row.extra.bounds && state.bounds.size() < state.options.extra.contactRoom()) {
+                state.bounds.push_back({*row.extra.bounds, row.job, row.pose});
             }
         }
     }

@@ -3,6 +3,7 @@
 
 #include "app/chunks/chunk_options.h"
 #include "app/detect/detect_jobs.h"
+#include "app/detect/extra_outputs.h"
 #include "app/detect/pose_source.h"
 #include "app/options/open_session.h"
 #include "app/options/shared_options.h"
@@ -21,21 +22,6 @@
 namespace voxtact::app {
 
 constexpr std::uint32_t kDefaultBatch = 1024;
-constexpr std::uint32_t kDefaultMostContacts = 1U << 20U;
-
-/// What is asked for beside the counts.
-struct ExtraOptions {
-    std::filesystem::path triangles; ///< files to write; empty: not asked for
-    std::filesystem::path contacts;
-    std::filesystem::path labels; ///< a label map to read
-    std::filesystem::path labelNames;
-    bool bounds = false;
-    std::optional<double> maxDepth;
-    std::optional<std::uint32_t> mostContacts;
-
-    [[nodiscard]] Outputs outputs() const;
-    [[nodiscard]] std::uint32_t contactRoom() const { return mostContacts.value_or(kDefaultMostContacts); }
-};
 
 /// What is asked for about distances.
 struct DistanceOptions {
@@ -100,11 +86,7 @@ struct Row {
     std::uint32_t job = 0;
     std::uint64_t pose = 0; ///< number in its file
     device::TimedAnswer timed;
-    std::uint64_t triangles = 0; ///< touched ones
-    std::uint64_t contacts = 0;  ///< found, kept or not
-    double depth = 0;            ///< of the deepest contact that was kept, mm
-    std::optional<Box> bounds;
-    std::vector<LabelCount> labels;
+    ExtraAnswers extra;
     std::optional<PairClearance> clearance; ///< with --clearance
 };
 

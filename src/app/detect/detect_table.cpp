@@ -12,26 +12,6 @@ namespace voxtact::app {
 
 namespace {
 
-/// To so many parts of one, so that the shortest text for it is short.
-double rounded(double value, double parts) {
-    return std::round(value * parts) / parts;
-}
-
-/// The background says nothing where there is something else.
-std::vector<io::NamedCount> labelsOf(const DetectInputs& inputs, const Row& row) {
-    const bool onlyBackground =
-        std::all_of(row.labels.begin(), row.labels.end(), [](const LabelCount& entry) { return entry.label == 0; });
-    std::vector<io::NamedCount> counts;
-    for (const LabelCount& entry : row.labels) {
-        if (entry.label != 0 || onlyBackground) {
-            counts.push_back({entry.label, labelName(inputs, entry.label), entry.count});
-        }
-    }
-    std::stable_sort(counts.begin(), counts.end(),
-                     [](const io::NamedCount& a, const io::NamedCount& b) { return a.count > b.count; });
-    return counts;
-}
-
 io::Cell verdictOf(const PairAnswer& answer) {
     return answer.hit        ? io::NumberWord{1, "yes"}
            : answer.possible ? io::NumberWord{2, "possible"}
@@ -54,18 +34,6 @@ void DetectColumns::addClearance() {
                         }});
 }
 
-void DetectColumns::addBounds() {
-    for (const bool upper : {false, true}) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            columns_.push_back({std::string(upper ? "max_" : "min_") + "xyz"[axis], [upper, axis](const Row& row) {
-                                    return row.bounds
-                                               ? io::Cell(rounded((upper ? row.bounds->hi : row.bounds->lo)[axis], 1e6))
-                                               : io::Cell();
-                                }});
-        }
-    }
-}
-
 DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& inputs) {
     const PairJobs& jobs = options.jobs;
     columns_ = {
@@ -78,21 +46,8 @@ DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& i
          [](const Row& row) { return std::uint64_t{row.timed.answer.exactness == Exactness::Exact ? 1U : 0U}; }},
         {"method", [](const Row& row) { return std::string(toString(row.timed.answer.method)); }},
         {"projection", [](const Row& row) { return std::string(toString(row.timed.answer.projection)); }}};
-    const Outputs outputs = options.extra.outputs();
-    if (outputs.triangles) {
-        columns_.push_back({"triangles", [](const Row& row) { return row.triangles; }});
-    }
-    if (outputs.contacts) {
-        columns_.push_back({"contacts", [](const Row& row) { return row.contacts; }});
-        columns_.push_back({"depth", [](const Row& row) {
-                                return row.contacts > 0 ? io::Cell(rounded(row.depth, 1e6)) : io::Cell();
-                            }});
-    }
-    if (outputs.labels) {
-        columns_.push_back({"labels", [&](const Row& row) { return labelsOf(inputs, row); }});
-    }
-    if (outputs.bounds) {
-        addBounds();
+    for (ExtraColumn& extra : extraColumns(options.extra.outputs(), inputs.labelNames)) {
+        columns_.push_back({extra.name, [cell = std::move(extra.cell)](const Row& row) { return cell(row.extra); }});
     }
     if (options.distance.clearance) {
         addClearance();
@@ -153,8 +108,7 @@ io::NamedCells detectFacts(const std::string& device, const std::string& driver)
 }
 
 std::string labelName(const DetectInputs& inputs, std::int32_t label) {
-    const auto found = inputs.labelNames.find(label);
-    return found == inputs.labelNames.end() ? std::to_string(label) : found->second;
+    return labelName(inputs.labelNames, label);
 }
 
 } // namespace voxtact::app

@@ -22,7 +22,6 @@ class DetectColumns {
         std::string name;
         std::function<io::Cell(const Row&)> cell;
     };
-    void addBounds();
     void addClearance();
 
     std::vector<Column> columns_;

@@ -41,33 +41,9 @@ void WindowRows::addClearance(const LabelClearance& clearance) {
 }
 
 void WindowRows::endBatch(const BatchAnswer& answer) {
-    for (const TouchedTriangle& touched : answer.triangles) {
-        Row& row = rows_[batch_[touched.pair]];
-        ++row.triangles;
-        output_.addTriangle(row, touched);
-    }
-    for (const Contact& contact : answer.contacts) {
-        Row& row = rows_[batch_[contact.pair]];
-        ++row.contacts;
-        if (output_.keepContact(row, contact)) {
-            row.depth = std::max(row.depth, contact.depth);
-        }
-    }
-    output_.countContacts(answer.contactsFound);
+    keepExtra(answer, batch_, rows_, output_);
     if (answer.counters) {
         output_.addCounters(*answer.counters);
-    }
-    // Each survivor is a contact: a list that was cut does not say how many a pair has, its count does.
-    if (answer.contactsFound > answer.contacts.size()) {
-        for (const std::uint32_t row : batch_) {
-            rows_[row].contacts = std::max(rows_[row].contacts, rows_[row].timed.answer.count);
-        }
-    }
-    for (std::size_t pair = 0; pair < answer.bounds.size(); ++pair) {
-        rows_[batch_[pair]].bounds = answer.bounds[pair];
-    }
-    for (const LabelCount& label : answer.labels) {
-        rows_[batch_[label.pair]].labels.push_back(label);
     }
     if (!batch_.empty() && !options_.timing) {
         deliver(std::size_t{batch_.back()} + 1);

@@ -5,7 +5,7 @@
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
-#include "lab/measure/random_poses.h"
+#include "lab/measure/poses.h"
 #include "voxtact/io.h"
 
 #include <CLI/CLI.hpp>

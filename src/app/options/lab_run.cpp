@@ -61,6 +61,29 @@ Loaders loaders() {
             [](const std::string& source) { return loadMesh(source, {}); }};
 }
 
+Result<VolumePart> loadVolumePart(const std::string& source, const TransferFunctionOptions& options) {
+    Result<std::vector<ControlPoint>> points = loadControlPoints(options);
+    VOXTACT_TRY(points);
+    Result<VolumeData> data = loadVolume(source);
+    VOXTACT_TRY(data);
+    const Result<ValueRange> range = checkVolume(data->view());
+    VOXTACT_TRY(range);
+    VolumePart part;
+    part.name = source;
+    part.domain = tableDomain(options, data->type, *range);
+    part.points = points->empty() ? defaultRamp(part.domain) : std::move(*points);
+    part.tableSize = options.tableSize;
+    part.threshold = options.threshold;
+    part.data = std::move(*data);
+    return part;
+}
+
+Result<MeshPart> loadMeshPart(const std::string& source, const MeshOptions& options) {
+    Result<MeshData> data = loadMesh(source, options);
+    VOXTACT_TRY(data);
+    return MeshPart{.name = source, .data = std::move(*data)};
+}
+
 void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help) {
     addNumber(
         parser, "--time-limit", [&seconds](double value) { seconds = value; }, help,

@@ -3,6 +3,7 @@
 
 #include "app/options/open_session.h"
 #include "app/options/output_paths.h"
+#include "app/options/shared_options.h"
 #include "app/output/progress.h"
 #include "lab/engines/scene.h"
 
@@ -14,6 +15,10 @@ namespace voxtact::app {
 [[nodiscard]] lab::Provenance provenanceOf(const CLI::App& parser);
 /// loadVolume() and loadMesh(), files as they are.
 [[nodiscard]] lab::Loaders loaders();
+
+/// A volume or mesh as the options say, in host memory.
+[[nodiscard]] Result<lab::VolumePart> loadVolumePart(const std::string& source, const TransferFunctionOptions& options);
+[[nodiscard]] Result<lab::MeshPart> loadMeshPart(const std::string& source, const MeshOptions& options);
 
 /// --time-limit, in seconds; `seconds` has the default.
 void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help);

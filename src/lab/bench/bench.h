@@ -12,65 +12,75 @@ namespace voxtact::lab {
 enum class BenchMode {
     Certified, ///< the certified answer beside the view and FCL
     Outputs,   ///< what each projection and each output costs beside the bare count
-    Latency,   ///< one pair, now: latency.h
-    Batches,   ///< what a batch costs by its size: batches.h
+    Latency,   ///< one pair, now: how long a loop that moves a mesh waits for its answer, tick by tick
+    Batches,   ///< what a batch costs by how many pairs are in it
 };
 
 struct BenchSettings {
     BenchMode mode = BenchMode::Certified;
-    std::uint32_t poses = 256;
+    std::uint32_t number = 256; ///< poses of each kind; ticks; pairs of the largest batch
     std::uint64_t seed = 1;
-    std::uint32_t repetitions = 7;
+    std::uint32_t repetitions = 7; ///< not of ticks
+    double timeLimit = 60;         ///< seconds of ticks and batches: fewer of them are taken where they do not fit
 };
+/// With the number and the repetitions of a mode where none were asked for.
+[[nodiscard]] BenchSettings defaultSettings(BenchMode mode);
+/// Ticks of a measurement, at most: all their poses are held at once.
+inline constexpr std::uint32_t kMostTicks = 10'000'000;
 
 /// The scene of a mode where none was asked for: its volume and how many voxels of it are opaque, and its meshes.
 [[nodiscard]] const char* defaultVolume(BenchMode mode);
 [[nodiscard]] std::vector<std::string> defaultMeshes(BenchMode mode);
 inline constexpr const char* kDefaultOpacity = "40:0,80:1";
 
-/// One engine on one set of poses of one mesh.
+/// One engine on one set of pairs of one mesh. Samples are in the order of the rounds.
 struct BenchRow {
     std::string mesh{};
     std::uint32_t triangles = 0;
-    std::string poses{}; ///< "large", "onset"
+    std::string poses{}; ///< "large", "onset"; empty of ticks and batches
     EngineFacts engine{};
-    std::uint64_t pairs = 0;
+    std::uint64_t pairs = 0;         ///< poses; of a batch
     std::uint64_t contacts = 0;      ///< certified
     std::uint64_t untouched = 0;     ///< certified too; the rest is possible
     std::uint64_t missed = 0;        ///< of the contacts
     std::uint64_t wrong = 0;         ///< hits where certainly nothing touches
-    std::vector<double> wallRate{};  ///< pairs a second, a sample each
+    std::uint64_t touching = 0;      ///< ticks whose answer is a hit
+    std::uint64_t rounding = 0;      ///< pairs of all samples that the device's rasteriser counts otherwise than cpu
+    std::vector<double> wall{};      ///< ms of a tick, from the pose to the answer; of a batch
+    std::vector<double> gpu{};       ///< the device's part of a batch; empty where there is none
+    std::vector<double> recording{}; ///< of a tick; empty where nothing is recorded
+    std::vector<double> wallRate{};  ///< pairs a second
     std::vector<double> cpuRate{};   ///< pairs a second of CPU time of the whole process
-    std::vector<double> wallRatio{}; ///< to the first engine's sample of the same round
+    std::vector<double> wallRatio{}; ///< to the sample, of the same round, of the engine that this is held against
     std::vector<double> cpuRatio{};
 };
 
-/// What was measured on which scene, whatever was measured.
-struct BenchScene {
+/// What was measured on which scene.
+struct BenchResult {
     Machine machine;
     std::string volume;
     double threshold = 0;
     std::array<std::uint32_t, 3> voxels{};
     std::vector<std::string> notes;
     std::string disagreement; ///< of engines that must agree; empty: there is none
-};
-
-struct BenchResult : BenchScene {
     std::vector<BenchRow> rows;
 };
 
-/// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.
-[[nodiscard]] std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const PairAnswer> answers,
-                                      BenchRow& row);
-
-/// The engines of a mode for this volume and mesh, which must be ready and outlive them. For certified the first is the
-/// host's yes or no on one thread, the second the host's count; for outputs the first is the host's count in the view,
-/// the second the host's in the projection conservative. `session` may be null: no engines of a device.
+/// The engines of a mode for this volume and mesh, which must be ready and outlive them. `session` may be null: no
+/// engines of a device.
+///   certified  the first is the host's yes or no on one thread, the second the host's count
+///   outputs    the first is the host's count in the view, the second the host's in the projection conservative
+///   latency    an empty submission, the host, and every method of the device, polled and waited for
+///   batches    the first is the host's certified yes or no, the second its count in the view
 [[nodiscard]] Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
                                                const device::Session* session);
 
 /// Engines side by side on each of the meshes, checked and timed, in the view. The volume and the meshes are made
 /// ready; `session` may be null, and must outlive the parts. `result` has the machine.
+///   certified, outputs  poses at large, and around the onset of contact; each engine is checked, then timed
+///   latency             the ticks of a moving mesh. Each answer is held against the host's after its clock has stopped
+///   batches             random poses, each batch a submission that is waited for or a call of the host; the answers of
+///                       every one are held against the host's
 [[nodiscard]] Result<void> bench(const BenchSettings& settings, const device::Session* session, VolumePart& volume,
                                  std::vector<MeshPart> meshes, const Steps& steps, BenchResult& result);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/base/try.h"
 #include "core/method/method_table.h"
-#include "lab/bench/latency.h"
+#include "detect/output_parts.h"
+#include "lab/bench/bench.h"
 
+#include <algorithm>
 #include <array>
 #include <thread>
 
@@ -10,165 +11,174 @@ namespace voxtact::lab {
 
 namespace {
 
-/// Adds an engine, or says why it could not be made.
-Result<void> add(MadeEngine engine, Engines& engines, std::size_t ratioTo = 0, bool sameCounts = false) {
-    VOXTACT_TRY(engine);
-    (*engine)->holdAgainst(ratioTo, sameCounts);
-    engines.push_back(std::move(*engine));
-    return {};
-}
-
-constexpr std::array kOneOutput{Outputs{.triangles = true}, Outputs{.bounds = true}, Outputs{.labels = true},
-                                Outputs{.contacts = true}};
-
-/// Projections of the host, and then outputs in two of them.
-Result<void> addHostOutputs(Engines& engines) {
-    constexpr std::array kOrder{Projection::View, Projection::Conservative, Projection::TwoView,
-                                Projection::DominantAxis};
-    for (const Projection projection : kOrder) {
-        VOXTACT_TRY(add(makeHostEngine({.projection = projection}), engines));
-    }
-    for (const std::size_t bare : {std::size_t{0}, std::size_t{1}}) {
-        for (const Outputs& outputs : kOneOutput) {
-            MadeEngine engine = makeHostEngine({.projection = kOrder.at(bare), .outputs = outputs});
-            VOXTACT_TRY(add(std::move(engine), engines, bare, true));
+/// Each output by itself.
+std::vector<Outputs> oneOutput() {
+    std::vector<Outputs> all;
+    for (const OutputPartRow& part : outputParts()) {
+        if (part.name != nullptr) {
+            all.emplace_back().*part.output = true;
         }
     }
-    return {};
+    return all;
 }
 
-/// Projections of a method of the device, and then the outputs in one of them.
-Result<void> addDeviceOutputs(const device::Session& session, CountingMethod method, Projection withOutputs,
-                              Engines& engines) {
-    DetectorDesc desc{.method = method, .filter = defaultFilter(method)};
-    const std::size_t view = engines.size();
-    std::size_t bare = view;
-    for (const Projection projection : projections()) {
-        if (!session.context.supports(method, projection)) {
-            continue;
-        }
-        bare = projection == withOutputs ? engines.size() : bare;
-        desc.projection = projection;
-        VOXTACT_TRY(add(makeBlockingEngine(session, desc), engines, view));
-    }
-    desc.projection = withOutputs;
-    for (const Outputs& outputs : kOneOutput) {
-        desc.outputs = outputs;
-        VOXTACT_TRY(add(makeBlockingEngine(session, desc), engines, bare, true));
-    }
-    return {};
+/// The certified yes or no, the certified count, and the count in the view.
+template <class Desc> std::array<Desc, 3> askedOf(const Desc& desc) {
+    std::array<Desc, 3> asked{desc, desc, desc};
+    asked[0].projection = asked[1].projection = Projection::Conservative;
+    asked[0].stopAtFirst = true;
+    asked[2].projection = Projection::View;
+    return asked;
 }
 
-Result<void> addCertified(const VolumePart& volume, const MeshPart& mesh, const device::Session* session,
-                          Engines& engines) {
-    constexpr Projection kCertified = Projection::Conservative;
-    for (const cpu::DetectorDesc& desc :
-         {cpu::DetectorDesc{.threads = 1, .stopAtFirst = true, .projection = kCertified},
-          cpu::DetectorDesc{.projection = kCertified}, cpu::DetectorDesc{.stopAtFirst = true, .projection = kCertified},
-          cpu::DetectorDesc{.projection = Projection::View}}) {
-        VOXTACT_TRY(add(makeHostEngine(desc), engines));
+bool can(const device::Session* session, CountingMethod method, Projection projection) {
+    return session != nullptr && session->context.supports(method, projection);
+}
+
+DetectorDesc methodOf(CountingMethod method) {
+    return {.method = method, .filter = defaultFilter(method)};
+}
+
+void addCertified(const VolumePart& volume, const MeshPart& mesh, const device::Session* session, EngineList& engines) {
+    auto host = askedOf(cpu::DetectorDesc{});
+    cpu::DetectorDesc alone = host[0];
+    alone.threads = 1;
+    for (const cpu::DetectorDesc& desc : {alone, host[1], host[0], host[2]}) {
+        engines.add(makeHostEngine(desc));
     }
-    const DetectorDesc all{.method = CountingMethod::Compute, .projection = kCertified, .filter = Filter::Exact};
-    DetectorDesc yesNo = all;
-    yesNo.stopAtFirst = true;
-    for (const DetectorDesc& desc : {yesNo, all, DetectorDesc{.method = CountingMethod::Query}}) {
-        if (session == nullptr || !session->context.supports(desc.method, desc.projection)) {
-            continue;
+    const auto computed = askedOf(methodOf(CountingMethod::Compute));
+    for (const DetectorDesc& desc : {computed[0], computed[1], methodOf(CountingMethod::Query)}) {
+        if (can(session, desc.method, desc.projection)) {
+            engines.add(makeBlockingEngine(*session, desc));
         }
-        VOXTACT_TRY(add(makeBlockingEngine(*session, desc), engines));
     }
     for (const FclScalar scalar : {FclScalar::Float, FclScalar::Double}) {
         if (volume.fcl != nullptr) {
-            engines.push_back(makeFclEngine(volume, mesh, scalar));
+            engines.add(makeFclEngine(volume, mesh, scalar));
         }
     }
-    return {};
 }
 
-Result<void> addOutputs(const device::Session* session, Engines& engines) {
-    VOXTACT_TRY(addHostOutputs(engines));
+/// Projections of the host, and then outputs in two of them.
+void addHostOutputs(EngineList& engines) {
+    constexpr std::array kOrder{Projection::View, Projection::Conservative, Projection::TwoView,
+                                Projection::DominantAxis};
+    for (const Projection projection : kOrder) {
+        engines.add(makeHostEngine({.projection = projection}));
+    }
+    for (const std::size_t bare : {std::size_t{0}, std::size_t{1}}) {
+        for (const Outputs& outputs : oneOutput()) {
+            engines.add(makeHostEngine({.projection = kOrder.at(bare), .outputs = outputs}), bare, true);
+        }
+    }
+}
+
+/// Projections of a method of the device, and then the outputs in one of them.
+void addDeviceOutputs(const device::Session& session, CountingMethod method, Projection withOutputs,
+                      EngineList& engines) {
+    DetectorDesc desc = methodOf(method);
+    const std::size_t view = engines.size();
+    std::size_t bare = view;
+    for (const Projection projection : projections()) {
+        if (can(&session, method, projection)) {
+            bare = projection == withOutputs ? engines.size() : bare;
+            desc.projection = projection;
+            engines.add(makeBlockingEngine(session, desc), view);
+        }
+    }
+    desc.projection = withOutputs;
+    for (const Outputs& outputs : oneOutput()) {
+        desc.outputs = outputs;
+        engines.add(makeBlockingEngine(session, desc), bare, true);
+    }
+}
+
+void addOutputs(const device::Session* session, EngineList& engines) {
+    addHostOutputs(engines);
     constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
         {CountingMethod::Query, Projection::View},
         {CountingMethod::Atomic, Projection::View},
         {CountingMethod::Compute, Projection::Conservative},
     };
     for (const auto& [method, withOutputs] : kOfDevice) {
-        if (session == nullptr || !session->context.supports(method, withOutputs)) {
-            continue;
+        if (can(session, method, withOutputs)) {
+            addDeviceOutputs(*session, method, withOutputs, engines);
         }
-        VOXTACT_TRY(addDeviceOutputs(*session, method, withOutputs, engines));
     }
-    return {};
 }
 
-/// A method of the device, polled and waited for.
-Result<void> addTicks(const device::Session& session, const DetectorDesc& desc, Engines& engines) {
+/// A method of the device, polled and waited for; nothing: an empty submission.
+void addTicks(const device::Session& session, const std::optional<DetectorDesc>& desc, EngineList& engines) {
     for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
-        VOXTACT_TRY(add(makeTickEngine(session, desc, awaiting), engines));
+        engines.add(makeTickEngine(session, desc, awaiting));
     }
-    return {};
 }
 
-/// The certified questions that need no output, and the count in the view.
-template <class Desc> std::array<Desc, 3> askedOf(const Desc& desc) {
-    std::array<Desc, 3> asked{desc, desc, desc};
-    asked[0].projection = Projection::Conservative;
-    asked[0].stopAtFirst = true;
-    asked[1].projection = Projection::Conservative;
-    asked[2].projection = Projection::View;
-    return asked;
-}
-
-Result<void> addDeviceTicks(const device::Session& session, Engines& engines) {
-    for (const CountingMethod method : availableMethods(session, [](CountingMethod, const std::string&) {})) {
-        if (rowOf(method).host) {
-            continue;
-        }
-        for (const DetectorDesc& desc : askedOf(DetectorDesc{.method = method, .filter = defaultFilter(method)})) {
-            if (!session.context.supports(method, desc.projection)) {
+void addDeviceTicks(const device::Session& session, EngineList& engines) {
+    for (const CountingMethod method : countingMethods()) {
+        for (DetectorDesc desc : askedOf(methodOf(method))) {
+            if (rowOf(method).host || !can(&session, method, desc.projection)) {
                 continue;
             }
-            VOXTACT_TRY(addTicks(session, desc, engines));
+            addTicks(session, desc, engines);
             if (rowOf(method).coverage == Coverage::Computed) {
-                DetectorDesc once = desc;
-                once.devicePoses = true;
-                VOXTACT_TRY(addTicks(session, once, engines));
+                desc.devicePoses = true;
+                addTicks(session, desc, engines);
             }
         }
     }
-    return {};
+}
+
+void addLatency(const device::Session* session, EngineList& engines) {
+    if (session != nullptr) {
+        addTicks(*session, std::nullopt, engines);
+    }
+    const std::uint32_t threads = std::max(1U, std::thread::hardware_concurrency());
+    for (cpu::DetectorDesc desc : askedOf(cpu::DetectorDesc{.threads = 1})) {
+        engines.add(makeHostEngine(desc));
+        if (threads > 1) {
+            desc.threads = threads;
+            engines.add(makeHostEngine(desc));
+        }
+    }
+    if (session != nullptr) {
+        addDeviceTicks(*session, engines);
+    }
+}
+
+void addBatches(const device::Session* session, EngineList& engines) {
+    const auto host = askedOf(cpu::DetectorDesc{});
+    engines.add(makeHostEngine(host[0]));
+    engines.add(makeHostEngine(host[2]));
+    const auto computed = askedOf(methodOf(CountingMethod::Compute));
+    for (const DetectorDesc& desc :
+         {computed[0], computed[2], methodOf(CountingMethod::Query), methodOf(CountingMethod::Atomic)}) {
+        if (can(session, desc.method, desc.projection)) {
+            engines.add(makeDeviceEngine(*session, desc));
+        }
+    }
 }
 
 } // namespace
 
-Result<Engines> makeLatencyEngines(const device::Session* session) {
-    Engines engines;
-    if (session != nullptr) {
-        for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
-            VOXTACT_TRY(add(makeEmptyEngine(*session, awaiting), engines));
-        }
-    }
-    const std::uint32_t threads = std::max(1U, std::thread::hardware_concurrency());
-    for (const cpu::DetectorDesc& desc : askedOf(cpu::DetectorDesc{.threads = 1})) {
-        VOXTACT_TRY(add(makeHostEngine(desc), engines));
-        if (threads > 1) {
-            cpu::DetectorDesc all = desc;
-            all.threads = threads;
-            VOXTACT_TRY(add(makeHostEngine(all), engines));
-        }
-    }
-    if (session != nullptr) {
-        VOXTACT_TRY(addDeviceTicks(*session, engines));
-    }
-    return engines;
-}
-
 Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
                                  const device::Session* session) {
-    Engines engines;
-    const Result<void> added =
-        mode == BenchMode::Outputs ? addOutputs(session, engines) : addCertified(volume, mesh, session, engines);
-    return added.ok() ? Result<Engines>(std::move(engines)) : added.error();
+    EngineList engines;
+    switch (mode) {
+    case BenchMode::Certified:
+        addCertified(volume, mesh, session, engines);
+        break;
+    case BenchMode::Outputs:
+        addOutputs(session, engines);
+        break;
+    case BenchMode::Latency:
+        addLatency(session, engines);
+        break;
+    case BenchMode::Batches:
+        addBatches(session, engines);
+        break;
+    }
+    return engines.take();
 }
 
 } // namespace voxtact::lab

@@ -1,59 +1,89 @@
 // SPDX-License-Identifier: MIT
 #include "lab/bench/bench.h"
-
 #include "lab/measure/columns.h"
 
+#include <algorithm>
 #include <iomanip>
-#include <ostream>
 #include <sstream>
 
 namespace voxtact::lab {
 
 namespace {
 
+/// Ticks that a quantile needs, so that one at least is beyond it.
+constexpr std::size_t kForP99 = 100;
+constexpr std::size_t kForP999 = 1000;
+
 double percent(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 0 : rounded(100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
-Row rowOf(const BenchRow& row) {
-    Row out;
-    out.add("mesh", row.mesh)
-        .add("triangles", row.triangles)
-        .add("poses", row.poses)
-        .add("engine", row.engine.name)
-        .add("projection", row.engine.projection)
-        .add("question", row.engine.question)
-        .add("threads", row.engine.threads > 0 ? std::optional(row.engine.threads) : std::nullopt)
-        .add("pairs", row.pairs)
+/// µs of ms.
+std::optional<double> quantile(const std::vector<double>& samples, double part, std::size_t needs = 1) {
+    return samples.size() < needs ? std::nullopt : std::optional(1000 * quantileOf(samples, part));
+}
+
+void addRates(const BenchRow& row, Row& out) {
+    out.add("pairs", row.pairs)
         .add("contacts", row.contacts)
         .add("missed_percent", percent(row.missed, row.contacts))
         .add("false_percent", percent(row.wrong, row.untouched))
-        .add("samples", row.wallRate.size());
-    const std::pair<const char*, const std::vector<double>*> samples[] = {{"pairs_per_s", &row.wallRate},
-                                                                          {"pairs_per_cpu_s", &row.cpuRate},
-                                                                          {"wall_ratio", &row.wallRatio},
-                                                                          {"cpu_ratio", &row.cpuRatio}};
-    for (const auto& [name, values] : samples) {
-        out.add(name, *values, {"", "_min", "_max"});
+        .add("samples", row.wallRate.size())
+        .add("pairs_per_s", row.wallRate, {"", "_min", "_max"})
+        .add("pairs_per_cpu_s", row.cpuRate, {"", "_min", "_max"})
+        .add("wall_ratio", row.wallRatio, {"", "_min", "_max"})
+        .add("cpu_ratio", row.cpuRatio, {"", "_min", "_max"});
+}
+
+void addTicks(const BenchRow& row, Row& out) {
+    out.addSome("recorded", row.engine.recorded)
+        .addSome("awaited", row.engine.awaited)
+        .add("ticks", row.wall.size())
+        .add("touching", row.touching)
+        .add("rounding", row.rounding)
+        .add("p50_us", quantile(row.wall, 0.5))
+        .add("p99_us", quantile(row.wall, 0.99, kForP99))
+        .add("p99_9_us", quantile(row.wall, 0.999, kForP999))
+        .add("max_us", quantile(row.wall, 1))
+        .add("record_p50_us", quantile(row.recording, 0.5));
+}
+
+void addBatches(const BenchRow& row, Row& out) {
+    out.add("batch", row.pairs)
+        .add("samples", row.wall.size())
+        .add("rounding", row.rounding)
+        .add("wall_ms", row.wall, {"_median", "_min", "_max"})
+        .add("gpu_ms", row.gpu, {"_median"})
+        .add("pairs_per_s", 1000 * static_cast<double>(row.pairs) / std::max(medianOf(row.wall), 1e-6));
+}
+
+Row rowOf(BenchMode mode, const BenchRow& row) {
+    Row out;
+    out.add("mesh", row.mesh).add("triangles", row.triangles);
+    if (!row.poses.empty()) {
+        out.add("poses", row.poses);
     }
+    out.add("engine", row.engine.name)
+        .addSome("projection", row.engine.projection)
+        .addSome("question", row.engine.question)
+        .add("threads", row.engine.threads > 0 ? std::optional(row.engine.threads) : std::nullopt);
+    (mode == BenchMode::Latency ? addTicks : mode == BenchMode::Batches ? addBatches : addRates)(row, out);
     return out;
 }
 
-/// What is left out of a table for people, to fit on a wide terminal.
-constexpr std::array kNotInText{"triangles",           "pairs",      "samples",        "pairs_per_cpu_s_min",
-                                "pairs_per_cpu_s_max", "wall_ratio", "wall_ratio_min", "wall_ratio_max"};
-
-io::Table benchTable(const BenchResult& result, io::Format format) {
-    std::vector<io::NamedCells> rows;
-    for (const BenchRow& row : result.rows) {
-        rows.push_back(rowOf(row).cells());
-        if (format == io::Format::Text) {
-            std::erase_if(rows.back(), [](const auto& cell) {
-                return std::ranges::find(kNotInText, cell.first) != kNotInText.end();
-            });
-        }
+/// What is left out of the table for people.
+std::vector<const char*> notInText(BenchMode mode) {
+    switch (mode) {
+    case BenchMode::Batches:
+        return {};
+    case BenchMode::Latency:
+        return {"triangles", "touching", "rounding"};
+    case BenchMode::Certified:
+    case BenchMode::Outputs:
+        break;
     }
-    return tableOf(std::move(rows));
+    return {"triangles",           "pairs",      "samples",        "pairs_per_cpu_s_min",
+            "pairs_per_cpu_s_max", "wall_ratio", "wall_ratio_min", "wall_ratio_max"};
 }
 
 std::string shortText(double value) {
@@ -63,7 +93,7 @@ std::string shortText(double value) {
 }
 
 /// How the first engine of each scene, yes or no on one thread, does beside FCL.
-std::vector<std::string> sentences(const BenchResult& result) {
+std::vector<std::string> besideFcl(const BenchResult& result) {
     std::vector<std::string> out;
     for (const BenchRow& row : result.rows) {
         if (row.engine.projection != "octree") {
@@ -79,33 +109,103 @@ std::vector<std::string> sentences(const BenchResult& result) {
     return out;
 }
 
-Json benchJson(const BenchSettings& settings, const BenchResult& result) {
-    Json json = headJson(result.machine);
-    json["scene"] = {{"volume", result.volume},
-                     {"voxels", result.voxels},
-                     {"threshold", result.threshold},
-                     {"poses", settings.poses},
-                     {"seed", settings.seed}};
-    json["summary"] = sentences(result);
-    json["repetitions"] = settings.repetitions;
-    json["rows"] = io::rowsJson(benchTable(result, io::Format::Json));
-    json["notes"] = allNotes({result.machine, {}, result.notes});
-    return json;
+/// "compute, polled: p50 80.1 us, p99 120 us", "cpu on 2 threads: ..."
+std::string ticksText(const BenchRow& row) {
+    const EngineFacts& engine = row.engine;
+    const std::optional<double> p99 = quantile(row.wall, 0.99, kForP99);
+    return engine.name +
+           (engine.threads > 0
+                ? " on " + std::to_string(engine.threads) + (engine.threads == 1 ? " thread" : " threads")
+                : ", " + engine.awaited) +
+           ": p50 " + shortNumber(*quantile(row.wall, 0.5)) + (p99 ? " us, p99 " + shortNumber(*p99) + " us" : " us");
+}
+
+/// Whether it answers sooner: by p99, or by p50 where one of the two has too few ticks for that.
+bool isSooner(const BenchRow& row, const BenchRow& than) {
+    const bool both = std::min(row.wall.size(), than.wall.size()) >= kForP99;
+    const auto key = [both](const BenchRow& of) {
+        return std::pair(both ? quantile(of.wall, 0.99) : std::nullopt, quantile(of.wall, 0.5));
+    };
+    return key(row) < key(than);
+}
+
+/// The soonest row of a question among those of the host or of the device; null where there is none.
+const BenchRow* soonest(const BenchResult& result, const BenchRow& asked, bool host) {
+    const BenchRow* best = nullptr;
+    for (const BenchRow& row : result.rows) {
+        const bool same = row.mesh == asked.mesh && row.engine.projection == asked.engine.projection &&
+                          row.engine.question == asked.engine.question && (row.engine.threads > 0) == host;
+        if (same && !row.wall.empty() && (best == nullptr || isSooner(row, *best))) {
+            best = &row;
+        }
+    }
+    return best;
+}
+
+/// What a loop that needs its answer now would take: of each question the soonest of the host and of the device.
+std::vector<std::string> soonestTicks(const BenchResult& result) {
+    std::vector<std::string> out;
+    std::string last;
+    for (const BenchRow& row : result.rows) {
+        const std::string question = row.mesh + ", " + row.engine.projection + " " + row.engine.question;
+        if (row.engine.threads == 0 || question == last) {
+            continue;
+        }
+        last = question;
+        const BenchRow* const host = soonest(result, row, true);
+        const BenchRow* const device = soonest(result, row, false);
+        if (host != nullptr) {
+            out.push_back(question + ": " + ticksText(*host) + (device == nullptr ? "" : "; " + ticksText(*device)));
+        }
+    }
+    return out;
+}
+
+std::string aboutOf(BenchMode mode) {
+    switch (mode) {
+    case BenchMode::Certified:
+        return ", ratios to the first engine of each scene, round by round";
+    case BenchMode::Outputs:
+        return ", ratios of projections to the view by the same method, of outputs to the bare count, round by round";
+    case BenchMode::Latency:
+        return ", one pair a tick";
+    case BenchMode::Batches:
+        break;
+    }
+    return ", a batch is a submission that is waited for, or a call of the host";
 }
 
 } // namespace
 
 void writeBench(std::ostream& out, io::Format format, const BenchSettings& settings, const BenchResult& result) {
-    if (format == io::Format::Json) {
-        writeJson(out, benchJson(settings, result));
-        return;
+    const BenchMode mode = settings.mode;
+    const bool ticks = mode == BenchMode::Latency;
+    const auto row = [mode](const BenchRow& of) { return rowOf(mode, of); };
+    Output output{.machine = result.machine, .members = {}, .about = "volume " + result.volume + aboutOf(mode)};
+    output.notes = result.notes;
+    output.sentences = ticks ? soonestTicks(result) : besideFcl(result);
+    const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
+    if (ticks && std::ranges::any_of(result.rows, isCut)) {
+        output.notes.push_back("rows of fewer than " + std::to_string(settings.number) +
+                               " ticks are of the first ones: the engine's share of --time-limit was used up");
     }
-    io::writeTable(out, format, benchTable(result, format));
-    out << "# volume " << result.volume
-        << (settings.mode == BenchMode::Outputs ? ", ratios of projections to the view by the same method, of outputs "
-                                                  "to the bare count, round by round\n"
-                                                : ", ratios to the first engine of each scene, round by round\n");
-    writeFindings(out, {result.machine, sentences(result), result.notes});
+    const std::vector<io::NamedCells> rows = cellsOf(result.rows, row);
+    output.table = format == io::Format::Text ? tableWithout(notInText(mode), rows) : tableOf(rows);
+    output.members["scene"] = {{"volume", result.volume},
+                               {"voxels", result.voxels},
+                               {"threshold", result.threshold},
+                               {ticks ? "ticks" : "poses", settings.number},
+                               {"seed", settings.seed}};
+    if (mode != BenchMode::Batches) {
+        output.members["summary"] = output.sentences;
+    }
+    if (!ticks) {
+        output.members["repetitions"] = settings.repetitions;
+    }
+    output.members["rows"] = mode == BenchMode::Batches
+                                 ? arrayOf(result.rows, [&](const BenchRow& of) { return row(of).json(); })
+                                 : io::rowsJson(output.table);
+    writeOutput(out, format, output);
 }
 
 } // namespace voxtact::lab

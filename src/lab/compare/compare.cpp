@@ -5,7 +5,6 @@
 #include "lab/measure/numbers.h"
 
 #include <algorithm>
-#include <map>
 
 namespace voxtact::lab {
 
@@ -81,30 +80,26 @@ const Verdict* CompareResult::firstFailure() const {
 
 Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
                                   CompareResult& result) {
-    Engines engines;
-    std::map<CountingMethod, std::string> reasons;
-    static_cast<void>(availableMethods(
-        session, [&](CountingMethod method, const std::string& reason) { reasons.emplace(method, reason); }));
+    EngineList engines;
     for (const CountingMethod method : countingMethods()) {
         if (!settings.methods.empty() && std::ranges::find(settings.methods, method) == settings.methods.end()) {
             continue;
         }
-        const bool there = !reasons.contains(method);
-        result.methods.push_back({toString(method), there, reasons[method], toString(defaultFilter(method)),
+        const std::string why = whyNot(session, method);
+        result.methods.push_back({toString(method), why.empty(), why, toString(defaultFilter(method)),
                                   exactness(method) == Exactness::Exact});
-        if (!there) {
-            result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + reasons[method]);
-            continue;
+        if (why.empty()) {
+            engines.add(makeMethodEngine(session, method));
+        } else {
+            result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + why);
         }
-        MadeEngine engine = makeMethodEngine(session, method);
-        VOXTACT_TRY(engine);
-        engines.push_back(std::move(*engine));
     }
-    if (engines.empty()) {
+    Result<Engines> made = engines.take();
+    if (made.ok() && made->empty()) {
         return Error{ErrorCode::Unsupported, 0,
                      "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
     }
-    return engines;
+    return made;
 }
 
 Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work) {

@@ -14,82 +14,68 @@ namespace voxtact::lab {
 
 namespace {
 
-/// What checks one pose after the other.
-class FragmentChecker {
-  public:
-    FragmentChecker(FragmentTrace trace, const Scene& scene, bool eightBit) : trace_(std::move(trace)), scene_(scene) {
-        tolerance_.value = eightBit ? oracle::kEightBitFilterError : 0;
+using Fragments = std::vector<oracle::OracleFragment>;
+
+/// Why each of `apart` is on one side only.
+Result<std::vector<DifferingFragment>> explain(const oracle::OraclePair& pair, const Fragments& apart,
+                                               const Fragments& device, std::uint32_t pose, bool eightBit) {
+    std::vector<DifferingFragment> differing;
+    if (apart.empty()) {
+        return differing;
     }
-
-    Result<FragmentCheck> check(std::uint32_t index);
-    [[nodiscard]] double oracleMilliseconds() const { return oracleMilliseconds_; }
-
-  private:
-    Result<void> explain(const oracle::OraclePair& pair, const std::vector<oracle::OracleFragment>& fragments,
-                         const std::vector<oracle::OracleFragment>& device, FragmentCheck& check) const;
-
-    FragmentTrace trace_;
-    const Scene& scene_;
-    oracle::Tolerance tolerance_;
-    double oracleMilliseconds_ = 0;
-};
-
-Result<void> FragmentChecker::explain(const oracle::OraclePair& pair,
-                                      const std::vector<oracle::OracleFragment>& fragments,
-                                      const std::vector<oracle::OracleFragment>& device, FragmentCheck& check) const {
-    if (fragments.empty()) {
-        return {};
-    }
-    const Result<std::vector<oracle::Evidence>> evidence = oracle::oracleEvidence(pair, fragments, tolerance_);
+    oracle::Tolerance tolerance;
+    tolerance.value = eightBit ? oracle::kEightBitFilterError : 0;
+    const Result<std::vector<oracle::Evidence>> evidence = oracle::oracleEvidence(pair, apart, tolerance);
     VOXTACT_TRY(evidence);
-    for (std::size_t i = 0; i < fragments.size(); ++i) {
-        const oracle::OracleFragment& fragment = fragments[i];
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+        const oracle::OracleFragment& fragment = apart[i];
         const oracle::Evidence& known = (*evidence)[i];
         const auto doubt = static_cast<std::size_t>(known.doubt);
-        check.differing.push_back({.pose = check.pose,
-                                   .triangle = fragment.triangle,
-                                   .x = fragment.x,
-                                   .y = fragment.y,
-                                   .onDevice = std::binary_search(device.begin(), device.end(), fragment),
-                                   .reason = kReasons.at(doubt == 0 ? 3 : doubt - 1),
-                                   .edgeDistance = known.edgeDistance,
-                                   .domainDistance = known.domainDistance,
-                                   .opacity = known.opacity,
-                                   .opacityLow = known.opacityLow,
-                                   .opacityHigh = known.opacityHigh});
+        differing.push_back({.pose = pose,
+                             .triangle = fragment.triangle,
+                             .x = fragment.x,
+                             .y = fragment.y,
+                             .onDevice = std::binary_search(device.begin(), device.end(), fragment),
+                             .reason = kReasons.at(doubt == 0 ? 3 : doubt - 1),
+                             .edgeDistance = known.edgeDistance,
+                             .domainDistance = known.domainDistance,
+                             .opacity = known.opacity,
+                             .opacityLow = known.opacityLow,
+                             .opacityHigh = known.opacityHigh});
     }
-    return {};
+    return differing;
 }
 
-Result<FragmentCheck> FragmentChecker::check(std::uint32_t index) {
-    const Mat4& pose = scene_.poses[index];
-    const VolumePart& volume = *scene_.volume;
-    const BatchItem item = Work(scene_).at({&pose, 1}).onDevice();
+/// One pose; adds the oracle's time.
+Result<FragmentCheck> check(FragmentTrace& trace, const Scene& scene, std::uint32_t index, bool eightBit,
+                            double& oracleMilliseconds) {
+    const Mat4& pose = scene.poses[index];
+    const VolumePart& volume = *scene.volume;
+    const BatchItem item = Work(scene).at({&pose, 1}).onDevice();
     const Result<std::vector<shader::TracedFragment>> traced =
-        trace_.survivors({{&item, 1}, scene_.view, volume.threshold});
+        trace.survivors({{&item, 1}, scene.view, volume.threshold});
     VOXTACT_TRY(traced);
     const oracle::OraclePair pair{
-        scene_.mesh->data.view(), volume.data.view(), volume.transferFunction(), scene_.view, pose, volume.threshold};
+        scene.mesh->data.view(), volume.data.view(), volume.transferFunction(), scene.view, pose, volume.threshold};
     const Stopwatch watch;
-    const Result<std::vector<oracle::OracleFragment>> oracle = oracle::oracleSurvivors(pair);
-    oracleMilliseconds_ += watch.milliseconds();
+    const Result<Fragments> oracle = oracle::oracleSurvivors(pair);
+    oracleMilliseconds += watch.milliseconds();
     VOXTACT_TRY(oracle);
-    std::vector<oracle::OracleFragment> device;
-    device.reserve(traced->size());
+    Fragments device;
     for (const shader::TracedFragment& fragment : *traced) {
         device.push_back({fragment.triangle, fragment.x, fragment.y});
     }
     std::sort(device.begin(), device.end());
-    std::vector<oracle::OracleFragment> apart;
+    Fragments apart;
     std::set_symmetric_difference(device.begin(), device.end(), oracle->begin(), oracle->end(),
                                   std::back_inserter(apart));
-    FragmentCheck check{.pose = scene_.poseNumbers[index],
-                        .onDevice = device.size(),
-                        .byOracle = oracle->size(),
-                        .counted = std::nullopt,
-                        .differing = {}};
-    VOXTACT_TRY(explain(pair, apart, device, check));
-    return check;
+    Result<std::vector<DifferingFragment>> differing = explain(pair, apart, device, scene.poseNumbers[index], eightBit);
+    VOXTACT_TRY(differing);
+    return FragmentCheck{.pose = scene.poseNumbers[index],
+                         .onDevice = device.size(),
+                         .byOracle = oracle->size(),
+                         .counted = std::nullopt,
+                         .differing = std::move(*differing)};
 }
 
 void judgeOracle(const std::vector<std::uint32_t>& sample, CompareResult& result) {
@@ -126,19 +112,19 @@ Result<void> checkFragments(const device::Session& session, std::uint32_t poses,
         result.verdicts.push_back(notChecked(kFragmentRule, trace.error().text));
         return {};
     }
-    FragmentChecker checker(std::move(*trace), scene, result.machine.eightBitFilter);
     const std::vector<NamedCounts> raster = rasterGroup(result.counts);
     const std::vector<std::uint32_t> sample = spreadEvenly(poses, static_cast<std::uint32_t>(scene.poses.size()));
+    double milliseconds = 0;
     for (const std::uint32_t index : sample) {
-        Result<FragmentCheck> check = checker.check(index);
-        VOXTACT_TRY(check);
+        Result<FragmentCheck> checked = check(*trace, scene, index, result.machine.eightBitFilter, milliseconds);
+        VOXTACT_TRY(checked);
         if (!raster.empty()) {
-            check->counted = raster.front().counts[index];
+            checked->counted = raster.front().counts[index];
         }
-        result.fragmentChecks.push_back(std::move(*check));
+        result.fragmentChecks.push_back(std::move(*checked));
         step();
     }
-    result.oracleMilliseconds = checker.oracleMilliseconds() / static_cast<double>(sample.size());
+    result.oracleMilliseconds = milliseconds / static_cast<double>(sample.size());
     judgeOracle(sample, result);
     return {};
 }

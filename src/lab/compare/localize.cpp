@@ -2,6 +2,7 @@
 #include "lab/compare/localize.h"
 
 #include "core/base/try.h"
+#include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"
 #include "oracle/oracle.h"
 
@@ -67,14 +68,12 @@ void addTo(std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>
 }
 
 /// One way on one pose. What it found is kept once.
-Result<void> findOne(Engine& engine, const Work& work, bool keep, LocalizeWay& way) {
+Result<void> findOne(Engine& engine, const Work& work, bool keepsFound, LocalizeWay& way) {
     Result<Pass> pass = engine.run(work, {});
     VOXTACT_TRY(pass);
     way.wall.push_back(pass->wallMilliseconds);
-    if (pass->gpuMilliseconds) {
-        way.gpu.push_back(*pass->gpuMilliseconds);
-    }
-    if (keep) {
+    keep(pass->gpuMilliseconds, way.gpu);
+    if (keepsFound) {
         addTo(way.queries, pass->queries);
         addTo(way.boxes, pass->boxes);
         way.triangles += pass->triangles.size();

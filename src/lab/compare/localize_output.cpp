@@ -17,28 +17,21 @@ double percentMissed(const LocalizeWay& way, const LocalizeResult& result) {
 
 /// JSON has the cells too, with all their names.
 io::Table waysTable(const LocalizeResult& result) {
-    const auto cellsOf = [&](const LocalizeWay& way) {
-        io::NamedCells cells = Row()
-                                   .add("way", way.name)
-                                   .add("poses", way.found.size())
-                                   .add("triangles", way.triangles)
-                                   .add("missed", way.missed)
-                                   .add("missed_percent", percentMissed(way, result))
-                                   .add("false", way.wrong)
-                                   .add("queries", way.queries)
-                                   .add("boxes", way.boxes)
-                                   .add("samples", way.wall.size())
-                                   .add("wall_ms", way.wall, {"_median", "_p10", "_p90"})
-                                   .add("gpu_ms", way.gpu, {"_median"})
-                                   .cells();
-        for (std::size_t i = 1; !way.unchecked.empty() && i < cells.size(); ++i) {
-            cells[i].second = {};
-        }
-        return cells;
-    };
-    std::vector<io::NamedCells> rows;
-    std::ranges::transform(result.ways, std::back_inserter(rows), cellsOf);
-    return tableOf(std::move(rows));
+    return tableOf(cellsOf(result.ways, [&](const LocalizeWay& way) {
+        const auto ifRun = [&way](auto value) { return way.unchecked.empty() ? std::optional(value) : std::nullopt; };
+        return Row()
+            .add("way", way.name)
+            .add("poses", ifRun(way.found.size()))
+            .add("triangles", ifRun(way.triangles))
+            .add("missed", ifRun(way.missed))
+            .add("missed_percent", ifRun(percentMissed(way, result)))
+            .add("false", ifRun(way.wrong))
+            .add("queries", way.queries)
+            .add("boxes", way.boxes)
+            .add("samples", ifRun(way.wall.size()))
+            .add("wall_ms", way.wall, {"_median", "_p10", "_p90"})
+            .add("gpu_ms", way.gpu, {"_median"});
+    }));
 }
 
 std::vector<std::string> sentences(const LocalizeResult& result) {
@@ -60,32 +53,27 @@ std::vector<std::string> sentences(const LocalizeResult& result) {
     return out;
 }
 
-Json localizeJson(const Scene& scene, const LocalizeResult& result) {
-    Json json = headJson(result.machine);
+} // namespace
+
+void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result) {
+    Output output{.machine = result.machine,
+                  .members = {},
+                  .table = waysTable(result),
+                  .sentences = sentences(result),
+                  .notes = result.notes};
+    Json& json = output.members;
     json["scene"] = sceneJson(scene);
-    json["summary"] = sentences(result);
+    json["summary"] = output.sentences;
     json["agrees"] = !result.failedPose.has_value();
     json["poses"] = result.poseNumbers;
-    json["ways"] = io::rowsJson(waysTable(result));
+    json["ways"] = io::rowsJson(output.table);
     json["not_certified"] = arrayOf(result.wrong, [](const WrongTriangle& wrong) {
         return Json{{"pose", wrong.pose},
                     {"triangle", wrong.triangle},
                     {"fragments", wrong.fragments},
                     {"certified", wrong.certified}};
     });
-    json["notes"] = allNotes({result.machine, {}, result.notes});
-    return json;
-}
-
-} // namespace
-
-void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result) {
-    if (format == io::Format::Json) {
-        writeJson(out, localizeJson(scene, result));
-        return;
-    }
-    io::writeTable(out, format, waysTable(result));
-    writeFindings(out, {result.machine, sentences(result), result.notes});
+    writeOutput(out, format, output);
 }
 
 } // namespace voxtact::lab

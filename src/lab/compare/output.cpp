@@ -95,7 +95,7 @@ Row rowOf(const Series& series) {
 }
 
 io::Table seriesTable(const std::vector<Series>& series) {
-    return tableOf(series, rowOf, rowOf({}).cells());
+    return tableOf(cellsOf(series, rowOf), rowOf({}).cells());
 }
 
 Json seriesJson(const std::vector<Series>& series, const Machine& machine) {
@@ -117,10 +117,15 @@ Json sceneJson(const Scene& scene) {
             {"threshold", scene.volume->threshold}};
 }
 
-Json compareJson(const Scene& scene, const CompareResult& result) {
-    Json json = headJson(result.machine);
+Output compareOutput(const Scene& scene, const CompareResult& result) {
+    Output output{.machine = result.machine,
+                  .members = {},
+                  .table = seriesTable(result.series),
+                  .sentences = summarize(result),
+                  .notes = result.notes};
+    Json& json = output.members;
     json["scene"] = sceneJson(scene);
-    json["summary"] = summarize(result);
+    json["summary"] = output.sentences;
     json["agrees"] = result.firstFailure() == nullptr;
     json["methods"] = arrayOf(result.methods, methodJson);
     json["agreement"] = arrayOf(result.verdicts, verdictJson);
@@ -131,17 +136,7 @@ Json compareJson(const Scene& scene, const CompareResult& result) {
         json["counts"][counts.method] = counts.counts;
     }
     json["series"] = seriesJson(result.series, result.machine);
-    json["notes"] = allNotes({result.machine, {}, result.notes});
-    return json;
-}
-
-void writeCompare(std::ostream& out, io::Format format, const Scene& scene, const CompareResult& result) {
-    if (format == io::Format::Json) {
-        writeJson(out, compareJson(scene, result));
-        return;
-    }
-    io::writeTable(out, format, seriesTable(result.series));
-    writeFindings(out, {result.machine, summarize(result), result.notes});
+    return output;
 }
 
 } // namespace voxtact::lab

@@ -14,9 +14,7 @@ namespace voxtact::lab {
 
 /// What was found, in plain English, a sentence each: the agreement, then the speed.
 [[nodiscard]] std::vector<std::string> summarize(const CompareResult& result);
-/// The whole result as one object.
-[[nodiscard]] Json compareJson(const Scene& scene, const CompareResult& result);
-/// One row a series for CSV and text.
-void writeCompare(std::ostream& out, io::Format format, const Scene& scene, const CompareResult& result);
+/// One row a series for CSV and text. Has references to the result.
+[[nodiscard]] Output compareOutput(const Scene& scene, const CompareResult& result);
 
 } // namespace voxtact::lab

@@ -2,6 +2,7 @@
 #include "lab/engines/engine.h"
 
 #include "core/method/method_table.h"
+#include "detect/output_parts.h"
 
 #include <algorithm>
 #include <iterator>
@@ -24,13 +25,23 @@ void Engine::holdAgainst(std::size_t engine, bool sameCounts) {
     facts_.sameCounts = sameCounts;
 }
 
+void EngineList::add(MadeEngine engine, std::size_t ratioTo, bool sameCounts) {
+    if (!engine.ok()) {
+        error_ = error_.value_or(engine.error());
+        return;
+    }
+    (*engine)->holdAgainst(ratioTo, sameCounts);
+    engines_.push_back(std::move(*engine));
+}
+
+Result<Engines> EngineList::take() {
+    return error_ ? Result<Engines>(*error_) : Result<Engines>(std::move(engines_));
+}
+
 std::string questionOf(bool yesNo, const Outputs& outputs) {
-    return yesNo               ? "yes/no"
-           : outputs.triangles ? "count, triangles"
-           : outputs.bounds    ? "count, bounds"
-           : outputs.labels    ? "count, labels"
-           : outputs.contacts  ? "count, contacts"
-                               : "count";
+    const auto asked = [&](const OutputPartRow& part) { return outputs.*part.output; };
+    const auto found = std::ranges::find_if(outputParts(), asked);
+    return yesNo ? "yes/no" : found == outputParts().end() ? "count" : std::string("count, ") + found->name;
 }
 
 EngineFacts factsOf(const DetectorDesc& desc) {
@@ -46,21 +57,13 @@ MadeEngine makeMethodEngine(const device::Session& session, CountingMethod metho
                               : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});
 }
 
-std::vector<CountingMethod>
-availableMethods(const device::Session& session,
-                 const std::function<void(CountingMethod, const std::string& reason)>& why) {
-    const auto supports = session.context.methods();
-    std::vector<CountingMethod> methods;
-    for (const CountingMethod method : countingMethods()) {
-        const auto support = std::ranges::find(supports, method, &MethodSupport::method);
-        const bool known = support != supports.end();
-        if (rowOf(method).host || (known && support->available)) {
-            methods.push_back(method);
-        } else {
-            why(method, known ? support->reason : "this version has it not");
-        }
+std::string whyNot(const device::Session& session, CountingMethod method) {
+    if (rowOf(method).host) {
+        return {};
     }
-    return methods;
+    const auto all = session.context.methods();
+    const auto support = std::ranges::find(all, method, &MethodSupport::method);
+    return support == all.end() ? "this version has it not" : support->available ? std::string() : support->reason;
 }
 
 } // namespace voxtact::lab

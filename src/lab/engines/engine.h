@@ -3,8 +3,6 @@
 
 #include "lab/engines/scene.h"
 
-#include <functional>
-
 namespace voxtact::lab {
 
 struct EngineFacts {
@@ -79,6 +77,34 @@ class Engine {
 using Engines = std::vector<std::unique_ptr<Engine>>;
 using MadeEngine = Result<std::unique_ptr<Engine>>;
 
+/// An engine that is a function of the work and its feeding, with what it has captured.
+template <class Run> class FunctionEngine final : public Engine {
+  public:
+    FunctionEngine(EngineFacts facts, Run function) : Engine(std::move(facts)), function_(std::move(function)) {}
+    Result<Pass> run(const Work& work, const Feeding& feeding) override { return function_(work, feeding); }
+
+  private:
+    Run function_;
+};
+template <class Run> std::unique_ptr<Engine> engineOf(EngineFacts facts, Run function) {
+    return std::make_unique<FunctionEngine<Run>>(std::move(facts), std::move(function));
+}
+
+/// Engines that are made one after the other.
+class EngineList {
+  public:
+    /// Its times are held against those of the engine of that number, and with `sameCounts` its counts must be that
+    /// one's.
+    void add(MadeEngine engine, std::size_t ratioTo = 0, bool sameCounts = false);
+    [[nodiscard]] std::size_t size() const noexcept { return engines_.size(); }
+    /// All of them, or the error of the first that could not be made.
+    [[nodiscard]] Result<Engines> take();
+
+  private:
+    Engines engines_;
+    std::optional<Error> error_;
+};
+
 /// What an engine answers: yes or no, or the count and the output beside it.
 [[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
 /// Of a method of the device.
@@ -98,11 +124,11 @@ enum class Awaiting {
 };
 /// A method of the device as a loop that needs its answer now uses it: a submission a pose, of a command buffer that is
 /// recorded each time, with Results of its own and no timestamps. With DetectorDesc::devicePoses it is recorded once,
-/// for the first work that it gets, and the pose, as floats, is written into mapped memory. Whatever the feeding;
-/// nothing is made while it runs.
-[[nodiscard]] MadeEngine makeTickEngine(const device::Session& session, const DetectorDesc& desc, Awaiting awaiting);
-/// The same with nothing in the command buffer, which is recorded once: what a submission costs. It has no answers.
-[[nodiscard]] MadeEngine makeEmptyEngine(const device::Session& session, Awaiting awaiting);
+/// for the first work that it gets, and the pose, as floats, is written into mapped memory. Without a method: with
+/// nothing in the command buffer, which is recorded once, and without answers: what a submission costs. Whatever the
+/// feeding; nothing is made while it runs.
+[[nodiscard]] MadeEngine makeTickEngine(const device::Session& session, const std::optional<DetectorDesc>& desc,
+                                        Awaiting awaiting);
 /// A counting method by its own filter, on the device or, for cpu, the host.
 [[nodiscard]] MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method);
 /// FCL, for this mesh against the octree of this volume, which must be there.
@@ -121,9 +147,7 @@ enum class Awaiting {
 /// device cannot list them.
 [[nodiscard]] MadeEngine makeFragmentEngine(const device::Session& session);
 
-/// Which methods the device can do, and cpu. `why` hears of the others.
-[[nodiscard]] std::vector<CountingMethod>
-availableMethods(const device::Session& session,
-                 const std::function<void(CountingMethod, const std::string& reason)>& why);
+/// Why the device cannot do a method; empty: it can, or the method is cpu.
+[[nodiscard]] std::string whyNot(const device::Session& session, CountingMethod method);
 
 } // namespace voxtact::lab

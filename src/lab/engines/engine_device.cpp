@@ -62,24 +62,6 @@ Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
     return pass;
 }
 
-class BlockingEngine final : public Engine {
-  public:
-    explicit BlockingEngine(BlockingDetector detector)
-        : Engine(factsOf(detector.detector().desc())), detector_(std::move(detector)) {}
-
-    Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
-        const BatchItem item = work.onDevice();
-        Result<BatchAnswer> answer = detector_.detect({{&item, 1}, work.view, work.volume->threshold});
-        VOXTACT_TRY(answer);
-        return Pass{.wallMilliseconds = answer->wallMilliseconds,
-                    .pairs = std::move(answer->pairs),
-                    .triangles = std::move(answer->triangles)};
-    }
-
-  private:
-    BlockingDetector detector_;
-};
-
 } // namespace
 
 MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc) {
@@ -91,7 +73,15 @@ MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& 
 MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     VOXTACT_TRY(detector);
-    return MadeEngine(std::make_unique<BlockingEngine>(std::move(*detector)));
+    return engineOf(factsOf(desc),
+                    [detector = std::move(*detector)](const Work& work, const Feeding&) mutable -> Result<Pass> {
+                        const BatchItem item = work.onDevice();
+                        Result<BatchAnswer> answer = detector.detect({{&item, 1}, work.view, work.volume->threshold});
+                        VOXTACT_TRY(answer);
+                        return Pass{.wallMilliseconds = answer->wallMilliseconds,
+                                    .pairs = std::move(answer->pairs),
+                                    .triangles = std::move(answer->triangles)};
+                    });
 }
 
 } // namespace voxtact::lab

@@ -5,36 +5,23 @@
 
 namespace voxtact::lab {
 
-namespace {
-
-class FclEngine final : public Engine {
-  public:
-    FclEngine(EngineFacts facts, FclPeer peer) : Engine(std::move(facts)), peer_(std::move(peer)) {}
-
-    Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
-        Pass pass;
-        pass.pairs.reserve(work.poses.size());
-        const Stopwatch watch;
-        for (const Mat4& pose : work.poses) {
-            const bool hit = peer_(pose);
-            pass.pairs.push_back({.hit = hit, .count = hit ? 1U : 0U});
-        }
-        pass.wallMilliseconds = watch.milliseconds();
-        return pass;
-    }
-
-  private:
-    FclPeer peer_;
-};
-
-} // namespace
-
 std::unique_ptr<Engine> makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar) {
     EngineFacts facts{.name = scalar == FclScalar::Float ? "fcl-float" : "fcl-double",
                       .projection = "octree",
                       .question = questionOf(true, {})};
-    return std::make_unique<FclEngine>(std::move(facts),
-                                       makeFclPeer(*volume.fcl, mesh.data.positions, mesh.data.indices, scalar));
+    return engineOf(std::move(facts),
+                    [peer = makeFclPeer(*volume.fcl, mesh.data.positions, mesh.data.indices, scalar)](
+                        const Work& work, const Feeding&) -> Result<Pass> {
+                        Pass pass;
+                        pass.pairs.reserve(work.poses.size());
+                        const Stopwatch watch;
+                        for (const Mat4& pose : work.poses) {
+                            const bool hit = peer(pose);
+                            pass.pairs.push_back({.hit = hit, .count = hit ? 1U : 0U});
+                        }
+                        pass.wallMilliseconds = watch.milliseconds();
+                        return pass;
+                    });
 }
 
 std::string makeOctree(VolumePart& volume) {

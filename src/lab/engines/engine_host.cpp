@@ -9,17 +9,7 @@ namespace voxtact::lab {
 
 namespace {
 
-class HostEngine final : public Engine {
-  public:
-    HostEngine(EngineFacts facts, cpu::Detector detector) : Engine(std::move(facts)), detector_(std::move(detector)) {}
-
-    Result<Pass> run(const Work& work, const Feeding& feeding) override;
-
-  private:
-    cpu::Detector detector_;
-};
-
-Result<Pass> HostEngine::run(const Work& work, const Feeding& feeding) {
+Result<Pass> runOnHost(cpu::Detector& detector, const Work& work, const Feeding& feeding) {
     const VolumePart& volume = *work.volume;
     const std::size_t batch = feeding.batch == 0 ? work.poses.size() : feeding.batch;
     Pass pass;
@@ -29,7 +19,7 @@ Result<Pass> HostEngine::run(const Work& work, const Feeding& feeding) {
         const cpu::BatchItem item{&*work.mesh->host, &*volume.host, &*volume.hostFunction,
                                   work.poses.subspan(first, std::min(batch, work.poses.size() - first)),
                                   volume.labels.values.empty() ? nullptr : &volume.labels};
-        Result<BatchAnswer> answer = detector_.detect({{&item, 1}, work.view, volume.threshold});
+        Result<BatchAnswer> answer = detector.detect({{&item, 1}, work.view, volume.threshold});
         VOXTACT_TRY(answer);
         pass.pairs.insert(pass.pairs.end(), answer->pairs.begin(), answer->pairs.end());
         pass.triangles.insert(pass.triangles.end(), answer->triangles.begin(), answer->triangles.end());
@@ -48,7 +38,10 @@ MadeEngine makeHostEngine(const cpu::DetectorDesc& desc) {
                       .question = questionOf(desc.stopAtFirst, desc.outputs),
                       .threads = detector->threads(),
                       .certified = desc.projection == Projection::Conservative};
-    return MadeEngine(std::make_unique<HostEngine>(std::move(facts), std::move(*detector)));
+    return engineOf(std::move(facts),
+                    [detector = std::move(*detector)](const Work& work, const Feeding& feeding) mutable {
+                        return runOnHost(detector, work, feeding);
+                    });
 }
 
 } // namespace voxtact::lab

@@ -20,60 +20,43 @@ struct PolygonParts {
     bool timed = false;
 };
 
-class PolygonEngine final : public Engine {
-  public:
-    PolygonEngine(Localization way, std::shared_ptr<PolygonParts> parts)
-        : Engine({.name = toString(way), .projection = toString(Projection::View), .threads = 0}), way_(way),
-          parts_(std::move(parts)) {}
-
-    Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
-        const BatchItem item = work.onDevice();
-        const LocalizeAids aids{&parts_->tree, [this](const Box& box) { return parts_->bricks.mayBeOpaque(box); }};
-        Result<LocalizedTriangles> answer =
-            parts_->localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way_, aids);
-        VOXTACT_TRY(answer);
-        Pass pass{.wallMilliseconds = answer->wallMilliseconds, .triangles = std::move(answer->triangles)};
-        pass.queries = answer->queries;
-        if (way_ != Localization::Polygon) {
-            pass.boxes = answer->boxes;
-        }
-        if (parts_->timed) {
-            pass.gpuMilliseconds = answer->gpuMilliseconds;
-        }
-        return pass;
+Result<Pass> findPolygons(PolygonParts& parts, Localization way, const Work& work) {
+    const BatchItem item = work.onDevice();
+    const LocalizeAids aids{&parts.tree, [&parts](const Box& box) { return parts.bricks.mayBeOpaque(box); }};
+    Result<LocalizedTriangles> answer =
+        parts.localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way, aids);
+    VOXTACT_TRY(answer);
+    Pass pass{.wallMilliseconds = answer->wallMilliseconds, .triangles = std::move(answer->triangles)};
+    pass.queries = answer->queries;
+    if (way != Localization::Polygon) {
+        pass.boxes = answer->boxes;
     }
-
-  private:
-    Localization way_;
-    std::shared_ptr<PolygonParts> parts_;
-};
-
-class FragmentEngine final : public Engine {
-  public:
-    explicit FragmentEngine(FragmentTrace trace)
-        : Engine({.name = "fragments", .projection = toString(Projection::View), .threads = 0}),
-          trace_(std::move(trace)) {}
-
-    Result<Pass> run(const Work& work, const Feeding& /*feeding*/) override {
-        const Stopwatch watch;
-        const BatchItem item = work.onDevice();
-        const Result<std::vector<shader::TracedFragment>> fragments =
-            trace_.survivors({{&item, 1}, work.view, work.volume->threshold});
-        VOXTACT_TRY(fragments);
-        Pass pass;
-        for (const shader::TracedFragment& fragment : *fragments) {
-            if (pass.triangles.empty() || pass.triangles.back().triangle != fragment.triangle) {
-                pass.triangles.push_back({0, fragment.triangle, 0});
-            }
-            ++pass.triangles.back().count;
-        }
-        pass.wallMilliseconds = watch.milliseconds();
-        return pass;
+    if (parts.timed) {
+        pass.gpuMilliseconds = answer->gpuMilliseconds;
     }
+    return pass;
+}
 
-  private:
-    FragmentTrace trace_;
-};
+Result<Pass> listFragments(FragmentTrace& trace, const Work& work) {
+    const Stopwatch watch;
+    const BatchItem item = work.onDevice();
+    const Result<std::vector<shader::TracedFragment>> fragments =
+        trace.survivors({{&item, 1}, work.view, work.volume->threshold});
+    VOXTACT_TRY(fragments);
+    Pass pass;
+    for (const shader::TracedFragment& fragment : *fragments) {
+        if (pass.triangles.empty() || pass.triangles.back().triangle != fragment.triangle) {
+            pass.triangles.push_back({0, fragment.triangle, 0});
+        }
+        ++pass.triangles.back().count;
+    }
+    pass.wallMilliseconds = watch.milliseconds();
+    return pass;
+}
+
+EngineFacts factsOfView(const char* name) {
+    return {.name = name, .projection = toString(Projection::View), .threads = 0};
+}
 
 } // namespace
 
@@ -87,7 +70,9 @@ Result<Engines> makePolygonEngines(const device::Session& session, const VolumeP
                      session.device.hasTimestamps()});
     Engines engines;
     for (const Localization way : {Localization::Polygon, Localization::Leaf, Localization::LeafBricks}) {
-        engines.push_back(std::make_unique<PolygonEngine>(way, parts));
+        engines.push_back(engineOf(factsOfView(toString(way)), [parts, way](const Work& work, const Feeding&) {
+            return findPolygons(*parts, way, work);
+        }));
     }
     return engines;
 }
@@ -96,7 +81,9 @@ MadeEngine makeFragmentEngine(const device::Session& session) {
     Result<FragmentTrace> trace =
         FragmentTrace::create(session.context, Filter::Hardware, session.device.queueAccess());
     VOXTACT_TRY(trace);
-    return MadeEngine(std::make_unique<FragmentEngine>(std::move(*trace)));
+    return engineOf(factsOfView("fragments"), [trace = std::move(*trace)](const Work& work, const Feeding&) mutable {
+        return listFragments(trace, work);
+    });
 }
 
 } // namespace voxtact::lab

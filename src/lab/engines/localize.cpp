@@ -8,9 +8,9 @@
 #include "gpu/debug.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
+#include "lab/measure/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -171,7 +171,7 @@ Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& 
 
 Result<LocalizedTriangles> localize(LocalizerImpl& localizer, const Batch& batch, const BatchItem& item,
                                     Localization way, const LocalizeAids& aids) {
-    const auto begun = std::chrono::steady_clock::now();
+    const lab::Stopwatch watch;
     LocalizedTriangles out;
     const std::vector<std::uint32_t> all = candidates(item, way, aids, out);
     out.queries = all.size();
@@ -185,7 +185,7 @@ Result<LocalizedTriangles> localize(LocalizerImpl& localizer, const Batch& batch
             }
         }
     }
-    out.wallMilliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+    out.wallMilliseconds = watch.milliseconds();
     return out;
 }
 

@@ -2,13 +2,13 @@
 #include "lab/engines/opaque_cells.h"
 
 #include "core/base/try.h"
+#include "core/volume/voxel_visit.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace voxtact::lab {
 
@@ -30,21 +30,7 @@ Result<glm::dmat3> axesOf(const Grid& grid) {
 }
 
 double valueAt(const VolumeView& volume, std::size_t voxel) {
-    const auto as = [&](auto scalar) {
-        std::memcpy(&scalar, volume.voxels.data() + voxel * sizeof scalar, sizeof scalar);
-        return static_cast<double>(scalar);
-    };
-    switch (volume.type) {
-    case ScalarType::UInt8:
-        return as(std::uint8_t{});
-    case ScalarType::Int16:
-        return as(std::int16_t{});
-    case ScalarType::UInt16:
-        return as(std::uint16_t{});
-    case ScalarType::Float32:
-        break;
-    }
-    return as(float{});
+    return visitVoxels(volume, [voxel](const auto* voxels) { return static_cast<double>(voxels[voxel]); });
 }
 
 /// The voxels at the centres of the cells of an axis.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/columns.h"
 
+#include <algorithm>
 #include <ostream>
 #include <string_view>
 
@@ -16,7 +17,7 @@ double partOf(const Spread& spread, std::string_view part) {
                             : spread.median;
 }
 
-Json jsonOf(const io::Cell& cell) {
+Json cellJson(const io::Cell& cell) {
     if (const auto* const whole = std::get_if<std::uint64_t>(&cell)) {
         return *whole;
     }
@@ -25,6 +26,13 @@ Json jsonOf(const io::Cell& cell) {
     }
     const auto* const text = std::get_if<std::string>(&cell);
     return text == nullptr ? Json() : Json(*text);
+}
+
+/// The machine's, then those of the measurement.
+std::vector<std::string> allNotes(const Output& output) {
+    std::vector<std::string> notes = output.machine.notes;
+    notes.insert(notes.end(), output.notes.begin(), output.notes.end());
+    return notes;
 }
 
 } // namespace
@@ -40,7 +48,7 @@ Json spreadJson(const std::vector<double>& samples) {
 
 Row& Row::addCell(const Names& names, io::Cell cell) {
     if (!names.member.empty()) {
-        json_[names.member] = jsonOf(cell);
+        json_[names.member] = cellJson(cell);
     }
     if (!names.column.empty()) {
         cells_.emplace_back(names.column, std::move(cell));
@@ -71,6 +79,13 @@ io::Table tableOf(std::vector<io::NamedCells> rows, const io::NamedCells& none) 
     return table;
 }
 
+io::Table tableWithout(std::span<const char* const> columns, std::vector<io::NamedCells> rows) {
+    for (io::NamedCells& row : rows) {
+        std::erase_if(row, [&](const auto& cell) { return std::ranges::find(columns, cell.first) != columns.end(); });
+    }
+    return tableOf(std::move(rows));
+}
+
 Json machineJson(const Machine& machine) {
     return {{"device", machine.device},
             {"device_type", machine.deviceType},
@@ -84,28 +99,22 @@ Json machineJson(const Machine& machine) {
             {"hardware_filter", machine.filter}};
 }
 
-Json headJson(const Machine& machine) {
-    return {{"voxtact", machine.provenance.version},
-            {"git_revision", machine.provenance.gitRevision},
-            {"command", machine.provenance.command},
-            {"machine", machineJson(machine)}};
+Json jsonOf(const Output& output) {
+    const Provenance& provenance = output.machine.provenance;
+    Json json{{"voxtact", provenance.version},
+              {"git_revision", provenance.gitRevision},
+              {"command", provenance.command},
+              {"machine", machineJson(output.machine)}};
+    json.update(output.members);
+    json["notes"] = allNotes(output);
+    return json;
 }
 
-std::vector<std::string> allNotes(const Findings& findings) {
-    std::vector<std::string> notes = findings.machine.notes;
-    notes.insert(notes.end(), findings.notes.begin(), findings.notes.end());
-    return notes;
-}
-
-void writeJson(std::ostream& out, const Json& json) {
-    out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-}
-
-void writeFindings(std::ostream& out, const Findings& findings) {
-    for (const std::string& sentence : findings.sentences) {
+void writeFindings(std::ostream& out, const Output& output) {
+    const Machine& machine = output.machine;
+    for (const std::string& sentence : output.sentences) {
         out << "# " << sentence << '\n';
     }
-    const Machine& machine = findings.machine;
     if (!machine.device.empty()) {
         out << "# device " << machine.device << ", driver " << machine.driver << " " << machine.driverVersion << ", ";
     } else {
@@ -115,9 +124,21 @@ void writeFindings(std::ostream& out, const Findings& findings) {
     if (!machine.filter.empty()) {
         out << "# " << machine.filter << '\n';
     }
-    for (const std::string& note : allNotes(findings)) {
+    for (const std::string& note : allNotes(output)) {
         out << "# " << note << '\n';
     }
+}
+
+void writeOutput(std::ostream& out, io::Format format, const Output& output) {
+    if (format == io::Format::Json) {
+        out << jsonOf(output).dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+        return;
+    }
+    io::writeTable(out, format, output.table);
+    if (!output.about.empty()) {
+        out << "# " << output.about << '\n';
+    }
+    writeFindings(out, output);
 }
 
 } // namespace voxtact::lab

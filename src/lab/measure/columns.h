@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <iosfwd>
 #include <optional>
+#include <span>
 
 /// What text, CSV and JSON are made of.
 namespace voxtact::lab {
@@ -47,9 +48,15 @@ struct Names {
 class Row {
   public:
     template <class Value> Row& add(const Names& names, const Value& value) { return addCell(names, cellOf(value)); }
+    /// Nothing where it is empty.
+    Row& addSome(const Names& names, const std::string& text) {
+        return add(names, text.empty() ? std::nullopt : std::optional(text));
+    }
     /// Columns for some of a spread, by what follows the name in theirs: "_p10", "_p90", "_min", "_max"; of the
     /// median "_median" or nothing. One object of everything in JSON. Nothing where there are no samples.
     Row& add(const Names& names, const std::vector<double>& samples, std::initializer_list<const char*> parts);
+    /// In columns alone.
+    template <class Value> Row& column(const char* name, const Value& value) { return add({name, ""}, value); }
     /// In JSON alone.
     Row& member(const char* name, Json value);
 
@@ -63,14 +70,17 @@ class Row {
     Json json_ = Json::object();
 };
 
-/// Rows that have the same columns. `none`: a row for the columns' names, where there may be no rows.
-[[nodiscard]] io::Table tableOf(std::vector<io::NamedCells> rows, const io::NamedCells& none = {});
+/// The cells of each thing; `rowOf` gives a Row.
 template <class Things, class RowOf>
-[[nodiscard]] io::Table tableOf(const Things& things, RowOf rowOf, const io::NamedCells& none = {}) {
+[[nodiscard]] std::vector<io::NamedCells> cellsOf(const Things& things, RowOf rowOf) {
     std::vector<io::NamedCells> rows;
     std::ranges::transform(things, std::back_inserter(rows), [&](const auto& thing) { return rowOf(thing).cells(); });
-    return tableOf(std::move(rows), none);
+    return rows;
 }
+/// Rows that have the same columns. `none`: a row for the columns' names, where there may be no rows.
+[[nodiscard]] io::Table tableOf(std::vector<io::NamedCells> rows, const io::NamedCells& none = {});
+/// The same without some of the columns, to fit on a wide terminal.
+[[nodiscard]] io::Table tableWithout(std::span<const char* const> columns, std::vector<io::NamedCells> rows);
 template <class Things, class JsonOf> [[nodiscard]] Json arrayOf(const Things& things, JsonOf jsonOf) {
     Json array = Json::array();
     for (const auto& thing : things) {
@@ -79,20 +89,23 @@ template <class Things, class JsonOf> [[nodiscard]] Json arrayOf(const Things& t
     return array;
 }
 
-/// What was found, for people: each output ends with it.
-struct Findings {
+[[nodiscard]] Json machineJson(const Machine& machine);
+
+/// What was measured, for all formats.
+struct Output {
     const Machine& machine;
-    std::vector<std::string> sentences; ///< in plain English
-    std::vector<std::string> notes;     ///< beside the machine's
+    /// Of JSON, between those that every output begins with, of the machine, and the notes, which it ends with.
+    Json members;
+    io::Table table{};                    ///< of CSV and text
+    std::string about{};                  ///< a comment behind the table; may be empty
+    std::vector<std::string> sentences{}; ///< what was found, in plain English; comments of CSV and text
+    std::vector<std::string> notes{};     ///< beside the machine's
 };
 
-[[nodiscard]] Json machineJson(const Machine& machine);
-/// The members that every output begins with.
-[[nodiscard]] Json headJson(const Machine& machine);
-/// Those of the machine, then these.
-[[nodiscard]] std::vector<std::string> allNotes(const Findings& findings);
-void writeJson(std::ostream& out, const Json& json);
+[[nodiscard]] Json jsonOf(const Output& output);
+/// The table, then the findings.
+void writeOutput(std::ostream& out, io::Format format, const Output& output);
 /// Comment lines: the sentences, what it was measured on, and the notes.
-void writeFindings(std::ostream& out, const Findings& findings);
+void writeFindings(std::ostream& out, const Output& output);
 
 } // namespace voxtact::lab

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/machine.h"
 
+#include "device/timed_commands.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -21,9 +23,8 @@ std::string cpuName() {
 }
 
 void describeDriver(const device::Session& session, Machine& machine) {
-    // The function that an instance gives for a name is the one of that name.
-    const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
-        session.instance.getInstanceProcAddr()(session.instance.handle(), "vkGetPhysicalDeviceProperties2"));
+    const auto getProperties =
+        device::instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(session, "vkGetPhysicalDeviceProperties2");
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
     VkPhysicalDeviceProperties2 properties{};

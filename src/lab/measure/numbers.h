@@ -36,6 +36,13 @@ struct MedianInterval {
 /// `confidence`. Nothing where there are too few samples: six for 0.95.
 [[nodiscard]] std::optional<MedianInterval> medianInterval(std::vector<double> samples, double confidence);
 
+/// Of a clock that may not tell.
+inline void keep(const std::optional<double>& time, std::vector<double>& samples) {
+    if (time) {
+        samples.push_back(*time);
+    }
+}
+
 /// Six significant digits: more would be noise. 0 for what is not finite.
 [[nodiscard]] double rounded(double value);
 /// Three significant digits, without an exponent.

@@ -3,6 +3,7 @@
 
 #include "core/base/try.h"
 #include "device/timed_submission.h"
+#include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"
 #include "voxtact/render.h"
 
@@ -50,9 +51,7 @@ Result<double> makeTable(device::TimedSubmission& submission, std::uint64_t roun
     VOXTACT_TRY(times);
     if (round > 0) {
         table.point.wall.push_back(times->wallMilliseconds);
-    }
-    if (round > 0 && times->gpuMilliseconds) {
-        table.point.gpu.push_back(*times->gpuMilliseconds);
+        keep(times->gpuMilliseconds, table.point.gpu);
     }
     return times->wallMilliseconds;
 }

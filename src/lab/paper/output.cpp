@@ -9,91 +9,85 @@ namespace voxtact::lab {
 
 namespace {
 
-struct NamedClock {
-    const char* name;
-    const char* title;
-    PaperColumns PaperRow::*columns;
-};
-constexpr NamedClock kClocks[] = {
-    {"gpu", "By GPU timestamps", &PaperRow::gpu},
-    {"wall", "By wall clock, from the submission to the end of the wait", &PaperRow::wall}};
-
-/// Percents, with the interval of their median.
-Row& addPercents(const std::string& name, const std::vector<double>& percents, bool intervalInColumns, Row& row) {
-    const std::optional<MedianInterval> interval = medianInterval(percents, kConfidence);
-    row.add({(name + "_percent").c_str(), ""}, percents, {""});
+/// A spread with the interval of its median.
+Json percentJson(const std::vector<double>& percents, const std::optional<MedianInterval>& interval) {
+    const auto known = [&](double MedianInterval::*part) {
+        return interval ? Json(rounded((*interval).*part)) : Json();
+    };
     Json json = spreadJson(percents);
-    const std::pair<const char*, double MedianInterval::*> parts[] = {
-        {"low", &MedianInterval::low}, {"high", &MedianInterval::high}, {"confidence", &MedianInterval::confidence}};
-    for (const auto& [part, value] : parts) {
-        const auto known = interval ? std::optional((*interval).*value) : std::nullopt;
-        if (!json.is_null()) {
-            json[part] = known ? Json(rounded(*known)) : Json();
-        }
-        if (intervalInColumns) {
-            const bool whole = std::string_view(part) == "confidence";
-            row.add({whole ? part : (name + "_" + part).c_str(), ""}, known);
-        }
+    if (!json.is_null()) {
+        json["low"] = known(&MedianInterval::low);
+        json["high"] = known(&MedianInterval::high);
+        json["confidence"] = known(&MedianInterval::confidence);
     }
-    return row.member((name + "_percent").c_str(), std::move(json));
+    return json;
 }
 
 /// A row of CSV; of JSON what the clock says.
-Row rowOf(const PaperRow& row, const NamedClock& clock, const PaperResult& result) {
+Row rowOf(const PaperRow& row, const PaperClock& clock, const PaperResult& result) {
     const PaperScene& scene = result.scenes[row.scene];
     const PaperColumns& columns = row.*clock.columns;
-    Row out;
-    out.add({"scene", ""}, scene.name)
-        .add({"method", ""}, row.method)
-        .add({"clock", ""}, clock.name)
-        .add({"width", ""}, result.width)
-        .add({"height", ""}, result.height)
-        .add({"triangles", ""}, scene.triangles)
-        .add({"poses", ""}, scene.poses)
-        .add({"survivors", ""}, row.survivors)
-        .add({"hits", ""}, row.hits)
-        .add({"samples", ""}, row.wall.rendering.size())
+    const std::vector<double> collision = collisionPercent(columns);
+    const std::vector<double> overhead = overheadPercent(columns);
+    const std::optional<MedianInterval> interval = medianInterval(overhead, kConfidence);
+    const auto known = [&](double MedianInterval::*part) {
+        return interval ? std::optional((*interval).*part) : std::nullopt;
+    };
+    return Row()
+        .column("scene", scene.name)
+        .column("method", row.method)
+        .column("clock", clock.name)
+        .column("width", result.width)
+        .column("height", result.height)
+        .column("triangles", scene.triangles)
+        .column("poses", scene.poses)
+        .column("survivors", row.survivors)
+        .column("hits", row.hits)
+        .column("samples", row.wall.rendering.size())
         .add("mesh_ms", columns.mesh, {""})
         .add("volume_ms", columns.volume, {""})
         .add("collision_ms", columns.collision, {"", "_p10", "_p90"})
         .add("rendering_ms", columns.rendering, {"", "_p10", "_p90"})
-        .add("total_ms", columns.total, {"", "_p10", "_p90"});
-    addPercents("collision", collisionPercent(columns), false, out);
-    addPercents("overhead", overheadPercent(columns), true, out);
-    return out;
+        .add("total_ms", columns.total, {"", "_p10", "_p90"})
+        .add({"collision_percent", ""}, collision, {""})
+        .add({"overhead_percent", ""}, overhead, {""})
+        .column("overhead_low", known(&MedianInterval::low))
+        .column("overhead_high", known(&MedianInterval::high))
+        .column("confidence", known(&MedianInterval::confidence))
+        .member("collision_percent", percentJson(collision, medianInterval(collision, kConfidence)))
+        .member("overhead_percent", percentJson(overhead, interval));
+}
+
+std::optional<std::string> alone(const std::vector<double>& samples) {
+    return samples.empty() ? std::nullopt : std::optional(shortNumber(medianOf(samples)));
 }
 
 /// "12.3 (11.8-13.1)"
-io::Cell withRange(const std::vector<double>& samples) {
+std::optional<std::string> withRange(const std::vector<double>& samples) {
     if (samples.empty()) {
-        return {};
+        return std::nullopt;
     }
     const Spread spread = spreadOf(samples);
     return shortNumber(spread.median) + " (" + shortNumber(spread.p10) + "-" + shortNumber(spread.p90) + ")";
 }
 
-io::Cell alone(const std::vector<double>& samples) {
-    return samples.empty() ? io::Cell() : io::Cell(shortNumber(medianOf(samples)));
-}
-
 /// A row of the paper's tables.
-io::NamedCells paperCells(const PaperRow& row, const NamedClock& clock, const PaperResult& result) {
+Row paperRow(const PaperRow& row, const PaperClock& clock, const PaperResult& result) {
     const PaperColumns& columns = row.*clock.columns;
-    io::NamedCells cells{{"scene", result.scenes[row.scene].name}, {"method", row.method}};
-    if (clock.columns == &PaperRow::gpu) {
-        cells.emplace_back("mesh", alone(columns.mesh));
-        cells.emplace_back("volume", alone(columns.volume));
-    }
-    cells.emplace_back("collision", withRange(columns.collision));
-    cells.emplace_back("total rendering", withRange(columns.rendering));
-    cells.emplace_back("total", withRange(columns.total));
-    cells.emplace_back("collision %", alone(collisionPercent(columns)));
     const std::vector<double> overhead = overheadPercent(columns);
-    cells.emplace_back("overhead %", overhead.empty() ? io::Cell() : io::Cell(overheadText(overhead)));
-    return cells;
+    Row out;
+    out.add("scene", result.scenes[row.scene].name).add("method", row.method);
+    if (clock.columns == &PaperRow::gpu) {
+        out.add("mesh", alone(columns.mesh)).add("volume", alone(columns.volume));
+    }
+    return out.add("collision", withRange(columns.collision))
+        .add("total rendering", withRange(columns.rendering))
+        .add("total", withRange(columns.total))
+        .add("collision %", alone(collisionPercent(columns)))
+        .add("overhead %", overhead.empty() ? std::nullopt : std::optional(overheadText(overhead)));
 }
 
-bool hasTimes(const NamedClock& clock, const PaperResult& result) {
+bool hasTimes(const PaperClock& clock, const PaperResult& result) {
     return std::ranges::any_of(result.rows,
                                [&](const PaperRow& row) { return !(row.*clock.columns).rendering.empty(); });
 }
@@ -121,7 +115,7 @@ Row rowOf(const LocalizeWay& way) {
         .add("found", ifFound(way.triangles))
         .add("missed", ifFound(way.missed))
         .add("wrong", ifFound(way.wrong))
-        .add({"samples", ""}, way.wall.size())
+        .column("samples", way.wall.size())
         .add("wall_ms", way.wall, {"_median", "_p10", "_p90"})
         .add("gpu_ms", way.gpu, {"_median"})
         .add("unchecked", way.unchecked);
@@ -130,7 +124,7 @@ Row rowOf(const LocalizeWay& way) {
 Row rowOf(const IntegrationPoint& point) {
     return Row()
         .add("entries", point.entries)
-        .add({"samples", ""}, point.wall.size())
+        .column("samples", point.wall.size())
         .add("gpu_ms", point.gpu, {"_median"})
         .add("wall_ms", point.wall, {"_median", "_p10", "_p90"});
 }
@@ -138,7 +132,7 @@ Row rowOf(const IntegrationPoint& point) {
 /// Numbers as printed.
 Row rowOf(const published::Row& row) {
     return Row()
-        .add({"table", ""}, std::to_string(row.table))
+        .column("table", std::to_string(row.table))
         .member("table", row.table)
         .add("scene", row.scene)
         .add({"mesh", "mesh_ms"}, row.mesh)
@@ -150,7 +144,7 @@ Row rowOf(const published::Row& row) {
 }
 
 template <class Things> io::Table tableOfAll(const Things& things) {
-    return tableOf(things, [](const auto& thing) { return rowOf(thing); });
+    return tableOf(cellsOf(things, [](const auto& thing) { return rowOf(thing); }));
 }
 template <class Things> Json jsonOfAll(const Things& things) {
     return arrayOf(things, [](const auto& thing) { return rowOf(thing).json(); });
@@ -161,38 +155,26 @@ struct Section {
     io::Table table;
 };
 
-/// The tables like the paper's.
-std::vector<Section> paperSections(const PaperResult& result) {
-    std::vector<Section> sections;
-    for (const NamedClock& clock : kClocks) {
-        if (!hasTimes(clock, result)) {
-            continue;
+/// Tables like the paper's.
+void addPaperTables(const PaperResult& result, std::vector<Section>& sections) {
+    for (const PaperClock& clock : kPaperClocks) {
+        if (hasTimes(clock, result)) {
+            sections.push_back(
+                {std::string(clock.title) +
+                     ", ms: medians, with the 10th and 90th percentile; of the overhead, the "
+                     "interval that has the median with a confidence of 95 % or more; an overhead below 0 is noise",
+                 tableOf(cellsOf(result.rows, [&](const PaperRow& row) { return paperRow(row, clock, result); }))});
         }
-        std::vector<io::NamedCells> rows;
-        for (const PaperRow& row : result.rows) {
-            rows.push_back(paperCells(row, clock, result));
-        }
-        sections.push_back(
-            {std::string(clock.title) +
-                 ", ms: medians, with the 10th and 90th percentile; of the overhead, the "
-                 "interval that has the median with a confidence of 95 % or more; an overhead below 0 is noise",
-             tableOf(std::move(rows))});
     }
-    return sections;
 }
 
-/// As the paper prints them, for comparison.
-Section publishedSection() {
+/// The paper's own, as it prints them, and what else was measured.
+void addOthers(const PaperResult& result, std::vector<Section>& sections) {
     std::string title = "The paper's own tables, average ms a frame as printed";
     for (std::size_t i = 0; i < published::kHardware.size(); ++i) {
         title += "; Table " + std::to_string(i + 1) + ": " + published::kHardware.at(i);
     }
-    return {title, tableOfAll(published::kTables)};
-}
-
-/// What there is beside those.
-std::vector<Section> otherSections(const PaperResult& result) {
-    std::vector<Section> sections;
+    sections.push_back({title, tableOfAll(published::kTables)});
     if (!result.series.empty()) {
         sections.push_back({"Sweeps in " + result.scenes.front().name + "; of voxels in the builtin head",
                             seriesTable(result.series)});
@@ -206,26 +188,20 @@ std::vector<Section> otherSections(const PaperResult& result) {
     if (!result.integration.empty()) {
         sections.push_back({"Making the pre-integrated table", tableOfAll(result.integration)});
     }
-    return sections;
 }
 
-void writeText(std::ostream& out, const std::vector<Section>& sections) {
-    for (const Section& section : sections) {
+/// In CSV as comments, so that its rows are of one table.
+void write(std::ostream& out, io::Format format, const Section& section) {
+    if (format == io::Format::Text) {
         out << "# " << section.title << '\n';
-        io::writeTable(out, io::Format::Text, section.table);
+        io::writeTable(out, format, section.table);
         out << '\n';
+        return;
     }
-}
-
-/// As comments, so that the rows are of one table.
-void writeCommented(std::ostream& out, const std::vector<Section>& sections) {
-    std::ostringstream text;
-    for (const Section& section : sections) {
-        text << section.title << '\n';
-        io::writeTable(text, io::Format::Csv, section.table);
-    }
-    std::istringstream lines(text.str());
-    for (std::string line; std::getline(lines, line);) {
+    std::stringstream text;
+    text << section.title << '\n';
+    io::writeTable(text, format, section.table);
+    for (std::string line; std::getline(text, line);) {
         out << "# " << line << '\n';
     }
 }
@@ -233,7 +209,7 @@ void writeCommented(std::ostream& out, const std::vector<Section>& sections) {
 std::vector<io::NamedCells> fullRows(const PaperResult& result) {
     std::vector<io::NamedCells> rows;
     for (const PaperRow& row : result.rows) {
-        for (const NamedClock& clock : kClocks) {
+        for (const PaperClock& clock : kPaperClocks) {
             rows.push_back(rowOf(row, clock, result).cells());
         }
     }
@@ -259,17 +235,16 @@ Json rowJson(const PaperRow& row, const PaperResult& result) {
               {"method", row.method},
               {"survivors", rounded(row.survivors)},
               {"hits", row.hits}};
-    for (const NamedClock& clock : kClocks) {
+    for (const PaperClock& clock : kPaperClocks) {
         const bool timed = !(row.*clock.columns).rendering.empty();
         json[clock.name] = timed ? rowOf(row, clock, result).json() : Json();
     }
     return json;
 }
 
-} // namespace
-
-Json paperJson(const PaperResult& result) {
-    Json json = headJson(result.machine);
+Output outputOf(const PaperResult& result) {
+    Output output{.machine = result.machine, .members = {}, .sentences = paperSummary(result), .notes = result.notes};
+    Json& json = output.members;
     json["width"] = result.width;
     json["height"] = result.height;
     json["published"] = {{"pairs_per_s", published::kPairsPerSecond},
@@ -277,36 +252,42 @@ Json paperJson(const PaperResult& result) {
                          {"hardware", published::kHardware},
                          {"tables", jsonOfAll(published::kTables)},
                          {"preintegration_ms", published::kIntegrationMilliseconds}};
-    json["summary"] = paperSummary(result);
+    json["summary"] = output.sentences;
     json["agrees"] = result.disagreement.empty();
-    json["scenes"] = arrayOf(result.scenes, [](const PaperScene& scene) { return sceneJson(scene); });
+    json["scenes"] = arrayOf(result.scenes, sceneJson);
     json["tables"] = arrayOf(result.rows, [&](const PaperRow& row) { return rowJson(row, result); });
     json["series"] = seriesJson(result.series, result.machine);
     json["polygons"] = {
         {"triangles", result.polygonTriangles}, {"poses", result.polygonPoses}, {"ways", jsonOfAll(result.polygons)}};
     json["integration"] = jsonOfAll(result.integration);
-    json["notes"] = allNotes({result.machine, {}, result.notes});
-    return json;
+    return output;
+}
+
+} // namespace
+
+Json paperJson(const PaperResult& result) {
+    return jsonOf(outputOf(result));
 }
 
 void writePaper(std::ostream& out, io::Format format, const PaperResult& result) {
+    const Output output = outputOf(result);
     if (format == io::Format::Json) {
-        writeJson(out, paperJson(result));
+        writeOutput(out, format, output);
         return;
     }
-    const Section scenes{"Scenes, frames of " + std::to_string(result.width) + "x" + std::to_string(result.height),
-                         tableOfAll(result.scenes)};
+    std::vector<Section> sections{
+        {"Scenes, frames of " + std::to_string(result.width) + "x" + std::to_string(result.height),
+         tableOfAll(result.scenes)}};
     if (format == io::Format::Text) {
-        writeText(out, {scenes});
-        writeText(out, paperSections(result));
-        writeText(out, {publishedSection()});
-        writeText(out, otherSections(result));
+        addPaperTables(result, sections);
     } else {
         io::writeTable(out, format, tableOf(fullRows(result)));
-        writeCommented(out, {scenes, publishedSection()});
-        writeCommented(out, otherSections(result));
     }
-    writeFindings(out, {result.machine, paperSummary(result), result.notes});
+    addOthers(result, sections);
+    for (const Section& section : sections) {
+        write(out, format, section);
+    }
+    writeFindings(out, output);
 }
 
 } // namespace voxtact::lab

@@ -100,6 +100,17 @@ struct PaperRow {
     PaperColumns wall{}; ///< from submission to the end of the wait; `mesh` and `volume` are empty
 };
 
+/// The clocks, by their names in CSV and JSON.
+struct PaperClock {
+    const char* name;
+    const char* words;
+    const char* title;
+    PaperColumns PaperRow::*columns;
+};
+inline constexpr std::array<PaperClock, 2> kPaperClocks{
+    {{"gpu", "by GPU timestamps", "By GPU timestamps", &PaperRow::gpu},
+     {"wall", "by wall clock", "By wall clock, from the submission to the end of the wait", &PaperRow::wall}}};
+
 /// The making of the pre-integrated table.
 struct IntegrationPoint {
     std::uint32_t entries = 0;  ///< a side

@@ -5,7 +5,7 @@
 #include "core/base/try.h"
 #include "lab/engines/opaque_cells.h"
 #include "lab/measure/numbers.h"
-#include "lab/measure/random_poses.h"
+#include "lab/measure/poses.h"
 #include "voxtact/looks.h"
 
 #include <algorithm>

@@ -67,12 +67,6 @@ std::string nameOf(const PaperRow& row, const PaperResult& result) {
     return row.method + " in " + result.scenes[row.scene].name;
 }
 
-struct NamedClock {
-    const char* name;
-    PaperColumns PaperRow::*columns;
-};
-constexpr NamedClock kClocks[] = {{"by GPU timestamps", &PaperRow::gpu}, {"by wall clock", &PaperRow::wall}};
-
 /// "2.6 %", or "nothing that can be measured (noise: -1.8 %)".
 std::string percentText(double median) {
     const std::string text = shortNumber(median) + " %";
@@ -92,12 +86,12 @@ void addPercents(const PaperResult& result, std::vector<std::string>& sentences)
         {"detection alone takes, of the time of rendering,", collisionPercent, ""},
     };
     for (const Way& way : ways) {
-        for (const NamedClock& clock : kClocks) {
+        for (const PaperClock& clock : kPaperClocks) {
             const auto found = extremes(result, [&](const PaperRow& row) { return way.percent(row.*clock.columns); });
             if (found) {
                 sentences.push_back(std::string(way.begin) + " " + percentText(found->first.median) + " (" +
                                     nameOf(*found->first.row, result) + ") to " + percentText(found->second.median) +
-                                    " (" + nameOf(*found->second.row, result) + "), " + clock.name + ", medians" +
+                                    " (" + nameOf(*found->second.row, result) + "), " + clock.words + ", medians" +
                                     way.end);
             }
         }
@@ -106,7 +100,7 @@ void addPercents(const PaperResult& result, std::vector<std::string>& sentences)
 
 /// On a slow renderer a small overhead is lost in how much its frames differ.
 void addIntervals(const PaperResult& result, std::vector<std::string>& sentences) {
-    for (const NamedClock& clock : kClocks) {
+    for (const PaperClock& clock : kPaperClocks) {
         std::uint64_t all = 0;
         std::uint64_t apart = 0;
         for (const PaperRow& row : result.rows) {
@@ -117,12 +111,12 @@ void addIntervals(const PaperResult& result, std::vector<std::string>& sentences
         const bool timed = std::ranges::any_of(
             result.rows, [&](const PaperRow& row) { return !overheadPercent(row.*clock.columns).empty(); });
         if (timed && all == 0) {
-            sentences.push_back("no interval (95 %) of what detection adds is known, " + std::string(clock.name) +
+            sentences.push_back("no interval (95 %) of what detection adds is known, " + std::string(clock.words) +
                                 ": too few samples");
         }
         if (all > 0) {
             sentences.push_back("in " + grouped(apart) + " of " + grouped(all) +
-                                " rows the interval (95 %) of what detection adds leaves out 0, " + clock.name);
+                                " rows the interval (95 %) of what detection adds leaves out 0, " + clock.words);
         }
     }
 }

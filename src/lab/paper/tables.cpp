@@ -3,6 +3,7 @@
 #include "lab/paper/parts.h"
 
 #include "core/base/try.h"
+#include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"
 #include "lab/measure/stopwatch.h"
 #include "voxtact/looks.h"
@@ -34,14 +35,14 @@ void addNote(std::string note, PaperResult& result) {
 
 /// Counts every pose by every method. The first broken rule is the result's.
 Result<void> verify(const device::Session& session, PaperWork& work, PaperResult& result) {
-    Engines engines;
+    EngineList list;
     for (const CountingMethod method : work.methods) {
-        MadeEngine engine = makeMethodEngine(session, method);
-        VOXTACT_TRY(engine);
-        engines.push_back(std::move(*engine));
+        list.add(makeMethodEngine(session, method));
     }
+    const Result<Engines> engines = list.take();
+    VOXTACT_TRY(engines);
     const Scene& scene = work.input.scene;
-    Result<std::vector<NamedCounts>> counts = countAll(engines, Work(scene));
+    Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(scene));
     VOXTACT_TRY(counts);
     work.counts = std::move(*counts);
     for (const Verdict& verdict : judgeCounts(work.counts, scene.poseNumbers)) {
@@ -66,26 +67,20 @@ void addRows(PaperWork& work, PaperResult& result) {
     result.scenes.push_back(work.input.facts);
 }
 
-void add(const std::optional<double>& time, std::vector<double>& samples) {
-    if (time) {
-        samples.push_back(*time);
-    }
-}
-
-void keep(FramePart part, const FrameSample& sample, PaperRow& row) {
+void keepFrame(FramePart part, const FrameSample& sample, PaperRow& row) {
     switch (part) {
     case FramePart::Rendering:
-        add(sample.mesh, row.gpu.mesh);
-        add(sample.volume, row.gpu.volume);
-        add(sample.all, row.gpu.rendering);
+        keep(sample.mesh, row.gpu.mesh);
+        keep(sample.volume, row.gpu.volume);
+        keep(sample.all, row.gpu.rendering);
         row.wall.rendering.push_back(sample.wall);
         return;
     case FramePart::Detection:
-        add(sample.detection, row.gpu.collision);
+        keep(sample.detection, row.gpu.collision);
         row.wall.collision.push_back(sample.wall);
         return;
     case FramePart::Both:
-        add(sample.all, row.gpu.total);
+        keep(sample.all, row.gpu.total);
         row.wall.total.push_back(sample.wall);
         return;
     }
@@ -111,7 +106,7 @@ Result<double> PaperFrames::render(const Turn& turn) {
         loop.run(FramePart::Rendering, work.methods.front(), work.input.scene.poses[poseOf(turn.round)]);
     VOXTACT_TRY(sample);
     for (std::size_t method = 0; turn.round > 0 && method < work.methods.size(); ++method) {
-        keep(FramePart::Rendering, *sample, result.rows[work.firstRow + method]);
+        keepFrame(FramePart::Rendering, *sample, result.rows[work.firstRow + method]);
     }
     return sample->wall;
 }
@@ -132,7 +127,7 @@ Result<double> PaperFrames::detect(std::size_t method, const Turn& turn) {
                                   std::to_string(verified);
         }
         if (turn.round > 0) {
-            keep(part, *sample, result.rows[work.firstRow + method]);
+            keepFrame(part, *sample, result.rows[work.firstRow + method]);
         }
         wall += sample->wall;
     }
@@ -177,9 +172,13 @@ Result<void> measurePaperScene(const device::Session& session, const PaperSettin
     VOXTACT_TRY(makeReady(session, {.bricks = true}, *input.scene.volume));
     VOXTACT_TRY(makeReady(&session, *input.scene.mesh));
     PaperWork work{.input = input};
-    work.methods = availableMethods(session, [&](CountingMethod method, const std::string& reason) {
-        addNote(std::string("no ") + toString(method) + " on this device: " + reason, result);
-    });
+    for (const CountingMethod method : countingMethods()) {
+        if (const std::string why = whyNot(session, method); why.empty()) {
+            work.methods.push_back(method);
+        } else {
+            addNote(std::string("no ") + toString(method) + " on this device: " + why, result);
+        }
+    }
     VOXTACT_TRY(verify(session, work, result));
     step();
     addRows(work, result);

@@ -7,7 +7,9 @@
 
 #include <map>
 #include <ostream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace voxtact::lab {
 
@@ -52,13 +54,12 @@ Result<void> reportPossible() {
     return {};
 }
 
-Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,
-                         const Json& data) {
+Result<void> writeReport(std::ostream& out, ReportKind kind, const Json& data) {
     const bool paper = kind == ReportKind::Paper;
     const std::map<std::string_view, std::string> parts{
         {"NAME", paper ? "voxtact bench --paper" : "voxtact compare"},
         {"TITLE", paper ? "The paper's measurements, made again" : "The same pairs by every method"},
-        {"SUMMARY", listItems(summary)},
+        {"SUMMARY", listItems(data.at("summary").get<std::vector<std::string>>())},
         {"BODY", std::string(paper ? kPaperBody : kCompareBody)},
         {"DATA", inScript(data)},
         {"STYLE", std::string(kReportStyle)},

@@ -6,8 +6,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <iosfwd>
-#include <string>
-#include <vector>
 
 namespace voxtact::lab {
 
@@ -15,12 +13,11 @@ namespace voxtact::lab {
 [[nodiscard]] Result<void> reportPossible();
 
 enum class ReportKind {
-    Compare, ///< of compareJson()
+    Compare, ///< of compareOutput()
     Paper,   ///< of paperJson()
 };
 
-/// An HTML page in one file: the summary as text, and charts and tables made of `data`.
-[[nodiscard]] Result<void> writeReport(std::ostream& out, ReportKind kind, const std::vector<std::string>& summary,
-                                       const nlohmann::ordered_json& data);
+/// An HTML page in one file, made of the measurement's JSON: its summary as text, and charts and tables.
+[[nodiscard]] Result<void> writeReport(std::ostream& out, ReportKind kind, const nlohmann::ordered_json& data);
 
 } // namespace voxtact::lab

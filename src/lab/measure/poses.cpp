@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lab/measure/random_poses.h"
+#include "lab/measure/poses.h"
 
 #include "core/base/try.h"
+#include "voxtact/motion.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +20,11 @@ constexpr double kMargin = 0.1; ///< of the box's side
 constexpr std::uint64_t kTries = 100;
 /// How exactly the onset is found, in voxels.
 constexpr double kOnsetError = 1.0 / 64;
+/// Of a stroke: voxels from the pose around the onset.
+constexpr double kOutside = 10;
+constexpr double kInside = 2;
+/// Ticks in, as many out, and then on to the next one's begin.
+constexpr std::uint32_t kTicksIn = 125;
 
 /// The generator is fixed by the standard; std::uniform_real_distribution is not.
 class Random {
@@ -31,41 +40,24 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-struct DiscPoint {
-    double x = 0;
-    double y = 0;
-    double squared = 0;
-};
-
-DiscPoint inUnitDisc(Random& random) {
-    DiscPoint point;
+/// Not the origin.
+glm::dvec2 inUnitDisc(Random& random) {
+    glm::dvec2 point;
     do {
         point.x = random.between(-1, 1);
         point.y = random.between(-1, 1);
-        point.squared = point.x * point.x + point.y * point.y;
-    } while (point.squared >= 1 || point.squared == 0);
+    } while (glm::dot(point, point) >= 1 || glm::dot(point, point) == 0);
     return point;
 }
 
 /// Uniform over all rotations (Marsaglia 1972). Square roots only: sine and cosine differ from library to library.
 Mat4 randomRotation(Random& random) {
-    const DiscPoint a = inUnitDisc(random);
-    const DiscPoint b = inUnitDisc(random);
-    const double scale = std::sqrt((1 - a.squared) / b.squared);
-    const double x = a.x;
-    const double y = a.y;
-    const double z = b.x * scale;
-    const double w = b.y * scale;
-    Mat4 rotation = identity();
-    rotation[0] = 1 - 2 * (y * y + z * z);
-    rotation[1] = 2 * (x * y + w * z);
-    rotation[2] = 2 * (x * z - w * y);
-    rotation[4] = 2 * (x * y - w * z);
-    rotation[5] = 1 - 2 * (x * x + z * z);
-    rotation[6] = 2 * (y * z + w * x);
-    rotation[8] = 2 * (x * z + w * y);
-    rotation[9] = 2 * (y * z - w * x);
-    rotation[10] = 1 - 2 * (x * x + y * y);
+    const glm::dvec2 a = inUnitDisc(random);
+    const glm::dvec2 b = inUnitDisc(random);
+    const double scale = std::sqrt((1 - glm::dot(a, a)) / glm::dot(b, b));
+    const glm::dmat4 matrix = glm::mat4_cast(glm::dquat(b.y * scale, a.x, a.y, b.x * scale));
+    Mat4 rotation{};
+    std::copy_n(glm::value_ptr(matrix), rotation.size(), rotation.begin());
     return rotation;
 }
 
@@ -94,10 +86,6 @@ Mat4 movedBy(const Mat4& pose, const Vec3& direction, double length) {
     return out;
 }
 
-double diagonal(const Vec3& lo, const Vec3& hi) {
-    return std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
-}
-
 /// As far as a mesh that touches a volume can have to go to leave it.
 double farthest(const Grid& grid, const MeshView& mesh) {
     Vec3 lo{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
@@ -110,7 +98,36 @@ double farthest(const Grid& grid, const MeshView& mesh) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         sides += grid.size[axis] * grid.spacing[axis];
     }
-    return diagonal(lo, hi) + sides;
+    return std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]) + sides;
+}
+
+/// Unit vector from one point to another; up where they are the same.
+Vec3 directionTo(const Vec3& from, const Vec3& to) {
+    Vec3 way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    const double length = std::hypot(way[0], way[1], way[2]);
+    if (length == 0) {
+        return {0, 0, 1};
+    }
+    for (double& coordinate : way) {
+        coordinate /= length;
+    }
+    return way;
+}
+
+/// Where a stroke begins, and how deep it goes.
+struct Stroke {
+    Mat4 outside;
+    Mat4 inside;
+};
+
+Result<Mat4> poseAt(const Stroke& stroke, const Stroke& next, std::uint32_t tick, const Vec3& centre) {
+    const auto between = [&](const Mat4& from, const Mat4& to, std::uint32_t ticks, std::uint32_t of) {
+        return poseBetween(from, to, static_cast<double>(ticks) / of, Interpolation::Slerp, centre);
+    };
+    return tick < kTicksIn ? between(stroke.outside, stroke.inside, tick, kTicksIn)
+           : tick < 2 * kTicksIn
+               ? between(stroke.inside, stroke.outside, tick - kTicksIn, kTicksIn)
+               : between(stroke.outside, next.outside, tick - 2 * kTicksIn, kTicksPerStroke - 2 * kTicksIn);
 }
 
 } // namespace
@@ -155,6 +172,33 @@ Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std
             const double length = inside + voxel * random.between(-kOnsetInside, kOnsetOutside);
             poses.push_back(movedBy(start, direction, length));
         }
+    }
+    return poses;
+}
+
+Result<std::vector<Mat4>> movingPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count, std::uint64_t seed,
+                                      const std::function<Result<bool>(const Mat4&)>& touches) {
+    const Result<MeshFacts> facts = checkMesh(mesh);
+    VOXTACT_TRY(facts);
+    const std::uint32_t strokes = (count + kTicksPerStroke - 1) / kTicksPerStroke;
+    const Result<std::vector<Mat4>> onset = onsetPoses(grid, mesh, strokes, seed, touches);
+    VOXTACT_TRY(onset);
+    const auto& [lo, hi] = facts->bounds;
+    const Vec3 centre{(lo[0] + hi[0]) / 2, (lo[1] + hi[1]) / 2, (lo[2] + hi[2]) / 2};
+    const Vec3 middle = transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5});
+    const double voxel = *std::ranges::min_element(grid.spacing);
+    std::vector<Stroke> all;
+    for (const Mat4& pose : *onset) {
+        const Vec3 outward = directionTo(middle, transformPoint(pose, centre));
+        all.push_back({movedBy(pose, outward, kOutside * voxel), movedBy(pose, outward, -kInside * voxel)});
+    }
+    std::vector<Mat4> poses;
+    poses.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::size_t stroke = i / kTicksPerStroke;
+        const Result<Mat4> pose = poseAt(all[stroke], all[(stroke + 1) % all.size()], i % kTicksPerStroke, centre);
+        VOXTACT_TRY(pose);
+        poses.push_back(*pose);
     }
     return poses;
 }

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "app/detect/extra_outputs.h"
+
+#include "app/detect/detect_output.h"
+#include "app/options/shared_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace voxtact::app {
+
+namespace {
+
+/// An option that asks for an output.
+struct Asking {
+    const char* option;
+    bool Outputs::*output;
+    bool (*given)(const ExtraOptions& options);
+};
+constexpr std::array kAsking{
+    Asking{"--contacts", &Outputs::contacts, [](const ExtraOptions& given) { return !given.contacts.empty(); }},
+    Asking{"--triangles", &Outputs::triangles, [](const ExtraOptions& given) { return !given.triangles.empty(); }},
+    Asking{"--bounds", &Outputs::bounds, [](const ExtraOptions& given) { return given.bounds; }},
+    Asking{"--labels", &Outputs::labels, [](const ExtraOptions& given) { return !given.labels.empty(); }},
+};
+
+io::Cell depthOf(const ExtraAnswers& row) {
+    return row.contacts > 0 ? io::Cell(rounded(row.depth, 1e6)) : io::Cell();
+}
+
+/// The background says nothing where there is something else.
+std::vector<io::NamedCount> labelsOf(const std::map<std::int32_t, std::string>& names, const ExtraAnswers& row) {
+    const bool onlyBackground =
+        std::all_of(row.labels.begin(), row.labels.end(), [](const LabelCount& entry) { return entry.label == 0; });
+    std::vector<io::NamedCount> counts;
+    for (const LabelCount& entry : row.labels) {
+        if (entry.label != 0 || onlyBackground) {
+            counts.push_back({entry.label, labelName(names, entry.label), entry.count});
+        }
+    }
+    std::stable_sort(counts.begin(), counts.end(),
+                     [](const io::NamedCount& a, const io::NamedCount& b) { return a.count > b.count; });
+    return counts;
+}
+
+ExtraColumn boundColumn(bool upper, std::size_t axis) {
+    return {std::string(upper ? "max_" : "min_") + "xyz"[axis], [upper, axis](const ExtraAnswers& row) {
+                return row.bounds ? io::Cell(rounded((upper ? row.bounds->hi : row.bounds->lo)[axis], 1e6))
+                                  : io::Cell();
+            }};
+}
+
+void keepContacts(const BatchAnswer& answer, std::span<const std::uint32_t> batch, std::span<Row> rows,
+                  DetectOutput& output) {
+    for (const Contact& contact : answer.contacts) {
+        Row& row = rows[batch[contact.pair]];
+        ++row.extra.contacts;
+        if (output.keepContact(row, contact)) {
+            row.extra.depth = std::max(row.extra.depth, contact.depth);
+        }
+    }
+    output.countContacts(answer.contactsFound);
+    // Each survivor is a contact: a list that was cut does not say how many a pair has, its count does.
+    if (answer.contactsFound > answer.contacts.size()) {
+        for (const std::uint32_t number : batch) {
+            Row& row = rows[number];
+            row.extra.contacts = std::max(row.extra.contacts, row.timed.answer.count);
+        }
+    }
+}
+
+} // namespace
+
+Outputs ExtraOptions::outputs() const {
+    Outputs outputs{.maxDepth = maxDepth.value_or(kDefaultMaxDepth)};
+    for (const Asking& asking : kAsking) {
+        outputs.*asking.output = asking.given(*this);
+    }
+    return outputs;
+}
+
+const char* ExtraOptions::asking() const {
+    const auto found = std::ranges::find_if(kAsking, [this](const Asking& asking) { return asking.given(*this); });
+    return found == kAsking.end() ? nullptr : found->option;
+}
+
+void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
+    addPath(parser, "--triangles", options.triangles, "a CSV file for the touched triangles: pose,triangle,count");
+    addPath(
+        parser, "--contacts", options.contacts,
+        "a .csv, .ply, .vtp or .mrk.json file for the places where survivors are, with normal and depth; see below");
+    addNumber(
+        parser, "--max-depth", [&options](double depth) { options.maxDepth = depth; },
+        "mm, how far a contact's depth is followed", [](double depth) { return depth > 0; }, "above 0", "10");
+    addWholeNumber(
+        parser, "--most-contacts", [&options](std::uint32_t most) { options.mostContacts = most; }, {.least = 1},
+        "contacts that are kept; a longer list is cut, with a note", kDefaultMostContacts);
+    addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
+    addPath(parser, "--label-names", options.labelNames,
+            "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
+    parser.add_flag("--bounds", options.bounds, "adds the world box of the survivors to each row");
+}
+
+void keepExtra(const BatchAnswer& answer, std::span<const std::uint32_t> batch, std::span<Row> rows,
+               DetectOutput& output) {
+    for (const TouchedTriangle& touched : answer.triangles) {
+        Row& row = rows[batch[touched.pair]];
+        ++row.extra.triangles;
+        output.addTriangle(row, touched);
+    }
+    keepContacts(answer, batch, rows, output);
+    for (std::size_t pair = 0; pair < answer.bounds.size(); ++pair) {
+        rows[batch[pair]].extra.bounds = answer.bounds[pair];
+    }
+    for (const LabelCount& label : answer.labels) {
+        rows[batch[label.pair]].extra.labels.push_back(label);
+    }
+}
+
+std::vector<ExtraColumn> extraColumns(const Outputs& outputs, const std::map<std::int32_t, std::string>& names) {
+    std::vector<ExtraColumn> columns;
+    if (outputs.triangles) {
+        columns.push_back({"triangles", [](const ExtraAnswers& row) { return row.triangles; }});
+    }
+    if (outputs.contacts) {
+        columns.push_back({"contacts", [](const ExtraAnswers& row) { return row.contacts; }});
+        columns.push_back({"depth", depthOf});
+    }
+    if (outputs.labels) {
+        columns.push_back({"labels", [&names](const ExtraAnswers& row) { return labelsOf(names, row); }});
+    }
+    if (outputs.bounds) {
+        for (const bool upper : {false, true}) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                columns.push_back(boundColumn(upper, axis));
+            }
+        }
+    }
+    return columns;
+}
+
+std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label) {
+    const auto found = names.find(label);
+    return found == names.end() ? std::to_string(label) : found->second;
+}
+
+double rounded(double value, double parts) {
+    return std::round(value * parts) / parts;
+}
+
+} // namespace voxtact::app

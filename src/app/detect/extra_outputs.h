@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/text/table.h"
+#include "voxtact/results.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+/// What `voxtact detect` reports beside the counts, all that is known of each output in one place: its options, what a
+/// row keeps of it, its columns. Files of their own are in detect_files.h.
+namespace voxtact::app {
+
+struct Row;
+class DetectOutput;
+
+constexpr std::uint32_t kDefaultMostContacts = 1U << 20U;
+
+/// What is asked for beside the counts.
+struct ExtraOptions {
+    std::filesystem::path triangles; ///< files to write; empty: not asked for
+    std::filesystem::path contacts;
+    std::filesystem::path labels; ///< a label map to read
+    std::filesystem::path labelNames;
+    bool bounds = false;
+    std::optional<double> maxDepth;
+    std::optional<std::uint32_t> mostContacts;
+
+    [[nodiscard]] Outputs outputs() const;
+    /// The first option that asks for an output; null where none does.
+    [[nodiscard]] const char* asking() const;
+    [[nodiscard]] std::uint32_t contactRoom() const { return mostContacts.value_or(kDefaultMostContacts); }
+};
+
+void addExtraOptions(CLI::App& parser, ExtraOptions& options);
+
+/// What a row keeps of them.
+struct ExtraAnswers {
+    std::uint64_t triangles = 0; ///< touched ones
+    std::uint64_t contacts = 0;  ///< found, kept or not
+    double depth = 0;            ///< of the deepest contact that was kept, mm
+    std::optional<Box> bounds;
+    std::vector<LabelCount> labels;
+};
+
+/// Gives the answers of a batch to the rows of its pairs, by the numbers in `batch`, and to the output.
+void keepExtra(const BatchAnswer& answer, std::span<const std::uint32_t> batch, std::span<Row> rows,
+               DetectOutput& output);
+
+struct ExtraColumn {
+    std::string name;
+    std::function<io::Cell(const ExtraAnswers&)> cell;
+};
+
+/// The columns of what is asked for. `names` of labels must outlive them.
+[[nodiscard]] std::vector<ExtraColumn> extraColumns(const Outputs& outputs,
+                                                    const std::map<std::int32_t, std::string>& names);
+
+/// The name of a label; its number where it has none.
+[[nodiscard]] std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label);
+
+/// To so many parts of one, so that the shortest text for it is short.
+[[nodiscard]] double rounded(double value, double parts);
+
+} // namespace voxtact::app

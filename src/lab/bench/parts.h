@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "lab/bench/bench.h"
+#include "lab/measure/rounds.h"
+
+/// The parts of a run of bench().
+namespace voxtact::lab {
+
+/// What one mesh is measured with.
+struct BenchRun {
+    const BenchSettings& settings;
+    Work work; ///< without poses
+    const Engines& engines;
+    double limit; ///< ms of the samples of all engines
+    const std::function<void()>& step;
+    BenchResult& result;
+
+    /// A row for an engine; returns its number.
+    [[nodiscard]] std::size_t addRow(const Engine& engine, const char* poses, std::size_t pairs) const;
+    /// Takes rounds of things until one of their answers is wrong.
+    [[nodiscard]] Result<void> time(std::vector<Timed>& things, Rounds rounds) const;
+};
+
+[[nodiscard]] Result<void> benchPoses(const BenchRun& run); ///< of certified and outputs
+[[nodiscard]] Result<void> benchTicks(const BenchRun& run);
+[[nodiscard]] Result<void> benchBatches(const BenchRun& run);
+/// Rounds of all ticks.
+[[nodiscard]] std::uint32_t tickRounds(std::uint32_t ticks);
+/// 1, 10, 100, ... and `most`.
+[[nodiscard]] std::vector<std::uint32_t> batchSizes(std::uint32_t most);
+
+/// Whether the mesh touches at a pose, by an engine.
+[[nodiscard]] std::function<Result<bool>(const Mat4& pose)> touchesBy(Engine& engine, const Work& work);
+
+/// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.
+[[nodiscard]] std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const PairAnswer> answers,
+                                      BenchRow& row);
+
+/// What must be answered at a pose.
+struct PoseTruth {
+    PairAnswer certified; ///< by the host: in the projection conservative
+    PairAnswer view;      ///< the same in the view: the count
+    /// In the view by the device's rasteriser, all of whose methods must count the same: nothing until one has.
+    std::optional<PairAnswer> raster{};
+};
+
+/// Fragments by which a rasteriser may count otherwise than the host, besides half of what the host counts.
+inline constexpr std::uint64_t kRoundedFragments = 64;
+
+/// What is wrong with an answer, or nothing; `truth` learns what the rasteriser counts from the first method that does.
+/// A certified answer must be the host's; those of a rasteriser must be each other's, and near the host's in the view.
+[[nodiscard]] std::string judgePose(const EngineFacts& engine, const PairAnswer& answer, PoseTruth& truth);
+
+/// Poses of a mesh with what must be answered there, which is asked for as far as it is needed.
+class KnownPoses {
+  public:
+    /// What must be answered is what `certified` and `view` say, two engines of the host.
+    KnownPoses(const Work& work, std::vector<Mat4> poses, Engine& certified, Engine& view)
+        : work_(work), poses_(std::move(poses)), certified_(certified), view_(view) {}
+
+    [[nodiscard]] std::size_t size() const noexcept { return poses_.size(); }
+    [[nodiscard]] Work at(std::size_t first, std::size_t count) const {
+        return work_.at(std::span(poses_).subspan(first, count));
+    }
+    /// Up to a pose.
+    [[nodiscard]] Result<void> learn(std::size_t end);
+    /// ms that the last ones took.
+    [[nodiscard]] double learning() const noexcept { return learning_; }
+    /// Holds the answers from pose `first` on against what must be answered, counts in `row` if they are `kept`, and
+    /// says what is wrong of pose `wrongAt`, or nothing.
+    [[nodiscard]] std::string judge(const Pass& pass, std::size_t first, bool kept, BenchRow& row,
+                                    std::size_t& wrongAt);
+
+  private:
+    Work work_;
+    std::vector<Mat4> poses_;
+    std::vector<PoseTruth> truths_; ///< of the first poses
+    Engine& certified_;
+    Engine& view_;
+    double learning_ = 0;
+};
+
+} // namespace voxtact::lab
