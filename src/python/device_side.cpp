@@ -40,6 +40,7 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.stopAtFirst = question.yesNo && question.projection == Projection::Conservative;
     desc.overestimate = question.overestimate;
     desc.counters = question.counters;
+    desc.margin = question.margin;
     return desc;
 }
 

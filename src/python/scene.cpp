@@ -206,8 +206,15 @@ std::shared_ptr<Answer> Scene::yesOrNo(const std::shared_ptr<const Request>& req
     return answer;
 }
 
-std::shared_ptr<Answer> Scene::within(const std::shared_ptr<const Request>& request, double margin,
+std::shared_ptr<Answer> Scene::within(const std::shared_ptr<const Request>& request, double margin, bool byDevice,
                                       const Progress& progress) {
+    if (byDevice) {
+        Question question;
+        question.method = CountingMethod::Compute;
+        question.yesNo = true;
+        question.margin = margin;
+        return detect(request, question, progress);
+    }
     return yesOrNo(request, 1, progress,
                    [&](HostSide& side, const Part& part) { return side.within(part, margin, desc_.threshold); });
 }

@@ -50,8 +50,9 @@ class Scene {
     [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,
                                                              const Distance& distance, std::vector<std::int32_t> labels,
                                                              const Progress& progress);
+    /// By the host, or by the device of a scene that has one.
     [[nodiscard]] std::shared_ptr<Answer> within(const std::shared_ptr<const Request>& request, double margin,
-                                                 const Progress& progress);
+                                                 bool byDevice, const Progress& progress);
     /// Of a request that checkWays() accepts; `progress` counts segments.
     [[nodiscard]] std::shared_ptr<Motions> motion(std::shared_ptr<const Request> request, const Way& way,
                                                   const Progress& progress);

@@ -127,11 +127,11 @@ std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, co
 }
 
 std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py::object& poses, double margin,
-                               const py::object& callback) {
+                               bool byDevice, const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
     const Unlocked unlocked;
-    return scene.within(request, margin, progress);
+    return scene.within(request, margin, byDevice, progress);
 }
 
 std::shared_ptr<Motions> motion(Scene& scene, const py::object& meshes, const py::object& poses,
@@ -203,7 +203,8 @@ void defineScene(py::module_& module) {
              py::arg("times"))
         .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
              py::arg("most_steps"), py::arg("labels"), py::arg("labels_at_any_opacity"), py::arg("progress"))
-        .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("progress"))
+        .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("by_device"),
+             py::arg("progress"))
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),
              py::arg("most_steps"), py::arg("progress"))
         .def("around", &around, py::arg("meshes"), py::arg("poses"), py::arg("distance"), py::arg("angle"),

@@ -44,6 +44,28 @@ def test_the_certified_answer_is_the_hosts(device, head, knife):
     assert repr(there).endswith(f"on {device.info.name!r}>")
 
 
+def test_a_margin_is_decided_by_the_device_that_is_asked(device, head, knife):
+    host, there = both(device, head)
+    poses = random_poses(40, 33)
+    hits = []
+    for margin in (0, 1.5, 6):
+        expected, answer = there.within(knife, poses, margin=margin), there.within(knife, poses, margin=margin, method="compute")
+        assert (answer.method, expected.method) == ("compute", "cpu")
+        sure = ~(answer.possible | expected.possible)
+        assert sure.mean() > 0.9
+        np.testing.assert_array_equal(answer.hit[sure], expected.hit[sure])
+        hits.append(int(answer.hit.sum()))
+    assert hits[0] < hits[2]
+    with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
+        host.within(knife, poses, margin=1, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="method is 'query'"):
+        there.within(knife, poses, margin=1, method="query")
+    with pytest.raises(vx.InvalidArgumentError, match="margin"):
+        there.within(knife, poses, margin=1e7, method="compute")
+    with pytest.raises(vx.NotReadyError):
+        there.within(knife, poses, margin=1, method="compute").contacts
+
+
 @pytest.mark.parametrize("method", ["query", "atomic", "subgroup", "compute"])
 def test_methods(device, head, knife, method):
     if device.methods[method] is not None:

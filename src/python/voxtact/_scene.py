@@ -285,14 +285,17 @@ class Scene:
                                                   bool(labels_at_any_opacity), tell))
 
     def within(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float,
-               progress: Progress = None) -> Answer:
+               method: Literal["cpu", "compute"] = "cpu", progress: Progress = None) -> Answer:
         """Whether something opaque is within `margin` mm of the mesh's surface: an `Answer` with `hit` and `possible`.
 
-        Faster than `clearance`. A margin of 0 is the touch. The host engine measures, also for scenes on a device.
+        Faster than `clearance`. A margin of 0 is the touch. The host engine measures, also for scenes on a device;
+        with `method="compute"` that device does, where `possible` is a little more frequent.
         """
+        if method not in ("cpu", "compute"):
+            raise InvalidArgumentError(f"method is {method!r}; a margin is decided by 'cpu' or by 'compute'")
         meshes, matrices = asked(mesh, poses)
         with told(progress, pairs_in(meshes, matrices)) as tell:
-            return Answer(self._core.within(meshes, matrices, number(margin, "margin"), tell), None)
+            return Answer(self._core.within(meshes, matrices, number(margin, "margin"), method == "compute", tell), None)
 
     def around(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, distance: float,
                angle: float, progress: Progress = None) -> Answer:
