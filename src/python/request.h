@@ -85,8 +85,9 @@ struct Question {
                           outputs.labels, inKey(outputs.maxDepth), samplesPerVoxel, inKey(resolution), yesNo,
                           overestimate, counters, inKey(margin), mostContacts);
     }
-    using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
-                           bool, std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t, std::uint32_t>;
+    using Key =
+        std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool, bool,
+                   std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t, std::uint32_t>;
 };
 
 /// How a clearance is measured.

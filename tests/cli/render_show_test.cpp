@@ -108,12 +108,14 @@ class RenderClearanceTest : public CliDeviceTest {
         writeText(path("half.mha"), kHalf + bytes);
         writeText(path("camera.txt"), "0.0625 0 0 0\n0 0.0625 0 0\n0 0 0.01 0.5\n0 0 0 1\n");
     }
-    /// A plate over all of the picture that rises with x, with nothing else to be seen.
+    /// A plate over all of the picture that rises with x, with nothing else to be seen. It is a hair lower at the
+    /// picture's lower left, so that this is where it is nearest, and where the distance is written.
     PngPicture plate(double from, double to, const Arguments& more) {
         const std::string near = std::to_string(from);
+        const std::string nearest = std::to_string(from - 0.02);
         const std::string far = std::to_string(to);
         writeText(path("plate.obj"), "v -16 -16 " + near + "\nv 16 -16 " + far + "\nv 16 16 " + far + "\nv -16 16 " +
-                                         near + "\nf 1 2 3\nf 1 3 4\n");
+                                         nearest + "\nf 1 2 3\nf 1 3 4\n");
         Arguments all{"render", "--volume",        path("half.mha"), "--opacity", "0:0,255:1",
                       "--mesh", path("plate.obj"), "--show",         "clearance", "--size",
                       "64x64",  "--output",        path("a.png")};

@@ -96,17 +96,25 @@ def chart(program, folder):
 
 def save_picture(window, folder, name, width):
     """Asks for a picture that is so large that it takes long; the state when it is being made."""
-    window.press("ctrl+p")
-    time.sleep(1)  # until the dialog has the keyboard, which nothing tells
-    window.type(f"{folder}/{name}")
-    window.tool("key", "Tab")
-    for side in (width, width):
-        window.tool("key", "ctrl+a")
-        window.type(str(side))
-        window.tool("key", "Tab")
-    time.sleep(1)
-    window.enter()
-    return window.until("a picture that is being made", lambda s: s["saving"] is not None)
+    for _ in range(3):  # a key that comes and goes within a frame is lost: then a size is taken for the name
+        window.press("ctrl+p")
+        time.sleep(1)  # until the dialog has the keyboard, which nothing tells
+        window.type(f"{folder}/{name}")
+        window.hold(0.2, "Tab")
+        for side in (width, width):
+            window.hold(0.2, "ctrl", "a")
+            window.type(str(side))
+            window.hold(0.2, "Tab")
+        time.sleep(1)
+        window.enter()
+        window.until("a picture that is being made", lambda s: s["saving"] is not None or s["error"] is not None)
+        time.sleep(0.5)
+        state = window.state()
+        if state["saving"] is not None:
+            return state
+        assert "the ending of a picture is .png" in (state["error"] or ""), state
+        window.hold(0.4, "Return")
+    raise AssertionError(("no picture is being made", window.state()))
 
 
 def cancel(program, folder):

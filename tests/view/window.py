@@ -117,10 +117,15 @@ class Window:
         self.enter()
 
     def enter(self):
-        # Long enough for a slow frame to see it.
-        self.tool("keydown", "Return")
-        time.sleep(0.4)
-        self.tool("keyup", "Return")
+        self.hold(0.4, "Return")
+
+    def hold(self, seconds, *keys):
+        """Keys at once, long enough for a slow frame to see them. Those that repeat do so after 0.27 s."""
+        for key in keys:
+            self.tool("keydown", key)
+        time.sleep(seconds)
+        for key in reversed(keys):
+            self.tool("keyup", key)
 
     def end(self):
         """The exit status is 0 only where validation had nothing to say."""

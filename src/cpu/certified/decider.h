@@ -403,7 +403,7 @@ template <class Kept, class Mode> class Decider {
     shader::PreciseTriangle precise_{}; ///< of number `preciseOf_`
     std::uint32_t preciseOf_ = kNoTriangle;
     std::vector<Open> open_;
-    PlacedCluster placed_;
+    PlacedVertices placed_;
     BoxLook boxes_;
     shader::CertifiedBounds delta_{}; ///< of the box that was looked at last: its delta is not less than its triangles'
 };

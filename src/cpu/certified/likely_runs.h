@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/certified/placed_cluster.h"
+#include "cpu/certified/placed_vertices.h"
 #include "cpu/certified/run_look.h"
 #include "cpu/certified/volume_cells.h"
 
@@ -27,7 +27,7 @@ template <class Kept> class LikelyRuns {
     };
 
     /// All must outlive it.
-    LikelyRuns(const CertifiedJob& job, const VolumeCells<Kept>& cells, PlacedCluster& placed)
+    LikelyRuns(const CertifiedJob& job, const VolumeCells<Kept>& cells, PlacedVertices& placed)
         : mesh_(job.mesh), item_(job.occupancy.item()), table_(job.occupancy.table()), cells_(cells), placed_(placed) {}
 
     [[nodiscard]] const std::vector<Run>& all() const { return runs_; }
@@ -85,7 +85,7 @@ template <class Kept> class LikelyRuns {
     shader::CertifiedItem item_;
     shader::OpacityTable table_;
     const VolumeCells<Kept>& cells_;
-    PlacedCluster& placed_;
+    PlacedVertices& placed_;
     std::vector<Run> runs_;
     std::vector<shader::CertifiedCell> known_; ///< of runs, in the order of their sets
     std::array<shader::CertifiedCell, CellSet::kMost> here_;

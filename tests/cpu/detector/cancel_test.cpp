@@ -152,7 +152,7 @@ class CancelSearch : public Cancel {
         : gap_(take(cpu::Volume::create(
               makeBytes(grid(), [](auto, auto, auto z) { return z < 40 || z > 56 ? 255.0 : 0.0; }).view()))),
           gapLabels_(take(makeLabels(makeBytes(grid(), [](auto...) { return 1.0; }).view()))),
-          plate_(take(cpu::Mesh::create(plate(200).view()))) {
+          plate_(take(cpu::Mesh::create(plate(600).view()))) {
         item_ = {&plate_, &gap_, &function_, std::span(poses_).first(1), &gapLabels_};
     }
 

@@ -11,7 +11,7 @@
 namespace voxtact::cpu {
 
 /// The vertices of one cluster of a pair in voxel space, the one that was asked for last.
-class PlacedCluster {
+class PlacedVertices {
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
   public:
@@ -19,7 +19,7 @@ class PlacedCluster {
     static constexpr std::size_t kMost = 3 * std::size_t{kClusterTriangles} + kMeshAlignment;
 
     /// Both must outlive it.
-    PlacedCluster(const MeshImpl& mesh, const shader::CertifiedPair& transform) : mesh_(mesh), transform_(transform) {}
+    PlacedVertices(const MeshImpl& mesh, const shader::CertifiedPair& transform) : mesh_(mesh), transform_(transform) {}
 
     /// Places the cluster of a run. Returns the number of the run's first triangle in the mesh's arrays.
     std::size_t begin(std::uint32_t run) {
