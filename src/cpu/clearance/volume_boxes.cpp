@@ -15,7 +15,6 @@ namespace {
 
 using glm::dot;
 using glm::dvec3;
-using glm::length;
 
 /// The least dot product of `along` with a point of a box.
 double leastInBox(const dvec3& along, const dvec3& lo, const dvec3& hi) {
