@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The arrows between the parts of the source: what each folder of src/ may include of the others, and that public
-# headers include only the standard library, vulkan_core.h and each other.
+# The arrows between the parts of the source: what each folder of src/ may include of the others, that public headers
+# include only the standard library, vulkan_core.h and each other, and that no part has two types of one name.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -64,5 +64,14 @@ while IFS=: read -r file line text; do
         ;;
     esac
 done < <(grep -rnE '#include' include)
+
+# A name stands for one thing: two types of a part that have one name, in headers that no file includes together, are
+# found by no compiler, and by the linker only if they are unlucky.
+type_name='^(template <.*> *)?(class|struct|enum class) +([A-Z][A-Za-z0-9]+)( final)?( *:[^:].*)? *\{.*$'
+for folder in src/*/; do
+    while IFS= read -r name; do
+        complain "$folder: two types are called $name"
+    done < <(grep -rhE "$type_name" "$folder" --include='*.h' | sed -E "s/$type_name/\3/" | sort | uniq -d)
+done
 
 exit "$wrong"

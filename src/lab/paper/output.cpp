@@ -130,7 +130,7 @@ Row rowOf(const IntegrationPoint& point) {
 }
 
 /// Numbers as printed.
-Row rowOf(const published::Row& row) {
+Row rowOf(const published::TableLine& row) {
     return Row()
         .column("table", std::to_string(row.table))
         .member("table", row.table)

@@ -15,7 +15,7 @@ namespace voxtact::lab {
 /// ray step or number of samples.
 namespace published {
 /// A line of Table 1 or 2: average ms a frame.
-struct Row {
+struct TableLine {
     int table = 0; ///< 1 or 2, see kHardware
     const char* scene = nullptr;
     double mesh = 0;
@@ -27,7 +27,7 @@ struct Row {
 };
 /// As printed. Slips: the total of Table 1, v2s2 repeats the rendering (it should be 6.083), and the overhead of Table
 /// 2, v2s1 is 15.8 by its own columns.
-inline constexpr std::array<Row, 8> kTables{{
+inline constexpr std::array<TableLine, 8> kTables{{
     {1, "v1s1", 0.043, 5.793, 0.502, 5.835, 6.337, 8.6},
     {1, "v1s2", 0.356, 5.793, 0.789, 6.148, 6.937, 12.8},
     {1, "v2s1", 0.027, 4.983, 0.481, 5.01, 5.491, 9.6},
@@ -40,8 +40,8 @@ inline constexpr std::array<Row, 8> kTables{{
 inline constexpr std::array<const char*, 2> kHardware{"Core 2 Quad 2.4 GHz, Quadro FX 3700, Windows XP",
                                                       "Core i3 3.07 GHz, GeForce GTX 470, Windows 7"};
 inline constexpr ValueRange kOverhead{
-    std::ranges::min_element(kTables, {}, &Row::overhead)->overhead,
-    std::ranges::max_element(kTables, {}, &Row::overhead)->overhead}; ///< percent, over its scenes
+    std::ranges::min_element(kTables, {}, &TableLine::overhead)->overhead,
+    std::ranges::max_element(kTables, {}, &TableLine::overhead)->overhead}; ///< percent, over its scenes
 inline constexpr double kPairsPerSecond = 3800;
 inline constexpr double kIntegrationMilliseconds = 40; ///< the pre-integrated table, 256x256
 } // namespace published
