@@ -353,7 +353,7 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// `isLikely`: it is not looked at first.
+    /// `isLikely`: a look at the triangle in this cell is not worth it, or was taken already.
     void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
                     const BrickCells& known, bool isLikely) {
         const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
@@ -405,7 +405,7 @@ template <class Kept, class Mode> class Decider {
     std::vector<Open> open_;
     PlacedVertices placed_;
     BoxLook boxes_;
-    shader::CertifiedBounds delta_{}; ///< of the box that was looked at last: its delta is not less than its triangles'
+    shader::CertifiedBounds delta_{}; ///< not less than of any triangle: of the mesh, or of the box asked last
 };
 
 } // namespace voxtact::cpu

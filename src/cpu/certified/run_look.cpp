@@ -78,8 +78,8 @@ Range along(const PointHull& hull, double x, double y, double z) noexcept {
     return range;
 }
 
-/// Rounding of the interpolation here and of certifiedPartMayBeOpaque() for each triangle is in the error, and in what
-/// is added to it.
+/// Of a cell's pointError: the interpolation here is off by one, that of certifiedPartMayBeOpaque() for a triangle by
+/// another, and it asks with the third.
 constexpr float kErrors = 3;
 
 VoxelPoint originOf(std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
