@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MIT
 """clang-tidy on what the build compiles of the given files and folders (src), one process a core.
 
-usage: tidy.py BUILD_FOLDER [FILE|FOLDER...]
+usage: tidy.py [--all-checks] BUILD_FOLDER [FILE|FOLDER...]
 
 A file that passed is looked at again only when one of the texts that it is compiled from has changed: the file, the
 headers of ours that it includes as the last build saw them, its command, the checks, or clang-tidy. What passed is kept
-in the build folder as hashes of these. The exit status is 1 when there was a finding.
+in the build folder as hashes of these. Without --all-checks, the slow one of the checks is left out. The exit status is
+1 when there was a finding.
 """
 import concurrent.futures
 import hashlib
@@ -14,11 +15,14 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIGS = [ROOT / ".clang-tidy"]
+# As long as all others together, in other people's templates.
+SLOW_CHECKS = "-performance-unnecessary-value-param"
 
 
 def headers_of_objects(build):
@@ -46,24 +50,47 @@ class Hashes:
         return self.known[path]
 
 
-def wanted(build, names):
-    """(source, what it is compiled from as one hash) of every wanted file that the build compiles."""
+def plain(command):
+    """A command of the build as clang-tidy can follow it: the compiler first, and no header that GCC has precompiled."""
+    words = shlex.split(command)
+    compiler = next(i for i, word in enumerate(words) if re.search(r"(g|c|clang)\+\+(-\d+)?$", word))
+    kept = []
+    for word in words[compiler:]:
+        if word in ("-Winvalid-pch", "-fpch-preprocess"):
+            continue
+        if word.endswith("/cmake_pch.hxx"):
+            kept.pop()  # its -include
+            continue
+        kept.append(word)
+    return shlex.join(kept)
+
+
+def commands_of(build, names):
+    """The build's commands, plain, of every wanted file that it compiles; of one that it compiles twice the first."""
     roots = [(ROOT / name).resolve() for name in names]
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        source = pathlib.Path(entry["file"]).resolve()
+        if source.suffix == ".cpp" and any(source.is_relative_to(root) for root in roots):
+            found.setdefault(source, entry | {"command": plain(entry["command"])})
+    return found
+
+
+def hashes_of(build, commands, checks):
+    """Of each source: all that it is compiled from and looked at by, as one hash."""
     deps = headers_of_objects(build)
     hashes = Hashes()
     version = subprocess.run(["clang-tidy", "--version"], text=True, capture_output=True, check=True).stdout
-    for command in json.loads((build / "compile_commands.json").read_text()):
-        source = pathlib.Path(command["file"]).resolve()
-        if source.suffix != ".cpp" or not any(source.is_relative_to(root) for root in roots):
-            continue
-        output = re.search(r" -o (\S+)", command["command"])
+    for source, entry in commands.items():
+        output = re.search(r" -o (\S+)", entry["command"])
         parts = sorted({source, *CONFIGS, *deps.get(output[1] if output else "", [])})
-        text = version + command["command"] + "".join(f"{path}{hashes.of(path)}" for path in parts)
+        text = version + checks + entry["command"] + "".join(f"{path}{hashes.of(path)}" for path in parts)
         yield source, hashlib.sha256(text.encode()).hexdigest()
 
 
-def tidy(build, source):
-    done = subprocess.run(["clang-tidy", "--quiet", "-p", build, source], text=True, capture_output=True)
+def tidy(database, checks, source):
+    command = ["clang-tidy", "--quiet", f"--checks={checks}", "-p", database, source]
+    done = subprocess.run(command, text=True, capture_output=True)
     # The count of warnings in other people's headers goes to standard error: of no interest unless it fails.
     return done.returncode == 0, done.stdout + (done.stderr if done.returncode != 0 else "")
 
@@ -72,17 +99,18 @@ def main():
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print(__doc__)
         return 0 if len(sys.argv) > 1 else 2
-    build = pathlib.Path(sys.argv[1]).resolve()
+    arguments = sys.argv[1:]
+    checks = "" if "--all-checks" in arguments else SLOW_CHECKS
+    build, *names = [argument for argument in arguments if argument != "--all-checks"]
+    build = pathlib.Path(build).resolve()
     passed = build / "tidy"
     passed.mkdir(exist_ok=True)
-    files = {}
-    for source, key in wanted(build, sys.argv[2:] or ["src"]):
-        # A source that is compiled twice is looked at once, as clang-tidy does with all of its commands.
-        files.setdefault(source, hashlib.sha256()).update(key.encode())
-    left = [(source, key.hexdigest()) for source, key in sorted(files.items()) if not (passed / key.hexdigest()).exists()]
+    commands = commands_of(build, names or ["src"])
+    (passed / "compile_commands.json").write_text(json.dumps(list(commands.values())))
+    left = [one for one in sorted(hashes_of(build, commands, checks)) if not (passed / one[1]).exists()]
     found = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for (source, key), (good, text) in zip(left, pool.map(lambda one: tidy(build, one[0]), left)):
+        for (_, key), (good, text) in zip(left, pool.map(lambda one: tidy(passed, checks, one[0]), left)):
             print(text, end="")
             if good:
                 (passed / key).touch()

@@ -135,9 +135,9 @@ bool operator==(const PairResult& a, const PairResult& b) {
 
 TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
     std::mt19937_64 random(testSeed());
-    constexpr std::size_t kPoses = 500;
+    constexpr std::size_t kPoses = 100;
     std::size_t finite = 0;
-    for (std::size_t scenes = 0; scenes < randomCases(200, 40); ++scenes) {
+    for (std::size_t scenes = 0; scenes < randomCases(1000, 125); ++scenes) {
         const Grid grid = anyGrid(random);
         const Volume volume = take(
             Volume::upload(context(), queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));
@@ -183,7 +183,7 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
             }
         }
     }
-    EXPECT_GT(finite, 50'000U);
+    EXPECT_GT(finite, 10'000U);
 }
 
 TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
