@@ -65,6 +65,26 @@ void sieveCells(const CellSieveJob& job, SievedCells& out) {
     out.leastGone = leastOf(gone);
 }
 
+void sieveNear(const NearCellsJob& job, SievedCells& out) {
+    const Doubles d;
+    const std::size_t lanes = hn::Lanes(d);
+    for (std::int32_t z = job.cells.lo[2]; z <= job.cells.hi[2]; ++z) {
+        for (std::int32_t y = job.cells.lo[1]; y <= job.cells.hi[1]; ++y) {
+            const auto number = static_cast<std::size_t>(y + kBrickSide * z);
+            const double across =
+                job.squares[1][static_cast<std::size_t>(y)] + job.squares[2][static_cast<std::size_t>(z)];
+            const unsigned row = job.known.row(job.cells, y, z);
+            unsigned kept = 0;
+            for (std::size_t x = 0; x < kSide && row != 0 && across < job.within; x += lanes) {
+                const DoubleV square = hn::Add(all(across), hn::LoadU(d, job.squares[0].data() + x));
+                hn::Store(square, d, out.lo.data() + number * kSide + x);
+                kept |= bitsOf(hn::Lt(square, all(job.within))) << x;
+            }
+            out.kept[number] = static_cast<std::uint8_t>(kept & row);
+        }
+    }
+}
+
 /// The number of the highest bit of each, which is not 0 and less than 256: the exponent of a double.
 HWY_INLINE DoubleV highestBit(hn::Vec<hn::Rebind<std::int32_t, Doubles>> bits) {
     constexpr double kTwo52 = 0x1p52;
@@ -105,10 +125,15 @@ HWY_AFTER_NAMESPACE();
 namespace voxtact::cpu {
 
 HWY_EXPORT(sieveCells);
+HWY_EXPORT(sieveNear);
 HWY_EXPORT(leastCell);
 
 void sieveCells(const CellSieveJob& job, SievedCells& out) {
     HWY_DYNAMIC_DISPATCH(sieveCells)(job, out);
+}
+
+void sieveNear(const NearCellsJob& job, SievedCells& out) {
+    HWY_DYNAMIC_DISPATCH(sieveNear)(job, out);
 }
 
 double leastCell(const BrickCells& known, const CellBox& cells, const glm::dvec3& along) {

@@ -34,6 +34,17 @@ struct alignas(kRowAlignment) SievedCells {
 
 /// The same on every processor, as what follows.
 void sieveCells(const CellSieveJob& job, SievedCells& out);
+
+/// Those cells of a brick that may be opaque and are in a box, by how far they are along each axis from a point.
+struct NearCellsJob {
+    const BrickCells& known;
+    const CellBox& cells;
+    const std::array<std::array<double, kBrickSide>, 3>& squares; ///< mm^2
+    double within = 0;                                            ///< mm^2: what is not nearer is not kept
+};
+
+/// `lo` is in mm^2 here, and there is no `leastGone`.
+void sieveNear(const NearCellsJob& job, SievedCells& out);
 /// The least dot product of `along` with the place of one of them within the brick.
 [[nodiscard]] double leastCell(const BrickCells& known, const CellBox& cells, const glm::dvec3& along);
 

@@ -121,11 +121,11 @@ Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3
 }
 
 Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                    std::span<const LeastAlong> directions) {
+                    const LeastAlong& direction) {
     const PieceV pieces = all(piece);
     return sieve(job, [&](std::size_t first, DoubleM open) {
         const TriangleV triangle = trianglesAt(job.triangles, first);
-        const DoubleV lo = boundAlong(job, triangle, directions);
+        const DoubleV lo = boundAlong(job, triangle, {&direction, 1});
         return unlessClosed(job, lo, open, [&] {
             const PointV normal = offTriangles(job.triangles, first, triangle, pieces.middle);
             return apart(leastOf(pieces, space, normal), reach(normal, triangle), normal, job.error);
@@ -204,8 +204,8 @@ Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3
 }
 
 Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                    std::span<const LeastAlong> directions) {
-    return HWY_DYNAMIC_DISPATCH(sieveByPiece)(job, space, piece, directions);
+                    const LeastAlong& direction) {
+    return HWY_DYNAMIC_DISPATCH(sieveByPiece)(job, space, piece, direction);
 }
 
 void placeVertices(const PlaceJob& job, const std::array<double*, 3>& local) {

@@ -51,9 +51,9 @@ struct VoxelBox3 {
 [[nodiscard]] Sieved sieveAlong(const SieveJob& job, std::span<const LeastAlong> directions);
 /// Each by its box, and along a direction of its own to the middle of the other box.
 [[nodiscard]] Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3& box);
-/// Each along some directions, and then along one of its own to the middle of a piece.
+/// Each along a direction, and then along one of its own to the middle of a piece.
 [[nodiscard]] Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                                  std::span<const LeastAlong> directions);
+                                  const LeastAlong& direction);
 
 /// What a cluster is placed by: rows of at least kMeshAlignment, as MeshImpl pads them.
 struct PlaceJob {

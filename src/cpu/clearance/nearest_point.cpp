@@ -103,8 +103,9 @@ class MeshSearch {
 class OpaqueSearch {
   public:
     OpaqueSearch(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume, const dvec3& from,
-                 double within)
-        : part_(part), searched_(searched), volume_(volume), from_(from), voxel_(part.space.toVoxel(from)) {
+                 double within, const NearMemory& memory)
+        : part_(part), searched_(searched), volume_(volume), memory_(memory), from_(from),
+          voxel_(part.space.toVoxel(from)) {
         best_.distance = within;
     }
 
@@ -166,39 +167,45 @@ class OpaqueSearch {
         if (squares.least(known.around) >= worthwhile()) {
             return;
         }
-        const auto forCells = [&](const auto& visit) {
-            for (std::int32_t z = known.around.lo[2]; z <= std::min(known.around.hi[2], squares.last[2]); ++z) {
-                for (std::int32_t y = known.around.lo[1]; y <= std::min(known.around.hi[1], squares.last[1]); ++y) {
-                    const double across = squares.at(1, y) + squares.at(2, z);
-                    if (across >= worthwhile()) {
-                        continue;
-                    }
-                    for (unsigned row = known.row(known.around, y, z); row != 0; row &= row - 1) {
-                        const std::int32_t x = std::countr_zero(row);
-                        if (x <= squares.last[0]) {
-                            visit(across + squares.at(0, x), NodePlace{x, y, z});
-                        }
-                    }
-                }
-            }
-        };
+        CellBox cells = known.around;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            cells.hi[axis] = std::min(cells.hi[axis], squares.last[axis]);
+        }
+        sieveNear({known, cells, squares.of, worthwhile()}, memory_.cells);
         double least = worthwhile();
-        std::optional<NodePlace> nearest;
-        forCells([&](double square, const NodePlace& cell) {
+        NodePlace nearest{-1, -1, -1};
+        forKept(cells, least, [&](double square, const NodePlace& cell) {
             if (square < least) {
                 least = square;
                 nearest = cell;
             }
         });
-        if (!nearest) {
+        if (nearest[0] < 0) {
             return;
         }
-        openCell(squares.padded(*nearest));
-        forCells([&](double square, const NodePlace& cell) {
-            if (square < worthwhile() && cell != *nearest) {
-                openCell(squares.padded(cell));
+        openCell(squares.padded(nearest));
+        forKept(cells, worthwhile(), [&](double /*square*/, const NodePlace& cell) {
+            if (cell != nearest) {
+                addCell(squares.padded(cell));
             }
         });
+        walk();
+    }
+
+    /// Calls `visit(square, cell)` for the cells that were kept and are nearer than that, mm^2.
+    template <class Visit> void forKept(const CellBox& cells, double within, const Visit& visit) const {
+        for (std::int32_t z = cells.lo[2]; z <= cells.hi[2]; ++z) {
+            for (std::int32_t y = cells.lo[1]; y <= cells.hi[1]; ++y) {
+                const auto number = static_cast<std::size_t>(y + kBrickSide * z);
+                for (unsigned row = memory_.cells.kept[number]; row != 0; row &= row - 1) {
+                    const std::int32_t x = std::countr_zero(row);
+                    const double square = memory_.cells.lo[number * kBrickSide + static_cast<std::size_t>(x)];
+                    if (square < within) {
+                        visit(square, NodePlace{x, y, z});
+                    }
+                }
+            }
+        }
     }
 
     /// How far a brick's cells are along each axis, squared: mm^2.
@@ -248,19 +255,52 @@ class OpaqueSearch {
 
     void look(const PartCell& cell, const CellRegion& region) {
         dvec3 at = glm::clamp(2.0 * (voxel_ - cell.middle), region.lo, region.hi);
-        if (!goToOpaque(part_, cell, region, at)) {
-            return;
+        if (goToOpaque(part_, cell, region, at)) {
+            offer(cell.middle, at);
         }
-        const dvec3 point = part_.space.toWorld(cell.middle + 0.5 * at);
+    }
+
+    void offer(const dvec3& cellMiddle, const dvec3& at) {
+        const dvec3 point = part_.space.toWorld(cellMiddle + 0.5 * at);
         const double distance = glm::distance(point, from_);
         if (distance < best_.distance) {
             best_ = {point, distance};
         }
     }
 
+    /// The same of a cell, soon or when walk() is called.
+    void addCell(const NodePlace& node) {
+        PieceRows& rows = memory_.rows;
+        const PartCell place = part_.emptyCell(volume_, node);
+        searched_.forRegions(place, node, [&](const CellRegion& region) {
+            if (rows.count == PieceRows::kMost) {
+                walk();
+            }
+            part_.addCell(volume_, node, rows);
+            rows.setPiece(rows.count - 1, 0.5 * (region.lo + region.hi), 0.5 * (region.hi - region.lo));
+        });
+    }
+
+    void walk() {
+        PieceRows& rows = memory_.rows;
+        if (rows.count == 0) {
+            return;
+        }
+        makeTerms(part_.scale(), rows);
+        walkToOpaque({part_.intervals, part_.space, from_, voxel_}, rows, memory_.walks);
+        const double* const distances = memory_.walks.distance.data();
+        const auto i = static_cast<std::size_t>(std::min_element(distances, distances + rows.count) - distances);
+        if (distances[i] < best_.distance) {
+            const auto& at = memory_.walks.at;
+            offer({rows.cell[0][i], rows.cell[1][i], rows.cell[2][i]}, {at[0][i], at[1][i], at[2][i]});
+        }
+        rows.count = 0;
+    }
+
     const OpaquePart& part_;
     const SearchedPart& searched_;
     const VolumeImpl& volume_;
+    const NearMemory& memory_;
     dvec3 from_;
     dvec3 voxel_;
     OpaquePoint best_;
@@ -273,13 +313,13 @@ MeshPoint nearestOnMesh(MeshPlace& mesh, const dvec3& from, double within) {
 }
 
 OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
-                          const dvec3& from, double within) {
-    return OpaqueSearch(part, searched, volume, from, within).run();
+                          const dvec3& from, double within, const NearMemory& memory) {
+    return OpaqueSearch(part, searched, volume, from, within, memory).run();
 }
 
 OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
-                           const NodePlace& brick, const dvec3& from, double within) {
-    return OpaqueSearch(part, searched, volume, from, within).runIn(brick);
+                           const NodePlace& brick, const dvec3& from, double within, const NearMemory& memory) {
+    return OpaqueSearch(part, searched, volume, from, within, memory).runIn(brick);
 }
 
 bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region, dvec3& at) noexcept {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/clearance/cell_sieve.h"
+#include "cpu/clearance/cell_walk.h"
 #include "cpu/clearance/label_part.h"
 #include "cpu/clearance/mesh_place.h"
 #include "cpu/clearance/opaque_part.h"
@@ -23,15 +25,23 @@ struct OpaquePoint {
     double distance = std::numeric_limits<double>::infinity();
 };
 
+/// What looking for an opaque point takes. Contents mean nothing before and after.
+struct NearMemory {
+    PieceRows& rows; ///< empty, before and after
+    SievedCells& cells;
+    WalkRows& walks;
+};
+
 /// About the closest point of the mesh, where there is one nearer than `within`, mm.
 [[nodiscard]] MeshPoint nearestOnMesh(MeshPlace& mesh, const glm::dvec3& from, double within);
 /// About the closest of the points that are certainly opaque, where there is one nearer than `within`, mm.
 [[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
-                                        const glm::dvec3& from, double within);
+                                        const glm::dvec3& from, double within, const NearMemory& memory);
 
 /// The same in a brick alone.
 [[nodiscard]] OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
-                                         const NodePlace& brick, const glm::dvec3& from, double within);
+                                         const NodePlace& brick, const glm::dvec3& from, double within,
+                                         const NearMemory& memory);
 
 /// Goes along a cell's interpolant from a point of a region of it until the value is certainly opaque; false where it
 /// does not get there. `at`: the cell's coordinates from -1 to 1.

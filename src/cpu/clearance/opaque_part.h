@@ -84,6 +84,12 @@ class OpaquePart {
     }
     /// The cell with this padded number (core/volume/bricks.h), which is not further out than the last one.
     [[nodiscard]] PartCell cell(const VolumeImpl& volume, const NodePlace& padded) const;
+    /// The same without what it holds: where it is.
+    [[nodiscard]] PartCell emptyCell(const VolumeImpl& volume, const NodePlace& padded) const {
+        PartCell out;
+        setDomain(volume, padded, out);
+        return out;
+    }
     /// Adds all of such a cell to some rows, for makeTerms().
     void addCell(const VolumeImpl& volume, const NodePlace& padded, PieceRows& rows) const;
     [[nodiscard]] const EntryScale& scale() const noexcept { return scale_; }

@@ -133,14 +133,61 @@ HWY_INLINE PieceV boundsAt(const PieceRows& rows, const VolumeSpace& space, std:
             sum(abs(slope))};
 }
 
+/// Of some points the one that is farthest along the normal in each lane.
+struct FarthestV {
+    DoubleV along;
+    PointV corner;
+};
+
+HWY_INLINE FarthestV farthestOf(const PointList& corners, const PointV& normal) {
+    const Doubles d;
+    const DoubleV one = all(1.0);
+    DoubleV along = all(-std::numeric_limits<double>::infinity());
+    DoubleV number = hn::Zero(d);
+    DoubleV farthest = hn::Zero(d);
+    for (std::size_t i = 0; i < corners.count; ++i) {
+        const PointV corner{all(corners.x[i]), all(corners.y[i]), all(corners.z[i])};
+        const DoubleV its = dot(normal, corner);
+        const DoubleM farther = hn::Gt(its, along);
+        along = hn::IfThenElse(farther, its, along);
+        farthest = hn::IfThenElse(farther, number, farthest);
+        number = hn::Add(number, one);
+    }
+    const auto at = hn::ConvertTo(hn::Rebind<std::int64_t, Doubles>(), farthest);
+    return {along,
+            {hn::GatherIndex(d, corners.x.data(), at), hn::GatherIndex(d, corners.y.data(), at),
+             hn::GatherIndex(d, corners.z.data(), at)}};
+}
+
 /// How far they are along a direction of each.
+HWY_INLINE DoubleV apartAlong(const PieceJob& job, const PieceV& pieces, const PointV& normal, DoubleV farthest) {
+    return apart(leastOf(pieces, job.space, normal), farthest, normal, job.error);
+}
+
 HWY_INLINE DoubleV apartAlong(const PieceJob& job, const PieceV& pieces, const PointV& normal) {
     DoubleV farthest = all(-std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < job.corners.count; ++i) {
         const PointV corner{all(job.corners.x[i]), all(job.corners.y[i]), all(job.corners.z[i])};
         farthest = greater(dot(normal, corner), farthest);
     }
-    return apart(leastOf(pieces, job.space, normal), farthest, normal, job.error);
+    return apartAlong(job, pieces, normal, farthest);
+}
+
+/// From about the closest point of the triangles' hull to a piece, after a direction from some point of it along which
+/// `farthest` is the farthest corner: from the closest point of the segment between the two, as in the algorithm of
+/// Gilbert, Johnson and Keerthi (1988).
+HWY_INLINE PointV refined(const PieceV& pieces, const PointV& normal, const PointV& farthest) {
+    const PointV side = farthest - (pieces.middle - normal);
+    const DoubleV square = dot(side, side);
+    const DoubleV inverse = hn::IfThenElseZero(hn::Gt(square, hn::Zero(Doubles())), hn::Div(all(1.0), square));
+    return offSegment(normal, side, inverse);
+}
+
+/// Whether a piece is large for its distance, so that all of it is not in about the same direction.
+HWY_INLINE DoubleM isNear(const VolumeSpace& space, const PieceV& pieces, const PointV& normal) {
+    constexpr double kHalves = 10;
+    const PointV half = all(space.spacing) * pieces.half;
+    return hn::Lt(dot(normal, normal), hn::Mul(dot(half, half), all(kHalves * kHalves)));
 }
 
 void findApart(const PieceJob& job, PieceRows& rows) {
@@ -154,9 +201,15 @@ void findApart(const PieceJob& job, PieceRows& rows) {
     for (std::size_t first = 0; first < rows.count; first += hn::Lanes(d)) {
         const PieceV pieces = boundsAt(rows, job.space, first);
         const PointV normal = offTriangle(triangle, inverse, pieces.middle);
-        DoubleV lo = apartAlong(job, pieces, normal);
+        const FarthestV far = farthestOf(job.corners, normal);
+        DoubleV lo = apartAlong(job, pieces, normal, far.along);
         // What becomes of a piece must not depend on its neighbours in a vector.
-        const DoubleM left = hn::Lt(lo, all(job.cut));
+        DoubleM left = hn::Lt(lo, all(job.cut));
+        if (!hn::AllFalse(d, left)) {
+            lo = hn::IfThenElse(left, greater(apartAlong(job, pieces, refined(pieces, normal, far.corner)), lo), lo);
+            left = hn::And(left, hn::Lt(lo, all(job.cut)));
+            left = hn::And(left, isNear(job.space, pieces, normal));
+        }
         if (!hn::AllFalse(d, left)) {
             // Where the interpolant grows fastest.
             const PointV gradient{hn::Div(pieces.slope.x, pieces.half.x), hn::Div(pieces.slope.y, pieces.half.y),

@@ -30,6 +30,13 @@ struct alignas(kRowAlignment) PieceRows {
 
     /// Adds a piece of a cell. Expects fewer than the most.
     void add(const PartCell& cell, const PiecePlace& place) noexcept;
+    /// Where in its cell a piece is, in the cell's coordinates.
+    void setPiece(std::size_t number, const glm::dvec3& pieceMiddle, const glm::dvec3& pieceHalf) noexcept {
+        for (int axis = 0; axis < 3; ++axis) {
+            middle[static_cast<std::size_t>(axis)][number] = pieceMiddle[axis];
+            half[static_cast<std::size_t>(axis)][number] = pieceHalf[axis];
+        }
+    }
 };
 
 /// What a piece is measured against: some triangles, by the closest one and all of their corners. Not swept.

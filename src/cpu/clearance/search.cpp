@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/search.h"
-#include "cpu/clearance/nearest_point.h"
 
 #include <glm/geometric.hpp>
 
@@ -50,7 +49,9 @@ Found ClosestSearch::run(MeshPlace& mesh, const VolumeImpl& volume, const Opaque
         open(next());
         if (!improved && found_.hi < kInfinity && !mesh.isSwept()) {
             improved = true;
-            improve();
+            if (found_.hi > goal.enough) {
+                improve();
+            }
         }
     }
     if (dive_) {
@@ -189,24 +190,16 @@ void ClosestSearch::drop(const Pair& pair) {
     dropped_.push_back(pair);
 }
 
-/// From one certain point to the closest on the mesh, from there to the opaque part, and so on: to a point that is
-/// locally the closest, so that most of what is offered later is closed at once.
+/// From the first certain point to the closest on the mesh, and from there to the opaque part: to a point that is about
+/// the closest thereabouts, so that most of what is offered later is closed at once.
 void ClosestSearch::improve() {
-    constexpr int kMostTurns = 4;
-    constexpr double kWorthwhile = 8; // tolerances
-    for (int turn = 0; turn < kMostTurns && found_.hi > goal_.enough; ++turn) {
-        const double before = found_.hi;
-        const MeshPoint onMesh = nearestOnMesh(*mesh_, found_.inVolume, before);
-        if (found_.isOpaque && onMesh.distance < before) {
-            found_.offer(error_.above(onMesh.distance), onMesh.triangle, onMesh.point, found_.inVolume, true);
-        }
-        const OpaquePoint opaque = nearestOpaque(*part_, *searched_, *volume_, found_.onMesh, found_.hi);
-        if (opaque.distance < found_.hi) {
-            found_.offer(error_.above(opaque.distance), found_.triangle, found_.onMesh, opaque.point, true);
-        }
-        if (!(found_.hi < before - kWorthwhile * goal_.tolerance)) {
-            return;
-        }
+    const MeshPoint onMesh = nearestOnMesh(*mesh_, found_.inVolume, found_.hi);
+    if (found_.isOpaque && onMesh.distance < found_.hi) {
+        found_.offer(error_.above(onMesh.distance), onMesh.triangle, onMesh.point, found_.inVolume, true);
+    }
+    const OpaquePoint opaque = nearestOpaque(*part_, *searched_, *volume_, found_.onMesh, found_.hi, nearMemory());
+    if (opaque.distance < found_.hi) {
+        found_.offer(error_.above(opaque.distance), found_.triangle, found_.onMesh, opaque.point, true);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "cpu/clearance/found.h"
 #include "cpu/clearance/label_part.h"
 #include "cpu/clearance/mesh_place.h"
+#include "cpu/clearance/nearest_point.h"
 #include "cpu/clearance/opaque_part.h"
 #include "cpu/clearance/pair_heap.h"
 #include "cpu/clearance/piece_look.h"
@@ -82,6 +83,8 @@ class ClosestSearch {
     void offerCells();
     void push(const Pair& pair);
 
+    /// For looks that are over before rows and cells are used again.
+    [[nodiscard]] NearMemory nearMemory() noexcept { return {rows_, cells_, walks_}; }
     [[nodiscard]] Direction from(const Pair& pair, const glm::dvec3& point);
     /// Sets what `corners_` is about.
     void gather(const Pair& pair);
@@ -112,7 +115,7 @@ class ClosestSearch {
     bool keepAlong(Pair& pair, const Direction& along, double least);
     /// The same by what is left of a pair's triangles: `sieve(job)`.
     template <class Sieve> bool keepBy(Pair& pair, const Sieve& sieve);
-    bool keepByPiece(Pair& pair, const PieceBounds& piece, const std::array<PieceAlong, 2>& always);
+    bool keepByPiece(Pair& pair, const CellPiece& piece, const PieceBounds& bounds);
 
     MeshPlace* mesh_ = nullptr;
     const VolumeImpl* volume_ = nullptr;
@@ -128,6 +131,7 @@ class ClosestSearch {
     PointList corners_;                  ///< of the triangles at hand
     SievedCells cells_;
     PieceRows rows_;
+    WalkRows walks_;
     std::vector<Pair> offered_;
     PairHeap heap_;
     std::vector<Pair> dropped_; ///< too small to be divided

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a pair is divided into, and which of that is still looked for.
 #include "cpu/clearance/cluster_sieve.h"
-#include "cpu/clearance/nearest_point.h"
 #include "cpu/clearance/search.h"
 
 #include <glm/common.hpp>
@@ -20,9 +19,9 @@ using glm::dvec3;
 using glm::length;
 
 /// Bounds of a brick's cells are tighter than those of larger boxes: the volume's are opened first where sizes are
-/// alike.
-constexpr double kPreferVolume = 2;
-constexpr double kWorthALook = 0.5;
+/// alike. By so much they may be smaller; a sweep's boxes are looser, too.
+constexpr double kPreferVolume = 3;
+constexpr double kPreferVolumeOfSweep = 2;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -75,6 +74,7 @@ bool ClosestSearch::keepAlong(Pair& pair, const Direction& along, double least) 
 }
 
 void ClosestSearch::open(const Pair& pair) {
+    const double prefer = mesh_->isSwept() ? kPreferVolumeOfSweep : kPreferVolume;
     if (pair.isLeaf()) {
         openLeaf(pair);
     } else if (pair.meshLevel == kTriangles) {
@@ -83,7 +83,7 @@ void ClosestSearch::open(const Pair& pair) {
         } else {
             openCells(pair);
         }
-    } else if (pair.shift > leastShift() && boxOf(pair)->diameter < kPreferVolume * diameters_[pair.shift]) {
+    } else if (pair.shift > leastShift() && boxOf(pair)->diameter < prefer * diameters_[pair.shift]) {
         openVolume(pair);
     } else if (pair.meshLevel > kClusters) {
         openBox(pair);
@@ -166,7 +166,7 @@ void ClosestSearch::openCells(const Pair& pair) {
     if (!boxes_.opaque(pair.cube(), region) || !(pair.sifted || sift(cell, region))) {
         return;
     }
-    if (!mesh_->isSwept() && found_.hi - cell.lo > kWorthALook * diameters_[0]) {
+    if (!mesh_->isSwept() && found_.hi - cell.lo > diameters_[0]) {
         lookInto(cell, region);
     }
     gather(cell);
@@ -284,7 +284,7 @@ void ClosestSearch::lookInto(const Pair& pair, const OpaqueBox& region) {
     const dvec3 onMesh = nearest.near(part_->space.toWorld(region.middle()));
     const unsigned up = static_cast<unsigned>(kBrickShift) - pair.shift;
     const NodePlace brick{pair.node[0] >> up, pair.node[1] >> up, pair.node[2] >> up};
-    const OpaquePoint opaque = nearestInBrick(*part_, *searched_, *volume_, brick, onMesh, found_.hi);
+    const OpaquePoint opaque = nearestInBrick(*part_, *searched_, *volume_, brick, onMesh, found_.hi, nearMemory());
     if (opaque.distance < found_.hi) {
         const dvec3 nearer = nearest.near(opaque.point);
         found_.offer(error_.above(opaque.distance), number, onMesh, opaque.point, true);
@@ -319,12 +319,16 @@ void ClosestSearch::offerRows() {
     offered_.clear();
 }
 
-bool ClosestSearch::keepByPiece(Pair& pair, const PieceBounds& piece, const std::array<PieceAlong, 2>& always) {
+bool ClosestSearch::keepByPiece(Pair& pair, const CellPiece& piece, const PieceBounds& bounds) {
+    // The nearest triangle's normal serves most of the others, which share a corner with it or are farther off.
+    const PieceAlong shared(bounds, part_->space, from(pair, bounds.middle));
     if (!mesh_->isSwept()) {
-        const std::array<LeastAlong, 2> directions{LeastAlong(always[0].direction, always[0].least),
-                                                   LeastAlong(always[1].direction, always[1].least)};
-        return keepBy(pair, [&](const SieveJob& job) { return sieveByPiece(job, part_->space, piece, directions); });
+        const LeastAlong along(shared.direction, shared.least);
+        return keepBy(pair, [&](const SieveJob& job) { return sieveByPiece(job, part_->space, bounds, along); });
     }
+    const dvec3 ascent = piece.ascent(part_->space);
+    const dvec3 other = dot(ascent, shared.direction.normal()) < 0 ? -ascent : ascent;
+    const std::array<PieceAlong, 2> always{shared, PieceAlong(bounds, part_->space, mesh_->along(other))};
     PieceAlong own;
     return keep(pair, [&](const PlacedTriangle& triangle) {
         double lo = 0;
@@ -335,9 +339,9 @@ bool ClosestSearch::keepByPiece(Pair& pair, const PieceBounds& piece, const std:
             }
         }
         // Triangles that share the closest corner are seen along the same normal.
-        const dvec3 normal = piece.middle - mesh_->near(triangle, piece.middle);
+        const dvec3 normal = bounds.middle - mesh_->near(triangle, bounds.middle);
         if (normal != own.direction.normal()) {
-            own = PieceAlong(piece, part_->space, mesh_->along(normal));
+            own = PieceAlong(bounds, part_->space, mesh_->along(normal));
         }
         return std::max(lo, error_.below(own.from(triangle)));
     });
@@ -350,19 +354,15 @@ void ClosestSearch::openLeaf(const Pair& pair) {
         return;
     }
     const PieceBounds bounds = piece.bounds(part_->space);
-    const auto along = [&](const dvec3& normal) { return PieceAlong(bounds, part_->space, mesh_->along(normal)); };
-    // The nearest triangle's normal serves most of the others, which share a corner with it or are farther off.
-    const dvec3 shared = from(pair, bounds.middle).normal();
-    const dvec3 ascent = piece.ascent(part_->space);
     Pair child = pair;
-    if (!keepByPiece(child, bounds, {along(shared), along(dot(ascent, shared) < 0 ? -ascent : ascent)})) {
+    if (!keepByPiece(child, piece, bounds)) {
         return;
     }
     // A look takes as long as all of that.
     const PlacedTriangle nearest = mesh_->triangle(pair.mesh, child.nearest);
-    const PieceAlong seen =
-        along(PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
-                  .run(pair.place(), error_, pair.mesh * kClusterTriangles + child.nearest, found_));
+    const dvec3 normal = PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
+                             .run(pair.place(), error_, pair.mesh * kClusterTriangles + child.nearest, found_);
+    const PieceAlong seen(bounds, part_->space, mesh_->along(normal));
     if (!keepAlong(child, seen.direction, seen.least)) {
         return;
     }
