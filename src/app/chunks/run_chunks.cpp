@@ -178,6 +178,9 @@ Result<void> checkChunkOptions(const ChunkOptions& options, const OutputOptions&
                      "the columns are as wide as the rows before; choose csv or json"});
     unfit.push_back({options.shard && !output.path.empty(), "--output",
                      "a shard writes no output; give it to voxtact merge, which does"});
+    unfit.push_back({!output.path.empty() && std::filesystem::weakly_canonical(output.path) ==
+                                                 std::filesystem::weakly_canonical(options.folder),
+                     "--output", "it is the run's folder; each needs a path of its own"});
     for (const Unfit& entry : unfit) {
         if (entry.given) {
             return badArgument(entry.option + std::string(": not with ") +

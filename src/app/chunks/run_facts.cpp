@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <fstream>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 namespace voxtact::app {
@@ -18,6 +19,9 @@ namespace voxtact::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// How the names of facts about files begin; the path and an apostrophe follow.
+constexpr std::string_view kContentOf = "content of '";
 
 Error cannotRead(const fs::path& path, const std::string& why) {
     return {ErrorCode::File, 0, "cannot read '" + path.string() + "': " + why};
@@ -91,10 +95,21 @@ Result<void> addInputFacts(RunFacts& facts, const std::vector<NamedPath>& inputs
             }
             const Result<std::string> fact = factOf(file);
             VOXTACT_TRY(fact);
-            facts.emplace_back("content of '" + file.string() + "'", *fact);
+            facts.emplace_back(std::string(kContentOf) + file.string() + "'", *fact);
         }
     }
     return {};
+}
+
+std::vector<NamedPath> inputsOf(const RunFacts& facts) {
+    std::vector<NamedPath> inputs;
+    for (const auto& fact : facts) {
+        const std::string& name = fact.first;
+        if (name.starts_with(kContentOf) && name.ends_with('\'')) {
+            inputs.push_back({"the run", name.substr(kContentOf.size(), name.size() - kContentOf.size() - 1)});
+        }
+    }
+    return inputs;
 }
 
 std::string differenceOf(const RunFacts& its, const RunFacts& here) {

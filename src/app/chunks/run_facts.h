@@ -20,6 +20,9 @@ void addOptionFacts(RunFacts& facts, const CLI::App& parser, const std::vector<s
 /// Adds the length and hash of all that is read: of a folder all its files, of a header also the files that it names.
 [[nodiscard]] Result<void> addInputFacts(RunFacts& facts, const std::vector<NamedPath>& inputs);
 
+/// The files that addInputFacts() has added, by the paths that the run was given; they need not be there any more.
+[[nodiscard]] std::vector<NamedPath> inputsOf(const RunFacts& facts);
+
 /// What differs, as a message says it: "its --threshold is '0.2', here it is not given"; empty: nothing does.
 [[nodiscard]] std::string differenceOf(const RunFacts& its, const RunFacts& here);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/chunks/sealed_file.h"
 
+#include "app/output/standard_streams.h"
 #include "core/base/try.h"
 
 #include <array>
@@ -81,43 +82,88 @@ class ResultFile::Sealing {
     std::ostream stream_{&buffer_};
 };
 
-ResultFile::ResultFile(io::OutputFile file) noexcept : file_(std::move(file)) {}
+/// Standard output as a stream that keeps why it failed.
+class ResultFile::Standard : std::streambuf {
+  public:
+    Standard() {
+        setp(part_.data(), part_.data() + part_.size());
+        stream_.imbue(std::locale::classic());
+    }
+
+    [[nodiscard]] std::ostream& stream() noexcept { return stream_; }
+    [[nodiscard]] Result<void> close() {
+        stream_.flush();
+        return failure_;
+    }
+
+  protected:
+    int_type overflow(int_type character) override {
+        if (sync() != 0) {
+            return traits_type::eof();
+        }
+        if (!traits_type::eq_int_type(character, traits_type::eof())) {
+            *pptr() = traits_type::to_char_type(character);
+            pbump(1);
+        }
+        return traits_type::not_eof(character);
+    }
+    int sync() override {
+        if (failure_.ok()) {
+            failure_ = writeStandardOutput({pbase(), static_cast<std::size_t>(pptr() - pbase())});
+        }
+        setp(part_.data(), part_.data() + part_.size());
+        return failure_.ok() ? 0 : -1;
+    }
+
+  private:
+    Result<void> failure_;
+    std::array<char, kPart> part_{};
+    std::ostream stream_{this};
+};
+
+ResultFile::ResultFile() noexcept = default;
 ResultFile::ResultFile(ResultFile&&) noexcept = default;
 ResultFile& ResultFile::operator=(ResultFile&&) noexcept = default;
 ResultFile::~ResultFile() = default;
 
 Result<ResultFile> ResultFile::create(const fs::path& path) {
+    ResultFile out;
+    if (path == "-") {
+        out.standard_ = std::make_unique<Standard>();
+        return out;
+    }
     Result<io::OutputFile> file = io::OutputFile::create(path);
     VOXTACT_TRY(file);
-    return ResultFile(std::move(*file));
+    out.file_ = std::move(*file);
+    return out;
 }
 
 Result<ResultFile> ResultFile::createSealed(const fs::path& path, const std::string& firstLine) {
     Result<ResultFile> file = create(path);
     VOXTACT_TRY(file);
-    std::ostream& out = file->file_.stream();
+    std::ostream& out = file->file_->stream();
     out << firstLine << '\n';
     file->sealing_ = std::make_unique<Sealing>(*out.rdbuf());
     return file;
 }
 
 std::ostream& ResultFile::stream() noexcept {
-    return sealing_ ? sealing_->stream() : file_.stream();
+    return sealing_ ? sealing_->stream() : standard_ ? standard_->stream() : file_->stream();
 }
 
 Result<void> ResultFile::close() {
     if (sealing_) {
         const std::string seal = sealing_->seal();
         if (seal.empty()) {
-            file_.stream().setstate(std::ios::badbit);
+            file_->stream().setstate(std::ios::badbit);
         }
-        file_.stream() << seal;
+        file_->stream() << seal;
     }
-    return file_.close();
+    return standard_ ? standard_->close() : file_->close();
 }
 
 Result<void> ResultFile::commit() {
-    return file_.commit();
+    return standard_ ? Result<void>() : file_->commit();
 }
 
 SealState readSealed(const fs::path& path, const std::string& firstLine,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,9 +15,10 @@
 /// it with the content's length and hash.
 namespace voxtact::app {
 
-/// An io::OutputFile; one that is `sealed` has a first line and a seal around what is written.
+/// An io::OutputFile, or standard output; one that is `sealed` has a first line and a seal around what is written.
 class ResultFile {
   public:
+    /// "-": standard output, which takes what comes, part by part.
     [[nodiscard]] static Result<ResultFile> create(const std::filesystem::path& path);
     [[nodiscard]] static Result<ResultFile> createSealed(const std::filesystem::path& path,
                                                          const std::string& firstLine);
@@ -31,10 +33,12 @@ class ResultFile {
 
   private:
     class Sealing;
+    class Standard;
 
-    explicit ResultFile(io::OutputFile file) noexcept;
+    ResultFile() noexcept;
 
-    io::OutputFile file_;
+    std::optional<io::OutputFile> file_;
+    std::unique_ptr<Standard> standard_; ///< instead of it
     std::unique_ptr<Sealing> sealing_; ///< nothing: not sealed
 };
 

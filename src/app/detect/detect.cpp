@@ -103,17 +103,34 @@ std::vector<NamedPath> readPaths(const DetectOptions& options) {
     return inputs;
 }
 
+/// What is written while it is found would be mixed.
+Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
+    const NamedPath* first = nullptr;
+    for (const NamedPath& output : outputs) {
+        if (output.path != "-") {
+            continue;
+        }
+        if (first != nullptr) {
+            return badArgument(output.option + ": - is standard output, where the rows of " + first->option +
+                               " go; give one of the two a file");
+        }
+        first = &output;
+    }
+    return {};
+}
+
 /// No output may be an input, or another output.
 Result<void> checkDetectPaths(const DetectOptions& options) {
     const ExtraOptions& extra = options.extra;
     std::vector<NamedPath> inputs = readPaths(options);
     addInput(inputs, "--resume", options.chunks.folder);
-    return checkOutputs({{"--output", options.output.path},
-                         {"--triangles", extra.triangles},
-                         {"--contacts", extra.contacts},
-                         {"--closest", options.distance.closest},
-                         {"--label-clearance", options.distance.labels}},
-                        inputs);
+    const std::vector<NamedPath> outputs{{"--output", options.output.path.empty() ? "-" : options.output.path},
+                                         {"--triangles", extra.triangles},
+                                         {"--contacts", extra.contacts},
+                                         {"--closest", options.distance.closest},
+                                         {"--label-clearance", options.distance.labels}};
+    VOXTACT_TRY(checkOneOnStandardOutput(outputs));
+    return checkOutputs(outputs, inputs);
 }
 
 /// By the device that the options name; by the host where they, or the want of a device, say so.
@@ -201,7 +218,10 @@ Outcome runDetect(const CLI::App& parser, DetectOptions options) {
         milliseconds = took.ok() ? *took : 0;
         return took.ok() ? Result<void>() : took.error();
     });
-    VOXTACT_TRY(done);
+    if (!done.ok()) {
+        VOXTACT_TRY(output->fail());
+        return done.error();
+    }
     if (messages) {
         if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
             return invalid;

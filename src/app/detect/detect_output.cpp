@@ -275,6 +275,10 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     return {};
 }
 
+Result<void> DetectOutput::fail() {
+    return rows() > 0 && state_->format == io::Format::Json ? breakOff() : Result<void>();
+}
+
 Result<void> DetectOutput::breakOff() {
     State& state = *state_;
     if (state.table) {

@@ -52,6 +52,8 @@ class DetectOutput {
     [[nodiscard]] Result<void> finish(double wallMilliseconds);
     /// Completes standard output with the rows that there are; no file gets its name.
     [[nodiscard]] Result<void> breakOff();
+    /// After an error: ends what standard output has of a JSON document, so that it can be read.
+    [[nodiscard]] Result<void> fail();
 
     /// A list that was cut is still a good run, with fewer contacts than there are; empty: it was not.
     [[nodiscard]] std::string noteOfContacts() const;

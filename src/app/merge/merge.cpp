@@ -74,8 +74,10 @@ Result<MergePaths> pathsOf(const MergeOptions& options, const RunFolder& folder)
         files.insert(files.end(), all.begin(), all.end());
         paths.emplace_back(option, path);
     }
-    // A folder with its files, none of which may be written over.
-    VOXTACT_TRY(checkOutputs(files, {{"DIR", options.folder}}));
+    // A folder with its files, none of which may be written over, nor what the run has read.
+    std::vector<NamedPath> inputs = inputsOf(folder.manifest().facts);
+    inputs.push_back({"DIR", options.folder});
+    VOXTACT_TRY(checkOutputs(files, inputs));
     return paths;
 }
 

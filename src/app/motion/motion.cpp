@@ -5,6 +5,7 @@
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
+#include "core/geometry/rigid_motion.h"
 
 #include <CLI/CLI.hpp>
 
@@ -40,8 +41,10 @@ Examples:
 
 /// More only wait for each other.
 constexpr std::uint32_t kMostThreads = 1024;
-/// Of segments that are checked before an interrupt is looked for.
-constexpr std::size_t kBatch = 256;
+
+Interpolation interpolationOf(const MotionOptions& options) {
+    return options.interpolation == "slerp" ? Interpolation::Slerp : Interpolation::Screw;
+}
 
 /// All files and folders that the options read.
 std::vector<NamedPath> readPaths(const MotionOptions& options) {
@@ -126,7 +129,10 @@ Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, c
         progress.update((*output)->rows());
         return {};
     });
-    VOXTACT_TRY(done);
+    if (!done.ok()) {
+        VOXTACT_TRY((*output)->fail());
+        return done.error();
+    }
     if (interrupted()) {
         VOXTACT_TRY((*output)->breakOff());
         return interruptOutcome(options.output.path.empty()
@@ -152,9 +158,7 @@ Outcome runMotion(const CLI::App& parser, MotionOptions options) {
     const Result<MotionInputs> inputs = readInputs(options);
     VOXTACT_TRY(inputs);
     Result<cpu::MotionChecker> checker = cpu::MotionChecker::create(
-        {.threads = options.threads,
-         .interpolation = options.interpolation == "slerp" ? Interpolation::Slerp : Interpolation::Screw,
-         .resolution = options.resolution});
+        {.threads = options.threads, .interpolation = interpolationOf(options), .resolution = options.resolution});
     VOXTACT_TRY(checker);
     if (options.chunks.asked()) {
         return runMotionChunks(parser, options, *inputs, *checker, readPaths(options));
@@ -186,23 +190,41 @@ Result<MotionVolume> loadMotionVolume(const MotionOptions& options, const Motion
     return MotionVolume{std::move(*volume), std::move(*function)};
 }
 
+Result<void> SegmentChecker::checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const {
+    for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+        const std::uint64_t number = firstPose + i;
+        VOXTACT_TRY(
+            RigidMotion::between(poses[i], poses[i + 1], interpolationOf(options_), {},
+                                 "--poses: poses " + std::to_string(number) + " and " + std::to_string(number + 1)));
+    }
+    return {};
+}
+
 Result<void> SegmentChecker::check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
                                    std::span<const Mat4> poses, std::uint64_t firstPose,
                                    const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
+    VOXTACT_TRY(checkRigid(poses, firstPose));
     std::vector<MotionRow> rows;
-    for (std::size_t first = 0; first + 1 < poses.size() && !interrupted(); first += kBatch) {
+    for (std::size_t first = 0; first + 1 < poses.size() && !interrupted();) {
+        const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(pace_.size(), poses.size() - 1 - first));
         const cpu::BatchItem item{&inputs_.meshes[mesh], &volume.volume, &volume.transferFunction,
-                                  poses.subspan(first, std::min(kBatch + 1, poses.size() - first))};
-        const Result<MotionAnswer> answer =
-            checker_.check({std::span(&item, 1), {}, options_.transferFunction.threshold});
+                                  poses.subspan(first, count + 1)};
+        const Result<MotionAnswer> answer = checker_.check({.items = std::span(&item, 1),
+                                                            .threshold = options_.transferFunction.threshold,
+                                                            .cancel = &interruptFlag()});
+        if (!answer.ok() && answer.error().code == ErrorCode::Cancelled) {
+            return {};
+        }
         VOXTACT_TRY(answer);
         milliseconds_ += answer->wallMilliseconds;
+        pace_.took(count, answer->wallMilliseconds);
         rows.clear();
         for (SegmentMotion motion : answer->segments) {
             motion.pose += static_cast<std::uint32_t>(firstPose + first);
             rows.push_back({mesh, volumeNumber, motion});
         }
         VOXTACT_TRY(visit(rows));
+        first += count;
     }
     return {};
 }

@@ -54,6 +54,10 @@ Result<void> MotionOutput::finish(double wallMilliseconds) {
     return file_->commit();
 }
 
+Result<void> MotionOutput::fail() {
+    return rows_ > 0 && options_.output.format() == io::Format::Json ? breakOff() : Result<void>();
+}
+
 Result<void> MotionOutput::breakOff() {
     if (file_) {
         return {};

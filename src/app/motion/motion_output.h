@@ -29,6 +29,8 @@ class MotionOutput {
     [[nodiscard]] Result<void> finish(double wallMilliseconds);
     /// Completes standard output with the rows that there are; no file gets its name.
     [[nodiscard]] Result<void> breakOff();
+    /// After an error: ends what standard output has of a JSON document, so that it can be read.
+    [[nodiscard]] Result<void> fail();
 
   private:
     MotionOutput(const MotionOptions& options, const MotionInputs& inputs, std::optional<io::OutputFile> file);

@@ -6,6 +6,7 @@
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
 #include "app/output/progress.h"
+#include "core/batch/batch_pace.h"
 #include "voxtact/cpu.h"
 
 #include <functional>
@@ -61,7 +62,8 @@ class SegmentChecker {
         : options_(options), inputs_(inputs), checker_(checker) {}
 
     /// The rows of the segments between poses of which the first has the number `firstPose`, some at a time; fewer
-    /// where an interrupt comes. Ends where `visit` fails.
+    /// where an interrupt comes, which ends what is under way, too. Refuses poses between which there is no rigid
+    /// motion before any row. Ends where `visit` fails.
     [[nodiscard]] Result<void> check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
                                      std::span<const Mat4> poses, std::uint64_t firstPose,
                                      const std::function<Result<void>(std::span<const MotionRow>)>& visit);
@@ -69,9 +71,15 @@ class SegmentChecker {
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
 
   private:
+    /// More segments than are checked before their rows are written.
+    static constexpr std::uint32_t kMostAtOnce = 256;
+
+    [[nodiscard]] Result<void> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
+
     const MotionOptions& options_;
     const MotionInputs& inputs_;
     cpu::MotionChecker& checker_;
+    BatchPace pace_{kMostAtOnce, false};
     double milliseconds_ = 0;
 };
 
