@@ -301,6 +301,21 @@ TEST_F(ChunksTest, MergeSaysWhatIsMissing) {
     EXPECT_THAT(refused(2, {"merge", path("run"), "--output", path("run/rows.csv")}), HasSubstr("--output"));
 }
 
+TEST_F(ChunksTest, MergeLeavesWhatTheRunHasRead) {
+    writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
+    output({"make", "mesh", "builtin:scalpel:100", path("tool.stl")});
+    output({"make", "volume", "builtin:head:16", path("head.nii")});
+    output({"detect", "--volume", path("head.nii"), "--mesh", path("tool.stl"), "--poses", path("poses.txt"), "--count",
+            "cpu", "--resume", path("run"), "--shard", "1/1"});
+    for (const char* name : {"poses.txt", "tool.stl", "head.nii"}) {
+        const std::string before = readText(path(name));
+        EXPECT_THAT(refused(2, {"merge", path("run"), "--output", path(name)}),
+                    AllOf(HasSubstr(name), HasSubstr("that the run reads"), HasSubstr("not overwritten")));
+        EXPECT_EQ(readText(path(name)), before);
+    }
+    output({"merge", path("run"), "--output", path("rows.csv")});
+}
+
 TEST_F(ChunksTest, AnotherRunIsRefused) {
     output(chunked());
     const std::size_t files = chunkFiles().size();
@@ -398,6 +413,7 @@ TEST_F(ChunksTest, OptionsThatDoNotFitAreRefused) {
     EXPECT_THAT(refused(2, detect({"--chunk", "9"})), HasSubstr("--chunk: it is about a run in chunks"));
     EXPECT_THAT(refused(2, chunked({"--shard", "1/2", "--output", path("o.csv")})),
                 HasSubstr("--output: not with --shard and --resume"));
+    EXPECT_THAT(refused(2, chunked({"--output", path("run")})), HasSubstr("--output: not with --resume"));
     EXPECT_THAT(refused(2, chunked({"--chunk", "0"})), HasSubstr("--chunk"));
     EXPECT_THAT(refused(2, chunked({"--format", "text"})), HasSubstr("--format text: not with --resume"));
     EXPECT_THAT(refused(2, chunked({"--timing"})), HasSubstr("--timing: not with --resume"));

@@ -106,6 +106,21 @@ TEST_F(MotionTest, RefusesWhatItCannotUse) {
     EXPECT_EQ(filesInFolder(), 3U);
 }
 
+/// Far behind the first that are checked together; before any row.
+TEST_F(MotionTest, RefusedPosesHaveTheirNumbers) {
+    std::string text;
+    for (int i = 0; i < 400; ++i) {
+        text += i == 350 ? "2 0 0 0  0 2 0 0  0 0 2 900  0 0 0 1\n" : "1 0 0 0  0 1 0 0  0 0 1 900  0 0 0 1\n";
+    }
+    writeText(path("bad.txt"), text);
+    for (const Arguments& more : {Arguments{}, Arguments{"--resume", path("run"), "--chunk", "30"}}) {
+        Arguments all{"motion",  "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:300",
+                      "--poses", path("bad.txt"), "--format",        "csv"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_THAT(refused(2, all), HasSubstr("motion: --poses: poses 349 and 350: the motion"));
+    }
+}
+
 TEST_F(MotionTest, APoseMayBeOff) {
     const auto hits = [&](const Arguments& more) {
         Arguments all{"detect",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:300",

@@ -125,6 +125,34 @@ TEST_F(StreamTest, MotionsComeAsTheyAreKnown) {
                                HasSubstr(std::to_string(rows.size() - 1) + " segments are written")));
 }
 
+/// Segments that take their time, near the head and never in it: a few at a time, and an interrupt ends those, too.
+TEST_F(StreamTest, SlowMotionsEndSoonAfterAnInterrupt) {
+    std::string text;
+    for (int i = 0; i < 256; ++i) {
+        text += "1 0 0 " + std::to_string(i % 2 == 0 ? 130 : -130) + "  0 1 0 0  0 0 1 0  0 0 0 1\n";
+    }
+    writeText(path("path.txt"), text);
+    Child child({"motion", "--volume", "builtin:head:64", "--mesh", "builtin:ellipsoid:20000", "--poses",
+                 path("path.txt"), "--threads", "1", "--format", "csv"});
+    child.lines(2);
+    child.signal(SIGINT);
+    const Ran ran = child.end();
+    EXPECT_EQ(ran.status, 128 + SIGINT) << ran.err;
+    EXPECT_LT(linesOf(ran.out).size(), 200U) << "all at once";
+}
+
+TEST_F(StreamTest, WhatIsWrongInTheMiddleLeavesADocument) {
+    Child child(detect({"--poses", "-", "--format", "json"}));
+    child.write(poses(40) + "1 2 3\n");
+    child.closeInput();
+    const Ran ran = child.end();
+    EXPECT_EQ(ran.status, 1);
+    const auto json = nlohmann::json::parse(ran.out, nullptr, false);
+    ASSERT_FALSE(json.is_discarded()) << ran.out;
+    EXPECT_EQ(json.at("rows").size(), 40U);
+    EXPECT_EQ(json.at("interrupted"), true);
+}
+
 TEST_F(StreamTest, WhatIsWrongInTheMiddle) {
     const std::string good = poses(40);
     Child child(detect({"--poses", "-"}));
@@ -155,6 +183,17 @@ TEST_F(StreamTest, StandardInputForSeveralMeshes) {
 
 TEST_F(StreamTest, ADashIsStandardOutput) {
     EXPECT_EQ(output(detect({"--output", "-"})), output(detect()));
+    writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n1 0 0 9  0 1 0 0  0 0 1 0  0 0 0 1\n");
+    const Arguments motion{"motion",  "--volume",        "builtin:head:32", "--mesh", "builtin:scalpel:500",
+                           "--poses", path("poses.txt")};
+    Arguments dashed = motion;
+    dashed.insert(dashed.end(), {"--output", "-"});
+    EXPECT_EQ(output(dashed), output(motion));
+    // Also for what is beside the rows, where these have a file.
+    EXPECT_EQ(output(detect({"--triangles", path("t.csv")})), output(detect()));
+    EXPECT_EQ(output(detect({"--triangles", "-", "--output", path("rows.csv")})), readText(path("t.csv")));
+    EXPECT_EQ(readText(path("rows.csv")), output(detect({"--format", "csv"})));
+    EXPECT_THAT(refused(2, detect({"--triangles", "-"})), HasSubstr("--triangles: - is standard output"));
     EXPECT_FALSE(std::filesystem::exists("-"));
 }
 

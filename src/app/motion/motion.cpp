@@ -149,6 +149,9 @@ Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, c
 }
 
 Outcome runMotion(const CLI::App& parser, MotionOptions options) {
+    if (options.output.path == "-") {
+        options.output.path.clear();
+    }
     if (options.chunks.asked() && options.output.formatName.empty()) {
         options.output.formatName = "csv"; // whoever looks on: the chunks are the same
     }
