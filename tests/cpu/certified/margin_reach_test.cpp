@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -42,7 +43,9 @@ struct Near {
         const std::size_t count = 1 + random() % 4;
         for (std::size_t i = 0; i < count; ++i) {
             const VoxelPoint about = placeNear(random, 2);
-            corners.push_back({placeNear(random, 2, about), placeNear(random, 2, about), placeNear(random, 2, about)});
+            const double side = random() % 3 == 0 ? 0 : 2;
+            corners.push_back(
+                {placeNear(random, side, about), placeNear(random, side, about), placeNear(random, side, about)});
             const auto vertex = [&](std::size_t corner) {
                 return shader::CertifiedVertex{corners.back()[corner], i == 1 ? 1e-3F : 1e-5F};
             };
@@ -65,8 +68,14 @@ struct Near {
                        along(reach.lo.z, reach.hi.z, middle.z, radius.z) * grid.spacing[2]};
         return std::hypot(gap[0], gap[1], gap[2]);
     }
-    /// A place in the box: a corner, or any.
-    [[nodiscard]] VoxelPoint inBox(std::mt19937_64& random) const {
+    /// A place in the box: what is nearest to a triangle's first corner along each axis, a corner, or any.
+    [[nodiscard]] VoxelPoint inBox(std::mt19937_64& random, std::size_t triangle) const {
+        if (random() % 3 == 0) {
+            const VoxelPoint to = corners[triangle][0];
+            return {std::clamp(to.x, middle.x - radius.x, middle.x + radius.x),
+                    std::clamp(to.y, middle.y - radius.y, middle.y + radius.y),
+                    std::clamp(to.z, middle.z - radius.z, middle.z + radius.z)};
+        }
         const bool corner = random() % 2 == 0;
         const auto along = [&](float at, float half) {
             const double side = uniform(random, -1, 1);
@@ -116,7 +125,7 @@ TEST(MarginText, WhatIsDroppedAtOnceIsDroppedOneByOne) {
             const bool one = shader::marginBoxFarther(by, near.triangles[i], near.middle, near.radius);
             alone += one ? 1U : 0U;
             for (int sample = 0; sample < 8 && (all || one); ++sample) {
-                const VoxelPoint at = near.inBox(random);
+                const VoxelPoint at = near.inBox(random, i);
                 EXPECT_GT(distanceOf(worldOf(grid, at), worldOf(grid, near.inTriangle(random, i))), margin);
                 const shader::MarginTriangle about = shader::marginTriangle(by, near.triangles[i], at, 1);
                 EXPECT_TRUE(
