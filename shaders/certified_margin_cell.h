@@ -374,8 +374,12 @@ EXACT bool marginCellMay(OpacityTable table, CertifiedCell cell) {
 #define MARGIN_HAS_SOME 1 // something in it is certainly opaque
 #define MARGIN_HAS_ALL 2  // all of it is
 
-/// Of a cell that may have something opaque. It takes all values between its corners', and these are in the domain.
+/// Of a cell that may have something opaque. It takes all values between its corners', and these are in the domain. Of
+/// a cell that may have a corner that is no number, nothing.
 EXACT int marginCellHas(OpacityTable table, CertifiedCell cell) {
+    if (!(cell.pointError <= CERTIFIED_FARTHEST)) {
+        return 0;
+    }
     PRECISE float leastBelow = cell.least - cell.pointError;
     PRECISE float greatestAbove = cell.greatest + cell.pointError;
     PRECISE float leastAbove = cell.least + cell.pointError;

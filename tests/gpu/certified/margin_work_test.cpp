@@ -2,11 +2,14 @@
 // What the passes with a margin do, and that it is no more than the host expects, for runs of triangles that are near
 // each other and for such that are not.
 #include "certified/counted_fixture.h"
+#include "cpu/scenes/oracle_scenes.h"
 #include "detect/certified_rounds.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iostream>
 
 namespace voxtact::test {
@@ -76,6 +79,39 @@ TEST_F(MarginWorkTest, IsWithinWhatTheHostExpects) {
     }
     std::cout << "  at most " << fullest << " of it\n";
     EXPECT_GT(fullest, 0.005);
+}
+
+/// A voxel is opaque in a volume where nothing can be decided, and of the triangles of a run one is near enough: the
+/// queues are full of what is undecided, in bricks and of triangles that come before, and what is left of a brick is
+/// decided for each triangle.
+TEST_F(MarginWorkTest, WhatHasNoRoomIsDecidedForEachTriangle) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const Undecided scene;
+    const VolumeData image =
+        makeBytes(unitGrid(40), [](auto x, auto y, auto z) { return x == 28 && y == 20 && z == 20 ? 255.0 : 100.0; });
+    const Volume volume = take(Volume::upload(context(), queue(), image.view(), {.bricks = true}));
+    const TransferFunction function = upload(scene.points, {0, 255});
+    constexpr double kVoxels = 3;
+    for (const std::uint32_t which : {13U, 15U}) {
+        SCOPED_TRACE("triangle " + std::to_string(which) + ", seed " + std::to_string(seed));
+        MeshData data;
+        for (std::uint32_t triangle = 0; triangle < 16; ++triangle) {
+            // What is above 100 is less than a voxel from the middle of the bright one.
+            const double x = 27 - kVoxels + (triangle == which ? 0.2 : uniform(random, -2, -1));
+            const Vec3 at = transformPoint(worldFromIndex(volume.grid()), {x, uniform(random, 19.8, 20.2), 20});
+            addTriangle(data, at, at, at);
+        }
+        const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = false}));
+        const Mat4 pose = identity();
+        const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
+        const double margin = kVoxels * volume.grid().spacing[0];
+        const Answered found = detect(counted(margin), {{&item, 1}, {}, scene.threshold}, 1, 16);
+        EXPECT_TRUE(found.pairs.at(0).hit);
+        EXPECT_GT(found.counters.cellsLeft, 0U);
+        EXPECT_EQ(found.counters.mostParts, found.counters.largeParts);
+        EXPECT_LT(found.counters.largeParts, 16U); // the run looks at bricks together
+    }
 }
 
 /// The same mesh, its triangles in an order in which those of a run are far from each other: the answers are the same,
