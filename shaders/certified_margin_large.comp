@@ -23,11 +23,12 @@ shared uint passedOver; // the pair is done
 shared uint full;       // the queue of cells is
 shared uint cut;        // a loop was left before its end
 // Of the run: those that the entry has.
+shared CertifiedTriangle triangles[VOXTACT_RUN_TRIANGLES];
 shared CertifiedReach reaches[VOXTACT_RUN_TRIANGLES];
-const uint kNumbers = 7; // of a reach
+// The reaches once more, as numbers for a lane each, and the greatest of each: what is lowest has the other sign.
+const uint kNumbers = 7;
 shared float numbers[kNumbers * VOXTACT_RUN_TRIANGLES];
 shared float most[kNumbers];
-shared CertifiedTriangle triangles[VOXTACT_RUN_TRIANGLES];
 // Of the brick: numbers of cells, in any order.
 shared uint nearCells[kBrickCells];
 shared uint nearCount;
@@ -62,7 +63,6 @@ CertifiedReach reachOfAll() {
     return CertifiedReach(voxelPoint(-most[0], -most[1], -most[2]), voxelPoint(most[3], most[4], most[5]), most[6]);
 }
 
-/// Seven lanes each have a number of it: what is lowest is the highest of what has the other sign.
 void findReach(uvec4 entry) {
     const uint lane = gl_LocalInvocationIndex;
     if (lane < kNumbers) {
