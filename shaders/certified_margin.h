@@ -23,6 +23,10 @@
 #define MARGIN_INWARD 0.9999961853027344f
 /// The square of the least length of a direction that says something: smaller squares may be taken for zero.
 #define MARGIN_LEAST_SQUARE 1.0e-18f
+/// By how much more than the margin, flat, a box is away that is dropped for several triangles at once, or that holds
+/// several cells. It is more than the half diagonal of the least box that a cell is halved into: so a decision of each
+/// cell of each triangle drops the same, and no answer depends on what was put together.
+#define MARGIN_FARTHER 0.015625f
 
 #include "exact_language.h"
 
@@ -110,6 +114,15 @@ EXACT CertifiedBounds marginBounds(CertifiedItem item, MarginSpace by, Certified
     certifiedCells(reach.lo.y, reach.hi.y, y, item.sizeY, bounds.firstY, bounds.lastY);
     certifiedCells(reach.lo.z, reach.hi.z, z, item.sizeZ, bounds.firstZ, bounds.lastZ);
     return bounds;
+}
+
+/// What two of them say of both.
+EXACT CertifiedReach marginUnion(CertifiedReach a, CertifiedReach b) {
+    CertifiedReach both;
+    both.lo = voxelPoint(certifiedMin(a.lo.x, b.lo.x), certifiedMin(a.lo.y, b.lo.y), certifiedMin(a.lo.z, b.lo.z));
+    both.hi = voxelPoint(certifiedMax(a.hi.x, b.hi.x), certifiedMax(a.hi.y, b.hi.y), certifiedMax(a.hi.z, b.hi.z));
+    both.delta = certifiedMax(a.delta, b.delta);
+    return both;
 }
 
 /// A triangle about some point: where a box of voxel space is looked at.
@@ -219,7 +232,46 @@ EXACT bool marginBoxBeyond(MarginSpace by, MarginTriangle triangle, MarginNear n
     return marginBeyond(by, triangle.slack, gap, voxelDot(near.along, near.along));
 }
 
-/// The same of a cube, given by its middle and half its side.
+/// The same for what is dropped at once (MARGIN_FARTHER): a box given by its middle and half its sides.
+EXACT bool marginBoxFarther(MarginSpace by, CertifiedTriangle triangle, VoxelPoint middle, VoxelPoint radius) {
+    MarginTriangle about = marginTriangle(by, triangle, middle, voxelLength(radius));
+    PRECISE float slack = about.slack + about.slack + MARGIN_FARTHER;
+    about.slack = slack;
+    return marginBoxBeyond(by, about, marginNear(by, about, voxelPoint(0.0f, 0.0f, 0.0f)), radius);
+}
+
+/// How far a box is beyond what `lo` and `hi` are the ends of, along one axis; negative where it is on the other side.
+EXACT float marginApart(float lo, float hi, float middle, float radius) {
+    PRECISE float after = middle - radius - hi;
+    PRECISE float before = lo - (middle + radius);
+    return after > 0.0f ? after : before > 0.0f ? -before : 0.0f;
+}
+
+/// What an axis adds to the gap between the shadows of the two, of which a direction has the component `along` there.
+EXACT float marginGap(float along, float lo, float hi, float middle, float radius) {
+    PRECISE float after = along * (middle - radius - hi);
+    PRECISE float before = along * (middle + radius - lo);
+    return along < 0.0f ? before : after;
+}
+
+/// Whether all that `reach` says triangles are in is certainly farther from a box than the margin (MARGIN_FARTHER).
+EXACT bool marginReachFarther(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint radius) {
+    const VoxelPoint apart = voxelPoint(marginApart(reach.lo.x, reach.hi.x, middle.x, radius.x),
+                                        marginApart(reach.lo.y, reach.hi.y, middle.y, radius.y),
+                                        marginApart(reach.lo.z, reach.hi.z, middle.z, radius.z));
+    const VoxelPoint along = marginFlat(by, apart);
+    const VoxelPoint pulled = marginPulled(by, along);
+    PRECISE float gap = marginGap(pulled.x, reach.lo.x, reach.hi.x, middle.x, radius.x) +
+                        marginGap(pulled.y, reach.lo.y, reach.hi.y, middle.y, radius.y) +
+                        marginGap(pulled.z, reach.lo.z, reach.hi.z, middle.z, radius.z);
+    PRECISE float farthest =
+        certifiedMax(voxelLength(voxelDifference(reach.lo, middle)), voxelLength(voxelDifference(reach.hi, middle))) +
+        voxelLength(radius);
+    PRECISE float slack = marginSlack(by, reach.delta, farthest) * 2.0f + MARGIN_FARTHER;
+    return marginBeyond(by, slack, gap, voxelDot(along, along));
+}
+
+/// marginBoxBeyond() of a cube, given by its middle and half its side.
 EXACT bool marginCubeBeyond(MarginSpace by, CertifiedTriangle triangle, VoxelPoint middle, float radius) {
     const MarginTriangle about = marginTriangle(by, triangle, middle, radius);
     const VoxelPoint none = voxelPoint(0.0f, 0.0f, 0.0f);

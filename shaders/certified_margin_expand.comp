@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative` with a margin, the bricks near triangles: a work group has four runs, a lane each
-// triangle. The bricks that may have something opaque within the margin of one go into the queue of large triangles, one
-// an entry; a triangle that is near more than a lane looks at is left to certified_margin_finish. What is put twice does
-// no harm: the answer is yes where one says so.
+// triangle. A run's lanes share the bricks near its box; those that may have something opaque within the margin of it go
+// into the queue of large triangles, one an entry. Where the triangles of a run are far from each other, each looks for
+// bricks of its own. A triangle that is near more than a lane looks at is left to certified_margin_finish. What is put
+// twice does no harm: the answer is yes where one says so.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -13,11 +14,14 @@
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
 
-/// Bricks that a lane looks at.
+/// Bricks that a run or a triangle looks at.
 const int kMostBricks = 512;
 
 shared uint groupsIfLeft; // of certified_margin_finish, for all of the work group
 shared uint full;         // the queue is
+// Of the lane's triangle, where the run is to look at it.
+shared CertifiedReach reaches[VOXTACT_COMPUTE_GROUP];
+shared float ownCells[VOXTACT_COMPUTE_GROUP]; // of its box; 0: the run is not to
 
 /// Bricks that are too many for a lane; also where their number overflows.
 bool areMany(CellBox bricks) {
@@ -25,24 +29,77 @@ bool areMany(CellBox bricks) {
     return any(greaterThan(sides, ivec3(kMostBricks))) || volumeOf(bricks) > kMostBricks;
 }
 
-/// Puts an entry into the queue of large triangles: one brick of a triangle, or all of it.
-void putLarge(TriangleLane own, uint brick, bool all) {
+/// As large as it may be, and never negative.
+float cellsIn(CellBox cells) {
+    const vec3 sides = vec3(max(cells.hi - cells.lo + 1, 0));
+    return sides.x * sides.y * sides.z;
+}
+
+void putLarge(uint pair, uint number, uint brick, uint which) {
     const uint entry = reserve(VOXTACT_QUEUE_LARGE, 1, LARGE_ROOM, 1);
     if (entry < LARGE_ROOM) {
-        quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), entry)] = uvec4(own.pair, own.number, brick, all ? 1 : 0);
+        quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), entry)] = uvec4(pair, number, brick, which);
     } else {
         atomicOr(full, 1u);
     }
 }
 
-void putBricks(TriangleLane own, CertifiedTriangle triangle, CellBox bricks) {
-    const int count = volumeOf(bricks);
+/// The lane's triangle, by itself.
+void putBricksOfTriangle(TriangleLane own, CertifiedTriangle triangle, CellBox near) {
+    const int count = volumeOf(near);
     countWork(VOXTACT_WORK_BRICKS, uint(count));
     for (int i = 0; i < count; ++i) {
-        if (marginBrickMay(triangle, placeIn(bricks, i))) {
-            putLarge(own, uint(i), false);
+        const ivec3 brick = placeIn(near, i);
+        if (marginBrickMay(triangle, brick)) {
+            putLarge(own.pair, own.run, uint(numberOf(brick)), 1u << gl_LocalInvocationIndex % VOXTACT_RUN_TRIANGLES);
         }
     }
+}
+
+/// The lane's share of the bricks near its run.
+void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint which) {
+    const MarginSpace by = marginOf(constants.item);
+    const int count = volumeOf(near);
+    uint seen = 0;
+    for (int i = int(gl_LocalInvocationIndex % VOXTACT_RUN_TRIANGLES); i < count; i += VOXTACT_RUN_TRIANGLES) {
+        const ivec3 brick = placeIn(near, i);
+        const vec3 middle = brickCentre(brick);
+        const float radius = float(kBrickSide / 2);
+        ++seen;
+        if (brickMayBeOpaque(brickAt(brick)) &&
+            !marginReachFarther(by, reach, voxelPoint(middle.x, middle.y, middle.z),
+                                voxelPoint(radius, radius, radius))) {
+            putLarge(own.pair, own.run, uint(numberOf(brick)), which);
+        }
+    }
+    countWork(VOXTACT_WORK_BRICKS, seen);
+}
+
+/// What a run's triangles say together: of those that it is to look at.
+struct Together {
+    CertifiedReach reach;
+    CellBox cells;
+    uint which; // a bit each
+    bool near;  // to each other: their box has no more cells than their own boxes have together
+};
+
+Together togetherOf(uint run) {
+    const float far = CERTIFIED_FARTHEST;
+    Together found;
+    found.reach = CertifiedReach(voxelPoint(far, far, far), voxelPoint(-far, -far, -far), 0.0);
+    found.which = 0;
+    float cells = 0.0;
+    for (uint i = 0; i < VOXTACT_RUN_TRIANGLES; ++i) {
+        const uint lane = run * VOXTACT_RUN_TRIANGLES + i;
+        if (ownCells[lane] > 0.0) {
+            found.reach = marginUnion(found.reach, reaches[lane]);
+            found.which |= 1u << i;
+            cells += ownCells[lane];
+        }
+    }
+    found.cells = cellsOf(marginBounds(constants.item, marginOf(constants.item), found.reach));
+    found.near = cellsIn(found.cells) <= cells && !areMany(bricksOf(found.cells));
+    return found;
 }
 
 void main() {
@@ -51,22 +108,33 @@ void main() {
         groupsIfLeft = 0;
         full = 0;
     }
+    ownCells[lane] = 0.0;
     barrier();
     const TriangleLane own = triangleLane(gl_WorkGroupID.x, lane);
+    TriangleVertices at;
+    CertifiedBounds bounds;
     if (own.some) {
-        const TriangleVertices at = verticesOf(transforms[own.pair], own.number);
-        const CertifiedBounds bounds = boundsOf(at);
+        at = verticesOf(transforms[own.pair], own.number);
+        bounds = boundsOf(at);
         const CellBox cells = cellsOf(bounds);
         if (!isEmpty(cells)) {
             // Those of pairs that are done, too: certified_margin_finish must find the same, and more will be done then.
             atomicAdd(groupsIfLeft, groupsOfTriangle(transforms[own.pair], bounds, cells));
             if (isDone(own.pair)) {
             } else if (!bounds.usable || areMany(bricksOf(cells))) {
-                putLarge(own, 0, true);
+                putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);
             } else {
-                putBricks(own, triangleOf(at, bounds.delta), bricksOf(cells));
+                reaches[lane] = certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]);
+                ownCells[lane] = cellsIn(cells);
             }
         }
+    }
+    barrier();
+    const Together run = togetherOf(lane / VOXTACT_RUN_TRIANGLES);
+    if (run.which != 0 && run.near) {
+        putBricksOfRun(own, run.reach, bricksOf(run.cells), run.which);
+    } else if (ownCells[lane] > 0.0) {
+        putBricksOfTriangle(own, triangleOf(at, bounds.delta), bricksOf(cellsOf(bounds)));
     }
     barrier();
     if (lane == 0 && full != 0) {

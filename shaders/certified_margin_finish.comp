@@ -13,13 +13,18 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_shares.glsl"
 
 int decideCell(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
-    if (!marginCellNeeds(triangle, cell, range)) {
-        return CERTIFIED_NONE;
-    }
+    const MarginSpace by = marginOf(constants.item);
     const CertifiedCell known =
         certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
-    return marginDecide(opacities(), marginOf(constants.item), triangle, known,
-                        voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
+    if (!marginCellMay(opacities(), known)) {
+        return CERTIFIED_NONE;
+    }
+    const int look =
+        marginCellLook(by, constants.item, triangle, marginCellHas(opacities(), known), cell.x, cell.y, cell.z);
+    if (look != CERTIFIED_UNDECIDED) {
+        return look;
+    }
+    return marginDecide(opacities(), by, triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
 }
 
 void decideShare(Share given) {
@@ -46,7 +51,7 @@ void decideShare(Share given) {
     bool found = false;
     int i = share.firstBrick;
     for (int turn = 0; turn < share.bricks && i < count && !found; ++turn) {
-        const ivec3 brick = placeIn(box, i);
+        const ivec3 brick = share.single ? share.cell : placeIn(box, i);
         i += share.stride + ((i & 63) == 63 ? share.skip : 0);
         ++bricksSeen;
         const vec4 range = brickAt(brick);
@@ -58,7 +63,7 @@ void decideShare(Share given) {
             continue;
         }
         const CellBox inside = within(cells, brick);
-        const int most = volumeOf(inside);
+        const int most = isEmpty(inside) ? 0 : volumeOf(inside);
         for (int place = share.first; place < most && !found; place += share.step) {
             ++cellsSeen;
             const int verdict = decideCell(triangle, placeIn(inside, place), range);

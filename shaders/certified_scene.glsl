@@ -77,9 +77,24 @@ ivec3 placeIn(CellBox box, int number) {
     return box.lo + ivec3(number % size.x, row % size.y, row / size.y);
 }
 
+ivec3 brickCounts() {
+    return (ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) >> VOXTACT_BRICK_SHIFT) + 1;
+}
+
+/// The number of a brick in the volume.
+int numberOf(ivec3 brick) {
+    const ivec3 count = brickCounts();
+    return brick.x + count.x * (brick.y + count.y * brick.z);
+}
+
+ivec3 brickOf(int number) {
+    const ivec3 count = brickCounts();
+    const int row = number / count.x;
+    return ivec3(number % count.x, row % count.y, row / count.y);
+}
+
 vec4 brickAt(ivec3 brick) {
-    const ivec3 count = (ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) >> VOXTACT_BRICK_SHIFT) + 1;
-    return bricks[brick.x + count.x * (brick.y + count.y * brick.z)];
+    return bricks[numberOf(brick)];
 }
 
 bool brickMayBeOpaque(vec4 range) {
@@ -193,15 +208,6 @@ void markWithin(uint pair) {
     atomicOr(results[pair].countLow, 1u);
 }
 
-/// Whether a cell of a triangle needs a decision.
-bool marginCellNeeds(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
-    const vec3 middle = vec3(cell) + 0.5;
-    const CertifiedCell known =
-        certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
-    return !marginCubeBeyond(marginOf(constants.item), triangle, voxelPoint(middle.x, middle.y, middle.z), 0.5) &&
-           marginCellMay(opacities(), known);
-}
-
 bool marginBrickMay(CertifiedTriangle triangle, ivec3 brick) {
     const vec3 middle = brickCentre(brick);
     return brickMayBeOpaque(brickAt(brick)) &&
@@ -225,15 +231,17 @@ uint triangleAt(uint place) {
 struct TriangleLane {
     bool some; // false: there is none
     uint pair;
+    uint run;
     uint number; // of the triangle
 };
 
 TriangleLane triangleLane(uint group, uint lane) {
     const uint entry = group * VOXTACT_CLUSTER_RUNS + lane / VOXTACT_RUN_TRIANGLES;
-    TriangleLane own = TriangleLane(false, 0, 0);
+    TriangleLane own = TriangleLane(false, 0, 0, 0);
     if (entry < queueCount(VOXTACT_QUEUE_RUNS)) {
         const uint word = constants.queueWord + VOXTACT_WORD_RUNS(constants.queueRoom) + 2 * entry;
-        const uint place = queues[word + 1] * VOXTACT_RUN_TRIANGLES + lane % VOXTACT_RUN_TRIANGLES;
+        own.run = queues[word + 1];
+        const uint place = own.run * VOXTACT_RUN_TRIANGLES + lane % VOXTACT_RUN_TRIANGLES;
         own.pair = queues[word];
         own.some = place < constants.triangleCount;
         own.number = own.some ? triangleAt(place) : 0;

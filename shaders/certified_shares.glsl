@@ -8,8 +8,8 @@ struct Share {
     bool some;
     uint pair;
     uint number; // of the triangle
-    bool single; // one cell, that was left undecided
-    ivec3 cell;
+    bool single; // one cell, that was left undecided; with a margin, one brick
+    ivec3 cell;  // or brick
     bool large;     // the triangle must be; else it must not, unless it is a single cell
     int firstBrick; // of the triangle's
     int bricks;     // at most
@@ -93,12 +93,17 @@ Share shareOfGroup(uint group) {
     }
     const uvec4 part = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
 #ifdef MARGIN
-    if (part.w == 0) { // one brick
-        return Share(true, part.x, part.y, false, ivec3(0), true, int(entry.y), 1, 1, 0, int(lane),
-                     VOXTACT_COMPUTE_GROUP);
+    if (part.w != VOXTACT_MARGIN_ALL) { // one brick of a run: a triangle of it
+        if ((part.w >> turn & 1u) == 0) {
+            return kNoShare;
+        }
+        return Share(true, part.x, triangleAt(part.y * VOXTACT_RUN_TRIANGLES + turn), true, brickOf(int(entry.y)), true,
+                     0, 1, 1, 0, int(lane), VOXTACT_COMPUTE_GROUP);
     }
-#endif
+    return shareOfLarge(part.x, part.y, entry.y, 0, turn);
+#else
     return shareOfLarge(part.x, part.y, entry.y, part.w - 1, turn);
+#endif
 }
 
 #endif

@@ -212,6 +212,9 @@ struct CertifiedConstants {
 #define VOXTACT_MARGIN_ROOM_LARGE(room) ((room)*3)
 #define VOXTACT_MARGIN_ROOM_LEFT(room) ((room) + VOXTACT_MARGIN_ROOM_LARGE(room))
 #define VOXTACT_MARGIN_WORD_LEFT(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_MARGIN_ROOM_LARGE(room))
+// With a margin, of an entry of the queue of large triangles: pair, run, brick, and a bit for each triangle of the run;
+// or pair, triangle, 0, and this: all bricks of one triangle.
+#define VOXTACT_MARGIN_ALL (1u << VOXTACT_RUN_TRIANGLES)
 #define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
 // What certified_finish is left, where the queue of cells or of large triangles was full: a number and what it is of.
 #define VOXTACT_LEFT_SMALL 0  // the small triangles of a work group of certified_expand
@@ -272,6 +275,8 @@ struct CertifiedConstants {
 #define VOXTACT_OFFSET_DOMINANT 96
 // Lanes of a work group of the compute path.
 #define VOXTACT_COMPUTE_GROUP 64
+// Those of certified_margin_large.
+#define VOXTACT_MARGIN_GROUP 32
 // Those of the brick pass.
 #define VOXTACT_BRICK_GROUP 64
 // A brick is 2^VOXTACT_BRICK_SHIFT cells a side: src/core/volume/bricks.h.

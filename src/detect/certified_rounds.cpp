@@ -17,11 +17,12 @@ namespace {
 constexpr double kLooksOfSquare = 64;
 
 /// The same with a margin that reaches G voxels along an axis, B = 2 G + 3. A triangle with a side of e voxels looks at
-/// the cells of its box, of a side of e + B, at most: while e is no more than B, that is less than 4 B^3 + 4 B e^2. A
-/// longer one, 3 voxels at least, has columns of bricks over (e + B + 13)^2 < 41 e^2 voxels of the plane across the
-/// axis that it is steepest along, each of 4 + G / 2 bricks at most near the plane of the triangle: 328 (4 + G / 2) e^2
-/// cells. Their bricks are fewer by far, but for the small triangles, which have 27 and less than a 64th of the cells
-/// more.
+/// the cells of its box, of a side of e + B, at most. While e is no more than B, that is less than
+/// B^3 + 3 B^2 e + 4 B e^2, and 3 B^2 e is no more than B^3 / 8 + 18 B e^2. A longer one, 3 voxels at least, has
+/// columns of bricks over (e + B + 13)^2 < 41 e^2 voxels of the plane across the axis that it is steepest along, each
+/// of 4 + G / 2 bricks at most near the plane of the triangle: 328 (4 + G / 2) e^2 cells. Their bricks are fewer by
+/// far, but for the small triangles, which have 27 and less than a 64th of the cells more. What the triangles of a run
+/// look at together, before each of them does, are no more cells than their own, and 512 bricks: 32 for each of 16.
 struct MarginLooks {
     double ofTriangle;
     double ofSquare;
@@ -31,9 +32,9 @@ MarginLooks marginLooks(const Grid& grid, double margin) {
     const std::array<double, 3> reach = voxelsOfMargin(grid, margin);
     const double most = std::max({reach[0], reach[1], reach[2]});
     const double box = 2 * most + 3;
-    constexpr double kBricks = 27;
-    constexpr double kWithBricks = 1 + 1.0 / 64;
-    return {kWithBricks * 4 * box * box * box + kBricks, kWithBricks * std::max(4 * box, 328 * (4 + most / 2))};
+    constexpr double kBricks = 32;
+    constexpr double kWithBricks = 2 + 1.0 / 64;
+    return {kWithBricks * 1.125 * box * box * box + kBricks, kWithBricks * std::max(22 * box, 328 * (4 + most / 2))};
 }
 
 /// The most that a pose makes of a length, in voxels, squared.
@@ -81,7 +82,7 @@ MeshLooks meshLooks(const BatchItem& item, double margin) noexcept {
         const MarginLooks with = marginLooks(volume.grid, margin);
         looks.scale = with.ofSquare * scale;
         looks.each = with.ofTriangle * VOXTACT_CLUSTER_TRIANGLES;
-        double cells = 2; // and bricks
+        double cells = 3; // twice, and bricks
         for (const std::uint32_t size : volume.grid.size) {
             cells *= size + 1.0;
         }

@@ -80,10 +80,6 @@ struct Decider {
         ++out.cells;
         const shader::VoxelPoint corner{static_cast<float>(at[0]), static_cast<float>(at[1]),
                                         static_cast<float>(at[2])};
-        const shader::VoxelPoint middle{corner.x + 0.5F, corner.y + 0.5F, corner.z + 0.5F};
-        if (!whole && shader::marginCubeBeyond(by, triangle, middle, 0.5F)) {
-            return;
-        }
         std::array<float, 8> values{};
         for (int i = 0; i < 8; ++i) {
             values[static_cast<std::size_t>(i)] =
@@ -92,10 +88,16 @@ struct Decider {
         const shader::CertifiedCorners corners{values[0], values[1], values[2], values[3], values[4],
                                                values[5], values[6], values[7], wide[0],   wide[1]};
         const shader::CertifiedCell known = shader::certifiedCell(item, corners, at[0], at[1], at[2], triangle.delta);
-        if (whole || shader::marginCellMay(table, known)) {
-            ++out.decided;
-            take(shader::marginDecide(table, by, triangle, known, corner));
+        if (!whole && !shader::marginCellMay(table, known)) {
+            return;
         }
+        const int look = whole ? CERTIFIED_UNDECIDED
+                               : shader::marginCellLook(by, item, triangle, shader::marginCellHas(table, known), at[0],
+                                                        at[1], at[2]);
+        if (look == CERTIFIED_UNDECIDED) {
+            ++out.decided;
+        }
+        take(look == CERTIFIED_UNDECIDED ? shader::marginDecide(table, by, triangle, known, corner) : look);
     }
 
     void brick(const shader::CertifiedTriangle& triangle, const Place& at, const shader::CertifiedBounds& bounds) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the passes of the projection `conservative` count of themselves, and the rounds that bound their work by it.
+#include "certified/counted_fixture.h"
 #include "detect/certified_rounds.h"
-#include "raw_fixture.h"
-#include "support/scenes.h"
 #include "voxtact/cpu.h"
-#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
@@ -15,44 +13,13 @@ using testing::HasSubstr;
 
 constexpr std::uint32_t kGroup = 64;
 
-struct Answered {
-    std::vector<PairAnswer> pairs;
-    CertifiedCounters counters{};
-};
-
-class CountersTest : public RawGpuTest {
+class CountersTest : public CertifiedTest {
   protected:
-    void SetUp() override {
-        RawGpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() &&
-            !context().supports(CountingMethod::Compute, Projection::Conservative)) {
-            GTEST_SKIP() << "no conservative by compute on this device";
-        }
-    }
-
     static DetectorDesc counted(bool stopAtFirst = false) {
         return {.method = CountingMethod::Compute,
                 .projection = Projection::Conservative,
                 .stopAtFirst = stopAtFirst,
                 .counters = true};
-    }
-
-    Answered detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
-        const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters}));
-        const VkCommandBuffer commands = raw().begin();
-        take(detector.cmdDetect(commands, batch, results));
-        take(results.cmdReadBack(commands));
-        raw().submitAndWait(commands);
-        Answered out;
-        for (const PairResult& pair : take(results.read())) {
-            out.pairs.push_back(unpack(pair));
-        }
-        EXPECT_EQ(results.counted(), desc.counters);
-        if (desc.counters) {
-            out.counters = take(results.counters());
-        }
-        return out;
     }
 };
 

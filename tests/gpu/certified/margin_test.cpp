@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What is within a margin, on the device: bit for bit what the same text says on the host, never against the host's
 // own cpu::ClearanceMeter::within(), and where distances are known.
+#include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
-#include "raw_fixture.h"
 
 #include "certified.h"
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/margin_text.h"
 #include "detect/certified_rounds.h"
-#include "support/scenes.h"
 #include "voxtact/cpu.h"
-#include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
@@ -46,7 +44,7 @@ void expectNoContradiction(const PairAnswer& device, const PairAnswer& host) {
     EXPECT_FALSE(!device.hit && !device.possible && host.hit);
 }
 
-class MarginTest : public RawGpuTest {
+class MarginTest : public CertifiedTest {
   protected:
     /// One pair.
     PairAnswer ask(BlockingDetector& device, const oracle::OraclePair& pair, bool clusters) const {
@@ -55,27 +53,6 @@ class MarginTest : public RawGpuTest {
         const Mesh mesh = take(Mesh::upload(context(), queue(), pair.mesh, {.clusters = clusters}));
         const BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
         return take(device.detect({{&item, 1}, {}, pair.threshold})).pairs.at(0);
-    }
-
-    struct Answered {
-        std::vector<PairAnswer> pairs;
-        CertifiedCounters counters{};
-    };
-    Answered ask(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
-        const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters}));
-        const VkCommandBuffer commands = raw().begin();
-        take(detector.cmdDetect(commands, batch, results));
-        take(results.cmdReadBack(commands));
-        raw().submitAndWait(commands);
-        Answered out;
-        for (const PairResult& pair : take(results.read())) {
-            out.pairs.push_back(unpack(pair));
-        }
-        if (desc.counters) {
-            out.counters = take(results.counters());
-        }
-        return out;
     }
 };
 
@@ -225,8 +202,8 @@ TEST_F(MarginTest, NothingDependsOnTheRooms) {
             SCOPED_TRACE("seed " + std::to_string(seed) + ", margin " + std::to_string(margin));
             DetectorDesc desc = within(margin);
             desc.counters = true;
-            const Answered one = ask(desc, scene.batch(), kPoses, 16384);
-            const Answered many = ask(desc, scene.batch(), kPoses, 16);
+            const Answered one = detect(desc, scene.batch(), kPoses, 16384);
+            const Answered many = detect(desc, scene.batch(), kPoses, 16);
             expectSame(one.pairs, many.pairs);
             const std::vector<PairAnswer> host = scene.onHost(margin);
             for (std::size_t i = 0; i < kPoses; ++i) {
@@ -250,8 +227,8 @@ TEST_F(MarginTest, OfTrianglesThroughAllOfIt) {
     const Head scene(context(), queue(), flat, kPoses, seed);
     DetectorDesc desc = within(11);
     desc.counters = true;
-    const Answered found = ask(desc, scene.batch(), kPoses, 16384);
-    expectSame(found.pairs, ask(desc, scene.batch(), kPoses, 16).pairs);
+    const Answered found = detect(desc, scene.batch(), kPoses, 16384);
+    expectSame(found.pairs, detect(desc, scene.batch(), kPoses, 16).pairs);
     const std::vector<PairAnswer> host = scene.onHost(11);
     for (std::size_t i = 0; i < kPoses; ++i) {
         expectNoContradiction(found.pairs[i], host[i]);
@@ -267,11 +244,11 @@ TEST_F(MarginTest, GrowsWithTheMargin) {
     constexpr std::uint32_t kPoses = 24;
     const Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, seed);
     DetectorDesc touch = within(0);
-    std::vector<PairAnswer> before = ask(touch, scene.batch(), kPoses, 2048).pairs;
+    std::vector<PairAnswer> before = detect(touch, scene.batch(), kPoses, 2048).pairs;
     std::size_t hits = 0;
     for (const double margin : {0.02, 3.0, 20.0}) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", margin " + std::to_string(margin));
-        const std::vector<PairAnswer> now = ask(within(margin), scene.batch(), kPoses, 2048).pairs;
+        const std::vector<PairAnswer> now = detect(within(margin), scene.batch(), kPoses, 2048).pairs;
         const std::vector<PairAnswer> host = scene.onHost(margin);
         for (std::size_t i = 0; i < kPoses; ++i) {
             EXPECT_FALSE(before[i].hit && !now[i].hit) << "pair " << i;
@@ -300,11 +277,11 @@ TEST_F(MarginTest, OfPosesOnTheDevice) {
     const PoseBuffer poses =
         take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .stride = 64, .count = kPoses}));
     DetectorDesc desc = within(kMargin);
-    const std::vector<PairAnswer> wanted = ask(desc, scene.batch(), kPoses, 2048).pairs;
+    const std::vector<PairAnswer> wanted = detect(desc, scene.batch(), kPoses, 2048).pairs;
     desc.devicePoses = true;
     scene.item.world_from_object = {};
     scene.item.poses = &poses;
-    expectSame(ask(desc, scene.batch(), kPoses, 2048).pairs, wanted);
+    expectSame(detect(desc, scene.batch(), kPoses, 2048).pairs, wanted);
 }
 
 TEST_F(MarginTest, RefusesWhatHasNoAnswer) {
