@@ -143,6 +143,7 @@ TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
     }
     EXPECT_NEAR(least, std::stod(whole), 0.02);
     const auto two = labelled({"--to", "70,999"});
+    EXPECT_EQ(labelled({"--to", "70,999,70"}), two);
     ASSERT_EQ(two.size(), 6U);
     EXPECT_EQ(two[2].at("label"), "70");
     EXPECT_GE(std::stod(two[2].at("clearance_lo")), least);

@@ -5,6 +5,8 @@
 #include "core/batch/batch_cutter.h"
 #include "voxtact/cpu.h"
 
+#include <algorithm>
+
 namespace voxtact::app {
 
 namespace {
@@ -99,7 +101,12 @@ Result<LabelClearanceAnswer> HostEngine::measureLabels(const cpu::Batch& batch) 
     if (options_.distance.labels.empty()) {
         return LabelClearanceAnswer{};
     }
-    std::vector<std::int32_t> asked = options_.distance.to;
+    std::vector<std::int32_t> asked;
+    for (const std::int32_t label : options_.distance.to) {
+        if (std::ranges::find(asked, label) == asked.end()) {
+            asked.push_back(label);
+        }
+    }
     if (asked.empty()) {
         asked = inputs_.labels->values;
         std::erase(asked, 0);
