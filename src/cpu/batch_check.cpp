@@ -13,8 +13,7 @@ struct HostSide {
             return {};
         }
         const std::string most = std::to_string(kMaxViewport);
-        return Error{ErrorCode::LimitExceeded, 0,
-                     what + ", the host engine's limit (cpu::kMaxViewport) is " + most + "x" + most};
+        return Error{ErrorCode::LimitExceeded, 0, what + ", the host engine's limit is " + most + "x" + most};
     }
     [[nodiscard]] Result<void> checkItem(const BatchItem& /*item*/, const std::string& /*which*/) const { return {}; }
 };
@@ -28,8 +27,7 @@ Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch) {
 Result<void> checkThreads(std::uint32_t threads) {
     if (threads > kMostThreads) {
         return Error{ErrorCode::LimitExceeded, 0,
-                     std::to_string(threads) + " threads are asked for, the most is " + std::to_string(kMostThreads) +
-                         " (cpu::kMostThreads)"};
+                     std::to_string(threads) + " threads are asked for, the most is " + std::to_string(kMostThreads)};
     }
     return {};
 }

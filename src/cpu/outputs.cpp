@@ -187,7 +187,7 @@ void OutputRun::Sink::publish() {
 Result<void> checkOutputs(const DetectorDesc& desc) {
     if (desc.outputs.any() && desc.stopAtFirst) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     "DetectorDesc::stopAtFirst finds one survivor, the outputs need all of them"};
+                     "a yes or no ends at the first survivor, the outputs need all of them"};
     }
     return voxtact::checkOutputs(desc.outputs);
 }

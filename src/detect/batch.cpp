@@ -81,7 +81,7 @@ struct DeviceSide {
             return Error{ErrorCode::Unsupported, 0,
                          which + ": the device cannot filter the " +
                              (item.volume->impl().filtered ? "transfer function's table" : "volume's format") +
-                             " linearly; DetectorDesc::filter exact needs no filtering"};
+                             " linearly; the filter exact needs no filtering"};
         }
         return readsVertices ? checkStorage(item, "the projection dominant-axis") : Result<void>();
     }

@@ -77,14 +77,15 @@ Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& d
     }
     if (!rowOf(desc.projection).voxelGrid || rowOf(desc.method).coverage != Coverage::Rasteriser) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("DetectorDesc::overestimate is for the projection dominant-axis by a method that "
+                     std::string("the overestimate is for the projection dominant-axis by a method that "
                                  "rasterises, not for ") +
                          toString(desc.projection) + " by " + toString(desc.method)};
     }
     if (!context.conservativeRasterization) {
-        return Error{ErrorCode::Unsupported, 0,
-                     "DetectorDesc::overestimate needs the device extension VK_EXT_conservative_rasterization, which "
-                     "ContextDesc::enabledDeviceExtensions does not name"};
+        return Error{
+            ErrorCode::Unsupported, 0,
+            "the overestimate needs the device extension VK_EXT_conservative_rasterization, which is not among those "
+            "that the context was told of"};
     }
     return {};
 }
@@ -111,12 +112,11 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
     }
     if (desc.counters && !projection.certified) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("DetectorDesc::counters are of the projection conservative, not of ") +
-                         projection.name};
+                     std::string("counters are of the projection conservative, not of ") + projection.name};
     }
     if (desc.stopAtFirst && !projection.certified) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     "DetectorDesc::stopAtFirst is for the projection conservative; a boolean query is query-any"};
+                     "to stop at the first survivor is for the projection conservative; a boolean query is query-any"};
     }
     VOXTACT_TRY(checkResolution(desc.resolution));
     VOXTACT_TRY(checkSamples(desc.samplesPerVoxel));
@@ -130,16 +130,14 @@ Result<void> checkMargin(const DetectorDesc& desc) {
     }
     if (!rowOf(desc.projection).certified) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("DetectorDesc::margin is for the projection conservative, not for ") +
-                         toString(desc.projection)};
+                     std::string("a margin is for the projection conservative, not for ") + toString(desc.projection)};
     }
     if (!desc.stopAtFirst) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     "DetectorDesc::margin is answered by yes or no: it needs DetectorDesc::stopAtFirst"};
+                     "a margin is answered by yes or no: it needs a detector that stops at the first survivor"};
     }
     if (desc.outputs.any()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "DetectorDesc::margin is answered by yes or no, without DetectorDesc::outputs"};
+        return Error{ErrorCode::InvalidArgument, 0, "a margin is answered by yes or no, without outputs"};
     }
     return {};
 }

@@ -12,6 +12,12 @@ namespace voxtact::io {
 
 namespace {
 
+std::string inAscii(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -49,9 +55,7 @@ Error badLine(const std::filesystem::path& path, std::uint64_t line, std::string
 
 std::string printable(std::string_view text) {
     constexpr std::size_t kLongest = 64;
-    std::string result(text.substr(0, kLongest));
-    std::replace_if(
-        result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    const std::string result = inAscii(std::string(text.substr(0, kLongest)));
     return text.size() > kLongest ? result + "..." : result;
 }
 
@@ -69,6 +73,18 @@ std::string oneLine(std::string_view text) {
         line.pop_back();
     }
     return line;
+}
+
+std::string jsonReason(std::string_view text) {
+    constexpr std::size_t kLongest = 240;
+    constexpr std::size_t kEnd = 80; // where it went wrong, and what was expected there
+    // "[json.exception.parse_error.101] parse error at line 2, column 5: ..."
+    const std::size_t name = text.find("] ");
+    const std::string reason = inAscii(oneLine(name == std::string_view::npos ? text : text.substr(name + 2)));
+    if (reason.size() <= kLongest) {
+        return reason;
+    }
+    return reason.substr(0, kLongest - kEnd) + " ... " + reason.substr(reason.size() - kEnd);
 }
 
 Result<std::uint64_t> readableFile(const std::filesystem::path& path) {

@@ -22,6 +22,10 @@ namespace voxtact::io {
 /// What libraries say, in one line: line breaks and runs of blanks become one blank.
 [[nodiscard]] std::string oneLine(std::string_view text);
 
+/// What nlohmann's JSON says is wrong, in one line without the name of its exception. Of a long one, which quotes all
+/// that was read of a text, the beginning and the end; other than ASCII becomes '?'.
+[[nodiscard]] std::string jsonReason(std::string_view text);
+
 /// A short text of the user's or a file's, as a message may quote it: other than ASCII letters and signs become '?',
 /// and after 64 of them "..." follows.
 [[nodiscard]] std::string printable(std::string_view text);

@@ -4,6 +4,7 @@
 #include "failure.h"
 #include "image.h"
 #include "lock.h"
+#include "text.h"
 #include "voxtact/io.h"
 #include "voxtact/plan.h"
 #include "voxtact/samples.h"
@@ -98,8 +99,8 @@ void defineImage(py::module_& module) {
         .def_property_readonly("size", [](const Image& image) { return py::cast(image.data().grid.size); })
         .def_property_readonly("range",
                                [](const Image& image) { return py::make_tuple(image.range().lo, image.range().hi); })
-        .def_property_readonly("name", [](const Image& image) { return image.data().name; })
-        .def_property_readonly("notes", [](const Image& image) { return image.data().notes; })
+        .def_property_readonly("name", [](const Image& image) { return textInPython(image.data().name); })
+        .def_property_readonly("notes", [](const Image& image) { return textsInPython(image.data().notes); })
         .def(
             "write",
             [](const Image& image, const std::string& path) {
@@ -155,8 +156,8 @@ void defineShape(py::module_& module) {
                                    return py::make_tuple(vectorInPython(box.lo), vectorInPython(box.hi));
                                })
         .def_property_readonly("degenerate", [](const Shape& shape) { return shape.facts().degenerate; })
-        .def_property_readonly("name", [](const Shape& shape) { return shape.data().name; })
-        .def_property_readonly("notes", [](const Shape& shape) { return shape.data().notes; })
+        .def_property_readonly("name", [](const Shape& shape) { return textInPython(shape.data().name); })
+        .def_property_readonly("notes", [](const Shape& shape) { return textsInPython(shape.data().notes); })
         .def(
             "write",
             [](const Shape& shape, const std::string& path) {
@@ -172,7 +173,7 @@ py::array_t<double> readPoses(const std::string& path) {
 py::dict readLabelNames(const std::string& path) {
     py::dict names;
     for (const io::LabelName& entry : take(io::readLabelNames(path))) {
-        names[py::int_(entry.label)] = entry.name;
+        names[py::int_(entry.label)] = textInPython(entry.name);
     }
     return names;
 }
@@ -184,7 +185,7 @@ py::tuple readPoints(const std::string& path) {
     double* to = positions.mutable_data();
     for (const io::NamedPoint& point : points) {
         to = std::copy(point.position.begin(), point.position.end(), to);
-        names.append(point.name);
+        names.append(textInPython(point.name));
     }
     return py::make_tuple(std::move(positions), py::tuple(names));
 }

@@ -4,6 +4,7 @@
 #include "failure.h"
 #include "lock.h"
 #include "measuring.h"
+#include "text.h"
 
 #include <dlfcn.h>
 #include <pybind11/stl.h>
@@ -414,7 +415,7 @@ void defineDevice(py::module_& module) {
                std::to_string(VK_API_VERSION_PATCH(facts.apiVersion));
     };
     const auto facts = [version](const DeviceFacts& of) {
-        return py::make_tuple(of.index, of.name, of.type, of.driver, version(of));
+        return py::make_tuple(of.index, textInPython(of.name), of.type, textInPython(of.driver), version(of));
     };
     py::class_<Device, std::shared_ptr<Device>> device(module, "Device");
     device
@@ -437,7 +438,7 @@ void defineDevice(py::module_& module) {
             py::dict methods;
             for (const MethodSupport& support : of.context().methods()) {
                 methods[toString(support.method)] =
-                    support.available ? py::object(py::none()) : py::object(py::str(support.reason));
+                    support.available ? py::object(py::none()) : py::object(textInPython(support.reason));
             }
             return methods;
         });

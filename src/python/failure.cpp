@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "failure.h"
 
-#include <pybind11/pybind11.h>
+#include "text.h"
 
 namespace voxtact::python {
 
@@ -9,16 +9,10 @@ namespace {
 
 namespace py = pybind11;
 
-/// File names may hold any bytes.
-py::object inPython(const std::string& text) {
-    return py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
-}
-
 void setException(const Error& error) {
     const py::object exception =
         py::module_::import("voxtact._errors")
-            .attr("exception")(static_cast<std::uint32_t>(error.code), inPython(error.text), error.vkResult);
+            .attr("exception")(static_cast<std::uint32_t>(error.code), textInPython(error.text), error.vkResult);
     PyErr_SetObject(py::type::handle_of(exception).ptr(), exception.ptr());
 }
 

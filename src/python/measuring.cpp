@@ -3,6 +3,7 @@
 
 #include "failure.h"
 #include "lock.h"
+#include "text.h"
 #include "voxtact/detector.h"
 #include "voxtact/samples.h"
 
@@ -17,7 +18,7 @@ py::list inPython(const std::vector<MethodSpeed>& speeds) {
     py::list rows;
     for (const MethodSpeed& speed : speeds) {
         rows.append(py::make_tuple(toString(speed.verdict.method), speed.verdict.available, speed.verdict.trusted,
-                                   speed.verdict.text, speed.pairsPerSecond));
+                                   textInPython(speed.verdict.text), speed.pairsPerSecond));
     }
     return rows;
 }

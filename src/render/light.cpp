@@ -86,14 +86,13 @@ Result<void> checkLighting(const Lighting& lighting) {
 
 Result<void> checkClipPlanes(std::span<const ClipPlane> planes) {
     if (planes.size() > kMostClipPlanes) {
-        return refuse("Scene::clipPlanes has " + std::to_string(planes.size()) + " planes, the most is " +
+        return refuse("the scene has " + std::to_string(planes.size()) + " clip planes, the most is " +
                       std::to_string(kMostClipPlanes));
     }
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const double length = lengthOf(planes[i].normal);
         if (!(length > 0) || !std::isfinite(length) || !std::isfinite(planes[i].offset / length)) {
-            return refuse("Scene::clipPlanes[" + std::to_string(i) +
-                          "] is no plane: its normal is zero, or it is not finite");
+            return refuse("clip plane " + std::to_string(i) + " is no plane: its normal is zero, or it is not finite");
         }
     }
     return {};

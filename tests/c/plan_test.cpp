@@ -300,7 +300,7 @@ TEST_F(Plans, RefuseNullAndDescsOutOfRange) {
     EXPECT_THAT(text(vxt_host_planner_create(&desc, &planner)), HasSubstr("the tolerance nan mm"));
     desc = vxt_host_planner_desc_init();
     desc.most_steps = 0;
-    EXPECT_THAT(text(vxt_host_planner_create(&desc, &planner)), HasSubstr("mostSteps is 0"));
+    EXPECT_THAT(text(vxt_host_planner_create(&desc, &planner)), HasSubstr("at most 0 steps are allowed"));
     EXPECT_EQ(planner, nullptr);
 }
 

@@ -353,6 +353,11 @@ TEST(Gltf, MalformedFiles) {
     expectRefused(read("{\"asset\":"), "it is not a proper glTF file");
     expectRefused(read("{\"asset\": {\"version\": \"2.0\"}}"), "it holds no triangle");
     expectRefused(read(std::string(100000, '[')), "it is not a proper glTF file");
+    // The text of a buffer that never ends: not all of it is told.
+    const std::string text = read("{\"buffers\": [{\"uri\": \"data:;base64," + std::string(100000, 'A')).error().text;
+    EXPECT_LT(text.size(), 500U);
+    EXPECT_THAT(text, testing::AllOf(testing::HasSubstr("parse error at line 1"),
+                                     testing::HasSubstr("data:;base64,AAA"), testing::EndsWith("AAA'")));
     const auto refused = [&](const char* patch, const char* reason) {
         Gltf file = good;
         Json whole = Json::parse(file.text()).patch(Json::parse(patch));

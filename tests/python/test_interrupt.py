@@ -178,3 +178,28 @@ def test_the_last_calls_of_a_program_are_answered():
     done = subprocess.run([sys.executable, "-c", LAST_CALLS], capture_output=True, text=True, check=False, timeout=120)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
     assert done.stdout.split("\n")[:3] == ["last: 1", "child: 0", "last: 1"], done.stdout
+
+
+# Python waits for threads that are no daemons before it ends, and their calls are made to their end.
+WAITED_FOR = """
+import threading, time
+import numpy as np
+import voxtact as vx
+scene = vx.Scene("builtin:head:48", opacity=[(40, 0), (80, 1)], threads=1)
+mesh = vx.read_mesh("builtin:scalpel:500")
+begun = threading.Event()
+def told(done, of):
+    begun.set()
+    time.sleep(0.05)
+def work():
+    answer = scene.detect(mesh, np.tile(np.eye(4), (20_000, 1, 1)), progress=told)
+    print("answered:", len(answer), "after the end:", not threading.main_thread().is_alive())
+threading.Thread(target=work).start()
+begun.wait()
+"""
+
+
+def test_calls_of_threads_that_are_no_daemons_are_made_to_their_end():
+    done = subprocess.run([sys.executable, "-c", WAITED_FOR], capture_output=True, text=True, check=False, timeout=120)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+    assert done.stdout == "answered: 20000 after the end: True\n", done.stdout

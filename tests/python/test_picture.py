@@ -114,7 +114,7 @@ def test_a_view_from_a_side_is_the_pictures(drawn, knife, tmp_path):
         vx.view_from("left", head, size=(0, 5))
     with pytest.raises(TypeError, match="a name or"):
         vx.view_from(np.eye(4), head)
-    with pytest.raises(TypeError, match="view cannot be"):
+    with pytest.raises(TypeError, match="view is .*; a number is needed"):
         vx.view_from(((1, 2), (3,)), head)
     with pytest.raises(TypeError, match="read_volume"):
         vx.view_from("left", "head.nii")

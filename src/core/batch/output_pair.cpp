@@ -77,7 +77,8 @@ void addLabelMap(shader::OutputPair& pair, const Grid& grid, const Grid& labelGr
 Result<void> checkOutputs(const Outputs& outputs) {
     const auto depth = static_cast<float>(outputs.maxDepth);
     if (outputs.contacts && !(std::isnormal(depth) && depth > 0)) {
-        return refuse("Outputs::maxDepth is " + number(outputs.maxDepth) + " mm, it must be positive and finite");
+        return refuse("the largest depth of contacts is " + number(outputs.maxDepth) +
+                      " mm, it must be positive and finite");
     }
     return {};
 }

@@ -8,14 +8,17 @@
 
 namespace voxtact {
 
-/// Refuses the domain of a transfer function that is empty, or so wide that its width overflows. `what` begins the
-/// error text.
+/// Refuses the domain of a transfer function that is not finite, is empty, or so wide that its width overflows. `what`
+/// begins the error text.
 inline Result<void> checkDomain(const ValueRange& domain, const std::string& what) {
     const auto refuse = [&](const char* reason) {
         return Error{ErrorCode::InvalidArgument, 0,
                      what + " " + number(domain.lo) + ":" + number(domain.hi) + " is " + reason};
     };
-    if (!std::isfinite(domain.lo) || !std::isfinite(domain.hi) || !(domain.lo < domain.hi)) {
+    if (!std::isfinite(domain.lo) || !std::isfinite(domain.hi)) {
+        return refuse("not finite");
+    }
+    if (!(domain.lo < domain.hi)) {
         return refuse("empty, the lower end must be below the upper one");
     }
     if (!std::isfinite(domain.hi - domain.lo)) {

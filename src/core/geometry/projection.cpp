@@ -46,7 +46,7 @@ std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel) {
 Result<void> checkSamples(std::uint32_t samplesPerVoxel) {
     if (samplesPerVoxel < 1 || samplesPerVoxel > kMostSamplesPerVoxel) {
         return Error{ErrorCode::InvalidArgument, 0,
-                     "DetectorDesc::samplesPerVoxel is " + std::to_string(samplesPerVoxel) + ", it must be 1 to " +
+                     "the number of samples per voxel is " + std::to_string(samplesPerVoxel) + ", it must be 1 to " +
                          std::to_string(kMostSamplesPerVoxel)};
     }
     return {};

@@ -58,9 +58,10 @@ double opacityAt(std::span<const ControlPoint> points, double value) {
 
 Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<std::vector<float>> {
-        VOXTACT_TRY(checkPoints(desc.points));
+        // First the domain: points that are not given are made of its ends.
         const ValueRange& domain = desc.domain;
         VOXTACT_TRY(checkDomain(domain, "the transfer function's domain"));
+        VOXTACT_TRY(checkPoints(desc.points));
         if (desc.tableSize < 2) {
             return refuse("the transfer function's table has " + std::to_string(desc.tableSize) +
                           " entries, it needs at least 2");
@@ -68,7 +69,7 @@ Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
         if (desc.tableSize > kMostTableSize) {
             return Error{ErrorCode::LimitExceeded, 0,
                          "the transfer function's table has " + std::to_string(desc.tableSize) +
-                             " entries, the most is " + std::to_string(kMostTableSize) + " (kMostTableSize)"};
+                             " entries, the most is " + std::to_string(kMostTableSize)};
         }
         std::vector<float> table(desc.tableSize);
         for (std::uint32_t i = 0; i < desc.tableSize; ++i) {

@@ -59,7 +59,7 @@ Result<void> checkDesc(const ClearanceDesc& desc) {
         return refuse("the maximum clearance " + number(desc.maximum) + " mm is not above 0");
     }
     if (desc.mostSteps == 0) {
-        return refuse("mostSteps is 0, a clearance takes at least one step");
+        return refuse("at most 0 steps are allowed, a clearance takes at least one step");
     }
     return checkResolution(desc.resolution);
 }
@@ -198,7 +198,7 @@ Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_
     if (labels.size() > kMostMeasuredLabels) {
         return Error{ErrorCode::LimitExceeded, 0,
                      std::to_string(labels.size()) + " labels are asked for, one call measures at most " +
-                         std::to_string(kMostMeasuredLabels) + " (cpu::kMostMeasuredLabels); ask for fewer"};
+                         std::to_string(kMostMeasuredLabels) + "; ask for fewer"};
     }
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const BatchItem& item = batch.items[i];

@@ -57,7 +57,7 @@ Result<void> checkDesc(const TrackerDesc& desc) {
         return refuse("the maximum clearance " + number(desc.maximum) + " mm is not above 0");
     }
     if (desc.mostSteps == 0) {
-        return refuse("mostSteps is 0, a search takes at least one step");
+        return refuse("at most 0 steps are allowed, a search takes at least one step");
     }
     return checkResolution(desc.resolution);
 }

@@ -37,7 +37,7 @@ Result<void> checkDesc(const MotionDesc& desc) {
         return refuse("the interpolation is none of the enumeration's");
     }
     if (desc.mostSteps == 0) {
-        return refuse("mostSteps is 0, a motion takes at least one step");
+        return refuse("at most 0 steps are allowed, a motion takes at least one step");
     }
     return checkResolution(desc.touchResolution);
 }

@@ -65,7 +65,7 @@ Result<void> checkSurface(const EntrySurface& surface) {
     if (surface.entries > kMostEntries) {
         return Error{ErrorCode::LimitExceeded, 0,
                      std::to_string(surface.entries) + " entries are asked for, there can be up to " +
-                         std::to_string(kMostEntries) + " (kMostEntries)"};
+                         std::to_string(kMostEntries)};
     }
     if (surface.volume != nullptr && surface.labels != nullptr) {
         return refuse("the entries' surface: volume and labels are both given; one says where it is");
@@ -122,7 +122,7 @@ Result<void> checkPlanner(const PlannerDesc& desc) {
     if (!(desc.maximum > 0 && std::isfinite(desc.maximum))) {
         return refuse("the maximum clearance " + number(desc.maximum) + " mm is not a number above 0");
     }
-    return desc.mostSteps > 0 ? Result<void>() : refuse("mostSteps is 0, a path takes at least one step");
+    return desc.mostSteps > 0 ? Result<void>() : refuse("at most 0 steps are allowed, a path takes at least one step");
 }
 
 Result<void> checkTask(const PlanTask& task) {

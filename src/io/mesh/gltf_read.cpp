@@ -254,7 +254,7 @@ Result<MeshFile> readGltf(const MeshSource& source) {
     } catch (const GltfRefusal& refusal) {
         return cannotRead(source.path, refusal.reason);
     } catch (const GltfJson::exception& problem) {
-        return cannotRead(source.path, "it is not a proper glTF file: " + oneLine(problem.what()));
+        return cannotRead(source.path, "it is not a proper glTF file: " + jsonReason(problem.what()));
     }
 }
 

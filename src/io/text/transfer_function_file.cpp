@@ -82,19 +82,12 @@ std::optional<ControlPoint> pointOf(const Json& item) {
     return std::nullopt;
 }
 
-/// "[json.exception.parse_error.101] parse error at line 2, column 5: ..." without the name of the exception.
-std::string reasonOf(const Json::exception& problem) {
-    const std::string_view text = problem.what();
-    const std::size_t end = text.find("] ");
-    return oneLine(end == std::string_view::npos ? text : text.substr(end + 2));
-}
-
 Result<Json> parseJson(const std::filesystem::path& path) {
     try {
         std::ifstream file(path, std::ios::binary);
         return Json::parse(file);
     } catch (const Json::exception& problem) {
-        return cannotRead(path, reasonOf(problem));
+        return cannotRead(path, jsonReason(problem.what()));
     }
 }
 

@@ -21,7 +21,8 @@ needed; ``device=True`` takes a Vulkan one.
 Arrays of voxels are indexed [z, y, x]; points, spacings and voxel numbers are x, y, z. The world is LPS (+x left, +y
 posterior, +z superior), in millimetres. Matrices are written row by row and multiply columns.
 
-Everything that is refused raises a `voxtact.Error`, which says what, why and what to do.
+Everything that is refused raises a `voxtact.Error`, which says what, why and what to do; a thing of another kind than
+the argument is, such as a text for a number, a TypeError.
 """
 from ._answer import Answer, Clearance, Counters
 from ._core import __version__

@@ -2,6 +2,7 @@
 """What volumes and meshes have in common."""
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Literal, NoReturn, Union
 
@@ -26,10 +27,23 @@ BUILTIN = "builtin:"
 
 def encoded(path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> bytes:
     """A path for the compiled part, where the end of a text is no zero."""
-    name = os.fsencode(path)
+    try:
+        name = os.fsencode(path)
+    except UnicodeEncodeError:
+        raise InvalidArgumentError(f"the path {path!r} has a character that no file's name can have") from None
     if b"\0" in name:
         raise InvalidArgumentError(f"the path {path!r} has a null character")
     return name
+
+
+def encoded_text(given: str, what: str) -> bytes:
+    """A text for the compiled part, from which bytes that are not UTF-8 come back as they were."""
+    if not isinstance(given, str):
+        raise TypeError(f"{what} is a {type(given).__name__}; a text is needed")
+    try:
+        return given.encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:
+        raise InvalidArgumentError(f"{what} is {given!r}, which has half a character") from None
 
 
 def not_pickled(of: object) -> NoReturn:
@@ -77,13 +91,28 @@ def listed(given: Any, what: str) -> list[Any]:
 
 
 def number(given: Any, what: str) -> float:
-    """A number as float."""
+    """A number as float. Texts and truth values are none, though float() takes them."""
+    kind = getattr(getattr(given, "dtype", None), "kind", "f")
     try:
-        return float(given)
+        if not isinstance(given, (str, bytes, bytearray, bool)) and kind in ("i", "u", "f", "O"):
+            return float(given)
     except OverflowError:
         raise InvalidArgumentError(f"{what} is too large a number") from None
     except (TypeError, ValueError):
-        raise TypeError(f"{what} is {given!r}; a number is needed") from None
+        pass
+    shown = " ".join(repr(given).split())  # an array has lines
+    raise TypeError(f"{what} is {shown}; a number is needed")
+
+
+def whole_number(given: Any, what: str) -> int:
+    """A whole number of 32 bits, not negative. Truth values are none."""
+    try:
+        found = -1 if isinstance(given, (bool, np.bool_)) else operator.index(given)
+    except TypeError:
+        found = -1
+    if not 0 <= found < 2**32:
+        raise InvalidArgumentError(f"{what} is {given!r}; a whole number from 0 to {2**32 - 1} is needed")
+    return found
 
 
 def check_space(space: str, argument: str) -> None:

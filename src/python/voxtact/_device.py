@@ -6,7 +6,7 @@ import os
 from typing import NamedTuple, NoReturn, Optional, Union
 
 from . import _core as core
-from ._common import not_pickled
+from ._common import encoded_text, not_pickled
 
 
 class DeviceInfo(NamedTuple):
@@ -51,7 +51,7 @@ class Device:
     _fastest: Optional[str]
 
     def __init__(self, which: Union[None, int, str] = None) -> None:
-        self._core = core.Device.open("" if which is None else str(which))
+        self._core = core.Device.open(encoded_text("" if which is None else str(which), "device"))
         self._fastest = None
 
     @property

@@ -2,6 +2,10 @@
 """What voxtact raises. Every text is one line: what, which argument or file, why, and what to do."""
 from __future__ import annotations
 
+import re
+
+_SURROGATES = re.compile("[\ud800-\udfff]")
+
 
 class Error(Exception):
     """Anything that voxtact refuses, or that failed. The classes below say what kind of thing it was."""
@@ -12,8 +16,8 @@ class Error(Exception):
     vk_result = 0
 
     def __str__(self) -> str:
-        # What an argument looks like may have lines.
-        return " ".join(super().__str__().split("\n"))
+        # What an argument looks like may have lines, and what a file has may be no UTF-8; this can be printed anywhere.
+        return _SURROGATES.sub("\ufffd", " ".join(super().__str__().split("\n")))
 
 
 class InvalidArgumentError(Error, ValueError):

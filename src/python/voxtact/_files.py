@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import encoded
+from ._common import encoded, encoded_text
 from ._errors import InvalidArgumentError
 
 
@@ -26,7 +26,7 @@ def read_camera(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
 def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like "40:0,80:1"."""
     if isinstance(source, str) and ":" in source and not os.path.exists(source):
-        return core.parse_opacity(source)
+        return core.parse_opacity(encoded_text(source, "opacity"))
     return core.read_opacity(encoded(source))
 
 

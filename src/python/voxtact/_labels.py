@@ -49,8 +49,13 @@ class Labels:
 
     def number(self, label: Union[int, str]) -> int:
         """The number of a label that is given by its number or its name."""
+        if isinstance(label, (bool, np.bool_)):
+            raise TypeError(f"a label is {label!r}; its number or its name is needed")
         if not isinstance(label, str):
-            return operator.index(label)
+            given = operator.index(label)
+            if not -2**31 <= given < 2**31:
+                raise InvalidArgumentError(f"a label is {given}; labels are from {-2**31} to {2**31 - 1}")
+            return given
         found = [number for number, name in self.names.items() if name == label]
         if len(found) != 1:
             near = difflib.get_close_matches(label, self.names.values(), 3)
@@ -66,7 +71,11 @@ class Labels:
 
 
 def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
-    """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables."""
+    """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables.
+
+    In names that are not UTF-8 the bytes that are none are surrogate escapes, as in Python's names of files. Those of a
+    file in Latin-1 are ``name.encode("utf-8", "surrogateescape").decode("latin-1")``.
+    """
     return core.read_label_names(encoded(path))
 
 

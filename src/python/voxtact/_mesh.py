@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, Space, check_space, encoded, not_pickled, numbers
+from ._common import BUILTIN, Space, check_space, encoded, encoded_text, not_pickled, number, numbers
 from ._errors import InvalidArgumentError
 
 
@@ -103,7 +103,8 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
         raise InvalidArgumentError(f"vertex {bad} is {places[bad].tolist()}, which no float32 holds")
     if places.dtype != np.float32 and (floats != exact).any():
         said.append(f"vertices rounded from {places.dtype} to float32")
-    return Mesh._of(core.Mesh.make(floats, np.ascontiguousarray(corners, dtype=np.uint32), name, said))
+    return Mesh._of(core.Mesh.make(floats, np.ascontiguousarray(corners, dtype=np.uint32), encoded_text(name, "name"),
+                                   [encoded_text(note, "a note") for note in said]))
 
 
 def _of_meshio(mesh: Any, space: Space, scale: float) -> Mesh:
@@ -159,6 +160,7 @@ def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
     Vertices become float32; where that rounds, `Mesh.notes` says so. Raises FileError, FormatError, and
     InvalidArgumentError, which names the vertex or face.
     """
+    scale = number(scale, "scale")
     if isinstance(source, Mesh):
         if space != "lps" or scale != 1.0:
             return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name)
@@ -166,7 +168,7 @@ def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
     check_space(space, "space")
     if isinstance(source, (str, bytes, os.PathLike)):
         if isinstance(source, str) and source.startswith(BUILTIN):
-            mesh = Mesh._of(core.Mesh.builtin(source[len(BUILTIN):]))
+            mesh = Mesh._of(core.Mesh.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))
             return read_mesh(mesh, space=space, scale=scale)
         return Mesh._of(core.Mesh.read(encoded(source), space == "ras", scale))
     if isinstance(source, (tuple, list)) and len(source) == 2:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import check_made, not_pickled, numbers
+from ._common import check_made, encoded_text, not_pickled, numbers
 from ._errors import InvalidArgumentError
 from ._mesh import Mesh
 
@@ -38,7 +38,7 @@ def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike,
         raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
     centre = np.zeros(3) if mesh is None else np.mean(mesh.bounds, axis=0)
     poses = core.poses_between(numbers(first, "first"), numbers(second, "second"),
-                               parameters.reshape(-1), interpolation, centre)
+                               parameters.reshape(-1), encoded_text(interpolation, "interpolation"), centre)
     if parameters.ndim:
         return poses
     only: npt.NDArray[np.float64] = poses[0]

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import encoded, number, numbers
+from ._common import encoded, encoded_text, number, numbers
 from ._errors import InvalidArgumentError
 from ._volume import Volume
 
@@ -46,7 +46,7 @@ def look(name: str, volume: Volume) -> Look:
     """
     if not isinstance(volume, Volume):
         raise TypeError(f"volume is a {type(volume).__name__}; voxtact.read_volume() makes a voxtact.Volume of it")
-    return Look(*core.look(name, volume._core))
+    return Look(*core.look(encoded_text(name, "name"), volume._core))
 
 
 def read_colours(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
@@ -56,20 +56,27 @@ def read_colours(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
 
 def _colour(given: Any, what: str) -> tuple[float, ...]:
     array = numbers(given, what)
-    if array.shape != (3,):
+    if array.shape != (3,) or not ((array >= 0) & (array <= 1)).all():
         raise InvalidArgumentError(f"{what} is {given!r}; three numbers from 0 to 1 are needed: red, green, blue")
     return tuple(float(channel) for channel in array)
+
+
+def view_options(given: Any) -> Any:
+    """A name, (azimuth, elevation), or a matrix."""
+    if isinstance(given, tuple) and len(given) == 2:
+        return number(given[0], "view"), number(given[1], "view")
+    return given if isinstance(given, str) else numbers(given, "view")
 
 
 def _clip(given: Any) -> tuple[Any, ...]:
     """(side, mm or None), or a plane's four numbers."""
     if isinstance(given, str):
-        return (given, None)
+        return (encoded_text(given, "clip"), None)
     if isinstance(given, Sequence) and len(given) == 2 and isinstance(given[0], str):
         at = number(given[1], "clip")
         if not np.isfinite(at):
             raise InvalidArgumentError(f"clip {given[0]!r} is at {at} mm")
-        return (given[0], at)
+        return (encoded_text(given[0], "clip"), at)
     plane = numbers(given, "clip")
     if plane.shape != (4,):
         raise InvalidArgumentError(f"clip has {given!r}; a side, (side, mm), or a plane (x, y, z, offset) is needed")
@@ -106,7 +113,7 @@ def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, pres
     if preset is not None and colours is not None:
         raise InvalidArgumentError("preset and colours both say which colours the volume has; leave out one of them")
     options: dict[str, Any] = {
-        "size": size, "view": view if isinstance(view, (str, tuple)) else numbers(view, "view"), "lighting": lighting,
+        "size": size, "view": view_options(view), "lighting": lighting,
         "background": _colour(background, "background"), "clip": _clips(clip), "clip_meshes": bool(clip_meshes),
         "show": show if show is not None else "contacts" if triangles is None else "triangles"}
     if preset is not None:

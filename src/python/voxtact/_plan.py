@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._arguments import Opacity, whole
-from ._common import check_made, listed, not_pickled, number, numbers
+from ._arguments import Opacity, pair
+from ._common import check_made, listed, not_pickled, number, numbers, whole_number
 from ._errors import InvalidArgumentError, NotReadyError
 from ._labels import Labels
 from ._mesh import Mesh
@@ -38,9 +38,9 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
         raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
     if mesh is not None and (needle is not None or tip is None or axis is None):
         raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-    wish: dict[str, Any] = {"entries": whole([entries], 1, "entries")[0], "margin": number(margin, "margin"),
+    wish: dict[str, Any] = {"entries": whole_number(entries, "entries"), "margin": number(margin, "margin"),
                                "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
-                               "most_steps": whole([most_steps], 1, "most_steps")[0]}
+                               "most_steps": whole_number(most_steps, "most_steps")}
     if triangle_clearances:
         wish["triangle_clearances"] = True
     if labels is not None:
@@ -48,8 +48,10 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
     if entry_label is not None and labels is not None:
         wish["entry_label"] = labels.number(entry_label)
     wish["border_entries"] = bool(border_entries)
-    given = {"needle": needle, "entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
-    wish.update({name: value for name, value in given.items() if value is not None})
+    if needle is not None:
+        wish["needle"] = pair(needle, "needle")
+    given = {"entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
+    wish.update({name: number(value, name) for name, value in given.items() if value is not None})
     if mesh is not None and tip is not None and axis is not None:
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")

@@ -24,7 +24,7 @@ from ._arguments import (
     told,
     whole,
 )
-from ._common import exact_in_float32, listed, not_pickled, number, numbers
+from ._common import encoded_text, exact_in_float32, listed, not_pickled, number, numbers, whole_number
 from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
 from ._labels import Labels, read_labels
@@ -38,6 +38,8 @@ from ._volume import Volume, read_volume
 
 _RESOLUTION = 1 / 64
 _MOST_CONTACTS = 2**20
+_SAMPLES_PER_VOXEL = 1
+_MAX_DEPTH = 10.0
 _INFINITE = float("inf")
 
 
@@ -78,12 +80,12 @@ class Scene:
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = opened(device)
         self._domain = None if domain is None else pair(domain, "domain")
-        self._table_size = whole([table_size], 1, "table_size")[0]
+        self._table_size = whole_number(table_size, "table_size")
         self._closed = False
         self._core = core.Scene(self._volume._core, points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
-                                 whole([threads], 1, "threads")[0])
+                                 whole_number(threads, "threads"))
 
     # What it is
 
@@ -175,7 +177,7 @@ class Scene:
                yes_no: bool = False, projection: Projection = "conservative", method: Optional[Method] = None,
                filter: Optional[Literal["hardware", "exact"]] = None,
                boundary: Literal["auto", "range", "clamp"] = "auto", resolution: float = _RESOLUTION,
-               samples_per_voxel: int = 1, max_depth: float = 10.0, most_contacts: int = _MOST_CONTACTS,
+               samples_per_voxel: int = _SAMPLES_PER_VOXEL, max_depth: float = _MAX_DEPTH, most_contacts: int = _MOST_CONTACTS,
                overestimate: bool = False, counters: bool = False, view: Optional[View] = None,
                progress: Progress = None) -> Answer:
         """Which poses touch, how much, and where: an `Answer` with a row for each pose, in order.
@@ -228,22 +230,24 @@ class Scene:
             options["filter"] = filter
         if boundary != "auto":
             options["boundary"] = boundary
-        if resolution != _RESOLUTION:
-            options["resolution"] = resolution
-        if samples_per_voxel != 1:
-            options["samples_per_voxel"] = samples_per_voxel
-        if max_depth != 10.0:
-            options["max_depth"] = max_depth
-        if most_contacts != _MOST_CONTACTS:
-            options["most_contacts"] = most_contacts
+        # Compared by what they are: True is 1, too, and 1.0.
+        if resolution is not _RESOLUTION:
+            options["resolution"] = number(resolution, "resolution")
+        if samples_per_voxel is not _SAMPLES_PER_VOXEL:
+            options["samples_per_voxel"] = whole_number(samples_per_voxel, "samples_per_voxel")
+        if max_depth is not _MAX_DEPTH:
+            options["max_depth"] = number(max_depth, "max_depth")
+        if most_contacts is not _MOST_CONTACTS:
+            options["most_contacts"] = whole_number(most_contacts, "most_contacts")
         if overestimate:
             options["overestimate"] = True
         if counters:
             options["counters"] = True
         if view is not None:
-            if not isinstance(view, tuple):
+            if not isinstance(view, tuple) or len(view) != 3:
                 raise TypeError(f"view is a {type(view).__name__}; a voxtact.View is needed")
-            options["view"] = view
+            matrix, width, height = view
+            options["view"] = (numbers(matrix, "clip_from_world"), whole_number(width, "width"), whole_number(height, "height"))
         meshes, matrices = asked(mesh, poses)
         if progress is None:
             return Answer(self._core.detect(meshes, matrices, options, None), self)
@@ -278,7 +282,7 @@ class Scene:
             wanted = every if labels is True else [self._labels.number(label) for label in listed(labels, "labels")]
         elif labels_at_any_opacity:
             raise InvalidArgumentError("labels_at_any_opacity is about labels: give labels=, too")
-        (steps,) = whole([most_steps], 1, "most_steps")
+        steps = whole_number(most_steps, "most_steps")
         meshes, matrices = asked(mesh, poses)
         with told(progress, pairs_in(meshes, matrices)) as tell:
             return Clearance(self._core.clearance(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"), steps, wanted,
@@ -324,7 +328,7 @@ class Scene:
         """
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-        (steps,) = whole([most_steps], 1, "most_steps")
+        steps = whole_number(most_steps, "most_steps")
         return Tracker(core.Tracker(self._core, mesh._core, number(maximum, "maximum"), number(resolution, "resolution"), steps), mesh)
 
     def motion(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
@@ -348,10 +352,10 @@ class Scene:
 
         The host engine checks, also for scenes on a device.
         """
-        (steps,) = whole([most_steps], 1, "most_steps")
+        steps = whole_number(most_steps, "most_steps")
         meshes, matrices = asked(mesh, poses)
         with told(progress, segments_in(meshes, matrices)) as tell:
-            return Motion(self._core.motion(meshes, matrices, interpolation, number(resolution, "resolution"), steps, tell))
+            return Motion(self._core.motion(meshes, matrices, encoded_text(interpolation, "interpolation"), number(resolution, "resolution"), steps, tell))
 
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,

@@ -11,6 +11,7 @@ from . import _core as core
 from ._arguments import Poses, whole
 from ._common import numbers
 from ._mesh import Mesh
+from ._picture import view_options
 from ._volume import Volume
 
 
@@ -43,4 +44,4 @@ def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optio
         raise TypeError(f"view is a {type(view).__name__}; a name or (azimuth, elevation) is needed")
     width, height = whole(size, 2, "size")
     matrices = None if mesh is None else np.eye(4) if poses is None else numbers(poses, "poses")
-    return View(core.view_from(view, volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)
+    return View(core.view_from(view_options(view), volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)

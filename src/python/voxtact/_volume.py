@@ -10,7 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, LPS_FROM_RAS, Space, check_space, encoded, exact_in_float32, not_pickled
+from ._common import (
+    BUILTIN,
+    LPS_FROM_RAS,
+    Space,
+    check_space,
+    encoded,
+    encoded_text,
+    exact_in_float32,
+    not_pickled,
+    whole_number,
+)
 from ._errors import InvalidArgumentError
 
 _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
@@ -198,7 +208,8 @@ def _volume_of_array(array: Any, affine: npt.ArrayLike, space: Space, axes: Opti
         voxels = voxels.copy()
         said.append("voxels copied: they were not aligned")
     spacing, origin, direction = _grid(affine, space)
-    return Volume._of(core.Volume.wrap(voxels, spacing, origin, direction, name, said))
+    return Volume._of(core.Volume.wrap(voxels, spacing, origin, direction, encoded_text(name, "name"),
+                                       [encoded_text(note, "a note") for note in said]))
 
 
 # Objects of other libraries, by what they have
@@ -211,7 +222,7 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
     if array.ndim == 4:
         if frame is None:
             raise InvalidArgumentError(f"the image holds {array.shape[3]} volumes: choose one with frame=")
-        if not 0 <= frame < array.shape[3]:
+        if frame >= array.shape[3]:
             raise InvalidArgumentError(f"frame={frame}: the image holds {array.shape[3]} volumes, counted from 0")
         array = array[..., frame]
     notes: list[str] = []
@@ -286,14 +297,16 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     """
     if isinstance(source, Volume):
         return source
+    if frame is not None:
+        frame = whole_number(frame, "frame")
     if isinstance(source, (str, bytes, os.PathLike)):
         if affine is not None or space is not None or axes is not None:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
         if isinstance(source, str) and source.startswith(BUILTIN):
             if frame is not None or series:
                 raise InvalidArgumentError("frame= and series= are for files and nibabel's images")
-            return Volume._of(core.Volume.builtin(source[len(BUILTIN):]))
-        return Volume._of(core.Volume.read(encoded(source), frame, series))
+            return Volume._of(core.Volume.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))
+        return Volume._of(core.Volume.read(encoded(source), frame, encoded_text(series, "series")))
     if hasattr(source, "affine") and hasattr(source, "dataobj"):
         return _of_nibabel(source, frame)
     if frame is not None or series:

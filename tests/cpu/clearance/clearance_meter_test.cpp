@@ -207,7 +207,7 @@ TEST(Clearance, RefusesWhatItCannotUse) {
     EXPECT_EQ(refused({.maximum = 0}), "the maximum clearance 0 mm is not above 0");
     EXPECT_NE(refused({.maximum = std::nan("")}), "");
     EXPECT_NE(refused({.resolution = 2}), "");
-    EXPECT_EQ(refused({.mostSteps = 0}), "mostSteps is 0, a clearance takes at least one step");
+    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a clearance takes at least one step");
     EXPECT_EQ(refused({.threads = 2}), "");
 
     const VolumeData volume = makeBytes(unitGrid(8), [](auto...) { return 255; });

@@ -376,11 +376,11 @@ TEST(CpuOutputs, Refusals) {
         const auto refused = cpu::Detector::create({.outputs = {.contacts = true, .maxDepth = depth}});
         ASSERT_FALSE(refused.ok()) << depth;
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
-        EXPECT_THAT(refused.error().text, HasSubstr("maxDepth"));
+        EXPECT_THAT(refused.error().text, HasSubstr("the largest depth of contacts is"));
     }
     EXPECT_TRUE(cpu::Detector::create({.outputs = {.triangles = true, .maxDepth = nan}}).ok());
     EXPECT_THAT(cpu::Detector::create({.stopAtFirst = true, .outputs = {.bounds = true}}).error().text,
-                HasSubstr("stopAtFirst"));
+                HasSubstr("a yes or no ends at the first survivor"));
 
     const cpu::Volume volume = take(cpu::Volume::create(makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view()));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}}));

@@ -364,7 +364,7 @@ TEST(Motion, RefusesWhatItCannotUse) {
     EXPECT_EQ(refused({.resolution = 0}), "the resolution 0 mm is not a number from 1e-06 mm on");
     EXPECT_NE(refused({.resolution = std::nan("")}), "");
     EXPECT_NE(refused({.touchResolution = 2}), "");
-    EXPECT_EQ(refused({.mostSteps = 0}), "mostSteps is 0, a motion takes at least one step");
+    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a motion takes at least one step");
     EXPECT_NE(refused({.interpolation = static_cast<Interpolation>(7)}), "");
     EXPECT_EQ(refused({.threads = 2}), "");
 

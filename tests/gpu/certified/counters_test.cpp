@@ -154,7 +154,7 @@ TEST_F(CountersTest, OfABlockingDetectorAndOfNothing) {
 TEST_F(CountersTest, WhatHasNoneRefusesThem) {
     const Result<Detector> view = Detector::create(context(), {.method = CountingMethod::Compute, .counters = true});
     ASSERT_FALSE(view.ok());
-    EXPECT_THAT(view.error().text, HasSubstr("DetectorDesc::counters are of the projection conservative, not of view"));
+    EXPECT_THAT(view.error().text, HasSubstr("counters are of the projection conservative, not of view"));
     const Scalpel scene(context(), queue(), 1);
     DetectorDesc desc = counted();
     desc.counters = false;

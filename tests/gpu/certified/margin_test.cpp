@@ -297,13 +297,13 @@ TEST_F(MarginTest, RefusesWhatHasNoAnswer) {
     }
     DetectorDesc counts = within(1);
     counts.stopAtFirst = false;
-    EXPECT_THAT(refusal(counts), HasSubstr("it needs DetectorDesc::stopAtFirst"));
+    EXPECT_THAT(refusal(counts), HasSubstr("it needs a detector that stops at the first survivor"));
     DetectorDesc outputs = within(1);
     outputs.outputs.triangles = true;
-    EXPECT_THAT(refusal(outputs), HasSubstr("without DetectorDesc::outputs"));
+    EXPECT_THAT(refusal(outputs), HasSubstr("by yes or no, without outputs"));
     EXPECT_THAT(refusal({.method = CountingMethod::Compute, .margin = 1}),
-                HasSubstr("DetectorDesc::margin is for the projection conservative, not for view"));
-    EXPECT_THAT(refusal({.margin = 1}), HasSubstr("DetectorDesc::margin is for the projection conservative"));
+                HasSubstr("a margin is for the projection conservative, not for view"));
+    EXPECT_THAT(refusal({.margin = 1}), HasSubstr("a margin is for the projection conservative"));
     EXPECT_TRUE(Detector::create(context(), within(1000000)).ok());
 }
 

@@ -295,7 +295,7 @@ TEST_F(OutputsTest, BadDepthsAndLabelMaps) {
         const auto refused = Detector::create(context(), {.outputs = {.contacts = true, .maxDepth = depth}});
         ASSERT_FALSE(refused.ok()) << depth;
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
-        EXPECT_THAT(refused.error().text, HasSubstr("maxDepth"));
+        EXPECT_THAT(refused.error().text, HasSubstr("the largest depth of contacts is"));
     }
     EXPECT_TRUE(Detector::create(context(), {.outputs = {.bounds = true, .maxDepth = nan}}).ok());
     LabelData labels{unitGrid(2), std::vector<std::uint16_t>(8), {0, 3}};

@@ -390,9 +390,9 @@ TEST_F(RenderCutTest, Refusals) {
     SceneMesh painted;
     painted.mesh = &mesh;
     painted.paint.what = Paint::Contacts;
-    refused([&](Scene& s) { s.clipPlanes = planes; }, "has 7 planes, the most is 6");
-    refused([&](Scene& s) { s.clipPlanes = {&none, 1}; }, "Scene::clipPlanes[0] is no plane");
-    refused([&](Scene& s) { s.clipPlanes = {&endless, 1}; }, "Scene::clipPlanes[0] is no plane");
+    refused([&](Scene& s) { s.clipPlanes = planes; }, "the scene has 7 clip planes, the most is 6");
+    refused([&](Scene& s) { s.clipPlanes = {&none, 1}; }, "clip plane 0 is no plane");
+    refused([&](Scene& s) { s.clipPlanes = {&endless, 1}; }, "clip plane 0 is no plane");
     refused([&](Scene& s) { s.others = {&noMesh, 1}; }, "Scene::others[0]: there is no mesh");
     refused([&](Scene& s) { s.others = {&flat, 1}; }, "Scene::others[0]: the mesh's pose");
     refused([&](Scene& s) { s.others = {&painted, 1}; }, "Scene::others[0]: Scene::paint has no transfer function");
