@@ -80,7 +80,7 @@ std::string jsonReason(std::string_view text) {
     constexpr std::size_t kEnd = 80; // where it went wrong, and what was expected there
     // "[json.exception.parse_error.101] parse error at line 2, column 5: ..."
     const std::size_t name = text.find("] ");
-    const std::string reason = inAscii(oneLine(name == std::string_view::npos ? text : text.substr(name + 2)));
+    std::string reason = inAscii(oneLine(name == std::string_view::npos ? text : text.substr(name + 2)));
     if (reason.size() <= kLongest) {
         return reason;
     }

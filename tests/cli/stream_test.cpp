@@ -184,7 +184,7 @@ TEST_F(StreamTest, StandardInputForSeveralMeshes) {
 TEST_F(StreamTest, ADashIsStandardOutput) {
     EXPECT_EQ(output(detect({"--output", "-"})), output(detect()));
     writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n1 0 0 9  0 1 0 0  0 0 1 0  0 0 0 1\n");
-    const Arguments motion{"motion",  "--volume",        "builtin:head:32", "--mesh", "builtin:scalpel:500",
+    const Arguments motion{"motion",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:500",
                            "--poses", path("poses.txt")};
     Arguments dashed = motion;
     dashed.insert(dashed.end(), {"--output", "-"});

@@ -39,7 +39,7 @@ class ResultFile {
 
     std::optional<io::OutputFile> file_;
     std::unique_ptr<Standard> standard_; ///< instead of it
-    std::unique_ptr<Sealing> sealing_; ///< nothing: not sealed
+    std::unique_ptr<Sealing> sealing_;   ///< nothing: not sealed
 };
 
 enum class SealState {
