@@ -36,7 +36,7 @@ struct TouchedTriangle {
 struct Contact {
     std::uint32_t pair = 0;     ///< number of the pair in its batch
     std::uint32_t triangle = 0; ///< number in the mesh
-    Vec3 position{}; ///< world, mm: on the triangle (0.004 % of its size), in an opaque sample up to rounding
+    Vec3 position{}; ///< world, mm: on the triangle to 0.004 % of its size, in an opaque sample up to rounding
     /// Unit vector in world space, against the gradient of opacity: out of what is opaque. The gradient is of
     /// differences over one voxel to each side, the span clamped to the image; where these vanish the step is doubled,
     /// up to maxDepth. Zero where they all vanish.

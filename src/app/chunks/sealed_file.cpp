@@ -32,14 +32,13 @@ std::size_t sealLength() {
     return length;
 }
 
-/// Hands on to another buffer what it takes, and hashes it.
-class HashingBuffer : public std::streambuf {
+/// Holds a part of what it takes until sync() hands it on, and begin() makes room for the next.
+class PartBuffer : public std::streambuf {
   public:
-    explicit HashingBuffer(std::streambuf& sink) : sink_(sink) { setp(part_.data(), part_.data() + part_.size()); }
-
-    [[nodiscard]] const ContentHash& hash() const noexcept { return hash_; }
+    PartBuffer() { begin(); }
 
   protected:
+    void begin() { setp(part_.data(), part_.data() + part_.size()); }
     int_type overflow(int_type character) override {
         if (sync() != 0) {
             return traits_type::eof();
@@ -50,18 +49,30 @@ class HashingBuffer : public std::streambuf {
         }
         return traits_type::not_eof(character);
     }
+
+  private:
+    std::array<char, kPart> part_{};
+};
+
+/// Hands on to another buffer what it takes, and hashes it.
+class HashingBuffer : public PartBuffer {
+  public:
+    explicit HashingBuffer(std::streambuf& sink) : sink_(sink) {}
+
+    [[nodiscard]] const ContentHash& hash() const noexcept { return hash_; }
+
+  protected:
     int sync() override {
         const std::string_view held(pbase(), static_cast<std::size_t>(pptr() - pbase()));
         hash_.add(held);
         const auto size = static_cast<std::streamsize>(held.size());
-        setp(part_.data(), part_.data() + part_.size());
+        begin();
         return sink_.sputn(held.data(), size) == size ? 0 : -1;
     }
 
   private:
     std::streambuf& sink_;
     ContentHash hash_;
-    std::array<char, kPart> part_{};
 };
 
 } // namespace
@@ -83,12 +94,9 @@ class ResultFile::Sealing {
 };
 
 /// Standard output as a stream that keeps why it failed.
-class ResultFile::Standard : std::streambuf {
+class ResultFile::Standard : PartBuffer {
   public:
-    Standard() {
-        setp(part_.data(), part_.data() + part_.size());
-        stream_.imbue(std::locale::classic());
-    }
+    Standard() { stream_.imbue(std::locale::classic()); }
 
     [[nodiscard]] std::ostream& stream() noexcept { return stream_; }
     [[nodiscard]] Result<void> close() {
@@ -97,27 +105,16 @@ class ResultFile::Standard : std::streambuf {
     }
 
   protected:
-    int_type overflow(int_type character) override {
-        if (sync() != 0) {
-            return traits_type::eof();
-        }
-        if (!traits_type::eq_int_type(character, traits_type::eof())) {
-            *pptr() = traits_type::to_char_type(character);
-            pbump(1);
-        }
-        return traits_type::not_eof(character);
-    }
     int sync() override {
         if (failure_.ok()) {
             failure_ = writeStandardOutput({pbase(), static_cast<std::size_t>(pptr() - pbase())});
         }
-        setp(part_.data(), part_.data() + part_.size());
+        begin();
         return failure_.ok() ? 0 : -1;
     }
 
   private:
     Result<void> failure_;
-    std::array<char, kPart> part_{};
     std::ostream stream_{this};
 };
 
