@@ -75,7 +75,8 @@ take_library() {
 }
 
 [ -e "$layer_manifest" ] || fail "$layer_manifest is missing; it comes with Debian's package vulkan-validationlayers"
-layer_path=$(ldconfig -p | awk -v name="$layer" '$1 == name { print $NF; exit }')
+# To the end of the list: a reader that leaves early ends ldconfig by a signal, now and then.
+layer_path=$(ldconfig -p | awk -v name="$layer" '$1 == name && !found { print $NF; found = 1 }')
 [ -n "$layer_path" ] || fail "$layer is missing; it comes with Debian's package vulkan-validationlayers"
 take_library "$layer_path" "$layer"
 sed "s|\"library_path\": *\"[^\"]*\"|\"library_path\": \"../../../lib/$layer\"|" "$layer_manifest" \

@@ -28,7 +28,7 @@ cmake --build "$folder" >"$folder/build.log" 2>&1 || {
     exit 1
 }
 for name in voxtact voxtact_render voxtact_samples; do
-    library=$(find "$folder" -name "lib$name*.dll" | head -n 1)
+    library=$(find "$folder" -name "lib$name*.dll" -print -quit)
     [ -n "$library" ] || {
         printf 'check_windows: there is no DLL of %s\n' "$name" >&2
         exit 1

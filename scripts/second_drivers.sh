@@ -41,7 +41,7 @@ fetch() {
 # manifest FOLDER LIBRARY: a driver's file for the loader.
 manifest() {
     local library
-    library=$(find "$PWD/$drivers/$1" -name "$2" -type f | head -n 1)
+    library=$(find "$PWD/$drivers/$1" -name "$2" -type f -print -quit)
     [ -n "$library" ] || return 1
     printf '{"file_format_version": "1.0.0", "ICD": {"library_path": "%s", "api_version": "1.3.0"}}\n' "$library" \
         >"$drivers/$1.json"
