@@ -52,6 +52,13 @@ function(voxtact_precompile target)
   target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-array-bounds>")
 endfunction()
 
+# voxtact_together(TARGET): its files are compiled some at a time, for those that spend their time in headers that all of
+# them include (CLI11, pybind11). Names of unnamed namespaces are then distinct within the target. tidy.py reads each
+# file by itself, so that each still includes what it uses. Not for what others build.
+function(voxtact_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${VOXTACT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
 # voxtact_room(NAME SOURCE...): the sources of a room, each compiled once. A library is made of rooms' objects, with
 # voxtact_add_rooms(); what a shared one hides, others find in voxtact_NAME_inside, with voxtact_look_inside().
 function(voxtact_room name)

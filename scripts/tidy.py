@@ -65,14 +65,25 @@ def plain(command):
     return shlex.join(kept)
 
 
+def apart(entry):
+    """The same for each file of those that are compiled together (CMake's UNITY_BUILD)."""
+    source = pathlib.Path(entry["file"]).resolve()
+    if not re.fullmatch(r"unity_\d+_cxx\.cxx", source.name):
+        return [(source, entry)]
+    sources = re.findall(r'^#include "(.*)"$', source.read_text(), re.MULTILINE)
+    return [(pathlib.Path(one).resolve(),
+             entry | {"file": one, "command": entry["command"].replace(f" -c {entry['file']}", f" -c {one}")})
+            for one in sources]
+
+
 def commands_of(build, names):
     """The build's commands, plain, of every wanted file that it compiles; of one that it compiles twice the first."""
     roots = [(ROOT / name).resolve() for name in names]
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        source = pathlib.Path(entry["file"]).resolve()
-        if source.suffix == ".cpp" and any(source.is_relative_to(root) for root in roots):
-            found.setdefault(source, entry | {"command": plain(entry["command"])})
+        for source, own in apart(entry | {"command": plain(entry["command"])}):
+            if source.suffix == ".cpp" and any(source.is_relative_to(root) for root in roots):
+                found.setdefault(source, own)
     return found
 
 

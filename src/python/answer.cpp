@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 namespace voxtact::python {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Appends rows whose pairs begin at `first`.
 template <class Row> void append(std::vector<Row>& all, std::vector<Row> piece, std::size_t first) {

@@ -5,12 +5,16 @@
 
 #include <pybind11/numpy.h>
 
+#include <limits>
 #include <vector>
 
 /// Between numpy and plain data. All of it needs the interpreter's lock.
 namespace voxtact::python {
 
 namespace py = pybind11;
+
+/// What an array has where there is no number.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers as Python code may give them: any dtype that numpy turns into doubles.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;

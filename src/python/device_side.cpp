@@ -10,7 +10,7 @@ namespace voxtact::python {
 namespace {
 
 /// Pipelines that are kept for ways of asking; the first in order make room.
-constexpr std::size_t kMostKept = 8;
+constexpr std::size_t kMostDetectors = 8;
 /// Of one answer's outputs, so that no device's limit is near.
 constexpr std::size_t kOutputBytes = std::size_t{32} << 20U;
 constexpr std::size_t kMostPairs = std::size_t{1} << 16U;
@@ -75,7 +75,7 @@ BlockingDetector& DeviceSide::detectorFor(const Question& question) {
     if (const auto found = detectors_.find(key); found != detectors_.end()) {
         return found->second;
     }
-    if (detectors_.size() >= kMostKept) {
+    if (detectors_.size() >= kMostDetectors) {
         detectors_.erase(detectors_.begin());
     }
     BlockingDetector detector = take(BlockingDetector::create(device_->context(), descOf(question, device_->context()),

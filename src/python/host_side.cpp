@@ -14,7 +14,7 @@ namespace voxtact::python {
 namespace {
 
 /// Sets of threads that are kept for ways of asking; others make room.
-constexpr std::size_t kMostKept = 8;
+constexpr std::size_t kMostThreadSets = 8;
 /// Where a yes or no is asked about so few, waking threads takes longer than the answer.
 constexpr std::size_t kFewTriangles = std::size_t{1} << 14U;
 
@@ -44,7 +44,7 @@ T& keptOrMade(std::map<Key, OfThisProcess<T>>& all, const Key& key, const Make& 
         return *found->second.get();
     }
     auto made = std::make_unique<T>(take(make())); // what cannot be made is not kept
-    if (all.size() >= kMostKept) {
+    if (all.size() >= kMostThreadSets) {
         all.erase(all.begin());
     }
     OfThisProcess<T>& kept = all[key];

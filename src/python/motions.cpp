@@ -4,13 +4,9 @@
 #include "arrays.h"
 #include "failure.h"
 
-#include <limits>
-
 namespace voxtact::python {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 TouchRow noTouch() {
     TouchRow row{kNone, -1, {kNone, kNone, kNone}, 0, {}};

@@ -6,14 +6,11 @@
 
 #include <pybind11/stl.h>
 
-#include <limits>
 #include <utility>
 
 namespace voxtact::python {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 PathRow rowOf(const PlannedPath& path, bool withLabels) {
     PathRow row{path.entry,

@@ -9,17 +9,17 @@ namespace voxtact::python {
 
 namespace {
 
-std::atomic<std::uint64_t> count{0};
+std::atomic<std::uint64_t> forkCount{0};
 
 } // namespace
 
 std::uint64_t forks() noexcept {
-    return count.load(std::memory_order_relaxed);
+    return forkCount.load(std::memory_order_relaxed);
 }
 
 void watchForks() {
     pthread_atfork(nullptr, nullptr, [] {
-        count.fetch_add(1, std::memory_order_relaxed);
+        forkCount.fetch_add(1, std::memory_order_relaxed);
         forgetOtherThreads();
     });
 }

@@ -57,7 +57,7 @@ if sys.argv[1] == "detect":
 else:
     voxels = np.full((side, side, side), 255, np.uint8)
     voxels[40:57] = 0
-    n = 200 if sys.argv[1] == "motion" else 1500  # as many triangles as keep the fastest machine for a second
+    n = 200 if sys.argv[1] == "motion" else 1000  # as many triangles as keep the fastest machine for a second
     u, v = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
     plate = np.stack([u * 95 / n, v * 95 / n, 48 + 1e-4 * np.sin(0.7 * u) * np.sin(0.9 * v)], -1).reshape(-1, 3)
     first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()

@@ -13,7 +13,7 @@ using namespace lab;
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kBenchFooter =
     R"(Measurements that compare engines on one scene in one run. The answers of every engine are checked before it is
 timed; rounds take a sample of every engine in turn, so that what else the machine does falls on all alike.
 
@@ -191,7 +191,7 @@ Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
 Command addBench(CLI::App& program) {
     auto options = std::make_shared<BenchOptions>();
     CLI::App* parser = program.add_subcommand("bench", "measurements: engines side by side, checked and timed");
-    parser->footer(kFooter);
+    parser->footer(kBenchFooter);
     addOptions(*parser, *options);
     return {parser, [options, parser] { return runBench(*options, *parser); }};
 }

@@ -32,6 +32,8 @@ std::size_t sealLength() {
     return length;
 }
 
+} // namespace
+
 /// Holds a part of what it takes until sync() hands it on, and begin() makes room for the next.
 class PartBuffer : public std::streambuf {
   public:
@@ -74,8 +76,6 @@ class HashingBuffer : public PartBuffer {
     std::streambuf& sink_;
     ContentHash hash_;
 };
-
-} // namespace
 
 class ResultFile::Sealing {
   public:

@@ -16,7 +16,7 @@ using namespace lab;
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kCompareFooter =
     R"(The same pairs, one mesh at many poses against one volume, by every method: verified first, then timed.
 
 Agreement. query = atomic = subgroup on every pose, query-any hits where they do, compute = cpu on every pose bit for
@@ -115,7 +115,7 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
 Command addCompare(CLI::App& program) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* parser = program.add_subcommand("compare", "the same pairs by every method: agreement and time");
-    parser->footer(kFooter);
+    parser->footer(kCompareFooter);
     addCompareOptions(*parser, *options);
     return {parser, [options, parser] { return runCompare(*options, *parser); }};
 }

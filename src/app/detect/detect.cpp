@@ -16,7 +16,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDetectFooter =
     R"(--volume and --mesh may be given several times. One row a pair: every pose of every mesh against every volume. Columns:
   pose,mesh,volume             number of the pose in its file from 0; the sources as they were given
   hit,count                    1 (yes) when at least one fragment survives; how many do; 2 (possible), with
@@ -287,7 +287,7 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
 Command addDetect(CLI::App& program) {
     auto options = std::make_shared<DetectOptions>();
     CLI::App* parser = program.add_subcommand("detect", "which pairs of mesh and volume touch, and how much");
-    parser->footer(kFooter);
+    parser->footer(kDetectFooter);
     addVolumeOption(*parser, options->volumes);
     parser->get_option("--volume")->required(false);
     addMeshOptions(*parser, options->meshes, false);

@@ -17,7 +17,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kDevicesFooter =
     R"(One row a device and counting method, cpu (the host) among them; one row, without a method, for a device that
 cannot be used. Columns:
   index,name,type,api,driver   the device; subgroup_size: invocations in a subgroup
@@ -168,7 +168,7 @@ Outcome runDevices(const DevicesOptions& options) {
 Command addDevices(CLI::App& program) {
     auto options = std::make_shared<DevicesOptions>();
     CLI::App* parser = program.add_subcommand("devices", "what devices there are and which methods each can do");
-    parser->footer(kFooter);
+    parser->footer(kDevicesFooter);
     addDeviceOptions(*parser, options->device);
     addOutputOptions(*parser, options->output);
     return {parser, [options] { return runDevices(*options); }};

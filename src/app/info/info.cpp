@@ -14,7 +14,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kInfoFooter =
     R"(Volumes: size, spacing, the patient's sides towards which the index axes run (R or L, A or P, S or I), the world box
 (mm, LPS), values with a histogram, and the share of the voxels whose opacity reaches the threshold. Meshes: triangles,
 vertices, parts, the box, whether the surface is closed, and whether it looks as if it were in metres.
@@ -110,7 +110,7 @@ Outcome runInfo(const InfoOptions& options) {
 Command addInfo(CLI::App& program) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* parser = program.add_subcommand("info", "what volume and mesh files hold");
-    parser->footer(kFooter);
+    parser->footer(kInfoFooter);
     parser->add_option("PATH", options->paths, "volumes and meshes, as --volume and --mesh take them")
         ->type_name("...")
         ->required();

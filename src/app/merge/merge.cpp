@@ -12,7 +12,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMergeFooter =
     R"(DIR is the folder that detect, motion or plan filled with --resume, by one process or by all shards. What is written is byte
 for byte what the same command writes without --resume. A file that is asked for beside the rows must be one that the
 run was asked for. Chunks that are missing or damaged are said, and nothing is written; DIR stays as it is.
@@ -95,7 +95,7 @@ Outcome runMerge(const MergeOptions& options) {
 Command addMerge(CLI::App& program) {
     auto options = std::make_shared<MergeOptions>();
     CLI::App* parser = program.add_subcommand("merge", "the output of a run that was done in chunks");
-    parser->footer(kFooter);
+    parser->footer(kMergeFooter);
     parser->add_option("DIR", options->folder, "the folder of the run, as --resume named it")->required();
     addPath(*parser, "--output", options->output, "a file for the rows, or - for standard output, the default");
     addPath(*parser, "--triangles", options->triangles, "a file for what detect --triangles writes");

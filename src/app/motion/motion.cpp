@@ -17,7 +17,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kMotionFooter =
     R"(Consecutive poses of --poses are joined by rigid motions, and each of these is a row, for every mesh and volume:
   segment,mesh,volume    number of the pose that it begins with, from 0; the sources as they were given
   hit                    1 (yes): it certainly touches on the way; 0 (no): it certainly does not; 2 (possible): neither
@@ -255,7 +255,7 @@ void MotionEnds::addTo(std::vector<std::string>& notes) const {
 Command addMotion(CLI::App& program) {
     auto options = std::make_shared<MotionOptions>();
     CLI::App* parser = program.add_subcommand("motion", "whether meshes touch on the way from pose to pose, and where");
-    parser->footer(kFooter);
+    parser->footer(kMotionFooter);
     addVolumeOption(*parser, options->volumes);
     addMeshOptions(*parser, options->meshes);
     addTransferFunctionOptions(*parser, options->transferFunction);

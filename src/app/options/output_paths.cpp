@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/output_paths.h"
 
+#include "app/options/file_identity.h"
 #include "core/base/try.h"
 
 #include <algorithm>
@@ -8,29 +9,12 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
-#include <sys/stat.h>
 
 namespace voxtact::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What a file is, by whatever name.
-struct FileIdentity {
-    dev_t device = 0;
-    ino_t number = 0;
-
-    bool operator==(const FileIdentity&) const = default;
-};
-
-std::optional<FileIdentity> identityOf(const fs::path& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) {
-        return std::nullopt;
-    }
-    return FileIdentity{status.st_dev, status.st_ino};
-}
 
 /// "a%20b" as "a b": how glTF writes names.
 std::string withoutPercents(std::string_view text) {

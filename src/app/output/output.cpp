@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/output/output.h"
 
+#include "app/options/file_identity.h"
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
@@ -11,7 +12,6 @@
 #include <map>
 #include <optional>
 #include <sstream>
-#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -31,12 +31,6 @@ bool isSpecial(const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
-/// What a file is, by whatever name; nothing where there is none.
-std::optional<std::pair<dev_t, ino_t>> identityOf(const fs::path& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0 ? std::optional(std::pair(status.st_dev, status.st_ino)) : std::nullopt;
 }
 
 bool isStandardOutput(const fs::path& path) {
@@ -72,7 +66,7 @@ Result<void> checkOutput(const fs::path& path) {
 
 Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& paths) {
     std::map<fs::path, std::size_t> places;
-    std::map<std::pair<dev_t, ino_t>, std::size_t> identities;
+    std::map<FileIdentity, std::size_t> identities;
     for (std::size_t number = 0; number < paths.size(); ++number) {
         const auto& [option, path] = paths[number];
         if (isStandardOutput(path) || isSpecial(path)) {

@@ -20,7 +20,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kPlanFooter =
     R"(An instrument goes straight from an entry to the target. There is a row for each of --entries directions from each
 target along which there is an entry within the limits:
   entry,x,y,z                  number of the direction; the entry, world mm, LPS
@@ -245,7 +245,7 @@ Command addPlan(CLI::App& program) {
     options->meshes.sources = {"builtin:needle"};
     CLI::App* parser =
         program.add_subcommand("plan", "which straight paths to a target keep clear of what must not be touched");
-    parser->footer(kFooter);
+    parser->footer(kPlanFooter);
     addPlanOptions(*parser, options);
     return {parser, [options, parser] { return runPlan(*parser, *options); }};
 }

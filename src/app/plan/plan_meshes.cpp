@@ -23,13 +23,6 @@ using glm::dvec3;
 constexpr Colour kInstrument{0.93, 0.94, 0.97};
 constexpr Colour kAvoided{0.96, 0.55, 0.10};
 
-dvec3 toGlm(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
-Vec3 toVec3(const dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 void addTriangle(MeshData& mesh, const std::array<dvec3, 3>& corners) {
     for (const dvec3& corner : corners) {
         mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size() / 3));
@@ -156,7 +149,7 @@ std::vector<ColouredMesh> entryMeshes(const PlanInputs& inputs, const TargetPlan
             corners[i] = entry + lift / path.length * (entry - target);
             middle += entry / 3.0;
         }
-        if (kept(toVec3(middle))) {
+        if (kept(fromGlm(middle))) {
             addTriangle(meshes[colourOf(inputs, answer, triangle, maximum)], corners);
         }
     }

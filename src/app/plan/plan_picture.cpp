@@ -21,12 +21,6 @@ namespace {
 
 using glm::dvec3;
 
-dvec3 toGlm(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
-Vec3 toVec3(const dvec3& v) {
-    return {v.x, v.y, v.z};
-}
 Colour toColour(const Rgb& rgb) {
     return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
 }
@@ -111,7 +105,7 @@ class PlanPainter {
     /// From beside, with what is before the path away.
     [[nodiscard]] Result<Picture> cut(VkExtent2D size) {
         const Vec3 target = shown_.plan->target.at;
-        const Vec3 normal = toVec3(shown_.away);
+        const Vec3 normal = fromGlm(shown_.away);
         const double offset = glm::dot(shown_.away, toGlm(target));
         begin(size, directionTo(shown_.away), {{normal, offset}});
         addEntries([&](const Vec3& at) { return glm::dot(shown_.away, toGlm(at)) < offset; });

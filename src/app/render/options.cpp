@@ -14,7 +14,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRenderFooter =
     R"(A PNG of the volume by ray casting, and of the mesh, solid, at its depth in it. Opacities are for a millimetre of
 material: 0.5 lets half of the light through a millimetre.
 
@@ -174,7 +174,7 @@ Result<void> checkViewpoint(const RenderOptions& options) {
 } // namespace
 
 void addRenderOptions(CLI::App& parser, RenderOptions& options) {
-    parser.footer(kFooter);
+    parser.footer(kRenderFooter);
     addVolumeOption(parser, options.volumes);
     addMeshOptions(parser, options.meshes, false);
     addTransferFunctionOptions(parser, options.transferFunction, true);

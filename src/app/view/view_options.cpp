@@ -15,7 +15,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kViewFooter =
     R"(A window with the volume, meshes in it, three slices, and the answer to whether they touch, which follows every
 change of pose and transfer function. --mesh may be repeated: each mesh has a pose of its own, at first the first of
 --poses. F1 shows keys and mouse. Without --volume and --session: the builtin head and scalpel. Needs a display (X11)
@@ -115,7 +115,7 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
 } // namespace
 
 void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
-    parser.footer(kFooter);
+    parser.footer(kViewFooter);
     addVolumeOption(parser, options.volumes);
     parser.get_option("--volume")->required(false);
     addMeshOptions(parser, options.meshes, false);

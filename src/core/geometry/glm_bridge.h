@@ -4,6 +4,7 @@
 #include "voxtact/data.h"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 
@@ -28,6 +29,14 @@ inline Mat4 fromGlm(const glm::dmat4& matrix) {
         }
     }
     return out;
+}
+
+inline glm::dvec3 toGlm(const Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
+
+inline Vec3 fromGlm(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
 }
 
 } // namespace voxtact
