@@ -28,7 +28,7 @@ const bool kCarry = true;
 
 #include "stored.glsl"
 #ifdef MARGIN
-#include "certified_margin_cell.h"
+#include "certified_margin_look.h"
 #endif
 #include "certified_overlap.h"
 #include "count.glsl"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the device drops at once with a margin, for several triangles or for a box of several cells: nothing that is
 // within it, and nothing that it would not drop one by one.
-#include "certified_margin_cell.h"
+#include "certified_margin_look.h"
 #include "core/method/certified_constants.h"
 #include "support/contact_scenes.h"
 #include "support/scenes.h"

@@ -4,7 +4,7 @@
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/margin_text.h"
 
-#include "certified_margin_cell.h"
+#include "certified_margin_look.h"
 #include "core/method/certified_constants.h"
 #include "core/transfer/table_extremes.h"
 #include "cpu/scene/scene_impl.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/scenes/margin_text.h"
 
-#include "certified_margin_cell.h"
+#include "certified_margin_look.h"
 #include "core/method/certified_constants.h"
 #include "core/transfer/table_extremes.h"
 #include "core/volume/bricks.h"
