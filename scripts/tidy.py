@@ -66,7 +66,7 @@ def plain(command):
 
 
 def apart(entry):
-    """The same for each file of those that are compiled together (CMake's UNITY_BUILD)."""
+    """The source of an entry, with it; of files that are compiled together (CMake's UNITY_BUILD), each with its own."""
     source = pathlib.Path(entry["file"]).resolve()
     if not re.fullmatch(r"unity_\d+_cxx\.cxx", source.name):
         return [(source, entry)]

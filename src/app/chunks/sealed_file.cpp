@@ -34,6 +34,8 @@ std::size_t sealLength() {
 
 } // namespace
 
+// Members and bases of ResultFile's own classes are of these two, so they are in no unnamed namespace.
+
 /// Holds a part of what it takes until sync() hands it on, and begin() makes room for the next.
 class PartBuffer : public std::streambuf {
   public:

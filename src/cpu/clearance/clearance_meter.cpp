@@ -2,6 +2,7 @@
 #include "core/base/guard.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/geometry/glm_bridge.h"
 #include "core/method/certified_constants.h"
 #include "cpu/batch_check.h"
 #include "cpu/clearance/label_fingerprint.h"
@@ -64,21 +65,17 @@ Result<void> checkDesc(const ClearanceDesc& desc) {
     return checkResolution(desc.resolution);
 }
 
-Vec3 toVec3(const dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 ClosestPoints closestOf(const Found& found, const MeshPlace& mesh, const VolumeSpace& space) {
     ClosestPoints out;
     out.triangle = mesh.mesh().numbers[found.triangle];
-    out.mesh = toVec3(found.onMesh + space.middle);
-    out.volume = toVec3(found.inVolume + space.middle);
+    out.mesh = fromGlm(found.onMesh + space.middle);
+    out.volume = fromGlm(found.inVolume + space.middle);
     const dvec3 off = found.inVolume - found.onMesh;
     const double distance = glm::length(off);
     if (distance > 0) {
         const dvec3 towards = off / distance;
-        out.perTranslation = toVec3(-towards);
-        out.perRotation = toVec3(-glm::cross(found.onMesh - mesh.origin(), towards));
+        out.perTranslation = fromGlm(-towards);
+        out.perRotation = fromGlm(-glm::cross(found.onMesh - mesh.origin(), towards));
     }
     return out;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/plan/path_measure.h"
 
+#include "core/geometry/glm_bridge.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +13,6 @@ namespace {
 using glm::dvec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Vec3 toVec3(const dvec3& v) {
-    return {v.x, v.y, v.z};
-}
 
 } // namespace
 
@@ -56,8 +54,8 @@ void PathMeasure::take(const Found& found, std::size_t obstacle, PlannedPath& ou
     NearestObstacle nearest;
     nearest.obstacle = static_cast<std::uint32_t>(obstacle);
     nearest.label = of.labelAt(found.inVolume);
-    nearest.position = toVec3(found.inVolume + of.part->space.middle);
-    nearest.onPath = toVec3(found.onMesh + of.part->space.middle);
+    nearest.position = fromGlm(found.inVolume + of.part->space.middle);
+    nearest.onPath = fromGlm(found.onMesh + of.part->space.middle);
     out.nearest = nearest;
 }
 
@@ -126,7 +124,7 @@ void PathMeasure::decide(const Way& way, PlannedPath& out) {
 
 void PathMeasure::run(const EntryPoint& entry, PlannedPath& out) {
     out.entry = entry.number;
-    out.position = toVec3(entry.position);
+    out.position = fromGlm(entry.position);
     out.length = entry.length;
     out.angle = entry.angle;
     const Way way = wayOf(entry);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/plan/plan_scene.h"
 
+#include "core/geometry/glm_bridge.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -14,10 +16,6 @@ namespace {
 
 using glm::dmat3;
 using glm::dvec3;
-
-dvec3 toGlm(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
 
 /// That of two directions which are no farther apart than a right angle: beyond that, what is left of 1 + cos is more
 /// and more rounding.
