@@ -155,7 +155,29 @@ TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
     EXPECT_GT(std::stod(labelled({"--to", "0"})[1].at("clearance_lo")), 30);
     EXPECT_NEAR(std::stod(labelled({"--to", "0", "--to-any-opacity"})[1].at("clearance_lo")), 20, 1e-3);
     EXPECT_EQ(labelled({"--to", "70", "--to-any-opacity"})[1], two[2]);
+}
 
+TEST_F(ClearanceTest, KnowsLabelsByName) {
+    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    writeText(path("names.txt"), "70 skull\n90 brain\n120 brain\n999 nowhere\n");
+    const auto measured = [&](const std::string& to) {
+        return detect({"--clearance", "--labels", path("labels.nii.gz"), "--label-names", path("names.txt"),
+                       "--label-clearance", path("labels.csv"), "--to", to});
+    };
+    const auto rowsFor = [&](const std::string& to) {
+        output(measured(to));
+        return rowsOf(readText(path("labels.csv")));
+    };
+    const auto byNumber = rowsFor("90,120,70");
+    EXPECT_EQ(byNumber[0].at("name"), "brain");
+    EXPECT_EQ(rowsFor("brain,skull"), byNumber);
+    EXPECT_EQ(rowsFor("brain,70,90,skull"), byNumber);
+    EXPECT_THAT(refused(2, measured("skul")),
+                HasSubstr("--to: no voxel of the label map has the label 'skul', did you mean skull?"));
+    EXPECT_THAT(refused(2, measured("nowhere")), HasSubstr("--to: no voxel of the label map has the label 'nowhere'"));
+}
+
+TEST_F(ClearanceTest, RefusesALabelMapOnAnotherGrid) {
     output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
     EXPECT_THAT(
         refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance", path("other.csv")})),

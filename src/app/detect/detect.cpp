@@ -255,7 +255,9 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
     addPath(parser, "--label-clearance", options.labels,
             "a CSV file for the clearance to each label of --labels: "
             "pose,mesh,volume,label,name,clearance_lo,clearance_hi");
-    parser.add_option("--to", options.to, "the labels that --label-clearance is about: 1,2,5; default: all but 0")
+    parser
+        .add_option("--to", options.to,
+                    "the labels that --label-clearance is about, by number or name; default: all but 0")
         ->delimiter(',')
         ->type_name("LABEL,...");
     parser.add_flag("--to-any-opacity", options.toAnyOpacity,

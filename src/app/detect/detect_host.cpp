@@ -101,17 +101,7 @@ Result<LabelClearanceAnswer> HostEngine::measureLabels(const cpu::Batch& batch) 
     if (options_.distance.labels.empty()) {
         return LabelClearanceAnswer{};
     }
-    std::vector<std::int32_t> asked;
-    for (const std::int32_t label : options_.distance.to) {
-        if (std::ranges::find(asked, label) == asked.end()) {
-            asked.push_back(label);
-        }
-    }
-    if (asked.empty()) {
-        asked = inputs_.labels->values;
-        std::erase(asked, 0);
-    }
-    return meter_->measureLabels(batch, asked);
+    return meter_->measureLabels(batch, inputs_.measured);
 }
 
 Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {

@@ -6,16 +6,42 @@
 #include "core/base/try.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace voxtact::app {
 
 namespace {
 
-Result<void> readLabels(const ExtraOptions& options, DetectInputs& inputs) {
-    if (options.labels.empty()) {
+/// The labels that clearances are measured to: a number need not be one that voxels have, a name must be.
+Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options, const NamedLabels& labels) {
+    std::vector<std::int32_t> measured;
+    if (options.to.empty()) {
+        measured = labels.labels.values;
+        std::erase(measured, 0);
+    }
+    for (const LabelWord& word : options.to) {
+        const std::optional<std::int32_t> number = labelNumber(word);
+        const Result<std::vector<std::int32_t>> meant =
+            number ? std::vector<std::int32_t>{*number} : labelsOf(labels, word, "--to");
+        VOXTACT_TRY(meant);
+        std::ranges::copy_if(*meant, std::back_inserter(measured), [&measured](std::int32_t label) {
+            return std::ranges::find(measured, label) == measured.end();
+        });
+    }
+    return measured;
+}
+
+Result<void> readLabels(const DetectOptions& options, DetectInputs& inputs) {
+    const ExtraOptions& extra = options.extra;
+    if (extra.labels.empty()) {
         return {};
     }
-    Result<NamedLabels> named = loadNamedLabels(options.labels, options.labelNames);
+    Result<NamedLabels> named = loadNamedLabels(extra.labels, extra.labelNames);
     VOXTACT_TRY(named);
+    Result<std::vector<std::int32_t>> measured = measuredLabels(options.distance, *named);
+    VOXTACT_TRY(measured);
+    inputs.measured = std::move(*measured);
     inputs.labels = std::move(named->labels);
     inputs.labelNames = std::move(named->names);
     return {};
@@ -59,7 +85,7 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
         inputs.bounds.push_back(facts->bounds);
         inputs.meshes.push_back(std::move(*mesh));
     }
-    VOXTACT_TRY(readLabels(options.extra, inputs));
+    VOXTACT_TRY(readLabels(options, inputs));
     return inputs;
 }
 

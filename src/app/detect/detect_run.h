@@ -5,6 +5,7 @@
 #include "app/detect/detect_jobs.h"
 #include "app/detect/extra_outputs.h"
 #include "app/detect/pose_source.h"
+#include "app/options/label_words.h"
 #include "app/options/open_session.h"
 #include "app/options/shared_options.h"
 #include "app/output/output.h"
@@ -32,7 +33,7 @@ struct DistanceOptions {
     std::optional<double> maximum;   ///< mm
     std::filesystem::path closest;   ///< a file to write; empty: not asked for
     std::filesystem::path labels;    ///< another
-    std::vector<std::int32_t> to;    ///< labels; empty: all but 0
+    std::vector<LabelWord> to;       ///< empty: all but 0
     bool toAnyOpacity = false;       ///< all of a label, not what is opaque of it
 
     [[nodiscard]] bool any() const { return clearance || isMargin(); }
@@ -76,6 +77,7 @@ struct DetectInputs {
     std::optional<Mat4> clip_from_world;
     std::optional<LabelData> labels;
     std::map<std::int32_t, std::string> labelNames;
+    std::vector<std::int32_t> measured; ///< what --label-clearance is about; each once
 
     /// Of all jobs; nothing where standard input has not told yet.
     [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;

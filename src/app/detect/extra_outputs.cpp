@@ -2,6 +2,7 @@
 #include "app/detect/extra_outputs.h"
 
 #include "app/detect/detect_output.h"
+#include "app/options/label_words.h"
 #include "app/options/shared_options.h"
 
 #include <CLI/CLI.hpp>
@@ -140,11 +141,6 @@ std::vector<ExtraColumn> extraColumns(const Outputs& outputs, const std::map<std
         }
     }
     return columns;
-}
-
-std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label) {
-    const auto found = names.find(label);
-    return found == names.end() ? std::to_string(label) : found->second;
 }
 
 double rounded(double value, double parts) {

@@ -65,9 +65,6 @@ struct ExtraColumn {
 [[nodiscard]] std::vector<ExtraColumn> extraColumns(const Outputs& outputs,
                                                     const std::map<std::int32_t, std::string>& names);
 
-/// The name of a label; its number where it has none.
-[[nodiscard]] std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label);
-
 /// To so many parts of one, so that the shortest text for it is short.
 [[nodiscard]] double rounded(double value, double parts);
 

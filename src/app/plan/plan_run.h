@@ -3,6 +3,7 @@
 
 #include "app/chunks/chunk_options.h"
 #include "app/options/inputs.h"
+#include "app/options/label_words.h"
 #include "app/options/output_paths.h"
 #include "app/options/shared_options.h"
 #include "voxtact/cpu.h"
@@ -23,9 +24,6 @@ class App;
 } // namespace CLI
 
 namespace voxtact::app {
-
-/// A label by its number, or by its name.
-using LabelWord = std::string;
 
 struct PlanOptions {
     std::vector<std::string> volumes;
@@ -118,15 +116,6 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 [[nodiscard]] Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options);
 /// Sets where tips go; volume and labels are read.
 [[nodiscard]] Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs);
-
-/// All labels that voxels have of a number or a name: several may be called the same. Never none. `option` is for
-/// messages.
-[[nodiscard]] Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const LabelWord& word,
-                                                         const std::string& option);
-/// The only one.
-[[nodiscard]] Result<std::int32_t> labelOf(const NamedLabels& labels, const LabelWord& word, const std::string& option);
-/// The name of a label, or its number where it has none.
-[[nodiscard]] std::string labelText(const NamedLabels& labels, std::int32_t label);
 
 /// Plans for one of the targets.
 [[nodiscard]] Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::Planner& planner);

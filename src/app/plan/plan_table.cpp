@@ -49,7 +49,8 @@ io::Cell safetyCell(Safety safety) {
 }
 
 std::string nearestText(const PlanInputs& inputs, const NearestObstacle& nearest) {
-    return inputs.obstacles[nearest.obstacle].labels != nullptr ? labelText(*inputs.labels, nearest.label) : "opaque";
+    return inputs.obstacles[nearest.obstacle].labels != nullptr ? labelName(inputs.labels->names, nearest.label)
+                                                                : "opaque";
 }
 
 std::string crossed(const PlanInputs& inputs, const PlanTarget& target, const PlannedPath& path) {
@@ -59,7 +60,7 @@ std::string crossed(const PlanInputs& inputs, const PlanTarget& target, const Pl
         throw std::bad_alloc(); // the plan has looked at all that can be refused
     }
     for (const std::int32_t label : *labels) {
-        out += (out.empty() ? "" : ";") + labelText(*inputs.labels, label);
+        out += (out.empty() ? "" : ";") + labelName(inputs.labels->names, label);
     }
     return out;
 }

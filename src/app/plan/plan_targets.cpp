@@ -76,7 +76,7 @@ class TargetList {
     [[nodiscard]] Result<void> addLabel(const std::string& option, const LabelWord& word) {
         const Result<std::int32_t> label = labelOf(*inputs_.labels, word, option);
         VOXTACT_TRY(label);
-        return add(option, labelText(*inputs_.labels, *label), centreOf(inputs_.labels->labels, *label));
+        return add(option, labelName(inputs_.labels->names, *label), centreOf(inputs_.labels->labels, *label));
     }
     [[nodiscard]] std::vector<PlanTarget> list() && { return std::move(list_); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "app/options/label_words.h"
 #include "app/output/text_for_messages.h"
-#include "app/plan/plan_run.h"
 #include "core/base/try.h"
 
 #include <algorithm>
@@ -36,19 +36,24 @@ std::vector<std::int32_t> presentLabels(const LabelData& labels) {
 
 } // namespace
 
-Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const std::string& word,
-                                           const std::string& option) {
+std::optional<std::int32_t> labelNumber(const LabelWord& word) {
     std::int32_t number = 0;
-    const std::from_chars_result read = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool isNumber = !word.empty() && read.ec == std::errc() && read.ptr == word.data() + word.size();
+    const char* const end = word.data() + word.size();
+    const std::from_chars_result read = std::from_chars(word.data(), end, number);
+    return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const LabelWord& word,
+                                           const std::string& option) {
+    const std::optional<std::int32_t> number = labelNumber(word);
     std::vector<std::string> names;
     std::vector<std::int32_t> found;
     for (const std::int32_t value : presentLabels(labels.labels)) {
         const auto name = labels.names.find(value);
-        if (isNumber ? value == number : name != labels.names.end() && name->second == word) {
+        if (number ? value == *number : name != labels.names.end() && name->second == word) {
             found.push_back(value);
         }
-        names.push_back(isNumber || name == labels.names.end() ? std::to_string(value) : name->second);
+        names.push_back(number || name == labels.names.end() ? std::to_string(value) : name->second);
     }
     if (!found.empty()) {
         return found;
@@ -58,7 +63,7 @@ Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const std:
                        (meant.empty() ? "; it has " + listOf(names) : ", did you mean " + meant + "?"));
 }
 
-Result<std::int32_t> labelOf(const NamedLabels& labels, const std::string& word, const std::string& option) {
+Result<std::int32_t> labelOf(const NamedLabels& labels, const LabelWord& word, const std::string& option) {
     const Result<std::vector<std::int32_t>> found = labelsOf(labels, word, option);
     VOXTACT_TRY(found);
     if (found->size() > 1) {
@@ -69,9 +74,9 @@ Result<std::int32_t> labelOf(const NamedLabels& labels, const std::string& word,
     return found->front();
 }
 
-std::string labelText(const NamedLabels& labels, std::int32_t label) {
-    const auto name = labels.names.find(label);
-    return name == labels.names.end() ? std::to_string(label) : name->second;
+std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label) {
+    const auto name = names.find(label);
+    return name == names.end() ? std::to_string(label) : name->second;
 }
 
 } // namespace voxtact::app
