@@ -52,11 +52,16 @@ function(voxtact_precompile target)
   target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-array-bounds>")
 endfunction()
 
-# voxtact_together(TARGET): its files are compiled some at a time, for those that spend their time in headers that all of
-# them include (CLI11, pybind11). Names of unnamed namespaces are then distinct within the target. tidy.py reads each
-# file by itself, so that each still includes what it uses. Not for what others build.
+# voxtact_together(TARGET [APART FILE...]): its files are compiled some at a time, because most of their time goes into
+# headers that all of them include. Names of unnamed namespaces are then distinct within the target; files that cannot
+# keep to that, or that take long by themselves, stay APART. tidy.py reads each file by itself, so that each still
+# includes what it uses. Not for what others build.
 function(voxtact_together target)
+  cmake_parse_arguments(together "" "" APART ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${VOXTACT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+  set_source_files_properties(${together_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  # Of a type in an unnamed namespace, used in a file that is included.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # voxtact_room(NAME SOURCE...): the sources of a room, each compiled once. A library is made of rooms' objects, with

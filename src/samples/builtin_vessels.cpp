@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "samples/builtin_vessels.h"
+#include "core/geometry/vec3.h"
 
 #include "samples/value_noise.h"
 
@@ -25,19 +26,6 @@ constexpr double kThinner = 0.7937;
 constexpr double kCosine = 0.8;
 constexpr double kSine = 0.6;
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 along(const Vec3& from, const Vec3& direction, double length) {
-    return {from[0] + direction[0] * length, from[1] + direction[1] * length, from[2] + direction[2] * length};
-}
-
-Vec3 unit(const Vec3& a) {
-    const double length = std::sqrt(dot(a, a));
-    return {a[0] / length, a[1] / length, a[2] / length};
-}
-
 /// A unit vector at right angles to `direction`, by the number of a vessel. Square roots only: sine and cosine differ
 /// from library to library.
 Vec3 sideways(const Vec3& direction, std::uint32_t number, const ValueNoise& random) {
@@ -45,7 +33,7 @@ Vec3 sideways(const Vec3& direction, std::uint32_t number, const ValueNoise& ran
     for (std::size_t axis = 0; axis < 3; ++axis) {
         any[axis] = 2 * random.at({static_cast<double>(number), static_cast<double>(axis), 0}) - 1;
     }
-    return unit(along(any, direction, -dot(any, direction)));
+    return unit(step(any, direction, -dot(any, direction)));
 }
 
 struct Span {
@@ -64,9 +52,9 @@ Span voxelsWithin(const Grid& grid, std::size_t axis, double lo, double hi) {
 
 /// 0 from twice the radius on.
 double valueAt(const Vessel& vessel, const Vec3& world) {
-    const Vec3 axis = along(vessel.to, vessel.from, -1);
-    const double t = std::clamp(dot(along(world, vessel.from, -1), axis) / dot(axis, axis), 0.0, 1.0);
-    const Vec3 away = along(world, along(vessel.from, axis, t), -1);
+    const Vec3 axis = step(vessel.to, vessel.from, -1);
+    const double t = std::clamp(dot(step(world, vessel.from, -1), axis) / dot(axis, axis), 0.0, 1.0);
+    const Vec3 away = step(world, step(vessel.from, axis, t), -1);
     const double radius = vessel.fromRadius + (vessel.toRadius - vessel.fromRadius) * t;
     return 255 * std::max(0.0, 1 - dot(away, away) / (4 * radius * radius));
 }
@@ -96,18 +84,18 @@ void drawVessel(const Vessel& vessel, VolumeData& volume) {
 
 std::vector<Vessel> vesselTree() {
     const ValueNoise random(0x7eeeU);
-    std::vector<Vessel> vessels{{kRoot, along(kRoot, kUp, kTrunkLength), kTrunkRadius, kTrunkRadius * kThinner}};
+    std::vector<Vessel> vessels{{kRoot, step(kRoot, kUp, kTrunkLength), kTrunkRadius, kTrunkRadius * kThinner}};
     std::vector<double> lengths{kTrunkLength};
     for (std::uint32_t number = 2; number <= kVessels; ++number) {
         const Vessel& before = vessels[number / 2 - 1];
-        const Vec3 direction = unit(along(before.to, before.from, -1));
+        const Vec3 direction = unit(step(before.to, before.from, -1));
         // Two branches part in opposite directions.
         const Vec3 side = sideways(direction, number / 2, random);
-        const Vec3 turned = along({direction[0] * kCosine, direction[1] * kCosine, direction[2] * kCosine}, side,
-                                  number % 2 == 0 ? kSine : -kSine);
+        const Vec3 turned = step({direction[0] * kCosine, direction[1] * kCosine, direction[2] * kCosine}, side,
+                                 number % 2 == 0 ? kSine : -kSine);
         const double length = lengths[number / 2 - 1] * kShorter;
         lengths.push_back(length);
-        vessels.push_back({before.to, along(before.to, turned, length), before.toRadius, before.toRadius * kThinner});
+        vessels.push_back({before.to, step(before.to, turned, length), before.toRadius, before.toRadius * kThinner});
     }
     return vessels;
 }

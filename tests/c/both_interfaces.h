@@ -3,24 +3,12 @@
 
 #include "cpu/scenes/random_scene.h"
 #include "support/c_calls.h"
+#include "support/take.h"
 #include "voxtact/cpu.h"
 
 #include <stdexcept>
 
 namespace voxtact::test {
-
-template <class T> T take(Result<T> result) {
-    if (!result.ok()) {
-        throw std::runtime_error(result.error().text);
-    }
-    return std::move(*result);
-}
-
-inline void take(const Result<void>& result) {
-    if (!result.ok()) {
-        throw std::runtime_error(result.error().text);
-    }
-}
 
 /// So many voxels a side of 1 mm each, the first one's centre at the origin.
 inline Grid millimetreGrid(std::uint32_t side) {

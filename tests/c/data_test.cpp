@@ -2,6 +2,7 @@
 // Host data, builtins and files through the C interface: what the C++ interface gives.
 #include "support/c_calls.h"
 #include "support/scenes.h"
+#include "support/take.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
@@ -16,13 +17,6 @@ namespace voxtact::test {
 namespace {
 
 using testing::HasSubstr;
-
-template <class T> T take(Result<T> result) {
-    if (!result.ok()) {
-        throw std::runtime_error(result.error().text);
-    }
-    return std::move(*result);
-}
 
 Owned<vxt_volume_data> builtinVolume(const char* name) {
     return made<vxt_volume_data>(vxt_volume_data_destroy, [&](auto out) { return vxt_builtin_volume(name, out); });

@@ -46,7 +46,7 @@ void expectSame(const vxt_planned_path& c, const PlannedPath& cpp) {
 }
 
 /// How often each was seen.
-struct Tally {
+struct PlanTally {
     std::size_t safe = 0;
     std::size_t unsafe = 0;
     std::size_t safeTriangles = 0;
@@ -54,7 +54,7 @@ struct Tally {
     std::size_t leftOut = 0;
 };
 
-void expectSame(const vxt_plan_view& c, const PlanAnswer& cpp, Tally& tally) {
+void expectSame(const vxt_plan_view& c, const PlanAnswer& cpp, PlanTally& tally) {
     ASSERT_EQ(c.path_count, cpp.paths.size());
     for (std::size_t i = 0; i < cpp.paths.size(); ++i) {
         expectSame(c.paths[i], cpp.paths[i]);
@@ -148,7 +148,7 @@ class Plans : public testing::Test {
         c_.entry_transfer_function = nullptr;
     }
     vxt_result ask(vxt_plan& plan) const { return vxt_host_planner_plan(planner_.get(), &c_, &plan); }
-    void expectTheSame(Tally& tally) {
+    void expectTheSame(PlanTally& tally) {
         const Owned<vxt_plan> plan = newPlan();
         need(ask(*plan));
         expectSame(viewOf(*plan), take(cppPlanner_.plan(cpp_)), tally);
@@ -180,7 +180,7 @@ class Plans : public testing::Test {
 };
 
 TEST_F(Plans, AnswerAsTheCppInterfaceDoes) {
-    Tally tally;
+    PlanTally tally;
     EXPECT_EQ(vxt_host_planner_threads(planner_.get()), 1U);
     expectTheSame(tally);
     cpp_.needle = {1, 60};
@@ -211,7 +211,7 @@ TEST_F(Plans, AnswerAsTheCppInterfaceDoes) {
 }
 
 TEST_F(Plans, EntriesOfALabelAndOfABallAndAMeshAreTheCppInterfaces) {
-    Tally tally;
+    PlanTally tally;
     noSurface();
     cpp_.surface.labels = &both_.labels;
     cpp_.surface.label = c_.entry_label = 1;
@@ -239,7 +239,7 @@ TEST_F(Plans, EntriesWhereTheImageEndsAreTheCppInterfaces) {
     EXPECT_THAT(refused(), HasSubstr("362 enter where the image ends"));
     cpp_.surface.borderEntries = true;
     c_.border_entries = 1;
-    Tally tally;
+    PlanTally tally;
     expectTheSame(tally);
     EXPECT_EQ(tally.leftOut, 0U);
 }

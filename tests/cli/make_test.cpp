@@ -38,7 +38,7 @@ class MakeDetectTest : public CliDeviceTest {
     }
 };
 
-std::vector<double> numbersOf(const std::string& line) {
+std::vector<double> numbersInText(const std::string& line) {
     std::istringstream stream(line);
     std::vector<double> numbers;
     for (double number = 0; stream >> number;) {
@@ -112,7 +112,7 @@ TEST_F(MakeTest, PosesAreRigidAndNearTheVolume) {
     const auto lines = linesOf(makePoses({"--number", "200"}));
     ASSERT_EQ(lines.size(), 202U);
     for (std::size_t i = 2; i < lines.size(); ++i) {
-        const auto m = numbersOf(lines[i]); // row by row
+        const auto m = numbersInText(lines[i]); // row by row
         ASSERT_EQ(m.size(), 16U);
         for (std::size_t a = 0; a < 3; ++a) {
             for (std::size_t b = 0; b < 3; ++b) {

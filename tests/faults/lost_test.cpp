@@ -80,7 +80,7 @@ struct Objects {
 };
 
 /// A call by name, and what it answers.
-struct Call {
+struct NamedCall {
     const char* name;
     std::optional<ErrorCode> code;
 };
@@ -97,7 +97,7 @@ struct Own {
     VkCommandBuffer commands;
 };
 
-std::vector<Call> sceneCalls(Objects& o, const Own& own) {
+std::vector<NamedCall> sceneCalls(Objects& o, const Own& own) {
     const Context& context = o.setting.context;
     const VolumeView voxels = o.setting.volumeData.view();
     const MeshView mesh = o.setting.meshData.view();
@@ -141,7 +141,7 @@ std::vector<Call> sceneCalls(Objects& o, const Own& own) {
     };
 }
 
-std::vector<Call> detectCalls(Objects& o, const Own& own) {
+std::vector<NamedCall> detectCalls(Objects& o, const Own& own) {
     const Context& context = o.setting.context;
     const std::vector<Mat4> poses = somePoses(1, 0);
     const BatchItem item = o.setting.item(poses);
@@ -170,7 +170,7 @@ std::vector<Call> detectCalls(Objects& o, const Own& own) {
     };
 }
 
-std::vector<Call> renderCalls(Objects& o, const Own& own) {
+std::vector<NamedCall> renderCalls(Objects& o, const Own& own) {
     const Context& context = o.setting.context;
     const Renderer& renderer = o.renderer();
     const MeshView mesh = o.setting.meshData.view();
@@ -219,7 +219,7 @@ TEST(LostDevice, EveryLaterCallSaysSo) {
                                 EXPECT_EQ(codeOf(lost), ErrorCode::DeviceLost);
                                 EXPECT_TRUE(objects.setting.context.deviceLost());
                                 for (const auto calls : {sceneCalls, detectCalls, renderCalls}) {
-                                    for (const Call& call : calls(objects, own)) {
+                                    for (const NamedCall& call : calls(objects, own)) {
                                         EXPECT_EQ(call.code, ErrorCode::DeviceLost) << call.name;
                                         ++asked;
                                     }

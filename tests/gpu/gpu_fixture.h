@@ -2,11 +2,15 @@
 #pragma once
 
 #include "device/vulkan_device.h"
+#include "support/take.h"
 #include "voxtact/detector.h"
 
 #include <gtest/gtest.h>
 
 namespace voxtact::test {
+
+inline constexpr ValueRange kBytes{0, 255};
+inline constexpr ControlPoint kAllOpaque[] = {{0, 1}};
 
 /// A device with validation and synchronization validation on, shared by the tests of one process.
 struct TestDevice {
@@ -18,21 +22,6 @@ struct TestDevice {
 
 /// Makes the shared device, or says why there is none.
 Result<TestDevice*> sharedDevice();
-
-/// Unwraps a Result, failing the test with its error where there is one.
-template <class T> T take(Result<T> result) {
-    if (!result.ok()) {
-        ADD_FAILURE() << result.error().text;
-        throw std::runtime_error(result.error().text);
-    }
-    return std::move(*result);
-}
-inline void take(const Result<void>& result) {
-    if (!result.ok()) {
-        ADD_FAILURE() << result.error().text;
-        throw std::runtime_error(result.error().text);
-    }
-}
 
 /// Every test that needs a device. Without one it is skipped, or fails where the tests run with --require-device. A
 /// message of the validation layer fails the test during which it came.

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io_test_support.h"
+#include "support/special.h"
 
 #include <cmath>
 #include <limits>
 
 namespace voxtact::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Result<VolumeData> readBytes(const std::string& bytes, const io::VolumeReadOptions& options = {}) {
     return io::readVolume("v.nii", std::as_bytes(std::span(bytes)), options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/contact_scenes.h"
+#include "core/geometry/vec3.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -11,30 +12,10 @@
 
 namespace voxtact::test {
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double length(const Vec3& a) {
-    return std::sqrt(dot(a, a));
-}
-
 namespace {
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 Vec3 scaled(const Vec3& a, double factor) {
     return {a[0] * factor, a[1] * factor, a[2] * factor};
-}
-
-Vec3 unit(const Vec3& a) {
-    return scaled(a, 1 / length(a));
 }
 
 Vec3 column(const Mat4& matrix, std::size_t number) {

@@ -55,10 +55,6 @@ struct ContactErrors {
 /// Whether a point is so near to a face of a voxel of the label map that its label may be that of the neighbour.
 [[nodiscard]] bool labelIsDoubtful(const LabelData& labels, const Vec3& world);
 
-[[nodiscard]] double dot(const Vec3& a, const Vec3& b);
-[[nodiscard]] Vec3 minus(const Vec3& a, const Vec3& b);
-[[nodiscard]] double length(const Vec3& a);
-
 /// Everything of two answers but their times and methods, bit for bit. The text says where they differ first; empty
 /// where they do not.
 [[nodiscard]] std::string differenceOf(const BatchAnswer& a, const BatchAnswer& b);

@@ -56,6 +56,10 @@ Mat4 randomMotion(std::mt19937_64& random);
 /// The volume after a rigid motion of the world.
 VolumeData moved(VolumeData volume, const Mat4& motion);
 double uniform(std::mt19937_64& random, double lo, double hi);
+/// The same, as a float.
+inline float drawn(std::mt19937_64& random, double lo, double hi) {
+    return static_cast<float>(uniform(random, lo, hi));
+}
 /// Random poses whose object origin is within `grow` times the box of the volume.
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random);
 /// How many random cases a test takes: `whole` in the long form (VOXTACT_TEST_LONG is set; ./run test --long),

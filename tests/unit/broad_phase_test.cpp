@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sweep and prune against all pairs; boxes under a matrix.
 #include "support/scenes.h"
+#include "support/special.h"
 #include "voxtact/data.h"
 
 #include <gmock/gmock.h>
@@ -13,8 +14,6 @@ namespace {
 
 using testing::ElementsAre;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
 
 bool shareAPoint(const Box& a, const Box& b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Builtin meshes.
+#include "core/geometry/vec3.h"
 #include "support/refusal.h"
 #include "voxtact/samples.h"
 
@@ -27,18 +28,6 @@ constexpr std::uint32_t kSmallestScalpel = 86;
 
 Vec3 vertex(const MeshData& mesh, std::uint32_t index) {
     return {mesh.positions[3 * index], mesh.positions[3 * index + 1], mesh.positions[3 * index + 2]};
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
 struct Triangle {

@@ -4,6 +4,7 @@
 #include "core/transfer/opaque_ranges.h"
 #include "core/volume/boundary.h"
 #include "support/scenes.h"
+#include "support/special.h"
 #include "voxtact/results.h"
 
 #include <gmock/gmock.h>
@@ -18,8 +19,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Spaces, ProductsReadFromRightToLeft) {
     Mat4 scale = identity();

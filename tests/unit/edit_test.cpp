@@ -2,6 +2,7 @@
 // Which voxels an edit changes: boxes and balls against every voxel of the grid.
 #include "core/volume/edit_rows.h"
 #include "support/scenes.h"
+#include "support/special.h"
 
 #include <gmock/gmock.h>
 
@@ -13,9 +14,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Grid randomGrid(std::mt19937_64& random) {
     Grid grid;
@@ -84,7 +82,7 @@ void expectBounds(const VoxelRegion& region, const Grid& grid, const std::vector
 }
 
 /// Distance of a voxel's centre from the ball's, in long double.
-long double distance(const Grid& grid, const Ball& ball, const std::array<std::uint32_t, 3>& voxel) {
+long double exactDistance(const Grid& grid, const Ball& ball, const std::array<std::uint32_t, 3>& voxel) {
     long double squared = 0;
     for (std::size_t row = 0; row < 3; ++row) {
         long double at = grid.origin[row];
@@ -109,7 +107,7 @@ TEST(EditRows, ABallHasTheVoxelsWithinItsRadius) {
         const std::vector<bool> voxels = chosen(voxelRows(ball, grid), grid);
         std::size_t count = 0;
         visitAll(grid, [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::size_t number) {
-            const long double from = distance(grid, ball, {x, y, z});
+            const long double from = exactDistance(grid, ball, {x, y, z});
             // Either way where rounding decides.
             if (std::abs(from - ball.radius) > 1e-11L) {
                 ASSERT_EQ(voxels[number], from < ball.radius) << x << ' ' << y << ' ' << z;
@@ -139,7 +137,7 @@ TEST(EditRows, VoxelsOnTheSurfaceBelongToTheBall) {
         ball.radius = std::floor(uniform(random, 0, 28)) / 4;
         const std::vector<bool> voxels = chosen(voxelRows(ball, grid), grid);
         visitAll(grid, [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::size_t number) {
-            const long double from = distance(grid, ball, {x, y, z});
+            const long double from = exactDistance(grid, ball, {x, y, z});
             ASSERT_EQ(voxels[number], from <= ball.radius) << x << ' ' << y << ' ' << z;
             onSurface += from == ball.radius ? 1U : 0U;
         });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/batch/sort_contacts.h"
 #include "support/scenes.h"
+#include "support/special.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,6 @@ TEST(SortContacts, TheOrderIsThatOfTheContactsAlone) {
     const std::uint64_t seed = testSeed();
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     constexpr double kNumbers[] = {-kInfinity, -1, 0, 2, kInfinity, kNaN, -kNaN};
     const auto any = [&] { return kNumbers[random() % std::size(kNumbers)]; };

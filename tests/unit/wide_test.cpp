@@ -3,6 +3,7 @@
 #include "wide_integers.h"
 
 #include "support/scenes.h"
+#include "support/special.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,6 @@ bool same(double a, double b) {
     return (std::isnan(a) && std::isnan(b)) || std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::array kSpecial{0.0,
                           1.0,
                           1.5,

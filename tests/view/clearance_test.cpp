@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/special.h"
 #include "view/model/answers/live_clearance.h"
 #include "view/model/answers/report.h"
 
@@ -12,8 +13,6 @@ namespace voxtact::test {
 using namespace voxtact::view;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 PairClearance clearance(double lo, double hi) {
     PairClearance out;

@@ -11,7 +11,7 @@ using namespace voxtact::view;
 
 namespace {
 
-constexpr Extent kExtent{400, 200};
+constexpr Extent kWindow{400, 200};
 
 /// At (10, 0, 0), with arrows of 10 mm along the world's axes.
 Gizmo gizmo() {
@@ -33,13 +33,13 @@ void expectNear(const Mat4& found, const Mat4& expected) {
 
 TEST(ViewGizmo, ARayGoesThroughWhatIsInItsPixel) {
     const Camera camera{{1, 2, 3}, {30, -20}, 50};
-    const Ray ray = rayThrough(camera, kExtent, 300, 20);
+    const Ray ray = rayThrough(camera, kWindow, 300, 20);
     for (const double far : {0.0, 70.0}) {
         Vec3 point = ray.origin;
         for (std::size_t i = 0; i < 3; ++i) {
             point[i] += far * ray.direction[i];
         }
-        const Vec3 clip = transformPoint(clipFromWorld(camera, kExtent, 1000), point);
+        const Vec3 clip = transformPoint(clipFromWorld(camera, kWindow, 1000), point);
         EXPECT_NEAR(clip[0], 0.5, 1e-12);
         EXPECT_NEAR(clip[1], -0.8, 1e-12);
         EXPECT_NEAR(clip[2], 0.5 + far / 2000, 1e-12); // farther into the picture
@@ -100,7 +100,7 @@ TEST(ViewGizmo, AxesAreTheWorldsTheViewsOrItsOwn) {
     EXPECT_NEAR(own.axes[0][1], 1, 1e-12);
     EXPECT_NEAR(own.axes[1][0], -1, 1e-12);
     EXPECT_EQ(own.at, (Vec3{1, 2, 3}));
-    EXPECT_EQ(gizmoOf(pose, camera, GizmoAxes::View, 1).axes[2], rayThrough(camera, kExtent, 0, 0).direction);
+    EXPECT_EQ(gizmoOf(pose, camera, GizmoAxes::View, 1).axes[2], rayThrough(camera, kWindow, 0, 0).direction);
     EXPECT_EQ(nextOf(GizmoAxes::World), GizmoAxes::View);
     EXPECT_EQ(nextOf(GizmoAxes::View), GizmoAxes::Own);
     EXPECT_EQ(nextOf(GizmoAxes::Own), GizmoAxes::World);

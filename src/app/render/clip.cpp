@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/clip.h"
+#include "core/geometry/vec3.h"
 
 #include "app/options/shared_options.h"
 #include "app/output/outcome.h"
@@ -39,10 +40,6 @@ std::optional<ClipPlane> parsePlane(std::string_view text) {
     constexpr std::size_t kNumbers = 4;
     return numbers.size() == kNumbers ? std::optional<ClipPlane>({{numbers[0], numbers[1], numbers[2]}, numbers[3]})
                                       : std::nullopt;
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 ClipPlane planeOf(const ClipOption& clip, const Grid& grid, const Vec3& towardsEye) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/orientation.h"
+#include "core/geometry/vec3.h"
 
 #include "app/draw/text.h"
 #include "core/geometry/patient_cube.h"
@@ -10,20 +11,6 @@
 namespace voxtact::app {
 
 namespace {
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Vec3& v) {
-    return std::hypot(v[0], v[1], v[2]);
-}
-Vec3 unit(const Vec3& v) {
-    const double size = length(v);
-    return {v[0] / size, v[1] / size, v[2] / size};
-}
 
 constexpr double kMiddle = 0.5; // of the depth
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/slice.h"
+#include "core/geometry/vec3.h"
 
 #include "app/draw/canvas.h"
 #include "app/options/shared_options.h"
@@ -28,10 +29,6 @@ constexpr const char* kView = "view";
 const Named* named(const std::string& name) {
     const auto* found = std::ranges::find_if(kNamed, [&](const Named& one) { return name == one.name; });
     return found != std::end(kNamed) ? found : nullptr;
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// The volume's values between its voxels, trilinear, the last ones going on.

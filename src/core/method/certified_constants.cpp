@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/method/certified_constants.h"
 #include "core/base/text.h"
+#include "core/geometry/vec3.h"
 #include "core/geometry/wide_matrix.h"
 #include "core/transfer/table_extremes.h"
 
@@ -160,19 +161,10 @@ Result<void> checkMargin(double margin) {
 
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// a less what of it is along the unit vector `along`.
 Vec3 across(const Vec3& a, const Vec3& along) {
     const double part = dot(a, along);
     return {a[0] - part * along[0], a[1] - part * along[1], a[2] - part * along[2]};
-}
-
-Vec3 unit(const Vec3& a) {
-    const double length = std::sqrt(dot(a, a));
-    return {a[0] / length, a[1] / length, a[2] / length};
 }
 
 /// The sides of a voxel, world mm.

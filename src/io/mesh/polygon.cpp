@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh/polygon.h"
+#include "core/geometry/vec3.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,6 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 /// Twice the area of a, b, c; positive where they turn left.
 double turn(const Point& a, const Point& b, const Point& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-Vec3 cross(const Vec3& u, const Vec3& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
 double largest(const Vec3& v) {

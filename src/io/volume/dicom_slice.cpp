@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_slice.h"
+#include "core/geometry/vec3.h"
 
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -164,10 +165,6 @@ Result<void> checkPixelLength(const DicomFile& file, const DicomImage& image) {
                                          " compressed pieces are there; get the file again");
     }
     return {};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// Where the elements of one frame are looked for: its own groups, the shared ones, the file.

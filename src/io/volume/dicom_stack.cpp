@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_stack.h"
+#include "core/geometry/vec3.h"
 
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -14,18 +15,6 @@
 namespace voxtact::io {
 
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 bool near(const Vec3& a, const Vec3& b, double tolerance) {
     const Vec3 d = minus(a, b);

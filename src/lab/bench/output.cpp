@@ -23,7 +23,7 @@ std::optional<double> quantile(const std::vector<double>& samples, double part, 
     return samples.size() < needs ? std::nullopt : std::optional(1000 * quantileOf(samples, part));
 }
 
-void addRates(const BenchRow& row, Row& out) {
+void addRateColumns(const BenchRow& row, Row& out) {
     out.add("pairs", row.pairs)
         .add("contacts", row.contacts)
         .add("missed_percent", percent(row.missed, row.contacts))
@@ -35,7 +35,7 @@ void addRates(const BenchRow& row, Row& out) {
         .add("cpu_ratio", row.cpuRatio, {"", "_min", "_max"});
 }
 
-void addTicks(const BenchRow& row, Row& out) {
+void addTickColumns(const BenchRow& row, Row& out) {
     out.addSome("recorded", row.engine.recorded)
         .addSome("awaited", row.engine.awaited)
         .add("ticks", row.wall.size())
@@ -48,7 +48,7 @@ void addTicks(const BenchRow& row, Row& out) {
         .add("record_p50_us", quantile(row.recording, 0.5));
 }
 
-void addBatches(const BenchRow& row, Row& out) {
+void addBatchColumns(const BenchRow& row, Row& out) {
     out.add("batch", row.pairs)
         .add("samples", row.wall.size())
         .add("rounding", row.rounding)
@@ -67,7 +67,9 @@ Row rowOf(BenchMode mode, const BenchRow& row) {
         .addSome("projection", row.engine.projection)
         .addSome("question", row.engine.question)
         .add("threads", row.engine.threads > 0 ? std::optional(row.engine.threads) : std::nullopt);
-    (mode == BenchMode::Latency ? addTicks : mode == BenchMode::Batches ? addBatches : addRates)(row, out);
+    (mode == BenchMode::Latency   ? addTickColumns
+     : mode == BenchMode::Batches ? addBatchColumns
+                                  : addRateColumns)(row, out);
     return out;
 }
 

@@ -7,6 +7,10 @@
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+#include <fcl/narrowphase/detail/traversal/octree/collision/mesh_octree_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/octree/octree_solver.h>
 #include <fcl/narrowphase/distance.h>
 #include <octomap/octomap.h>
 
@@ -52,6 +56,26 @@ std::shared_ptr<Model<Scalar>> modelOf(std::span<const float> positions, std::sp
     return mesh;
 }
 
+void collide(const Model<double>& mesh, const fcl::Transform3d& world_from_mesh, const fcl::OcTreed& octree,
+             const fcl::Transform3d& world_from_tree, const fcl::CollisionRequestd& request,
+             fcl::CollisionResultd& result) {
+    fcl::collide(&mesh, world_from_mesh, &octree, world_from_tree, request, result);
+}
+
+/// What fcl::collide() does of these two. It would bring all pairs of shapes with it, of which libfcl has those of
+/// double alone: a minute of compiling.
+void collide(const Model<float>& mesh, const fcl::Transform3f& world_from_mesh, const fcl::OcTreef& octree,
+             const fcl::Transform3f& world_from_tree, const fcl::CollisionRequestf& request,
+             fcl::CollisionResultf& result) {
+    using Solver = fcl::detail::GJKSolver_libccdf;
+    Solver solver;
+    solver.collision_tolerance = request.gjk_tolerance;
+    const fcl::detail::OcTreeSolver<Solver> octreeSolver(&solver);
+    fcl::detail::MeshOcTreeCollisionTraversalNode<fcl::OBBRSS<float>, Solver> node;
+    fcl::detail::initialize(node, mesh, world_from_mesh, octree, world_from_tree, &octreeSolver, request, result);
+    fcl::detail::collide(&node);
+}
+
 template <class Scalar>
 FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices) {
     const auto mesh = modelOf<Scalar>(positions, indices);
@@ -59,8 +83,7 @@ FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std:
     return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
         const fcl::CollisionRequest<Scalar> request(1, false);
         fcl::CollisionResult<Scalar> result;
-        fcl::collide(mesh.get(), transformOf<Scalar>(world_from_object), octree.get(), transformOf<Scalar>(matrix),
-                     request, result);
+        collide(*mesh, transformOf<Scalar>(world_from_object), *octree, transformOf<Scalar>(matrix), request, result);
         return result.isCollision();
     };
 }

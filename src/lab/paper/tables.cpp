@@ -17,7 +17,7 @@ namespace voxtact::lab {
 namespace {
 
 /// What is timed of each method.
-constexpr std::array<FramePart, 2> kParts{FramePart::Detection, FramePart::Both};
+constexpr std::array<FramePart, 2> kFrameParts{FramePart::Detection, FramePart::Both};
 
 /// A scene on the device and the host, with what was verified of it.
 struct PaperWork {
@@ -116,8 +116,8 @@ Result<double> PaperFrames::detect(std::size_t method, const Turn& turn) {
     const std::size_t pose = poseOf(turn.round);
     const std::uint64_t verified = work.counts[method].counts[pose];
     double wall = 0;
-    for (std::size_t i = 0; i < kParts.size(); ++i) {
-        const FramePart part = kParts.at(turn.backwards ? kParts.size() - 1 - i : i);
+    for (std::size_t i = 0; i < kFrameParts.size(); ++i) {
+        const FramePart part = kFrameParts.at(turn.backwards ? kFrameParts.size() - 1 - i : i);
         const Result<FrameSample> sample = loop.run(part, work.methods[method], work.input.scene.poses[pose]);
         VOXTACT_TRY(sample);
         if (sample->count.value_or(verified) != verified && result.disagreement.empty()) {

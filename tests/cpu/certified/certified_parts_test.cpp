@@ -16,10 +16,10 @@ using oracle::certified::Field;
 using oracle::certified::Opacity;
 using oracle::certified::Polygon;
 
-using Weights = std::array<double, 3>;
+using CornerWeights = std::array<double, 3>;
 
-Weights randomWeights(std::mt19937_64& random) {
-    Weights out{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)};
+CornerWeights randomWeights(std::mt19937_64& random) {
+    CornerWeights out{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)};
     const double sum = out[0] + out[1] + out[2];
     for (double& weight : out) {
         weight /= sum;
@@ -27,7 +27,7 @@ Weights randomWeights(std::mt19937_64& random) {
     return out;
 }
 
-Vec3 pointOf(const Corners& triangle, const Weights& weights) {
+Vec3 weighted(const Corners& triangle, const CornerWeights& weights) {
     Vec3 out{};
     for (std::size_t corner = 0; corner < 3; ++corner) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -64,7 +64,7 @@ TEST(CertifiedParts, ValuesOverATriangleHoldAllThatAreInIt) {
         const Corners corners = randomCorners(random, cell);
         const ValueRange range = field.over(field.voxelsOf(cell), cell, corners, 0);
         for (int i = 0; i < 100; ++i) {
-            const ValueRange value = field.at(pointOf(corners, randomWeights(random)), 0);
+            const ValueRange value = field.at(weighted(corners, randomWeights(random)), 0);
             ASSERT_GE(value.hi, range.lo);
             ASSERT_LE(value.lo, range.hi);
         }

@@ -55,7 +55,7 @@ std::ostream& operator<<(std::ostream& out, const Share& share) {
 }
 
 /// A mesh in a face of the domain is in it or not by rounding alone, and no engine can say.
-class Tally {
+class Shares {
   public:
     void add(const CertifiedCase& c, const EngineSays& engine, const oracle::CertifiedOracle& oracle) {
         kinds_[static_cast<std::size_t>(c.kind)].add(engine, oracle);
@@ -87,7 +87,7 @@ class Tally {
 };
 
 /// False: no answer, and there will be none for other cases.
-bool runCase(cpu::Detector& detector, std::uint64_t seed, std::uint64_t number, const CertifiedCase& c, Tally& tally) {
+bool runCase(cpu::Detector& detector, std::uint64_t seed, std::uint64_t number, const CertifiedCase& c, Shares& tally) {
     const Result<oracle::CertifiedOracle> oracle = oracle::certifiedOracle(c.scene.pair());
     const Result<EngineSays> engine = askEngine(detector, c);
     if (!oracle.ok() || !engine.ok()) {
@@ -129,7 +129,7 @@ TEST_P(Certified, AgainstTheOracle) {
     Result<cpu::Detector> detector =
         cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}});
     ASSERT_TRUE(detector.ok()) << detector.error().text;
-    Tally tally;
+    Shares tally;
     if (const std::optional<std::uint64_t> wanted = wantedCase()) {
         if (GetParam() == 0) {
             const CertifiedCase c = makeCertifiedCase(seed, *wanted);

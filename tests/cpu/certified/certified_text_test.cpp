@@ -23,12 +23,8 @@ using shader::CertifiedCell;
 using shader::CertifiedPiece;
 using shader::VoxelPoint;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-float drawn(std::mt19937_64& random, double lo, double hi) {
-    return static_cast<float>(uniform(random, lo, hi));
-}
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 
 VoxelPoint drawnPoint(std::mt19937_64& random, double lo, double hi) {
     return {drawn(random, lo, hi), drawn(random, lo, hi), drawn(random, lo, hi)};
@@ -175,7 +171,7 @@ TEST(CertifiedText, ACellWithACornerThatIsNoNumberIsNotAllOpaque) {
     for (float* corner :
          {&cell.x000, &cell.x100, &cell.x010, &cell.x110, &cell.x001, &cell.x101, &cell.x011, &cell.x111}) {
         const float before = *corner;
-        *corner = kNan;
+        *corner = kFloatNan;
         EXPECT_FALSE(certifiedCellAllOpaque(band.table(), cell));
         *corner = before;
     }
@@ -229,7 +225,8 @@ TEST(CertifiedText, TheBoundsOfABoxHoldThoseOfItsTriangles) {
         const VoxelPoint from = drawnPoint(random, -30, 30);
         const float side = drawn(random, 0, 20);
         std::array<shader::CertifiedVertex, 3> vertices{};
-        shader::CertifiedBox box{kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
+        shader::CertifiedBox box{kFloatInfinity,  kFloatInfinity,  kFloatInfinity,
+                                 -kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
         for (shader::CertifiedVertex& vertex : vertices) {
             const VoxelPoint at = drawnPoint(random, 0, side);
             const VoxelPoint object{from.x + at.x, from.y + at.y, from.z + at.z};
@@ -284,7 +281,7 @@ TEST(CertifiedText, ATriangleMayBeDisplacedAsFarAsItsWorstVertex) {
 TEST(CertifiedText, AVertexThatIsNowhereMakesATriangleThatMayBeAnywhere) {
     std::mt19937_64 random(testSeed());
     const Placed placed = drawnPlace(random);
-    for (const float error : {kInfinity, kNan, 2e30F}) {
+    for (const float error : {kFloatInfinity, kFloatNan, 2e30F}) {
         for (std::size_t which = 0; which < 3; ++which) {
             std::array<shader::CertifiedVertex, 3> vertices{};
             for (shader::CertifiedVertex& vertex : vertices) {
@@ -292,7 +289,7 @@ TEST(CertifiedText, AVertexThatIsNowhereMakesATriangleThatMayBeAnywhere) {
             }
             vertices[which].error = error;
             const CertifiedBounds bounds = certifiedBounds(placed.item, vertices[0], vertices[1], vertices[2]);
-            EXPECT_EQ(bounds.delta, kInfinity) << error << ", vertex " << which;
+            EXPECT_EQ(bounds.delta, kFloatInfinity) << error << ", vertex " << which;
             EXPECT_FALSE(bounds.usable);
             EXPECT_EQ(bounds.firstX, -1);
             EXPECT_EQ(bounds.lastX, placed.item.sizeX - 1);

@@ -16,7 +16,7 @@
 namespace voxtact::test {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 struct Table {
     std::vector<float> opacities;
@@ -54,11 +54,11 @@ struct Table {
 /// The float at or below a double, and that at or above.
 float roundedDown(double value) {
     const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) > value ? std::nextafter(nearest, -kInfinity) : nearest;
+    return static_cast<double>(nearest) > value ? std::nextafter(nearest, -kFloatInfinity) : nearest;
 }
 float roundedUp(double value) {
     const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) < value ? std::nextafter(nearest, kInfinity) : nearest;
+    return static_cast<double>(nearest) < value ? std::nextafter(nearest, kFloatInfinity) : nearest;
 }
 
 /// Thresholds next to the very opacity: interpolation in float falls on the wrong side of many, and OPACITY_ERROR is
@@ -112,8 +112,8 @@ float randomCoordinate(std::mt19937_64& random, const Table& table) {
     const double place = uniform(random, -3, size + 3);
     const auto whole = static_cast<float>(std::floor(place));
     return kind < 0.3    ? whole
-           : kind < 0.4  ? std::nextafter(whole, kInfinity)
-           : kind < 0.5  ? std::nextafter(whole, -kInfinity)
+           : kind < 0.4  ? std::nextafter(whole, kFloatInfinity)
+           : kind < 0.5  ? std::nextafter(whole, -kFloatInfinity)
            : kind < 0.55 ? static_cast<float>(1e9 * uniform(random, -1, 1))
                          : static_cast<float>(place);
 }
@@ -139,8 +139,9 @@ TEST(OpacityRanges, AreNeverWrongAndSeldomUnsure) {
         ASSERT_TRUE(may || greatest < threshold);
         ASSERT_TRUE(!certain || greatest >= threshold);
         ASSERT_TRUE(!all || least >= threshold);
-        ASSERT_FALSE(shader::certainlyAllOpaque(table.view(), std::nextafter(hi, kInfinity), lo)) << "an empty range";
-        ASSERT_FALSE(shader::certainlySomeOpaque(table.view(), std::nextafter(hi, kInfinity), lo));
+        ASSERT_FALSE(shader::certainlyAllOpaque(table.view(), std::nextafter(hi, kFloatInfinity), lo))
+            << "an empty range";
+        ASSERT_FALSE(shader::certainlySomeOpaque(table.view(), std::nextafter(hi, kFloatInfinity), lo));
         unsure += may != certain ? 1U : 0U;
         some += certain ? 1U : 0U;
         if (certain) {
@@ -155,16 +156,16 @@ TEST(OpacityRanges, AreNeverWrongAndSeldomUnsure) {
 }
 
 TEST(OpacityRanges, NotANumberMayBeAnythingAndIsNeverCertain) {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
     const Table table({0, 1, 0});
-    for (const auto& [lo, hi] : {std::pair{kNan, 2.0F}, {0.0F, kNan}, {kNan, kNan}}) {
+    for (const auto& [lo, hi] : {std::pair{kFloatNan, 2.0F}, {0.0F, kFloatNan}, {kFloatNan, kFloatNan}}) {
         EXPECT_TRUE(shader::mayBeOpaque(table.view(), lo, hi));
         EXPECT_FALSE(shader::certainlyAllOpaque(table.view(), lo, hi));
         EXPECT_FALSE(shader::certainlySomeOpaque(table.view(), lo, hi));
     }
-    EXPECT_TRUE(shader::mayBeOpaque(table.view(), -kInfinity, kInfinity));
-    EXPECT_TRUE(shader::certainlySomeOpaque(table.view(), -kInfinity, kInfinity));
-    EXPECT_EQ(shader::opaqueBetween(table.view(), -kInfinity, kInfinity), 1.0F);
+    EXPECT_TRUE(shader::mayBeOpaque(table.view(), -kFloatInfinity, kFloatInfinity));
+    EXPECT_TRUE(shader::certainlySomeOpaque(table.view(), -kFloatInfinity, kFloatInfinity));
+    EXPECT_EQ(shader::opaqueBetween(table.view(), -kFloatInfinity, kFloatInfinity), 1.0F);
 }
 
 } // namespace

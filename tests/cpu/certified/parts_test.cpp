@@ -23,7 +23,7 @@ bool inIntervals(std::span<const cpu::Interval> intervals, float value) {
                        [&](const cpu::Interval& interval) { return interval.lo <= value && value <= interval.hi; });
 }
 
-std::vector<float> randomTable(std::mt19937_64& random) {
+std::vector<float> randomOpacities(std::mt19937_64& random) {
     std::vector<float> table(2 + below(random, 300));
     for (float& entry : table) {
         entry = chance(random, 0.7) ? 0.0F : chance(random, 0.2) ? 0.5F : static_cast<float>(uniform(random, 0, 1));
@@ -34,7 +34,7 @@ std::vector<float> randomTable(std::mt19937_64& random) {
 TEST(OpaqueSets, AreExactFloatByFloat) {
     std::mt19937_64 random(testSeed());
     for (int round = 0; round < 200; ++round) {
-        const std::vector<float> table = randomTable(random);
+        const std::vector<float> table = randomOpacities(random);
         const double lo = uniform(random, -1000, 1000);
         const shader::ItemConstants constants =
             itemConstants(1, 0, {lo, lo + std::pow(10, uniform(random, -2, 5))}, chance(random, 0.3) ? 0.5 : 0.2);

@@ -28,10 +28,6 @@ using cpu::RunPoints;
 using shader::CertifiedVertex;
 using shader::VoxelPoint;
 
-float drawn(std::mt19937_64& random, double lo, double hi) {
-    return static_cast<float>(uniform(random, lo, hi));
-}
-
 /// A ramp, a peak of one entry, noise with holes, or a step.
 std::vector<float> drawnTable(std::mt19937_64& random) {
     std::vector<float> table(std::size_t{1} << (4 + below(random, 5)));

@@ -22,10 +22,6 @@ using shader::VoxelPoint;
 
 using Corners = std::array<VoxelPoint, 3>;
 
-float drawn(std::mt19937_64& random, double lo, double hi) {
-    return static_cast<float>(uniform(random, lo, hi));
-}
-
 /// Slivers, points and lines, planes of voxels' centres and faces, and what is none of these.
 Corners drawnCorners(std::mt19937_64& random) {
     const double size = std::pow(10, uniform(random, -2, 1.6));

@@ -9,6 +9,7 @@
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
+#include "support/special.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -25,8 +26,6 @@ namespace voxtact::test {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A random scene as a search sees it.
 struct Part {

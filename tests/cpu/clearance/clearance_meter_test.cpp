@@ -4,6 +4,7 @@
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
 
+#include "support/special.h"
 #include "voxtact/samples.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@
 
 namespace voxtact::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool same(const PairClearance& a, const PairClearance& b) {
     return a.bounds.lo == b.bounds.lo && a.bounds.hi == b.bounds.hi && a.end == b.end &&

@@ -19,16 +19,16 @@ namespace {
 using oracle::OracleClearance;
 
 /// A scene that the engine has.
-struct Held {
-    explicit Held(const OracleScene& scene)
+struct HeldScene {
+    explicit HeldScene(const OracleScene& scene)
         : mesh(take(cpu::Mesh::create(scene.mesh.view()))), volume(take(cpu::Volume::create(scene.volume.view()))),
           function(take(cpu::TransferFunction::create({scene.points, scene.domain, scene.tableSize}))),
           pose(scene.world_from_object), item{&mesh, &volume, &function, std::span(&pose, 1)}, batch{
                                                                                                    std::span(&item, 1),
                                                                                                    {},
                                                                                                    scene.threshold} {}
-    Held(const Held&) = delete;
-    Held& operator=(const Held&) = delete;
+    HeldScene(const HeldScene&) = delete;
+    HeldScene& operator=(const HeldScene&) = delete;
 
     cpu::Mesh mesh;
     cpu::Volume volume;
@@ -88,7 +88,7 @@ void checkClosest(const CertifiedCase& c, const PairClearance& says, double slac
 
 void checkCase(const CertifiedCase& c, cpu::ClearanceMeter& meter, cpu::Detector& detector, double resolution,
                Tally& tally) {
-    const Held held(c.scene);
+    const HeldScene held(c.scene);
     const PairClearance says = take(meter.measure(held.batch)).pairs.at(0);
     const PairAnswer touch = take(detector.detect(held.batch)).pairs.at(0);
     const OracleClearance truth = take(oracle::clearanceOracle(c.scene.pair(), resolution));
@@ -132,7 +132,7 @@ TEST(ClearanceOracle, PointsOfAThinPartAreAsFarApartAsTheBoundsSay) {
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
     for (const auto& [seed, number] : {std::pair{1034, 63}, {2109, 9}}) {
         const CertifiedCase c = makeClearanceCase(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(number));
-        const Held held(c.scene);
+        const HeldScene held(c.scene);
         const PairClearance says = take(meter.measure(held.batch)).pairs.at(0);
         ASSERT_TRUE(says.closest);
         EXPECT_GT(says.bounds.lo, 1);
@@ -163,7 +163,7 @@ TEST(ClearanceOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         const CertifiedCase c = makeClearanceCase(seed, number);
         const LabelData labels = randomLabels(random, c.scene.volume.grid);
-        Held held(c.scene);
+        HeldScene held(c.scene);
         held.item.labels = &labels;
         const std::vector<LabelClearance> says = take(meter.measureLabels(held.batch, asked)).labels;
         const ClearanceBounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
@@ -204,7 +204,7 @@ TEST(ClearanceOracle, TheTruthOfWholeLabelsIsBetweenTheirBounds) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         CertifiedCase c = makeClearanceCase(seed, number);
         const LabelData labels = randomLabels(random, c.scene.volume.grid);
-        Held held(c.scene);
+        HeldScene held(c.scene);
         held.item.labels = &labels;
         const std::vector<LabelClearance> says = take(meter.measureLabels(held.batch, asked)).labels;
         for (ControlPoint& point : c.scene.points) {
@@ -236,7 +236,7 @@ TEST(ClearanceOracle, AMarginIsWhatTheClearanceSays) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         SCOPED_TRACE("case " + std::to_string(number));
         const CertifiedCase c = makeClearanceCase(seed, number);
-        const Held held(c.scene);
+        const HeldScene held(c.scene);
         const PairClearance says = take(meter.measure(held.batch)).pairs.at(0);
         const auto [lo, hi] = says.bounds;
         for (const double margin : {lo / 2, lo * 0.999, hi * 1.001, 2 * hi, 0.5}) {
@@ -272,12 +272,12 @@ TEST(ClearanceOracle, AMoveChangesItByNoMoreThanItsLength) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         SCOPED_TRACE("case " + std::to_string(number));
         CertifiedCase c = makeClearanceCase(seed, number);
-        const ClearanceBounds before = take(meter.measure(Held(c.scene).batch)).pairs.at(0).bounds;
+        const ClearanceBounds before = take(meter.measure(HeldScene(c.scene).batch)).pairs.at(0).bounds;
         const double by = std::pow(10, uniform(random, -2, 1));
         const Mat4 turn = randomRotation(random);
         c.scene.world_from_object =
             multiply(translation({by * turn[0], by * turn[1], by * turn[2]}), c.scene.world_from_object);
-        const ClearanceBounds after = take(meter.measure(Held(c.scene).batch)).pairs.at(0).bounds;
+        const ClearanceBounds after = take(meter.measure(HeldScene(c.scene).batch)).pairs.at(0).bounds;
         const double slack = 1e-12 * largestCoordinate(c.scene);
         EXPECT_LE(after.lo, before.hi + by + slack);
         EXPECT_GE(after.hi, before.lo - by - slack);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Clearances that are known beforehand.
+#include "core/geometry/vec3.h"
 #include "cpu/clearance/held.h"
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
+#include "support/special.h"
 
 #include <gtest/gtest.h>
 
@@ -13,26 +15,11 @@
 namespace voxtact::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Vec3 unit(const Vec3& v) {
-    const double length = std::hypot(v[0], v[1], v[2]);
-    return {v[0] / length, v[1] / length, v[2] / length};
-}
-
-double dotOf(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 crossOf(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Turns +x to a direction, then moves the origin to a place.
 Mat4 poseAlong(const Vec3& direction, const Vec3& place) {
     const Vec3 x = unit(direction);
-    const Vec3 y = unit(crossOf(x, std::abs(x[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-    const Vec3 z = crossOf(x, y);
+    const Vec3 y = unit(cross(x, std::abs(x[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    const Vec3 z = cross(x, y);
     return {x[0], x[1], x[2], 0, y[0], y[1], y[2], 0, z[0], z[1], z[2], 0, place[0], place[1], place[2], 1};
 }
 
@@ -66,7 +53,7 @@ struct HalfSpace {
         const Mat4 index_from_world = take(inverse(worldFromIndex(grid)));
         Vec3 gradient{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            gradient[axis] = dotOf(
+            gradient[axis] = dot(
                 slope, {index_from_world[4 * axis], index_from_world[4 * axis + 1], index_from_world[4 * axis + 2]});
         }
         const Vec3 inward = unit(gradient);
@@ -96,7 +83,7 @@ TEST(Clearance, OfTiltedHalfSpacesInGridsOfAllKinds) {
         expectAbout(distance, found, 1e-3);
         ASSERT_TRUE(found.closest);
         // A point of the plane that is farther by the tolerance is that much off the perpendicular.
-        EXPECT_GT(dotOf(found.closest->perTranslation, scene.outward), distance / (distance + 0.011));
+        EXPECT_GT(dot(found.closest->perTranslation, scene.outward), distance / (distance + 0.011));
         ASSERT_FALSE(HasFailure());
     }
 }

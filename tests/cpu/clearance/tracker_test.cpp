@@ -4,6 +4,7 @@
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
+#include "support/special.h"
 
 #include <gmock/gmock.h>
 
@@ -12,8 +13,6 @@
 
 namespace voxtact::test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Opaque where z is from 20 on: a floor at z = 20 under a mesh that comes from below.
 VolumeData makeFloor() {

@@ -5,6 +5,7 @@
 #include "cpu/scene/scene_impl.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/special.h"
 
 #include <gmock/gmock.h>
 
@@ -172,7 +173,6 @@ TEST(Edits, BadOnesAreRefusedAndChangeNothing) {
         expectSame(volume, take(cpu::Volume::create(data.view())));
         return out;
     };
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THAT(text(ScalarType::UInt8, 256), HasSubstr("256 is not one that a voxel of type uint8"));
     EXPECT_THAT(text(ScalarType::UInt8, -1), HasSubstr("a whole number from 0 to 255"));
     EXPECT_THAT(text(ScalarType::UInt16, 1.5), HasSubstr("1.5"));

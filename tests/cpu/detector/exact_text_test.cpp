@@ -75,7 +75,7 @@ TEST(ExactText, ATriangleTurnedRoundIsCutAtTheSameBits) {
 
 /// A corner with a w of 1 is no sign that the others have one, whichever it is.
 TEST(ExactText, ATriangleIsSeenInPerspectiveWhereOneOfItsCornersIs) {
-    constexpr int kSide = 64;
+    constexpr int kPixels = 64;
     std::mt19937_64 random(testSeed());
     int covered = 0;
     for (int round = 0; round < 2000 && !HasFailure(); ++round) {
@@ -88,11 +88,11 @@ TEST(ExactText, ATriangleIsSeenInPerspectiveWhereOneOfItsCornersIs) {
             corner.y = 0.3F * corner.y * corner.w;
         }
         shader::ExactTriangle triangle{};
-        if (!shader::exactSetUp(corners[0], corners[1], corners[2], kSide, kSide, triangle)) {
+        if (!shader::exactSetUp(corners[0], corners[1], corners[2], kPixels, kPixels, triangle)) {
             continue;
         }
-        const auto x = static_cast<int>(below(random, kSide));
-        const auto y = static_cast<int>(below(random, kSide));
+        const auto x = static_cast<int>(below(random, kPixels));
+        const auto y = static_cast<int>(below(random, kPixels));
         float tx = 0;
         float ty = 0;
         float tz = 0;
@@ -100,8 +100,8 @@ TEST(ExactText, ATriangleIsSeenInPerspectiveWhereOneOfItsCornersIs) {
             continue;
         }
         // The weights a of the corners with sum a_i (x_i - X w_i, y_i - Y w_i) = 0, at (X, Y) on the screen.
-        const double atX = (x + 0.5) / kSide * 2 - 1;
-        const double atY = (y + 0.5) / kSide * 2 - 1;
+        const double atX = (x + 0.5) / kPixels * 2 - 1;
+        const double atY = (y + 0.5) / kPixels * 2 - 1;
         std::array<std::array<double, 2>, 3> off{};
         for (std::size_t i = 0; i < 3; ++i) {
             off[i] = {corners[i].x - atX * corners[i].w, corners[i].y - atY * corners[i].w};

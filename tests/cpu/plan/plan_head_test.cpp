@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Safe paths in a real head with an atlas, one by one, against the oracle of clearances.
+#include "core/geometry/glm_bridge.h"
 #include "oracle/clearance_oracle.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
@@ -19,13 +20,9 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kRadius = 1;   // mm, of the needle
-constexpr double kLength = 200; // mm
-constexpr double kMargin = 2;   // mm
-
-dvec3 toGlm(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
+constexpr double kNeedleRadius = 1; // mm, of the needle
+constexpr double kLength = 200;     // mm
+constexpr double kMargin = 2;       // mm
 
 /// A label alone, on the part of the grid around it: for an oracle that goes through all cells.
 struct LabelCrop {
@@ -76,8 +73,8 @@ struct LabelCrop {
         pair.volume = volume.view();
         pair.transferFunction = {all, {0, 1}};
         oracle::OracleClearance found = oracle::labelClearanceOracle(pair, labels, 1, resolution).value();
-        found.lo -= kRadius;
-        found.hi -= kRadius;
+        found.lo -= kNeedleRadius;
+        found.hi -= kNeedleRadius;
         return found;
     }
 
@@ -110,7 +107,7 @@ TEST(PlanHead, TheOracleConfirmsSafePaths) {
     task.target = {12, 18, 8};
     task.surface = {.entries = 10000, .volume = &volume, .transferFunction = &skin};
     task.obstacles = std::span(&obstacle, 1);
-    task.needle = {2 * kRadius, kLength};
+    task.needle = {2 * kNeedleRadius, kLength};
     task.margin = kMargin;
     cpu::Planner planner = cpu::Planner::create().value();
     const PlanAnswer answer = planner.plan(task).value();
@@ -134,12 +131,12 @@ TEST(PlanHead, TheOracleConfirmsSafePaths) {
     double farthest = 0; // of the oracle's bounds beyond the planner's, mm
     for (const PlannedPath* path : safe) {
         const dvec3 direction = (toGlm(path->position) - target) / path->length;
-        const dvec3 from = target + kRadius * direction;
-        const dvec3 to = target + (path->length + kLength - kRadius) * direction;
+        const dvec3 from = target + kNeedleRadius * direction;
+        const dvec3 to = target + (path->length + kLength - kNeedleRadius) * direction;
         double lo = 1e9;
         double hi = 1e9;
         for (const LabelCrop& crop : crops) {
-            if (crop.leastDistance(from, to) > kRadius + 2 * kDefaultPlanMaximum) {
+            if (crop.leastDistance(from, to) > kNeedleRadius + 2 * kDefaultPlanMaximum) {
                 continue; // the oracle would need as long to say that
             }
             oracle::OracleClearance found = crop.distance(from, to, 1.0 / 4);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plans against the oracle of clearances, on random scenes: what is opaque, and labels at any opacity.
+#include "core/geometry/glm_bridge.h"
 #include "cpu/scenes/certified_scenes.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
@@ -17,10 +18,6 @@ namespace voxtact::test {
 namespace {
 
 using glm::dvec3;
-
-dvec3 toGlm(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
 
 /// A scene's image, some labels on it, and a needle that goes to somewhere in it.
 struct PlanCase {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/geometry/glm_bridge.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
@@ -41,10 +42,6 @@ struct AxisBox {
         return distance(glm::mix(from, to, 0.5 * (begin + end)));
     }
 };
-
-inline dvec3 toGlm(const Vec3& v) {
-    return {v[0], v[1], v[2]};
-}
 
 /// Boxes of labels 1, 2, ... in a grid of 1 x 1.5 x 2 mm, about the world's origin.
 struct BoxScene {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/scenes.h"
+#include "support/take.h"
 #include "voxtact/cpu.h"
 
 #include <gtest/gtest.h>
@@ -9,13 +10,6 @@
 #include <stdexcept>
 
 namespace voxtact::test {
-
-template <class T> T take(Result<T> result) {
-    if (!result.ok()) {
-        throw std::logic_error(result.error().text);
-    }
-    return std::move(*result);
-}
 
 /// The count of one mesh at one pose.
 inline std::uint64_t engineCount(const MeshView& mesh, const VolumeView& volume, const TransferFunctionDesc& function,

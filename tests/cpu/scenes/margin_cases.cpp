@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/scenes/margin_cases.h"
+#include "core/geometry/vec3.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/contact_scenes.h"
@@ -18,16 +19,6 @@ void scale(Grid& grid, double by) {
         grid.spacing[axis] *= by;
         grid.origin[axis] *= by;
     }
-}
-
-Vec3 step(const Vec3& a, const Vec3& b, double by) {
-    return {a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]};
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 unit(const Vec3& a) {
-    return step({0, 0, 0}, a, 1 / std::sqrt(dot(a, a)));
 }
 
 template <class Scalar> VolumeData ramp(const Grid& grid, ScalarType type, const Vec3& slope, double at0) {

@@ -16,7 +16,7 @@
 namespace voxtact::test {
 namespace {
 
-using Place = std::array<std::int32_t, 3>;
+using VoxelPlace = std::array<std::int32_t, 3>;
 
 /// The stored values of an image, and the ranges around bricks as shaders/bricks.comp has them.
 class Stored {
@@ -26,7 +26,7 @@ class Stored {
     [[nodiscard]] std::int32_t size(std::size_t axis) const {
         return static_cast<std::int32_t>(volume_->grid.size[axis]);
     }
-    [[nodiscard]] float at(const Place& voxel) const {
+    [[nodiscard]] float at(const VoxelPlace& voxel) const {
         std::int64_t offset = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             offset += (std::clamp(voxel[axis], 0, size(axis) - 1) + std::int64_t{1}) *
@@ -35,7 +35,7 @@ class Stored {
         return volume_->image.visit([&](const auto* voxels) { return cpu::storedValue(voxels[offset]); });
     }
     /// Of the voxels from `lo` to `hi`, those in the image.
-    [[nodiscard]] std::array<float, 2> range(Place lo, Place hi) const {
+    [[nodiscard]] std::array<float, 2> range(VoxelPlace lo, VoxelPlace hi) const {
         std::array<float, 2> out{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lo[axis] = std::max(lo[axis], 0);
@@ -53,8 +53,8 @@ class Stored {
         }
         return out;
     }
-    [[nodiscard]] std::array<float, 2> brickRange(const Place& brick, std::int32_t wider) const {
-        const Place lo{brick[0] * 8 - 1 - wider, brick[1] * 8 - 1 - wider, brick[2] * 8 - 1 - wider};
+    [[nodiscard]] std::array<float, 2> brickRange(const VoxelPlace& brick, std::int32_t wider) const {
+        const VoxelPlace lo{brick[0] * 8 - 1 - wider, brick[1] * 8 - 1 - wider, brick[2] * 8 - 1 - wider};
         return range(lo, {lo[0] + 8 + 2 * wider, lo[1] + 8 + 2 * wider, lo[2] + 8 + 2 * wider});
     }
 
@@ -76,7 +76,7 @@ struct Decider {
         }
     }
 
-    void cell(const shader::CertifiedTriangle& triangle, const Place& at, const std::array<float, 2>& wide) {
+    void cell(const shader::CertifiedTriangle& triangle, const VoxelPlace& at, const std::array<float, 2>& wide) {
         ++out.cells;
         const shader::VoxelPoint corner{static_cast<float>(at[0]), static_cast<float>(at[1]),
                                         static_cast<float>(at[2])};
@@ -100,7 +100,7 @@ struct Decider {
         take(look == CERTIFIED_UNDECIDED ? shader::marginDecide(table, by, triangle, known, corner) : look);
     }
 
-    void brick(const shader::CertifiedTriangle& triangle, const Place& at, const shader::CertifiedBounds& bounds) {
+    void brick(const shader::CertifiedTriangle& triangle, const VoxelPlace& at, const shader::CertifiedBounds& bounds) {
         const std::array<float, 2> inside = stored.brickRange(at, 0);
         if (!shader::certifiedRangeMayBeOpaque(table, item, inside[0], inside[1])) {
             return;
@@ -113,8 +113,8 @@ struct Decider {
         if (!whole && shader::marginCubeBeyond(by, triangle, {middle(0), middle(1), middle(2)}, 4)) {
             return;
         }
-        const Place first{bounds.firstX, bounds.firstY, bounds.firstZ};
-        const Place last{bounds.lastX, bounds.lastY, bounds.lastZ};
+        const VoxelPlace first{bounds.firstX, bounds.firstY, bounds.firstZ};
+        const VoxelPlace last{bounds.lastX, bounds.lastY, bounds.lastZ};
         const auto lo = [&](std::size_t axis) { return std::max(first[axis], at[axis] * 8 - 1); };
         const auto hi = [&](std::size_t axis) { return std::min(last[axis], at[axis] * 8 + 6); };
         const std::array<float, 2> wide = stored.brickRange(at, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
+#include "support/take.h"
 #include "voxtact/samples.h"
 
 #include <algorithm>
@@ -18,13 +19,6 @@ bool chance(std::mt19937_64& random, double probability) {
 }
 
 namespace {
-
-template <class T> T take(Result<T> result) {
-    if (!result.ok()) {
-        throw std::logic_error(result.error().text);
-    }
-    return std::move(*result);
-}
 
 ValueRange rangeOf(const VolumeData& volume) {
     return take(checkVolume(volume.view()));

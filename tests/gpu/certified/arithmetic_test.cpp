@@ -36,7 +36,7 @@ constexpr Mistake kMistakes[] = {
 };
 
 const Mistake* mistake = nullptr;
-std::size_t made = 0; ///< instructions that became others
+std::size_t changed = 0; ///< instructions that became others
 PFN_vkCreateShaderModule realCreate = nullptr;
 
 /// Whether it is operations.comp: the last words are, whatever was added before.
@@ -61,7 +61,7 @@ VkResult VKAPI_PTR createMistaken(VkDevice device, const VkShaderModuleCreateInf
         if (mistake->extOf != 0) {
             code[at + 4] = mistake->extTo;
         }
-        ++made;
+        ++changed;
     }
     VkShaderModuleCreateInfo other = *info;
     other.pCode = code.data();
@@ -93,10 +93,10 @@ TEST_F(ArithmeticTest, AWrongOperationIsNamedAndItsMethodNotTrusted) {
     desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
     for (const Mistake& each : kMistakes) {
         mistake = &each;
-        made = 0;
+        changed = 0;
         const Context context = take(Context::create(desc));
         const ArithmeticVerdict verdict = take(checkArithmetic(context, queue()));
-        EXPECT_GT(made, 0U) << each.name << ": the shader has no such instruction";
+        EXPECT_GT(changed, 0U) << each.name << ": the shader has no such instruction";
         EXPECT_THAT(verdict.wrong, HasSubstr(each.operation)) << each.name;
         EXPECT_EQ(verdict.wrong.find('\n'), std::string::npos);
         if (&each == std::begin(kMistakes)) {

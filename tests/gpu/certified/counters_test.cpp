@@ -23,7 +23,7 @@ class CountersTest : public CertifiedTest {
     }
 };
 
-void expectSame(const std::vector<PairAnswer>& a, const std::vector<PairAnswer>& b) {
+void expectSameCounts(const std::vector<PairAnswer>& a, const std::vector<PairAnswer>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].count, b[i].count) << "pair " << i;
@@ -60,7 +60,7 @@ TEST_F(CountersTest, TheyAreTheWorkOfABatch) {
     const Answered with = detect(counted(), scene.batch(), 12, 16384);
     DetectorDesc plain = counted();
     plain.counters = false;
-    expectSame(with.pairs, detect(plain, scene.batch(), 12, 16384).pairs);
+    expectSameCounts(with.pairs, detect(plain, scene.batch(), 12, 16384).pairs);
     const CertifiedCounters& c = with.counters;
     std::uint64_t survivors = 0;
     for (const PairAnswer& pair : with.pairs) {
@@ -127,7 +127,7 @@ TEST_F(CountersTest, WhatIsClearCountsWithoutADecision) {
         const Batch batch{{&item, 1}, {}, kDefaultThreshold};
         const BatchAnswer found = take(clear.detect(batch));
         const BatchAnswer wanted = take(decided.detect(batch));
-        expectSame(found.pairs, wanted.pairs);
+        expectSameCounts(found.pairs, wanted.pairs);
         EXPECT_EQ(wanted.counters->cellsCertain, 0U);
         EXPECT_GT(found.counters->cellsCertain, wanted.counters->cellsListed / 4);
         EXPECT_LE(found.counters->cellsListed + found.counters->cellsCertain, wanted.counters->cellsListed);
@@ -229,7 +229,7 @@ TEST_F(CountersTest, NoDispatchDoesMoreThanItsBound) {
         const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = clusters}));
         const BatchItem item{&mesh, &volume, &function, poses};
         const Answered found = detect(counted(true), {{&item, 1}, {}, scene.threshold}, kRoom, kRoom);
-        expectSame(found.pairs, onHost.pairs);
+        expectSameCounts(found.pairs, onHost.pairs);
         EXPECT_TRUE(std::ranges::none_of(found.pairs, &PairAnswer::hit));
         const CertifiedCounters& c = found.counters;
         EXPECT_EQ(c.clusters, kRoom);

@@ -8,8 +8,6 @@
 namespace voxtact::test {
 namespace {
 
-constexpr ValueRange kBytes{0, 255};
-
 class AnalyticTest : public GpuTest {
   protected:
     Volume full() {

@@ -11,8 +11,6 @@
 namespace voxtact::test {
 namespace {
 
-constexpr ValueRange kBytes{0, 255};
-
 class EmbeddingTest : public GpuTest {
   protected:
     /// A device of its own, as an embedder has.
@@ -31,13 +29,13 @@ VolumeData halfOpaque() {
 }
 
 /// Volume, transfer function and mesh, not yet uploaded.
-struct Scene {
+struct UploadedLater {
     Volume volume;
     TransferFunction function;
     Mesh mesh;
     Mat4 pose = identity();
 
-    explicit Scene(const Context& context)
+    explicit UploadedLater(const Context& context)
         : volume(take(Volume::create(context, halfOpaque().view()))),
           function(take(TransferFunction::create(context, {byteRamp(), kBytes}))),
           mesh(take(Mesh::create(context, makeFlat(0, 1, 0, 1, 0.5).view()))) {}
@@ -60,7 +58,7 @@ TEST_F(EmbeddingTest, ACommandBufferThatAlreadyHoldsOtherWork) {
     RawVulkan raw(device);
     for (const MethodSupport& support : context.methods()) {
         const CountingMethod method = support.method;
-        Scene scene(context);
+        UploadedLater scene(context);
         const Detector detector = take(Detector::create(context, {.method = method}));
         Results results = take(Results::create(context, {.maxPairs = 2, .readBack = false}));
         const RawVulkan::HostBuffer others =
@@ -91,7 +89,7 @@ TEST_F(EmbeddingTest, OneCommandBufferSubmittedTwice) {
     const device::VulkanDevice device = makeDevice();
     const Context context = take(Context::create(device.contextDesc()));
     RawVulkan raw(device);
-    Scene scene(context);
+    UploadedLater scene(context);
     const VkCommandBuffer uploads = raw.begin();
     scene.cmdUpload(uploads);
     raw.submitAndWait(uploads);
@@ -185,7 +183,7 @@ TEST_F(EmbeddingTest, FramesInFlightAreReadWithoutAStall) {
     const device::VulkanDevice device = makeDevice();
     const Context context = take(Context::create(device.contextDesc()));
     RawVulkan raw(device);
-    Scene scene(context);
+    UploadedLater scene(context);
     const VkCommandBuffer uploads = raw.begin();
     scene.cmdUpload(uploads);
     raw.submitAndWait(uploads);

@@ -118,7 +118,7 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
     const VolumeData noise = makeBytes(ball.grid, [&](auto...) { return static_cast<double>(random() % 256); });
     const std::array ramp{ControlPoint{0, 0}, ControlPoint{255, 1}};
     const std::array peak{ControlPoint{120, 0}, ControlPoint{122, 1}, ControlPoint{124, 0}};
-    struct Scene {
+    struct Noise {
         const VolumeData& image;
         std::span<const ControlPoint> points;
         double threshold;
@@ -130,8 +130,8 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
     const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
     const DetectorDesc desc{
         .method = CountingMethod::Compute, .projection = Projection::Conservative, .outputs = {.triangles = true}};
-    for (const Scene& scene :
-         {Scene{ball, ramp, 0.05, 16}, Scene{ball, ramp, 0.05, 2048}, Scene{noise, peak, 0.5, 16}}) {
+    for (const Noise& scene :
+         {Noise{ball, ramp, 0.05, 16}, Noise{ball, ramp, 0.05, 2048}, Noise{noise, peak, 0.5, 16}}) {
         const TransferFunctionDesc table{scene.points, {0, 255}, kDefaultTableSize};
         const Volume volume = take(Volume::upload(context(), queue(), scene.image.view(), {.bricks = true}));
         const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));

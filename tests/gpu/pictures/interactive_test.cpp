@@ -18,7 +18,7 @@
 namespace voxtact::test {
 namespace {
 
-constexpr VkExtent2D kExtent{56, 48};
+constexpr VkExtent2D kFrameExtent{56, 48};
 constexpr std::uint64_t kChanges = 100;
 constexpr std::uint32_t kInFlight = 3;
 constexpr double kThreshold = 0.25;
@@ -97,7 +97,7 @@ struct Frame {
 /// What one frame in flight has for itself.
 struct Slot {
     Slot(const device::VulkanDevice& device, const Renderer& renderer)
-        : image(device, kExtent), targets(take(RenderTargets::create(renderer, kExtent))) {}
+        : image(device, kFrameExtent), targets(take(RenderTargets::create(renderer, kFrameExtent))) {}
 
     OwnImage image;
     RenderTargets targets;
@@ -121,7 +121,7 @@ class InteractiveTest : public PictureTest {
         scene_.volume = &*volume_;
         scene_.bricks = &*bricks_;
         scene_.mesh = &*mesh_;
-        scene_.clip_from_world = framingCamera(head_.grid, kExtent.width, kExtent.height);
+        scene_.clip_from_world = framingCamera(head_.grid, kFrameExtent.width, kFrameExtent.height);
         scene_.background = {0.1, 0.3, 0.2};
     }
     void TearDown() override {
@@ -137,7 +137,7 @@ class InteractiveTest : public PictureTest {
     [[nodiscard]] BatchItem itemOf(const TransferFunction& function) const {
         return {&*mesh_, &*volume_, &function, {&scene_.world_from_object, 1}};
     }
-    [[nodiscard]] View view() const { return {scene_.clip_from_world, kExtent.width, kExtent.height}; }
+    [[nodiscard]] View view() const { return {scene_.clip_from_world, kFrameExtent.width, kFrameExtent.height}; }
 
     /// Puts the mesh somewhere in the head.
     void placeMesh(std::mt19937_64& random) { scene_.world_from_object = randomPoses(head_.grid, 1, 0.3, random)[0]; }
@@ -201,7 +201,7 @@ class InteractiveTest : public PictureTest {
         const RenderTransferFunction seen =
             take(RenderTransferFunction::upload(renderer(), queue(), frame.change.desc()));
         scene_.transferFunction = &seen;
-        EXPECT_TRUE(pixelsOf(frame) == take(blocking().render(scene_, kExtent)).rgba) << "the picture";
+        EXPECT_TRUE(pixelsOf(frame) == take(blocking().render(scene_, kFrameExtent)).rgba) << "the picture";
         const TransferFunction counted = take(TransferFunction::upload(context(), queue(), frame.change.opacity()));
         const BatchItem item = itemOf(counted);
         for (std::size_t way = 0; way < kWayCount; ++way) {
@@ -237,7 +237,7 @@ class InteractiveTest : public PictureTest {
         scene.volume = &elsewhere;
         scene.bricks = nullptr;
         scene.transferFunction = &function;
-        return take(blocking().render(scene, kExtent)).rgba;
+        return take(blocking().render(scene, kFrameExtent)).rgba;
     }
 
     static void expectSame(const PairAnswer& frame, const PairAnswer& other, const char* what, std::size_t way) {
@@ -246,7 +246,7 @@ class InteractiveTest : public PictureTest {
         EXPECT_EQ(frame.possible, other.possible) << what << ", way " << way;
     }
     static std::vector<std::uint8_t> pixelsOf(const Frame& frame) {
-        return {frame.pixels, frame.pixels + std::size_t{4} * kExtent.width * kExtent.height};
+        return {frame.pixels, frame.pixels + std::size_t{4} * kFrameExtent.width * kFrameExtent.height};
     }
 
   private:

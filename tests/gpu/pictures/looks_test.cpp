@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours and views are data: none of this needs a device.
+#include "support/special.h"
 #include "voxtact/looks.h"
 
 #include <gmock/gmock.h>
@@ -13,10 +14,10 @@
 namespace voxtact {
 namespace {
 
+using test::kInfinity;
+using test::kNan;
 using testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kSides[] = {"front", "back", "left", "right", "top", "bottom"};
 
 /// Anisotropic, and turned about z.

@@ -16,11 +16,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr VkExtent2D kExtent{150, 130};
+constexpr VkExtent2D kPaintExtent{150, 130};
 constexpr Colour kMeshColour{0, 1, 0};
 constexpr Colour kContactColour{1, 0, 0};
 constexpr Colour kDiscardedColour{0, 0, 1};
-constexpr double kThreshold = 0.3;
+constexpr double kPaintThreshold = 0.3;
 constexpr std::size_t kPoses = 12;
 
 std::uint8_t channel(const Picture& picture, std::size_t pixel, std::size_t index) {
@@ -97,7 +97,7 @@ class PaintTest : public GpuTest {
         scene_.meshColour = kMeshColour;
         scene_.lighting.volume = scene_.lighting.mesh = false;
         scene_.paint.what = Paint::Contacts;
-        scene_.paint.threshold = kThreshold;
+        scene_.paint.threshold = kPaintThreshold;
         scene_.paint.contactColour = kContactColour;
         scene_.paint.discardedColour = kDiscardedColour;
         scene_.paint.through = 1;
@@ -132,7 +132,7 @@ class PaintTest : public GpuTest {
         scene_.volume = &*volume_;
         scene_.transferFunction = &*seen_;
         scene_.paint.transferFunction = &*decided_;
-        scene_.clip_from_world = framingCamera(data.grid, kExtent.width, kExtent.height);
+        scene_.clip_from_world = framingCamera(data.grid, kPaintExtent.width, kPaintExtent.height);
     }
     void placeMesh(const MeshData& data) {
         mesh_.emplace(upload(data));
@@ -145,10 +145,10 @@ class PaintTest : public GpuTest {
         placeMesh(makeFlat(-half, half, -half, half, 0));
     }
 
-    Picture picture() { return take(blocking().render(scene_, kExtent)); }
-    std::uint64_t survivors(double threshold = kThreshold) {
+    Picture picture() { return take(blocking().render(scene_, kPaintExtent)); }
+    std::uint64_t survivors(double threshold = kPaintThreshold) {
         const BatchItem item{scene_.mesh, scene_.volume, scene_.paint.transferFunction, {&scene_.world_from_object, 1}};
-        const View view{scene_.clip_from_world, kExtent.width, kExtent.height};
+        const View view{scene_.clip_from_world, kPaintExtent.width, kPaintExtent.height};
         return detectOne({.method = CountingMethod::Query}, item, view, threshold).count;
     }
     void expectWhatIsCounted(const VolumeData& data, const ValueRange& domain);
@@ -220,19 +220,19 @@ TEST_F(PaintTest, SurvivorsAreGrayByTheirOpacity) {
                             [](std::uint32_t x, std::uint32_t, std::uint32_t) { return (x + 0.5) / 100; }),
           {0, 1});
     placeMesh(makeFlat(0, 1, 0, 1, 0.5));
-    scene_.clip_from_world = flatView(0, 1, kExtent.width, kExtent.height).clip_from_world;
+    scene_.clip_from_world = flatView(0, 1, kPaintExtent.width, kPaintExtent.height).clip_from_world;
     scene_.paint.what = Paint::Discarded;
     const Picture decided = picture();
     constexpr double kDarkest = 0.25;
-    for (std::size_t x = 2; x + 2 < kExtent.width; ++x) {
-        const double opacity = (static_cast<double>(x) + 0.5) / kExtent.width;
-        if (std::abs(opacity - kThreshold) < 0.01) {
+    for (std::size_t x = 2; x + 2 < kPaintExtent.width; ++x) {
+        const double opacity = (static_cast<double>(x) + 0.5) / kPaintExtent.width;
+        if (std::abs(opacity - kPaintThreshold) < 0.01) {
             continue;
         }
-        const double gray = kDarkest + (1 - kDarkest) * (opacity - kThreshold) / (1 - kThreshold);
-        const std::size_t pixel = kExtent.width * (kExtent.height / 2) + x;
-        EXPECT_NEAR(channel(decided, pixel, 0), opacity > kThreshold ? 255 * gray : 0, 2) << x;
-        EXPECT_NEAR(channel(decided, pixel, 2), opacity > kThreshold ? 255 * gray : 255, 2) << x;
+        const double gray = kDarkest + (1 - kDarkest) * (opacity - kPaintThreshold) / (1 - kPaintThreshold);
+        const std::size_t pixel = kPaintExtent.width * (kPaintExtent.height / 2) + x;
+        EXPECT_NEAR(channel(decided, pixel, 0), opacity > kPaintThreshold ? 255 * gray : 0, 2) << x;
+        EXPECT_NEAR(channel(decided, pixel, 2), opacity > kPaintThreshold ? 255 * gray : 255, 2) << x;
     }
 }
 
@@ -343,9 +343,9 @@ TEST_F(PaintTest, TrianglesFromADetectorInTheSameCommandBuffer) {
     Results results = take(Results::create(context(), {.room = OutputRoom{.triangles = scene_.mesh->triangles()}}));
     const PaintedTriangles painted = take(PaintedTriangles::wrap(renderer(), results.triangleMask()));
     const BatchItem item{scene_.mesh, scene_.volume, scene_.paint.transferFunction, {&scene_.world_from_object, 1}};
-    const Batch batch{{&item, 1}, {scene_.clip_from_world, 400, 400}, kThreshold};
-    OwnImage image(gpu().device, kExtent);
-    RenderTargets targets = take(RenderTargets::create(renderer(), kExtent));
+    const Batch batch{{&item, 1}, {scene_.clip_from_world, 400, 400}, kPaintThreshold};
+    OwnImage image(gpu().device, kPaintExtent);
+    RenderTargets targets = take(RenderTargets::create(renderer(), kPaintExtent));
     scene_.paint.what = Paint::Triangles;
     scene_.paint.triangles = &painted;
     const VkCommandBuffer commands = image.raw.begin();
@@ -384,7 +384,7 @@ class PaintRefusalTest : public PaintTest {
     template <class Change> void refused(const std::string& text, Change change) {
         Scene scene = scene_;
         change(scene);
-        const Result<Picture> made = blocking().render(scene, kExtent);
+        const Result<Picture> made = blocking().render(scene, kPaintExtent);
         ASSERT_FALSE(made.ok()) << text;
         EXPECT_EQ(made.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(made.error().text, HasSubstr(text));
@@ -392,7 +392,7 @@ class PaintRefusalTest : public PaintTest {
 };
 
 TEST_F(PaintRefusalTest, Paints) {
-    take(blocking().render(scene_, kExtent));
+    take(blocking().render(scene_, kPaintExtent));
     const Context other = take(Context::create(gpu().device.contextDesc()));
     const Renderer otherRenderer = take(Renderer::create(other));
     const ControlPoint ramp[] = {{0, 0}, {1, 1}};

@@ -17,8 +17,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::uint32_t kSide = 40;
-constexpr VkExtent2D kExtent{kSide, kSide};
+constexpr std::uint32_t kPaintedSide = 40;
+constexpr VkExtent2D kPaintedExtent{kPaintedSide, kPaintedSide};
 
 /// A rectangle that fills the picture, in a volume without opacity, seen straight on.
 class PaintedVerticesTest : public GpuTest {
@@ -36,7 +36,7 @@ class PaintedVerticesTest : public GpuTest {
         setOpacity(0);
         scene_.mesh = &*mesh_;
         scene_.volume = &*volume_;
-        scene_.clip_from_world = flatView(0, 1, kSide, kSide).clip_from_world;
+        scene_.clip_from_world = flatView(0, 1, kPaintedSide, kPaintedSide).clip_from_world;
         scene_.lighting.volume = scene_.lighting.mesh = false;
         scene_.paint.what = Paint::Vertices;
     }
@@ -73,19 +73,20 @@ class PaintedVerticesTest : public GpuTest {
     }
     /// Every pixel, within what 8 bits a channel and a half float round.
     void expectColours(const Picture& picture) {
-        for (std::uint32_t y = 0; y < kSide; ++y) {
-            for (std::uint32_t x = 0; x < kSide; ++x) {
-                const Colour colour = colourAt((x + 0.5) / kSide, (y + 0.5) / kSide);
+        for (std::uint32_t y = 0; y < kPaintedSide; ++y) {
+            for (std::uint32_t x = 0; x < kPaintedSide; ++x) {
+                const Colour colour = colourAt((x + 0.5) / kPaintedSide, (y + 0.5) / kPaintedSide);
                 for (std::size_t channel = 0; channel < 3; ++channel) {
-                    ASSERT_NEAR(picture.rgba[4 * std::size_t{kSide * y + x} + channel], 255 * colour[channel], 1.5)
+                    ASSERT_NEAR(picture.rgba[4 * std::size_t{kPaintedSide * y + x} + channel], 255 * colour[channel],
+                                1.5)
                         << x << ", " << y << ", channel " << channel;
                 }
             }
         }
     }
-    [[nodiscard]] Picture picture() { return take(blocking_->render(scene_, kExtent)); }
+    [[nodiscard]] Picture picture() { return take(blocking_->render(scene_, kPaintedExtent)); }
     void refused(const char* text, const Scene& scene) {
-        const Result<Picture> made = blocking_->render(scene, kExtent);
+        const Result<Picture> made = blocking_->render(scene, kPaintedExtent);
         ASSERT_FALSE(made.ok()) << text;
         EXPECT_EQ(made.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(made.error().text, HasSubstr(text));
@@ -161,7 +162,7 @@ TEST_F(PaintedVerticesTest, RefusesWhatDoesNotFit) {
     refused("colours for 3 vertices, the mesh has 4", scene);
     const PaintedVertices recordedNowhere = take(PaintedVertices::create(renderer(), colours()));
     scene.paint.vertices = &recordedNowhere;
-    const Result<Picture> made = blocking_->render(scene, kExtent);
+    const Result<Picture> made = blocking_->render(scene, kPaintedExtent);
     ASSERT_FALSE(made.ok());
     EXPECT_EQ(made.error().code, ErrorCode::NotReady);
     scene = scene_;

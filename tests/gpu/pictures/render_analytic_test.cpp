@@ -9,7 +9,7 @@
 namespace voxtact::test {
 namespace {
 
-constexpr VkExtent2D kExtent{8, 8};
+constexpr VkExtent2D kSmallExtent{8, 8};
 constexpr ColourPoint kBlack[] = {{0, {0, 0, 0}}};
 
 /// A cube with a corner at the world's origin.
@@ -29,7 +29,7 @@ class RenderAnalyticTest : public PictureTest {
         Scene scene;
         scene.volume = &volume;
         scene.transferFunction = &function;
-        scene.clip_from_world = flatView(0, side, kExtent.width, kExtent.height).clip_from_world;
+        scene.clip_from_world = flatView(0, side, kSmallExtent.width, kSmallExtent.height).clip_from_world;
         scene.background = {1, 1, 1};
         scene.lighting.volume = false;
         scene.jitter = false;
@@ -37,7 +37,7 @@ class RenderAnalyticTest : public PictureTest {
     }
     /// The red of a pixel in the middle.
     [[nodiscard]] static int red(const Picture& picture) {
-        return picture.rgba[std::size_t{4} * (kExtent.width * (kExtent.height / 2) + kExtent.width / 2)];
+        return picture.rgba[std::size_t{4} * (kSmallExtent.width * (kSmallExtent.height / 2) + kSmallExtent.width / 2)];
     }
 };
 
@@ -49,7 +49,7 @@ TEST_F(RenderAnalyticTest, AUniformVolumeHalvesTheLightEveryMillimetre) {
         renderer(), queue(), {.opacity = {kHalf, {0, 255}, 16}, .colours = kBlack, .opacityUnit = 1, .step = 0.25}));
     for (const double side : {0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
         const Volume volume = upload(makeBytes(cube(4, side), [](auto...) { return 255.0; }));
-        const Picture picture = take(blocking().render(sceneOf(volume, function, side), kExtent));
+        const Picture picture = take(blocking().render(sceneOf(volume, function, side), kSmallExtent));
         EXPECT_NEAR(red(picture), 255 * std::exp2(-side), 1) << side << " mm";
     }
 }
@@ -58,19 +58,19 @@ TEST_F(RenderAnalyticTest, ABrickThatCanBeSeenIsNotSkipped) {
     // One entry of 16 is opaque, number 6, which is at scalar 6.5. Look-ups interpolate: scalars from 5.5 to 7.5 see
     // it, in a volume of one scalar that whole bricks are decided by.
     constexpr ControlPoint kSpike[] = {{6, 0}, {6.5, 1}, {7, 0}};
-    constexpr double kSide = 2;
+    constexpr double kSquare = 2;
     const RenderTransferFunction function = take(RenderTransferFunction::upload(
         renderer(), queue(), {.opacity = {kSpike, {0, 16}, 16}, .colours = kBlack, .opacityUnit = 0.1, .step = 0.25}));
     for (double scalar = 5.05; scalar < 8; scalar += 0.1) {
         const Volume volume = take(Volume::upload(
             context(), queue(),
-            makeVolume<float>(cube(16, kSide), ScalarType::Float32, [&](auto...) { return scalar; }).view(),
+            makeVolume<float>(cube(16, kSquare), ScalarType::Float32, [&](auto...) { return scalar; }).view(),
             {.bricks = true}));
         const RenderBricks bricks = take(RenderBricks::create(renderer(), volume));
-        Scene scene = sceneOf(volume, function, kSide);
-        const Picture without = take(blocking().render(scene, kExtent));
+        Scene scene = sceneOf(volume, function, kSquare);
+        const Picture without = take(blocking().render(scene, kSmallExtent));
         scene.bricks = &bricks;
-        const Picture with = take(blocking().render(scene, kExtent));
+        const Picture with = take(blocking().render(scene, kSmallExtent));
         EXPECT_EQ(red(with), red(without)) << scalar;
         if (scalar > 5.6 && scalar < 7.4) {
             EXPECT_LT(red(with), 250) << scalar;

@@ -10,8 +10,8 @@
 namespace voxtact::test {
 namespace {
 
-constexpr VkExtent2D kExtent{56, 48};
-constexpr ControlPoint kOpacity[] = {{30, 0}, {200, 0.3}};
+constexpr VkExtent2D kOrderExtent{56, 48};
+constexpr ControlPoint kOrderOpacity[] = {{30, 0}, {200, 0.3}};
 
 class RenderOrderTest : public PictureTest {
   protected:
@@ -20,10 +20,10 @@ class RenderOrderTest : public PictureTest {
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        function_.opacity = {kOpacity, {0, 255}, 256};
+        function_.opacity = {kOrderOpacity, {0, 255}, 256};
         function_.opacityUnit = 20;
         function_.step = 5;
-        scene_.clip_from_world = framingCamera(data_.grid, kExtent.width, kExtent.height);
+        scene_.clip_from_world = framingCamera(data_.grid, kOrderExtent.width, kOrderExtent.height);
     }
 
     VolumeData data_ = take(makeBuiltinVolume("head:32"));
@@ -32,14 +32,14 @@ class RenderOrderTest : public PictureTest {
 };
 
 TEST_F(RenderOrderTest, UpdatesTakeEffectInCommandBufferOrder) {
-    OwnImage image(gpu().device, kExtent);
+    OwnImage image(gpu().device, kOrderExtent);
     constexpr ControlPoint kOther[] = {{90, 0}, {100, 0.5}};
     const RenderTransferFunctionDesc first = function_;
     RenderTransferFunctionDesc second = first;
     second.opacity.points = kOther;
     const Volume volume = upload(data_);
     RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), first));
-    RenderTargets targets = take(RenderTargets::create(renderer(), kExtent));
+    RenderTargets targets = take(RenderTargets::create(renderer(), kOrderExtent));
     scene_.volume = &volume;
     scene_.transferFunction = &function;
     const VkCommandBuffer commands = image.raw.begin();
@@ -52,7 +52,7 @@ TEST_F(RenderOrderTest, UpdatesTakeEffectInCommandBufferOrder) {
     const auto expected = [&](const RenderTransferFunctionDesc& desc) {
         const RenderTransferFunction alone = take(RenderTransferFunction::upload(renderer(), queue(), desc));
         scene_.transferFunction = &alone;
-        return take(blocking().render(scene_, kExtent)).rgba;
+        return take(blocking().render(scene_, kOrderExtent)).rgba;
     };
     EXPECT_EQ(std::vector<std::uint8_t>(before, before + image.bytes()), expected(first));
     EXPECT_EQ(std::vector<std::uint8_t>(after, after + image.bytes()), expected(second));
@@ -63,11 +63,11 @@ TEST_F(RenderOrderTest, TimestampsOfMeshAndVolume) {
     if (!gpu().device.hasTimestamps()) {
         GTEST_SKIP() << "the queue has no timestamps";
     }
-    OwnImage image(gpu().device, kExtent);
+    OwnImage image(gpu().device, kOrderExtent);
     const Volume volume = upload(data_);
     const Mesh mesh = upload(take(makeEllipsoid(500)));
     const RenderTransferFunction function = take(RenderTransferFunction::upload(renderer(), queue(), function_));
-    RenderTargets targets = take(RenderTargets::create(renderer(), kExtent));
+    RenderTargets targets = take(RenderTargets::create(renderer(), kOrderExtent));
     scene_.volume = &volume;
     scene_.transferFunction = &function;
     scene_.mesh = &mesh;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render_reference.h"
+#include "core/geometry/vec3.h"
 
 #include "gpu_fixture.h"
 
@@ -21,16 +22,6 @@ Vec3 operator-(const Vec3& a, const Vec3& b) {
 Vec3 operator*(double s, const Vec3& a) {
     return {s * a[0], s * a[1], s * a[2]};
 }
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double size(const Vec3& a) {
-    return std::sqrt(dot(a, a));
-}
-
 class Caster {
   public:
     explicit Caster(const ReferenceScene& scene)
@@ -49,10 +40,10 @@ class Caster {
     [[nodiscard]] Colour pixel(double clipX, double clipY) const {
         const Vec3 near = transformPoint(world_from_clip_, {clipX, clipY, 0});
         const Vec3 far = transformPoint(world_from_clip_, {clipX, clipY, 1});
-        const double length = size(far - near);
-        const Vec3 direction = (1 / length) * (far - near);
+        const double distance = length(far - near);
+        const Vec3 direction = (1 / distance) * (far - near);
         const double mesh = meshDistance(near, direction);
-        const double end = std::min(length, mesh);
+        const double end = std::min(distance, mesh);
         Colour sum{};
         double seen = 1;
         const double step = scene_.function.step;
@@ -66,7 +57,7 @@ class Caster {
             const double face = cut * std::clamp(2 - behind / faceDepth(), 0.0, 1.0);
             add(world, direction, piece, {part.normal, face}, sum, seen);
         }
-        const Colour& behind = mesh < length ? scene_.meshColour : scene_.background;
+        const Colour& behind = mesh < distance ? scene_.meshColour : scene_.background;
         return sum + seen * behind;
     }
 
@@ -103,7 +94,7 @@ class Caster {
                 part.to = std::min(part.to, at);
             } else if (at > part.from) {
                 part.from = at;
-                part.normal = (1 / size(plane.normal)) * plane.normal;
+                part.normal = (1 / length(plane.normal)) * plane.normal;
             }
         }
         return part;
@@ -153,7 +144,7 @@ class Caster {
     /// Between a normal and the way to the eye.
     static Vec3 halfWay(const Vec3& normal, const Vec3& direction) {
         const Vec3 sum = normal - direction;
-        return (1 / size(sum)) * sum;
+        return (1 / length(sum)) * sum;
     }
 
     /// Light on a surface with a normal of unit length, either way: what it makes of a colour, and what it adds.
@@ -167,14 +158,14 @@ class Caster {
         const Vec3 up = alongPicture({0, 1, 0}, {0, -1, 0});
         const Vec3 forward = alongPicture({0, 0, 0}, {0, 0, 1});
         Vec3 side = light.sideFrom[0] * right + light.sideFrom[1] * up - light.sideFrom[2] * forward;
-        side = (1 / size(side)) * side;
+        side = (1 / length(side)) * side;
         const Vec3 half = side - direction;
         double bySide = 0;
         double glint = 0;
         const double front = (1 + outside(normal, direction)) / 2;
         for (const auto& [weight, out] : {std::pair(front, normal), std::pair(1 - front, -1.0 * normal)}) {
             bySide += weight * std::max(dot(out, side), 0.0);
-            glint += weight * std::pow(std::max(dot(out, half) / size(half), 0.0), light.shininess);
+            glint += weight * std::pow(std::max(dot(out, half) / length(half), 0.0), light.shininess);
         }
         const double facing = std::abs(dot(normal, direction));
         return {light.ambient + light.diffuse * facing + light.side * bySide,
@@ -186,7 +177,7 @@ class Caster {
     }
     [[nodiscard]] Vec3 alongPicture(const Vec3& from, const Vec3& to) const {
         const Vec3 way = transformPoint(world_from_clip_, to) - transformPoint(world_from_clip_, from);
-        return (1 / size(way)) * way;
+        return (1 / length(way)) * way;
     }
 
     [[nodiscard]] double voxel(const std::array<int, 3>& at) const {
@@ -260,8 +251,8 @@ class Caster {
         Light light{1, 0};
         if (scene_.lighting.volume) {
             const Vec3 slope = gradient(texture);
-            const bool isFlat = size(slope) < 1e-9;
-            const Vec3 normal = isFlat ? direction : (1 / size(slope)) * slope;
+            const bool isFlat = length(slope) < 1e-9;
+            const Vec3 normal = isFlat ? direction : (1 / length(slope)) * slope;
             light = lightOn(normal, direction);
             const double open = isFlat ? 1 : openness(world, halfWay(outside(normal, direction) * normal, direction));
             const double left = 1 - scene_.lighting.occlusion * (1 - open);

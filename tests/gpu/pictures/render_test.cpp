@@ -78,8 +78,8 @@ TEST_F(RenderTest, BytesAreFilteredAsFloatsAre) {
         return std::floor(127 + 120 * std::sin(0.3 * x) * std::cos(0.4 * y) * std::sin(0.5 * z + 1));
     });
     place(bytes);
-    constexpr ControlPoint kBytes[] = {{60, 0}, {255, 0.3}};
-    scene_.function.opacity = {kBytes, {0, 255}, 256};
+    constexpr ControlPoint kFunction[] = {{60, 0}, {255, 0.3}};
+    scene_.function.opacity = {kFunction, {0, 255}, 256};
     look({20, 12, 9}, {0, 0, 0});
     // Samplers may filter bytes with 8-bit weights and results.
     expectSame(picture(0.25), 2, 12);
@@ -137,8 +137,8 @@ TEST_F(RenderTest, SkippedBricksAreNotMissed) {
     place(makeBytes(grid, [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
         return (x / 9 + y / 7 + z / 11) % 5 == 0 && x % 9 > 3 ? 200.0 : 10.0;
     }));
-    constexpr ControlPoint kBytes[] = {{20, 0}, {255, 0.5}};
-    scene_.function.opacity = {kBytes, {0, 255}, 256};
+    constexpr ControlPoint kFunction[] = {{20, 0}, {255, 0.5}};
+    scene_.function.opacity = {kFunction, {0, 255}, 256};
     for (const Vec3& side : kSides) {
         look(side, {0, 0, 0});
         const Picture all = picture(0.1, false, true);

@@ -32,7 +32,7 @@ class BricksTest : public RawGpuTest {
     }
 };
 
-VolumeData randomVolume(const Grid& grid, ScalarType type, std::mt19937_64& random) {
+VolumeData randomBricks(const Grid& grid, ScalarType type, std::mt19937_64& random) {
     VolumeData out;
     out.grid = grid;
     out.type = type;
@@ -97,7 +97,7 @@ void expectBricks(const std::vector<shader::vec4>& bricks, const VolumeView& vol
     }
 }
 
-constexpr ScalarType kTypes[] = {ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32};
+constexpr ScalarType kBrickTypes[] = {ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32};
 
 TEST_F(BricksTest, AreTheHostsRanges) {
     std::mt19937_64 random(testSeed());
@@ -106,8 +106,8 @@ TEST_F(BricksTest, AreTheHostsRanges) {
         grids.push_back(randomGrid(random));
     }
     for (const Grid& grid : grids) {
-        for (const ScalarType type : kTypes) {
-            const VolumeData data = randomVolume(grid, type, random);
+        for (const ScalarType type : kBrickTypes) {
+            const VolumeData data = randomBricks(grid, type, random);
             const Volume volume = take(Volume::upload(context(), queue(), data.view(), {.bricks = true}));
             SCOPED_TRACE(std::to_string(grid.size[0]) + "x" + std::to_string(grid.size[1]) + "x" +
                          std::to_string(grid.size[2]) + " " + toString(type));
@@ -119,7 +119,7 @@ TEST_F(BricksTest, AreTheHostsRanges) {
 TEST_F(BricksTest, OfAWrappedImage) {
     std::mt19937_64 random(testSeed());
     const Grid grid = randomGrid(random);
-    const VolumeData data = randomVolume(grid, ScalarType::Int16, random);
+    const VolumeData data = randomBricks(grid, ScalarType::Int16, random);
     WrappedVolume wrapped;
     wrapped.grid = grid;
     wrapped.bricks = true;
@@ -155,8 +155,8 @@ TEST_F(BricksTest, OfFloatsThatAreNotNumbers) {
     cmdUpdate(volume, {{}, wrapped.grid.size});
     const std::vector<shader::vec4> bricks = readBricks(volume);
     ASSERT_EQ(bricks.size(), 4U);
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(bricks[0], (shader::vec4{kInfinity, -kInfinity, kInfinity, -kInfinity}));
+    constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(bricks[0], (shader::vec4{kFloatInfinity, -kFloatInfinity, kFloatInfinity, -kFloatInfinity}));
     EXPECT_EQ(bricks[2], (shader::vec4{5, 5, 5, 5}));
 }
 

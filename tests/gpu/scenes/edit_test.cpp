@@ -5,6 +5,7 @@
 #include "interception.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"
+#include "support/special.h"
 #include "voxtact/cpu.h"
 
 #include <gmock/gmock.h>
@@ -17,12 +18,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr ValueRange kBytes{0, 255};
-constexpr ControlPoint kAllOpaque[] = {{0, 1}};
 constexpr ScalarType kTypes[] = {ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32};
 constexpr VkBufferUsageFlags kSource = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
-std::uint32_t below(std::mt19937_64& random, std::uint32_t end) {
+std::uint32_t drawnBelow(std::mt19937_64& random, std::uint32_t end) {
     return static_cast<std::uint32_t>(random() % end);
 }
 
@@ -62,11 +61,11 @@ std::vector<std::byte> voxelOf(ScalarType type, double value) {
 double randomValue(ScalarType type, std::mt19937_64& random) {
     switch (type) {
     case ScalarType::UInt8:
-        return below(random, 256);
+        return drawnBelow(random, 256);
     case ScalarType::Int16:
-        return static_cast<double>(below(random, 65536)) - 32768;
+        return static_cast<double>(drawnBelow(random, 65536)) - 32768;
     case ScalarType::UInt16:
-        return below(random, 65536);
+        return drawnBelow(random, 65536);
     case ScalarType::Float32:
         break;
     }
@@ -90,10 +89,10 @@ VolumeData randomVolume(std::array<std::uint32_t, 3> size, ScalarType type, std:
 
 VoxelBox randomBox(const Grid& grid, std::mt19937_64& random) {
     VoxelBox box;
-    const bool one = below(random, 3) == 0;
+    const bool one = drawnBelow(random, 3) == 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.first[axis] = below(random, grid.size[axis]);
-        box.size[axis] = one ? 1 : 1 + below(random, grid.size[axis] - box.first[axis]);
+        box.first[axis] = drawnBelow(random, grid.size[axis]);
+        box.size[axis] = one ? 1 : 1 + drawnBelow(random, grid.size[axis] - box.first[axis]);
     }
     return box;
 }
@@ -152,7 +151,7 @@ class EditTest : public RawGpuTest {
     void cmdRandomEdit(VkCommandBuffer commands, Volume& volume, VolumeData& data, std::mt19937_64& random) {
         const VoxelBox box = randomBox(data.grid, random);
         const std::size_t count = std::size_t{box.size[0]} * box.size[1] * box.size[2];
-        const std::uint32_t kind = below(random, 4);
+        const std::uint32_t kind = drawnBelow(random, 4);
         if (kind < 2) {
             const VoxelRegion region = kind == 0 ? VoxelRegion(box) : VoxelRegion(randomBall(data.grid, random));
             const double value = randomValue(data.type, random);
@@ -190,7 +189,7 @@ TEST_F(EditTest, RandomEditsGiveTheEditedVolume) {
     std::mt19937_64 random(testSeed());
     for (int round = 0; round < 40; ++round) {
         const ScalarType type = kTypes[round % 4];
-        const auto side = [&] { return 1 + below(random, 33); };
+        const auto side = [&] { return 1 + drawnBelow(random, 33); };
         VolumeData data = randomVolume({side(), side(), side()}, type, random);
         SCOPED_TRACE("round " + std::to_string(round) + " " + toString(type));
         Volume volume = editable(data);
@@ -294,7 +293,7 @@ TEST_F(EditTest, ABallIsOneDispatchHoweverManyRowsItHas) {
 
 TEST_F(EditTest, CountsFollow) {
     std::mt19937_64 random(testSeed());
-    VolumeData data = makeBytes(unitGrid(12), [&](auto...) { return below(random, 256); });
+    VolumeData data = makeBytes(unitGrid(12), [&](auto...) { return drawnBelow(random, 256); });
     Volume volume = editable(data);
     const TransferFunction function = upload(byteRamp(), kBytes);
     const Mesh mesh = upload(makeCube(0.2, 0.9));
@@ -378,7 +377,6 @@ TEST_F(EditTest, WhatTheHostKnowsIsWidened) {
 
 TEST_F(EditTest, ValuesThatATypeCannotHold) {
     std::mt19937_64 random(testSeed());
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const std::vector<double> refused[] = {{-1, 256, 0.5}, {-32769, 32768, 0.1}, {-1, 65536, 1e300}, {-1e39, 3.41e38}};
     const std::vector<double> taken[] = {{0, 255}, {-32768, 32767}, {0, 65535}, {0.1, -3.4028234663852886e38}};
     for (std::size_t i = 0; i < 4; ++i) {

@@ -13,8 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr ValueRange kBytes{0, 255};
-constexpr ControlPoint kAllOpaque[] = {{0, 1}};
 constexpr ControlPoint kThousandRamp[] = {{0, 0}, {1000, 1}};
 
 class TableUpdateTest : public GpuTest {

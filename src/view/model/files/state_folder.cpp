@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 20U;
+constexpr std::uintmax_t kMostStateBytes = std::uintmax_t{1} << 20U;
 
 /// An absolute path, as the XDG base directory specification asks for; empty otherwise.
 fs::path folderOf(const char* variable) {
@@ -36,7 +36,7 @@ fs::path stateFolder() {
 
 RecentFiles::RecentFiles(fs::path file) : file_(std::move(file)) {
     std::error_code failed;
-    if (!fs::is_regular_file(file_, failed) || fs::file_size(file_, failed) > kMostBytes || failed) {
+    if (!fs::is_regular_file(file_, failed) || fs::file_size(file_, failed) > kMostStateBytes || failed) {
         return;
     }
     std::ifstream stream(file_, std::ios::binary);

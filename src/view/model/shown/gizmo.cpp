@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/shown/gizmo.h"
+#include "core/geometry/vec3.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,26 +14,6 @@ namespace {
 constexpr double kFlat = 0.1; // sine of the angle between a plane and the ray
 constexpr double kDegree = std::numbers::pi / 180;
 
-double dot(const Vec3& a, const Vec3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 plus(const Vec3& a, const Vec3& b, double times) {
-    return {a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]};
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double length(const Vec3& a) {
-    return std::sqrt(dot(a, a));
-}
-
-Vec3 unit(const Vec3& a) {
-    return plus({}, a, 1 / length(a));
-}
-
 double snapped(double value, double step) {
     return step > 0 ? std::round(value / step) * step : value;
 }
@@ -45,7 +26,7 @@ std::optional<double> alongAxis(const Gizmo& gizmo, std::size_t axis, const Ray&
     if (!(sine2 > kFlat * kFlat)) {
         return std::nullopt;
     }
-    const Vec3 between = plus(ray.origin, gizmo.at, -1);
+    const Vec3 between = step(ray.origin, gizmo.at, -1);
     return (dot(between, line) - cosine * dot(between, ray.direction)) / sine2;
 }
 
@@ -54,13 +35,13 @@ std::optional<Vec3> inPlane(const Gizmo& gizmo, std::size_t axis, const Ray& ray
     if (edgeOn(gizmo, axis, ray.direction)) {
         return std::nullopt;
     }
-    const Vec3 between = plus(ray.origin, gizmo.at, -1);
+    const Vec3 between = step(ray.origin, gizmo.at, -1);
     const double far = -dot(between, gizmo.axes[axis]) / dot(ray.direction, gizmo.axes[axis]);
-    return plus(between, ray.direction, far);
+    return step(between, ray.direction, far);
 }
 
 double distanceOf(const Ray& ray, const Vec3& point) {
-    return length(cross(plus(point, ray.origin, -1), ray.direction));
+    return length(cross(step(point, ray.origin, -1), ray.direction));
 }
 
 bool inSquare(const Gizmo& gizmo, std::size_t axis, const Vec3& place) {
@@ -70,19 +51,19 @@ bool inSquare(const Gizmo& gizmo, std::size_t axis, const Vec3& place) {
     });
 }
 
-Vec3 shiftOf(const Gizmo& gizmo, const Handle& handle, const Ray& from, const Ray& to, double step) {
+Vec3 shiftOf(const Gizmo& gizmo, const Handle& handle, const Ray& from, const Ray& to, double interval) {
     Vec3 shift{};
     if (handle.kind == HandleKind::Arrow) {
         const auto before = alongAxis(gizmo, handle.axis, from);
         const auto after = alongAxis(gizmo, handle.axis, to);
-        return before && after ? plus({}, gizmo.axes[handle.axis], snapped(*after - *before, step)) : shift;
+        return before && after ? step({}, gizmo.axes[handle.axis], snapped(*after - *before, interval)) : shift;
     }
     const auto before = inPlane(gizmo, handle.axis, from);
     const auto after = inPlane(gizmo, handle.axis, to);
     for (std::size_t side = 0; before && after && side < 3; ++side) {
         if (side != handle.axis) {
-            const double far = dot(plus(*after, *before, -1), gizmo.axes[side]);
-            shift = plus(shift, gizmo.axes[side], snapped(far, step));
+            const double far = dot(step(*after, *before, -1), gizmo.axes[side]);
+            shift = step(shift, gizmo.axes[side], snapped(far, interval));
         }
     }
     return shift;
@@ -103,8 +84,8 @@ double turnOf(const Gizmo& gizmo, const Handle& handle, const Ray& from, const R
 Ray rayThrough(const Camera& camera, const Extent& extent, double x, double y) noexcept {
     const Mat4 eye = eyeFromWorld(camera.direction);
     const double mm = millimetresOfPixel(camera, extent);
-    Vec3 origin = plus(camera.target, {eye[0], eye[4], eye[8]}, (x - extent.width / 2.0) * mm);
-    origin = plus(origin, {eye[1], eye[5], eye[9]}, (y - extent.height / 2.0) * mm);
+    Vec3 origin = step(camera.target, {eye[0], eye[4], eye[8]}, (x - extent.width / 2.0) * mm);
+    origin = step(origin, {eye[1], eye[5], eye[9]}, (y - extent.height / 2.0) * mm);
     return {origin, {eye[2], eye[6], eye[10]}};
 }
 
@@ -141,14 +122,14 @@ Handle handleAt(const Gizmo& gizmo, const Ray& ray, double reach) noexcept {
     };
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (const auto place = inPlane(gizmo, axis, ray); place && length(*place) > 0) {
-            const Vec3 onRing = plus(gizmo.at, unit(*place), kRingRadius * gizmo.size);
+            const Vec3 onRing = step(gizmo.at, unit(*place), kRingRadius * gizmo.size);
             offer(HandleKind::Ring, axis, distanceOf(ray, onRing));
         }
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (const auto along = alongAxis(gizmo, axis, ray)) {
             const double part = std::clamp(*along, kArrowBegin * gizmo.size, gizmo.size);
-            offer(HandleKind::Arrow, axis, distanceOf(ray, plus(gizmo.at, gizmo.axes[axis], part)));
+            offer(HandleKind::Arrow, axis, distanceOf(ray, step(gizmo.at, gizmo.axes[axis], part)));
         }
     }
     for (std::size_t axis = 0; best.kind == HandleKind::None && axis < 3; ++axis) {
@@ -166,7 +147,7 @@ Mat4 dragged(const Mat4& world_from_object, const Gizmo& gizmo, const Handle& ha
     case HandleKind::Arrow:
     case HandleKind::Square:
         return placedAt(world_from_object,
-                        plus(originOf(world_from_object), shiftOf(gizmo, handle, from, to, snap.millimetres), 1));
+                        step(originOf(world_from_object), shiftOf(gizmo, handle, from, to, snap.millimetres), 1));
     case HandleKind::Ring:
         return turnedAbout(world_from_object, gizmo.axes[handle.axis],
                            snapped(turnOf(gizmo, handle, from, to), snap.degrees));
