@@ -44,11 +44,22 @@ set(VOXTACT_STANDARD_HEADERS
 # file still includes what it uses: clang-tidy reads each by itself. Not for the libraries that others build, which include
 # little, nor for what includes CLI11: of that, GCC compiles more than it needs, three times as long.
 function(voxtact_precompile target)
-  if(NOT VOXTACT_PRECOMPILE)
-    return()
+  if(VOXTACT_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${VOXTACT_STANDARD_HEADERS} ${ARGN})
+    voxtact_precompiled_options(${target})
   endif()
-  target_precompile_headers(${target} PRIVATE ${VOXTACT_STANDARD_HEADERS} ${ARGN})
-  # The first is for ccache. The others: of a precompiled std::string GCC 12 warns falsely where it appends (as -Wrestrict).
+endfunction()
+
+# voxtact_precompiled(TARGET OTHER): what OTHER has precompiled serves TARGET, which is compiled by the same options.
+function(voxtact_precompiled target other)
+  if(VOXTACT_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM ${other})
+    voxtact_precompiled_options(${target})
+  endif()
+endfunction()
+
+# The first is for ccache. The others: of a precompiled std::string GCC 12 warns falsely where it appends (as -Wrestrict).
+function(voxtact_precompiled_options target)
   target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-array-bounds>")
 endfunction()
 
