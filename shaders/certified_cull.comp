@@ -2,7 +2,9 @@
 // The projection `conservative`, what of a mesh may touch: a lane a cluster of a pair, or, with RUNS, a run of a cluster
 // that was kept. Those whose boxes meet a brick that may be opaque go on to the next pass. Where stopAtFirst is wanted,
 // a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its pair. With
-// MARGIN the boxes are grown by it, and what is as far from the vertex along the grid's axes is looked at as well.
+// MARGIN the boxes are grown by it, and what is as far from the vertex along the grid's axes is looked at as well. With
+// CLEARANCE those go on that may be nearer to something opaque than what is known of their pair; SCOUT is the first step,
+// which ends here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -12,6 +14,10 @@
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputsWanted = 0;
 #include "certified_scene.glsl"
+#ifdef CLEARANCE
+#include "certified_clearance_blocks.glsl"
+#include "certified_clearance_near.glsl"
+#endif
 
 /// A box of more bricks is kept without a look: its triangles are looked at anyway.
 const int kMostBricksOfABox = 512;
@@ -61,6 +67,33 @@ CertifiedBox boxOf(uint number) {
                         uintBitsToFloat(indices[at + 5]));
 }
 
+#ifdef CLEARANCE
+/// Whether something nearer than what is known may be near a node. What certainly is, is made known.
+bool isNear(Node node) {
+    const CertifiedPair transform = transforms[node.pair];
+    const CertifiedReach reach = certifiedBoxReach(transform, boxOf(node.number));
+    ClearanceFound found = nothingFound();
+    if (reach.delta <= CERTIFIED_MOST_DELTA) {
+        const vec3 position = positionOf(constants.mesh, 3 * triangleAt(node.number * kNodeTriangles));
+        found = lookAround(clearanceSpace(node.pair), reach,
+                           certifiedVertex(transform, position.x, position.y, position.z).point);
+    } else {
+        found.open = anyBlock() ? 0.0 : found.open;
+    }
+    if (isCut()) {
+        found = ClearanceFound(VOXTACT_CLEARANCE_FAR, 0.0);
+    }
+    if (found.hi < clearanceHi(node.pair)) {
+        foundAt(node.pair, found.hi);
+    }
+#ifdef SCOUT
+    if (found.open < VOXTACT_CLEARANCE_FAR) {
+        leaveOpen(node.pair, found.open);
+    }
+#endif
+    return found.open < clearanceSpace(node.pair).margin;
+}
+#else
 /// Whether a box of cells has a brick that may have an opaque point.
 bool mayTouch(CellBox cells) {
     if (isEmpty(cells)) {
@@ -139,6 +172,7 @@ bool vertexProves(CertifiedPair transform, uint number, float delta) {
     return placeProves(at, at, delta);
 #endif
 }
+#endif
 
 void main() {
     if (gl_LocalInvocationIndex == 0) {
@@ -151,6 +185,16 @@ void main() {
 #ifndef RUNS
     countWork(VOXTACT_WORK_CLUSTERS, node.some ? 1 : 0);
 #endif
+#ifdef CLEARANCE
+    if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
+        keep = isNear(node);
+    }
+#ifdef SCOUT
+    else if (keep) {
+        leaveOpen(node.pair, anyBlock() ? 0.0 : VOXTACT_CLEARANCE_FAR);
+    }
+#endif
+#else
     if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
         const CertifiedPair transform = transforms[node.pair];
 #ifdef MARGIN
@@ -168,6 +212,7 @@ void main() {
             keep = false;
         }
     }
+#endif
     uint slot = 0;
     if (keep) {
         slot = atomicAdd(kept, 1u);

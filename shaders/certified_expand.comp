@@ -107,7 +107,7 @@ void main() {
     }
     if (own.some) {
         const TriangleVertices at = verticesOf(transforms[own.pair], own.number);
-        const CertifiedBounds bounds = boundsOf(at);
+        const CertifiedBounds bounds = boundsOf(own.pair, at);
         const CellBox cells = cellsOf(bounds);
         const bool wanted = !isDone(own.pair);
         if (isEmpty(cells)) {

@@ -81,7 +81,7 @@ void decideShare(Share given) {
     Share share = given;
     const CertifiedPair transform = transforms[share.pair];
     const TriangleVertices at = verticesOf(transform, share.number);
-    const CertifiedBounds bounds = boundsOf(at);
+    const CertifiedBounds bounds = boundsOf(share.pair, at);
     const CellBox cells = share.single ? CellBox(share.cell, share.cell) : cellsOf(bounds);
     if (isEmpty(cells) || (!share.single && share.large != (isLarge(cells) || !bounds.usable))) {
         return;

@@ -62,7 +62,7 @@ void main() {
     }
     const CertifiedPair transform = transforms[entry.x];
     const TriangleVertices at = verticesOf(transform, entry.y);
-    const CertifiedBounds bounds = boundsOf(at);
+    const CertifiedBounds bounds = boundsOf(entry.x, at);
     const CellBox cells = cellsOf(bounds);
     const CellBox box = bricksOf(cells);
     const int count = volumeOf(box);

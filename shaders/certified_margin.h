@@ -254,8 +254,15 @@ EXACT float marginGap(float along, float lo, float hi, float middle, float radiu
     return along < 0.0f ? before : after;
 }
 
-/// Whether all that `reach` says triangles are in is certainly farther from a box than the margin (MARGIN_FARTHER).
-EXACT bool marginReachFarther(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint radius) {
+/// A gap between the shadows of two bodies on a direction.
+struct MarginApart {
+    float gap;
+    float square; // of the direction
+    float slack;  // flat
+};
+
+/// Of a box, and of all that `reach` says triangles are in.
+EXACT MarginApart marginReachApart(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint radius) {
     const VoxelPoint apart = voxelPoint(marginApart(reach.lo.x, reach.hi.x, middle.x, radius.x),
                                         marginApart(reach.lo.y, reach.hi.y, middle.y, radius.y),
                                         marginApart(reach.lo.z, reach.hi.z, middle.z, radius.z));
@@ -267,8 +274,18 @@ EXACT bool marginReachFarther(MarginSpace by, CertifiedReach reach, VoxelPoint m
     PRECISE float farthest =
         certifiedMax(voxelLength(voxelDifference(reach.lo, middle)), voxelLength(voxelDifference(reach.hi, middle))) +
         voxelLength(radius);
-    PRECISE float slack = marginSlack(by, reach.delta, farthest) * 2.0f + MARGIN_FARTHER;
-    return marginBeyond(by, slack, gap, voxelDot(along, along));
+    MarginApart found;
+    found.gap = gap;
+    found.square = voxelDot(along, along);
+    found.slack = marginSlack(by, reach.delta, farthest);
+    return found;
+}
+
+/// Whether all that `reach` says triangles are in is certainly farther from a box than the margin (MARGIN_FARTHER).
+EXACT bool marginReachFarther(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint radius) {
+    const MarginApart apart = marginReachApart(by, reach, middle, radius);
+    PRECISE float slack = apart.slack * 2.0f + MARGIN_FARTHER;
+    return marginBeyond(by, slack, apart.gap, apart.square);
 }
 
 /// marginBoxBeyond() of a cube, given by its middle and half its side.

@@ -66,7 +66,8 @@ EXACT bool marginIsNothing(CertifiedCell cell) {
 }
 
 /// Of entry coordinates from `below` to `above`. What is `known` of more of them is taken where it is one of these.
-EXACT MarginValues marginValues(OpacityTable table, float below, float above, MarginValues known) {
+/// `most`: halvings; no number of them makes it wrong.
+EXACT MarginValues marginValues(OpacityTable table, float below, float above, MarginValues known, int most) {
     MarginValues values = known;
     for (int side = 0; side < 2; ++side) {
         const bool ofFirst = side == 0;
@@ -75,7 +76,7 @@ EXACT MarginValues marginValues(OpacityTable table, float below, float above, Ma
         }
         float clear = ofFirst ? below : above; // from the end to here nothing is opaque
         float other = ofFirst ? above : below;
-        const int steps = mayBeOpaque(table, clear, clear) ? 0 : MARGIN_VALUE_STEPS;
+        const int steps = mayBeOpaque(table, clear, clear) ? 0 : most;
         for (int step = 0; step < steps; ++step) {
             PRECISE float middle = clear * 0.5f + other * 0.5f;
             if (mayBeOpaque(table, ofFirst ? below : middle, ofFirst ? middle : above)) {
@@ -94,13 +95,13 @@ EXACT MarginValues marginValues(OpacityTable table, float below, float above, Ma
 }
 
 /// Of all that a cell may have.
-EXACT MarginValues marginCellValues(OpacityTable table, CertifiedCell cell) {
+EXACT MarginValues marginCellValues(OpacityTable table, CertifiedCell cell, int most) {
     PRECISE float below = cell.least - cell.pointError;
     PRECISE float above = cell.greatest + cell.pointError;
     MarginValues none;
     none.first = -CERTIFIED_FARTHEST;
     none.last = CERTIFIED_FARTHEST;
-    return marginValues(table, below, above, none);
+    return marginValues(table, below, above, none, most);
 }
 
 /// Takes a point of the cell that is certainly within the margin into account. Whether that proves something opaque
@@ -183,9 +184,9 @@ EXACT float marginPartShadow(VoxelPoint pulled, VoxelPoint gradient, float least
     return best;
 }
 
-/// Whether what in a box may be opaque is certainly farther from the triangle than the margin.
-EXACT bool marginPartBeyond(MarginSpace by, CertifiedCell cell, MarginTriangle triangle, MarginValues values,
-                            MarginNear near, MarginLinear linear, VoxelPoint radius) {
+/// The gap between the shadows of the triangle, and of what in a box may be opaque, on the direction `near.along`.
+EXACT float marginPartGap(MarginSpace by, CertifiedCell cell, MarginValues values, MarginNear near, MarginLinear linear,
+                          VoxelPoint radius) {
     const VoxelPoint pulled = marginPulled(by, near.along);
     PRECISE float x = pulled.x * radius.x;
     PRECISE float y = pulled.y * radius.y;
@@ -199,7 +200,14 @@ EXACT bool marginPartBeyond(MarginSpace by, CertifiedCell cell, MarginTriangle t
     const float shadow = certifiedMax(marginPartShadow(scaled, linear.gradient, above, whole),
                                       marginPartShadow(scaled, less, below, whole));
     PRECISE float gap = shadow - near.shadow;
-    return marginBeyond(by, triangle.slack, gap, voxelDot(near.along, near.along));
+    return gap;
+}
+
+/// Whether what in a box may be opaque is certainly farther from the triangle than the margin.
+EXACT bool marginPartBeyond(MarginSpace by, CertifiedCell cell, MarginTriangle triangle, MarginValues values,
+                            MarginNear near, MarginLinear linear, VoxelPoint radius) {
+    return marginBeyond(by, triangle.slack, marginPartGap(by, cell, values, near, linear, radius),
+                        voxelDot(near.along, near.along));
 }
 
 EXACT VoxelPoint marginClamped(MarginBox box, VoxelPoint at) {
@@ -278,7 +286,7 @@ EXACT MarginLook marginLook(OpacityTable table, MarginSpace by, CertifiedCell ce
     }
     PRECISE float below = linear.lo - cell.pointError;
     PRECISE float above = linear.hi + cell.pointError;
-    const MarginValues values = marginValues(table, below, above, known);
+    const MarginValues values = marginValues(table, below, above, known, MARGIN_VALUE_STEPS);
     const MarginNear near = marginNear(by, triangle, middle);
     look.pulled = marginPulled(by, near.along);
     if (marginPartBeyond(by, cell, triangle, values, near, linear, radius)) {
@@ -334,7 +342,7 @@ EXACT MarginBox marginCellBox(CertifiedCell cell) {
 EXACT int marginDecide(OpacityTable table, MarginSpace by, CertifiedTriangle triangle, CertifiedCell cell,
                        VoxelPoint corner) {
     const MarginTriangle about = marginTriangle(by, triangle, corner, 1.0f);
-    const MarginValues values = marginCellValues(table, cell);
+    const MarginValues values = marginCellValues(table, cell, MARGIN_VALUE_STEPS);
     MarginSamples samples = marginNoSamples();
     MarginBox stack[MARGIN_STACK];
     stack[0] = marginCellBox(cell);

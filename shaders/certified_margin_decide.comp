@@ -13,7 +13,7 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 int decide(uvec4 entry) {
     const ivec3 cell = unpackCell(entry.zw);
     const TriangleVertices at = verticesOf(transforms[entry.x], entry.y);
-    const CertifiedTriangle triangle = triangleOf(at, boundsOf(at).delta);
+    const CertifiedTriangle triangle = triangleOf(at, boundsOf(entry.x, at).delta);
     const CertifiedCorners corners = cornersOf(cell, brickAt((cell + 1) >> VOXTACT_BRICK_SHIFT));
     const CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.delta);
     return marginDecide(opacities(), marginOf(constants.item), triangle, known,

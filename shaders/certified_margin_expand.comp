@@ -13,20 +13,34 @@
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
+#ifdef CLEARANCE
+#include "certified_clearance_blocks.glsl"
+#endif
 
-/// Bricks that a run or a triangle looks at.
+/// Bricks that a run looks at, and a triangle by itself.
+#ifdef CLEARANCE
+const int kMostBricks = 32768;
+const int kMostBricksOfTriangle = 2048;
+#else
 const int kMostBricks = 512;
+const int kMostBricksOfTriangle = 512;
+#endif
+
+const uint kRefused = 2; // beside that the queue is full
 
 shared uint groupsIfLeft; // of certified_margin_finish, for all of the work group
 shared uint full;         // the queue is
 // Of the lane's triangle, where the run is to look at it.
 shared CertifiedReach reaches[VOXTACT_COMPUTE_GROUP];
 shared float ownCells[VOXTACT_COMPUTE_GROUP]; // of its box; 0: the run is not to
+#ifdef CLEARANCE
+shared CertifiedTriangle triangles[VOXTACT_COMPUTE_GROUP];
+#endif
 
 /// Bricks that are too many for a lane; also where their number overflows.
-bool areMany(CellBox bricks) {
+bool areMoreThan(int most, CellBox bricks) {
     const ivec3 sides = bricks.hi - bricks.lo + 1;
-    return any(greaterThan(sides, ivec3(kMostBricks))) || volumeOf(bricks) > kMostBricks;
+    return any(greaterThan(sides, ivec3(most))) || volumeOf(bricks) > most;
 }
 
 /// As large as it may be, and never negative.
@@ -50,15 +64,36 @@ void putBricksOfTriangle(TriangleLane own, CertifiedTriangle triangle, CellBox n
     countWork(VOXTACT_WORK_BRICKS, uint(count));
     for (int i = 0; i < count; ++i) {
         const ivec3 brick = placeIn(near, i);
-        if (marginBrickMay(triangle, brick)) {
+        if (marginBrickMay(own.pair, triangle, brick)) {
             putLarge(own.pair, own.run, uint(numberOf(brick)), 1u << gl_LocalInvocationIndex % VOXTACT_RUN_TRIANGLES);
         }
     }
 }
 
+#ifdef CLEARANCE
+/// Which of a run's triangles are near a brick.
+uint nearOf(MarginSpace by, uint which, vec3 middle) {
+    const uint first = gl_LocalInvocationIndex / VOXTACT_RUN_TRIANGLES * VOXTACT_RUN_TRIANGLES;
+    uint near = 0;
+    for (uint i = 0; i < VOXTACT_RUN_TRIANGLES; ++i) {
+        if ((which >> i & 1u) != 0 &&
+            !marginCubeBeyond(by, triangles[first + i], voxelPoint(middle.x, middle.y, middle.z),
+                              float(kBrickSide / 2))) {
+            near |= 1u << i;
+        }
+    }
+    return near;
+}
+#endif
+
 /// The lane's share of the bricks near its run.
 void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint which) {
-    const MarginSpace by = marginOf(constants.item);
+    const MarginSpace by = MARGIN_SPACE(own.pair);
+#ifdef CLEARANCE
+    // A box may be as near as the step looks, and its triangles farther: what is found of these is of use all the same.
+    MarginSpace known = by;
+    known.margin = clearanceLimit(by, VOXTACT_CLEARANCE_FAR, clearanceHi(own.pair));
+#endif
     const int count = volumeOf(near);
     uint seen = 0;
     for (int i = int(gl_LocalInvocationIndex % VOXTACT_RUN_TRIANGLES); i < count; i += VOXTACT_RUN_TRIANGLES) {
@@ -69,7 +104,14 @@ void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint w
         if (brickMayBeOpaque(brickAt(brick)) &&
             !marginReachFarther(by, reach, voxelPoint(middle.x, middle.y, middle.z),
                                 voxelPoint(radius, radius, radius))) {
-            putLarge(own.pair, own.run, uint(numberOf(brick)), which);
+#ifdef CLEARANCE
+            const uint listed = nearOf(known, which, middle);
+#else
+            const uint listed = which; // a work group of certified_margin_large tells which are near
+#endif
+            if (listed != 0) {
+                putLarge(own.pair, own.run, uint(numberOf(brick)), listed);
+            }
         }
     }
     countWork(VOXTACT_WORK_BRICKS, seen);
@@ -83,7 +125,8 @@ struct Together {
     bool near;  // to each other: their box has no more cells than their own boxes have together
 };
 
-Together togetherOf(uint run) {
+Together togetherOf(TriangleLane own) {
+    const uint run = gl_LocalInvocationIndex / VOXTACT_RUN_TRIANGLES;
     const float far = CERTIFIED_FARTHEST;
     Together found;
     found.reach = CertifiedReach(voxelPoint(far, far, far), voxelPoint(-far, -far, -far), 0.0);
@@ -97,8 +140,8 @@ Together togetherOf(uint run) {
             cells += ownCells[lane];
         }
     }
-    found.cells = cellsOf(marginBounds(constants.item, marginOf(constants.item), found.reach));
-    found.near = cellsIn(found.cells) <= cells && !areMany(bricksOf(found.cells));
+    found.cells = cellsOf(marginBounds(constants.item, MARGIN_SPACE(own.pair), found.reach));
+    found.near = cellsIn(found.cells) <= cells && !areMoreThan(kMostBricks, bricksOf(found.cells));
     return found;
 }
 
@@ -115,29 +158,50 @@ void main() {
     CertifiedBounds bounds;
     if (own.some) {
         at = verticesOf(transforms[own.pair], own.number);
-        bounds = boundsOf(at);
+        bounds = boundsOf(own.pair, at);
         const CellBox cells = cellsOf(bounds);
         if (!isEmpty(cells)) {
             // Those of pairs that are done, too: certified_margin_finish must find the same, and more will be done then.
             atomicAdd(groupsIfLeft, groupsOfTriangle(transforms[own.pair], bounds, cells));
             if (isDone(own.pair)) {
-            } else if (!bounds.usable || areMany(bricksOf(cells))) {
+#ifdef CLEARANCE
+            } else if (!bounds.usable) {
+                leaveOpen(own.pair, anyBlock() ? 0.0 : VOXTACT_CLEARANCE_FAR);
+#endif
+            } else if (!bounds.usable || areMoreThan(kMostBricksOfTriangle, bricksOf(cells))) {
                 putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);
             } else {
                 reaches[lane] = certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]);
                 ownCells[lane] = cellsIn(cells);
+#ifdef CLEARANCE
+                triangles[lane] = triangleOf(at, bounds.delta);
+#endif
             }
         }
     }
     barrier();
-    const Together run = togetherOf(lane / VOXTACT_RUN_TRIANGLES);
+    const Together run = togetherOf(own);
     if (run.which != 0 && run.near) {
         putBricksOfRun(own, run.reach, bricksOf(run.cells), run.which);
     } else if (ownCells[lane] > 0.0) {
         putBricksOfTriangle(own, triangleOf(at, bounds.delta), bricksOf(cellsOf(bounds)));
     }
+#ifdef CLEARANCE
+    if (isCut()) {
+        atomicOr(full, 1u); // a lane has many bricks; what was put is decided twice
+    }
+    barrier();
+    if (lane == 0 && full != 0 && !leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft)) {
+        atomicOr(full, kRefused);
+    }
+    barrier();
+    if (full >= kRefused && own.some && !isEmpty(cellsOf(bounds))) {
+        refuse(own.pair);
+    }
+#else
     barrier();
     if (lane == 0 && full != 0) {
         leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft);
     }
+#endif
 }

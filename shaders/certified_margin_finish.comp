@@ -10,9 +10,26 @@
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
+#ifdef CLEARANCE
+#include "certified_clearance_cell.glsl"
+#endif
 #include "certified_shares.glsl"
 
-int decideCell(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
+#ifdef CLEARANCE
+ClearanceFound nearest;
+
+/// Says nothing: what it finds is in `nearest`.
+int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
+    measureCell(pair, triangle, cell, range, nearest);
+    return CERTIFIED_NONE;
+}
+
+void tell(uint pair, bool undecided, bool found) {
+    nearest.open = undecided ? 0.0 : nearest.open;
+    tellFound(pair, nearest, 0.0);
+}
+#else
+int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
     const MarginSpace by = marginOf(constants.item);
     const CertifiedCell known =
         certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
@@ -27,10 +44,21 @@ int decideCell(CertifiedTriangle triangle, ivec3 cell, vec4 range) {
     return marginDecide(opacities(), by, triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
 }
 
+void tell(uint pair, bool undecided, bool found) {
+    if (isCut()) {
+        atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+    } else if (found) {
+        markWithin(pair);
+    } else if (undecided) {
+        atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+    }
+}
+#endif
+
 void decideShare(Share given) {
     Share share = given;
     const TriangleVertices at = verticesOf(transforms[share.pair], share.number);
-    const CertifiedBounds bounds = boundsOf(at);
+    const CertifiedBounds bounds = boundsOf(share.pair, at);
     const CellBox cells = cellsOf(bounds);
     if (isEmpty(cells)) {
         return;
@@ -49,6 +77,9 @@ void decideShare(Share given) {
     uint cellsSeen = 0;
     bool undecided = false;
     bool found = false;
+#ifdef CLEARANCE
+    nearest = nothingFound();
+#endif
     int i = share.firstBrick;
     for (int turn = 0; turn < share.bricks && i < count && !found; ++turn) {
         const ivec3 brick = share.single ? share.cell : placeIn(box, i);
@@ -59,14 +90,14 @@ void decideShare(Share given) {
             undecided = true;
             break;
         }
-        if (!bounds.usable || !marginBrickMay(triangle, brick)) {
+        if (!bounds.usable || !marginBrickMay(share.pair, triangle, brick)) {
             continue;
         }
         const CellBox inside = within(cells, brick);
         const int most = isEmpty(inside) ? 0 : volumeOf(inside);
         for (int place = share.first; place < most && !found; place += share.step) {
             ++cellsSeen;
-            const int verdict = decideCell(triangle, placeIn(inside, place), range);
+            const int verdict = decideCell(share.pair, triangle, placeIn(inside, place), range);
             undecided = undecided || verdict == CERTIFIED_UNDECIDED;
             found = verdict == CERTIFIED_CERTAIN;
         }
@@ -74,13 +105,7 @@ void decideShare(Share given) {
     // All lanes look at the same bricks.
     countWork(VOXTACT_WORK_BRICKS_LEFT, bounds.usable && gl_LocalInvocationIndex > 0 ? 0 : bricksSeen);
     countWork(VOXTACT_WORK_CELLS_LEFT, cellsSeen);
-    if (isCut()) {
-        atomicOr(results[share.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
-    } else if (found) {
-        markWithin(share.pair);
-    } else if (undecided) {
-        atomicOr(results[share.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
-    }
+    tell(share.pair, undecided, found);
 }
 
 void main() {

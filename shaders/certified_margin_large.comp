@@ -14,6 +14,9 @@
 
 layout(local_size_x = VOXTACT_MARGIN_GROUP) in;
 #include "certified_scene.glsl"
+#ifdef CLEARANCE
+#include "certified_clearance_cell.glsl"
+#endif
 
 const int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
 /// What a listed cell has is above so many bits of its number in the brick.
@@ -91,8 +94,8 @@ void findTriangles(uvec4 entry) {
     }
 }
 
-void findNearCells(ivec3 brick, ivec3 corner) {
-    const MarginSpace by = marginOf(constants.item);
+void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner) {
+    const MarginSpace by = MARGIN_SPACE(entry.x);
     const CertifiedReach reach = reachOfAll();
     const CellBox inside = within(cellsOf(marginBounds(constants.item, by, reach)), brick);
     const int cells = isEmpty(inside) ? 0 : volumeOf(inside);
@@ -130,7 +133,7 @@ void findNearTriangles(uvec4 entry) {
     if (opaqueCount > 0 && lane < VOXTACT_RUN_TRIANGLES && isOfEntry(entry, lane)) {
         const vec3 middle = vec3(opaqueLo + opaqueHi + 1) * 0.5;
         const vec3 radius = vec3(opaqueHi - opaqueLo + 1) * 0.5;
-        if (!marginBoxFarther(marginOf(constants.item), triangles[lane], voxelPoint(middle.x, middle.y, middle.z),
+        if (!marginBoxFarther(MARGIN_SPACE(entry.x), triangles[lane], voxelPoint(middle.x, middle.y, middle.z),
                               voxelPoint(radius.x, radius.y, radius.z))) {
             nearTriangles[atomicAdd(nearTriangleCount, 1u)] = lane;
         }
@@ -153,8 +156,56 @@ void putCell(uvec4 entry, uint i, ivec3 cell) {
     }
 }
 
+#ifdef CLEARANCE
+#ifdef PROBE
+shared uint nearest; // the bits of what is least of what cells are no nearer than
+#endif
+
+/// Looks at each cell of each near triangle. With PROBE at what bounds the distance above, and the cell that may be
+/// nearest goes on; else all go on that may be nearer than what is known.
 void lookAtAll(uvec4 entry, ivec3 corner) {
-    const MarginSpace by = marginOf(constants.item);
+    const MarginSpace by = MARGIN_SPACE(entry.x);
+    const uint count = opaqueCount * nearTriangleCount;
+    CellClearance best = CellClearance(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR);
+    uint bestPlace = 0;
+    uint seen = 0;
+    for (uint place = gl_LocalInvocationIndex; place < count; place += VOXTACT_MARGIN_GROUP) {
+        const uint number = opaqueCells[place % opaqueCount];
+        const uint i = nearTriangles[place / opaqueCount];
+        const ivec3 cell = cellOf(corner, number);
+        if (!isInBox(cell, cellsOf(marginBounds(constants.item, by, reaches[i])))) {
+            continue;
+        }
+        ++seen;
+        const CellClearance found = cellClearance(by, triangles[i], int(number >> kHasShift), cell);
+#ifdef PROBE
+        best.above = min(best.above, found.above);
+        if (found.below < best.below) {
+            best.below = found.below;
+            bestPlace = place;
+        }
+#else
+        if (found.below < clearanceLimit(by, by.margin, clearanceHi(entry.x))) {
+            putCell(entry, i, cell);
+        }
+#endif
+    }
+    countWork(VOXTACT_WORK_CELLS, seen);
+#ifdef PROBE
+    if (best.above < clearanceHi(entry.x) && !isCut()) {
+        foundAt(entry.x, best.above);
+    }
+    atomicMin(nearest, floatBitsToUint(best.below));
+    barrier();
+    if (floatBitsToUint(best.below) == nearest &&
+        best.below < clearanceLimit(by, by.margin, clearanceHi(entry.x))) {
+        putCell(entry, nearTriangles[bestPlace / opaqueCount], cellOf(corner, opaqueCells[bestPlace % opaqueCount]));
+    }
+#endif
+}
+#else
+void lookAtAll(uvec4 entry, ivec3 corner) {
+    const MarginSpace by = MARGIN_SPACE(entry.x);
     const uint count = opaqueCount * nearTriangleCount;
     uint seen = 0;
     for (uint place = gl_LocalInvocationIndex; place < count; place += VOXTACT_MARGIN_GROUP) {
@@ -175,6 +226,27 @@ void lookAtAll(uvec4 entry, ivec3 corner) {
     }
     countWork(VOXTACT_WORK_CELLS, seen);
 }
+#endif
+
+#ifdef CLEARANCE
+/// Of the triangles' common box: more may be known than when the entry was made.
+bool isBrickFarther(uint pair, ivec3 brick) {
+    const vec3 middle = brickCentre(brick);
+    return marginReachFarther(MARGIN_SPACE(pair), reachOfAll(), voxelPoint(middle.x, middle.y, middle.z),
+                              voxelPoint(MARGIN_BRICK_RADIUS, MARGIN_BRICK_RADIUS, MARGIN_BRICK_RADIUS));
+}
+#endif
+
+/// Leaves the work group's entry to certified_margin_finish.
+void leaveOrRefuse(uint pair, uint brick, uint groups) {
+#ifdef CLEARANCE
+    if (!leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, brick, groups)) {
+        refuse(pair);
+    }
+#else
+    leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, brick, groups);
+#endif
+}
 
 void main() {
     const uint lane = gl_LocalInvocationIndex;
@@ -186,6 +258,9 @@ void main() {
         nearCount = 0;
         opaqueCount = 0;
         nearTriangleCount = 0;
+#ifdef PROBE
+        nearest = floatBitsToUint(VOXTACT_CLEARANCE_FAR);
+#endif
         opaqueLo = ivec3(0x7fffffff);
         opaqueHi = ivec3(-0x7fffffff);
     }
@@ -194,11 +269,13 @@ void main() {
         return;
     }
     if (entry.w == VOXTACT_MARGIN_ALL) {
+#ifndef PROBE
         if (lane == 0) {
             const CertifiedPair transform = transforms[entry.x];
-            const CertifiedBounds bounds = boundsOf(verticesOf(transform, entry.y));
-            leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, 0, groupsOfTriangle(transform, bounds, cellsOf(bounds)));
+            const CertifiedBounds bounds = boundsOf(entry.x, verticesOf(transform, entry.y));
+            leaveOrRefuse(entry.x, 0, groupsOfTriangle(transform, bounds, cellsOf(bounds)));
         }
+#endif
         return;
     }
     const ivec3 brick = brickOf(int(entry.z));
@@ -207,19 +284,30 @@ void main() {
     barrier();
     findReach(entry);
     barrier();
-    findNearCells(brick, corner);
+#ifdef CLEARANCE
+    if (lane == 0 && isBrickFarther(entry.x, brick)) {
+        passedOver = 1;
+    }
+    barrier();
+    if (passedOver != 0) {
+        return;
+    }
+#endif
+    findNearCells(entry, brick, corner);
     barrier();
     findOpaqueCells(brick, corner);
     barrier();
     findNearTriangles(entry);
     barrier();
     lookAtAll(entry, corner);
+#ifndef PROBE
     if (isCut()) {
         atomicOr(cut, 1u);
     }
     barrier();
     // What is decided twice does no harm.
     if (lane == 0 && (full != 0 || cut != 0)) {
-        leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, entry.z, VOXTACT_RUN_TRIANGLES);
+        leaveOrRefuse(entry.x, entry.z, VOXTACT_RUN_TRIANGLES);
     }
+#endif
 }

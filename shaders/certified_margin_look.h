@@ -113,9 +113,23 @@ EXACT bool marginProbeProves(OpacityTable table, MarginSpace by, CertifiedCell c
 /// Half the side of a brick, in voxels.
 #define MARGIN_BRICK_RADIUS 4.0f
 
-/// Whether a brick of stored values from `lo` to `hi` has something opaque, and is within the margin of a vertex, all
-/// of it. The two values are those of voxels in it, and where no voxel is NaN the interpolant is continuous between
-/// them.
+/// Whether a brick of stored values from `lo` to `hi` has something opaque. The two values are those of voxels in it,
+/// and where no voxel is NaN the interpolant is continuous between them.
+EXACT bool marginRangeHas(OpacityTable table, CertifiedItem item, float lo, float hi) {
+    const float first = certifiedEntry(item, lo);
+    const float second = certifiedEntry(item, hi);
+    const float error = certifiedPointError(item, lo, hi);
+    const float least = certifiedMin(first, second);
+    const float greatest = certifiedMax(first, second);
+    PRECISE float leastAbove = least + error;
+    PRECISE float greatestBelow = greatest - error;
+    PRECISE float leastBelow = least - error;
+    PRECISE float greatestAbove = greatest + error;
+    return certainlySomeOpaque(table, leastAbove, greatestBelow) ||
+           certainlyAllOpaque(table, leastBelow, greatestAbove);
+}
+
+/// Whether such a brick has something opaque, and is within the margin of a vertex, all of it.
 EXACT bool marginBrickProves(OpacityTable table, CertifiedItem item, MarginSpace by, VoxelPoint vertex, float delta,
                              VoxelPoint middle, float lo, float hi) {
     const VoxelPoint from = voxelDifference(vertex, middle);
@@ -128,17 +142,7 @@ EXACT bool marginBrickProves(OpacityTable table, CertifiedItem item, MarginSpace
                                              (i & 4) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS);
         all = all && marginWithin(by, slack, from, corner);
     }
-    const float first = certifiedEntry(item, lo);
-    const float second = certifiedEntry(item, hi);
-    const float error = certifiedPointError(item, lo, hi);
-    const float least = certifiedMin(first, second);
-    const float greatest = certifiedMax(first, second);
-    PRECISE float leastAbove = least + error;
-    PRECISE float greatestBelow = greatest - error;
-    PRECISE float leastBelow = least - error;
-    PRECISE float greatestAbove = greatest + error;
-    return all && (certainlySomeOpaque(table, leastAbove, greatestBelow) ||
-                   certainlyAllOpaque(table, leastBelow, greatestAbove));
+    return all && marginRangeHas(table, item, lo, hi);
 }
 
 #include "exact_language.h"

@@ -74,17 +74,40 @@ uint groupsOfBricks(uint bricks) {
     return (bricks + kBricksOfGroup - 1) / kBricksOfGroup;
 }
 
-/// An entry of certified_finish, for which it needs `groups` work groups.
-void leave(uint what, uint number, uint brick, uint groups) {
+#ifdef CLEARANCE
+/// Work groups of certified_margin_finish in a round, at most: 2^16 looks for each cluster of the room, as the host
+/// has it where it knows the margin. What is beyond is refused.
+uint mostGroupsLeft() {
+    return constants.queueRoom * (65536u / (kBricksOfGroup * 512u));
+}
+#endif
+
+/// An entry of certified_finish, for which it needs `groups` work groups. False: it is refused.
+bool leave(uint what, uint number, uint brick, uint groups) {
     const uint word = constants.headerWord + 4 * VOXTACT_QUEUE_LEFT;
+#ifdef CLEARANCE
+    // Never more than the most, not even for a moment: the sum of all that is refused may not fit into a word.
+    uint first = 0;
+    uint seen = queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
+    do {
+        first = seen;
+        if (groups > mostGroupsLeft() || first > mostGroupsLeft() - groups) {
+            return false;
+        }
+        seen = atomicCompSwap(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], first, first + groups);
+    } while (seen != first);
+    const uint entry = atomicAdd(queues[word + 3], 1u);
+#else
     const uint entry = atomicAdd(queues[word + 3], 1u);
     const uint first = atomicAdd(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], groups);
+#endif
     const uint layers = (first + groups + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER -
                         (first + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER;
     atomicAdd(queues[word + 2], layers);
     atomicMin(queues[word + 2], VOXTACT_LEFT_MOST_LAYERS);
     quads[quadOf(LEFT_WORD, entry)] =
         uvec4(what << VOXTACT_LEFT_SHIFT | number, brick, groups, first);
+    return true;
 }
 
 #endif

@@ -33,6 +33,11 @@ const bool kCarry = true;
 #include "certified_overlap.h"
 #include "count.glsl"
 #include "certified_queues.glsl"
+#ifdef CLEARANCE
+#include "certified_clearance.glsl"
+#elif defined(MARGIN)
+#define MARGIN_SPACE(pair) marginOf(constants.item)
+#endif
 #include "mesh.glsl"
 #ifdef OUTPUTS
 #include "survives.glsl"
@@ -143,10 +148,9 @@ CertifiedTriangle triangleOf(TriangleVertices at, float delta) {
     return certifiedTriangle(at.voxel[0].point, at.voxel[1].point, at.voxel[2].point, delta);
 }
 
-CertifiedBounds boundsOf(TriangleVertices at) {
+CertifiedBounds boundsOf(uint pair, TriangleVertices at) {
 #ifdef MARGIN
-    return marginBounds(constants.item, marginOf(constants.item),
-                        certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]));
+    return marginBounds(constants.item, MARGIN_SPACE(pair), certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]));
 #else
     return certifiedBounds(constants.item, at.voxel[0], at.voxel[1], at.voxel[2]);
 #endif
@@ -197,21 +201,29 @@ bool isCut() {
     return rounds < 2u;
 }
 
+#ifdef CLEARANCE
+bool isDone(uint pair) {
+    return clearanceIsDone(pair);
+}
+#else
 /// Where stopAtFirst is wanted, what is found of a pair that has a survivor is of no use.
 bool isDone(uint pair) {
     return kStopAtFirst && results[pair].countLow > 0;
 }
+#endif
 
 #ifdef MARGIN
+#ifndef CLEARANCE
 /// Something is opaque within the margin.
 void markWithin(uint pair) {
     atomicOr(results[pair].countLow, 1u);
 }
+#endif
 
-bool marginBrickMay(CertifiedTriangle triangle, ivec3 brick) {
+bool marginBrickMay(uint pair, CertifiedTriangle triangle, ivec3 brick) {
     const vec3 middle = brickCentre(brick);
     return brickMayBeOpaque(brickAt(brick)) &&
-           !marginCubeBeyond(marginOf(constants.item), triangle, voxelPoint(middle.x, middle.y, middle.z),
+           !marginCubeBeyond(MARGIN_SPACE(pair), triangle, voxelPoint(middle.x, middle.y, middle.z),
                              float(kBrickSide / 2));
 }
 #endif

@@ -40,7 +40,7 @@ Share shareOfTriangles(uint group, uint turn) {
     const TriangleLane own = triangleLane(group, lane);
     groupsOfLane[lane] = 0;
     if (own.some) {
-        const CertifiedBounds bounds = boundsOf(verticesOf(transforms[own.pair], own.number));
+        const CertifiedBounds bounds = boundsOf(own.pair, verticesOf(transforms[own.pair], own.number));
         const CellBox cells = cellsOf(bounds);
         if (!isEmpty(cells) && (isLarge(cells) || !bounds.usable)) {
             groupsOfLane[lane] = groupsOfTriangle(transforms[own.pair], bounds, cells);

@@ -77,6 +77,23 @@ struct TallyConstants {
     uint rounds; // whose headers it is to count
 };
 
+/// Push constants of the pass between two steps of a clearance: shaders/certified_clearance_search.comp.
+struct ClearanceConstants {
+    uint clearanceWord; // of the words of the transforms' buffer, where those of the pairs are
+    uint firstPair;
+    uint pairs;
+    uint step;       // that was done; 0: none, the search begins; 1: the one that looks at boxes only
+    uint lastStep;   // looks as far as there is to look; what comes after that looks again at what was left undecided
+    uint steps;      // after so many the search ends
+    float first;     // flat: how much farther the first step after the boxes looks than they do; each next one twice
+    float most;      // flat: no step looks farther; VOXTACT_CLEARANCE_FAR: all of it
+    float tolerance; // flat
+    float rounding;  // of a distance: bounds are no nearer to each other
+    float side;      // mm of a flat unit
+    float closed;    // mm: bounds that are so near to each other are within the tolerance
+    float maximum;   // mm: not more than `most`
+};
+
 /// Push constants of the pass that makes pairs of poses: shaders/pair_setup.comp.
 struct PairSetupConstants {
     uint firstPair; // of the dispatch
@@ -140,14 +157,14 @@ struct CertifiedItem {
     float storedReference; // near the middle of the transfer function's domain
     float storedUnit;      // the integer behind 1.0 of a normalised texel; 0 for float texels
     float threshold;
-    float resolution; // voxels; with a margin: it, as certified_margin.h says
+    float resolution; // voxels; with a margin: it, as certified_margin.h says; of a clearance: the tolerance
     int tableSize;
     int tableLevels;
     int sizeX; // voxels
     int sizeY;
     int sizeZ;
     float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there. With
-                    // a margin: what marginOf() takes from there
+                    // a margin: what marginOf() takes from there; of a clearance: the same of a margin of 1, flat
 };
 
 /// Push constants of the projection `conservative`, of all its passes.
@@ -216,6 +233,27 @@ struct CertifiedConstants {
 // or pair, triangle, 0, and this: all bricks of one triangle.
 #define VOXTACT_MARGIN_ALL (1u << VOXTACT_RUN_TRIANGLES)
 #define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
+// Where clearances are measured, behind the queues, from a multiple of 256 bytes on: for each block of bricks whether
+// one of them may have something opaque; and then four words a pair, in the end its ClearanceResult.
+#define VOXTACT_WORD_BLOCKS(room) ((VOXTACT_QUEUE_WORDS(room) + 63) / 64 * 64)
+#define VOXTACT_WORD_CLEARANCES(room) (VOXTACT_WORD_BLOCKS(room) + VOXTACT_BLOCKS)
+/// Blocks of a volume, at most. One is 2^VOXTACT_BLOCK_SHIFT bricks a side, or twice, four times ... as many.
+#define VOXTACT_BLOCKS 4096
+#define VOXTACT_BLOCK_SHIFT 2
+// Of a pair that is being measured; lengths are flat, as in certified_margin.h.
+#define VOXTACT_CLEARANCE_LO 0    // nothing opaque is nearer
+#define VOXTACT_CLEARANCE_HI 1    // something is as near
+#define VOXTACT_CLEARANCE_ASKED 2 // the step looks as far; below VOXTACT_CLEARANCE_ENDS: the pair is done, and how
+#define VOXTACT_CLEARANCE_OPEN 3  // of what the step left undecided, the least that is known of its distance
+#define VOXTACT_CLEARANCE_WORDS 4
+#define VOXTACT_CLEARANCE_ENDS 4u // numbers of ClearanceEnd
+// In place of a distance that is left undecided: nothing is known of it; and that for want of room or time.
+#define VOXTACT_CLEARANCE_UNKNOWN 1u
+#define VOXTACT_CLEARANCE_REFUSED 0u
+/// Farther than anything, flat.
+#define VOXTACT_CLEARANCE_FAR 16777216.0f
+/// Of a distance, over the size of MarginSpace: bounds of single precision are no nearer to each other.
+#define VOXTACT_CLEARANCE_ROUNDING 2.0e-5f
 // What certified_finish is left, where the queue of cells or of large triangles was full: a number and what it is of.
 #define VOXTACT_LEFT_SMALL 0  // the small triangles of a work group of certified_expand
 #define VOXTACT_LEFT_GROUP 1  // its large ones

@@ -4,6 +4,7 @@
 #include "voxtact/data.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,12 @@ namespace voxtact {
 
 /// mm: how near to each other bounds are brought, where nothing else is asked for.
 inline constexpr double kDefaultTolerance = 0.01;
+
+/// What is asked of a search for clearances.
+struct ClearanceSearch {
+    double tolerance = kDefaultTolerance; ///< mm, from 1e-6 on: how near to each other the bounds are brought
+    double maximum = std::numeric_limits<double>::infinity(); ///< mm, above 0: what is farther is not measured
+};
 
 /// The clearance is at least `lo` and at most `hi`, mm, rounding counted in. Both are 0 where the pair certainly
 /// touches, and infinite where nothing is opaque.
@@ -58,7 +65,7 @@ struct PairClearance {
     std::uint32_t pose = 0;               ///< number of the pose within that item
     ClearanceBounds bounds;               ///< mm
     ClearanceEnd end{};                   ///< why they are no nearer to each other
-    std::optional<ClosestPoints> closest; ///< where `hi` is finite
+    std::optional<ClosestPoints> closest; ///< of a cpu::ClearanceMeter, where `hi` is finite
 };
 
 /// The clearance of one pair to what is opaque and has a label, or to what has it.

@@ -41,6 +41,14 @@ struct DetectorDesc {
     /// within every margin, but a margin of less than about a thousandth of a voxel may leave it *possible*.
     /// InvalidArgument for what is not a number from 0 to 1,000,000, other projections, counts, and outputs.
     double margin = 0;
+    /// conservative without outputs and without a margin: after the touch, how near each pair is, for Results that were
+    /// made with ResultsDesc::clearances. The bounds are proven, and what cpu::ClearanceMeter says of the same pair is
+    /// never beside them. They are within the tolerance of each other where single precision can tell: not nearer than
+    /// some thousandths of a voxel, and less near where a triangle is many dozens of voxels long or some hundred voxels
+    /// away; ClearanceEnd says so. From run to run they are others, which overlap. InvalidArgument for a tolerance that
+    /// is not a number from 1e-6 mm on, a maximum that is not above 0, other projections, outputs, and a margin above
+    /// 0.
+    std::optional<ClearanceSearch> clearance = std::nullopt;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -100,6 +108,9 @@ struct ResultsDesc {
     /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
     /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
+    /// For detectors with DetectorDesc::clearance: 16 bytes of device memory a pair, as much of the host's where there
+    /// is a copy, and 16 KiB. They take the queues of the projection conservative.
+    bool clearances = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
     /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the
@@ -159,6 +170,11 @@ class Results {
     /// begin after as many as the pairs before it have labels.
     [[nodiscard]] VOXTACT_API BufferRange labelCounts() const noexcept;
 
+    /// Of a batch of a detector with DetectorDesc::clearance: a ClearanceResult of device_results.h for each pair, in
+    /// their order; ready for readers when pairResults() are. A part of a buffer with the usage STORAGE_BUFFER |
+    /// TRANSFER_SRC | TRANSFER_DST; null without ResultsDesc::clearances.
+    [[nodiscard]] VOXTACT_API BufferRange clearances() const noexcept;
+
     /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
     /// render pass.
     ///   expects  the results as cmdDetect() leaves them
@@ -171,6 +187,9 @@ class Results {
     /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
     /// times. What its detector was not made for is left empty. The same is expected as by read().
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
+    /// The clearances of the batch recorded last, unpacked. The same is expected as by read(); NotReady where its
+    /// detector was made without DetectorDesc::clearance.
+    [[nodiscard]] VOXTACT_API Result<std::vector<PairClearance>> readClearances();
     /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
     /// What the passes did, of a detector with DetectorDesc::counters. The same is expected as by read(); NotReady

@@ -35,6 +35,8 @@ struct PairResult {
 /// Not zero: some fragment of the projection `conservative` could be neither proven nor excluded.
 #define VOXTACT_HOW_UNDECIDED(how) (((how) >> 24) & 1u)
 #define VOXTACT_HOW_UNDECIDED_BIT 0x1000000u
+/// VOXTACT_HOW_EXACTNESS() of a pose on the device that cannot be used.
+#define VOXTACT_EXACTNESS_REFUSED 2u
 
 /// A contact on the device, 48 bytes; std430. See Contact in results.h for what the members mean.
 struct ContactResult {
@@ -51,6 +53,20 @@ struct ContactResult {
     VOXTACT_UINT triangle; ///< number in the mesh
     VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
 };
+
+/// How near one pair is, of a detector with DetectorDesc::clearance; 16 bytes, std430. Rounding is counted in.
+struct ClearanceResult {
+    float lo;              ///< world mm: nothing opaque is nearer; infinite where nothing is opaque
+    float hi;              ///< world mm: something opaque is as near; infinite where that is not known
+    VOXTACT_UINT end;      ///< VOXTACT_CLEARANCE_*: why they are no nearer to each other
+    VOXTACT_UINT reserved; ///< 0
+};
+
+// ClearanceResult.end, the numbers being those of ClearanceEnd in clearance.h.
+#define VOXTACT_CLEARANCE_CLOSED 0u
+#define VOXTACT_CLEARANCE_BEYOND 1u
+#define VOXTACT_CLEARANCE_ROUNDED 2u
+#define VOXTACT_CLEARANCE_BUDGET 3u
 
 /// What the passes of the projection `conservative` by `compute` did for a batch; 152 bytes, std430. They are described
 /// in the manual, "The certified engine on a device". Of each peak: in the round that had most.
@@ -91,6 +107,7 @@ static_assert(sizeof(PairResult) == 24);
 static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countHigh) == 4,
               "a 64-bit query result is copied over countLow and countHigh");
 static_assert(sizeof(ContactResult) == 48);
+static_assert(sizeof(ClearanceResult) == 16);
 static_assert(sizeof(CertifiedCounters) == 152);
 } // namespace voxtact
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "voxtact/clearance.h"
 #include "voxtact/data.h"
 #include "voxtact/device_results.h"
 #include "voxtact/methods.h"
@@ -86,6 +87,7 @@ struct BatchAnswer {
     std::uint64_t contactsFound = 0;             ///< more than contacts.size(): the list was cut, arbitrarily
     std::vector<std::optional<Box>> bounds;      ///< world, of each pair; nothing where it has no survivor
     std::vector<LabelCount> labels;              ///< by pair, then by label
+    std::vector<PairClearance> clearances;       ///< with DetectorDesc::clearance, in the order of the batch
     std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
     double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where the queue has no timestamps
     double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory

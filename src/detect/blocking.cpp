@@ -86,6 +86,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         if (!rowOf(desc.projection).certified) {
             resultsDesc.clustersAtOnce = 0;
         }
+        resultsDesc.clearances = desc.clearance.has_value();
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }
@@ -115,6 +116,11 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         BatchAnswer answer;
         answer.pairs = unpackAll(*results);
         VOXTACT_TRY(s.results->readOutputs(answer));
+        if (s.detector.desc().clearance) {
+            Result<std::vector<PairClearance>> clearances = s.results->readClearances();
+            VOXTACT_TRY(clearances);
+            answer.clearances = std::move(*clearances);
+        }
         if (s.results->counted()) {
             const Result<CertifiedCounters> counters = s.results->counters();
             VOXTACT_TRY(counters);

@@ -7,7 +7,6 @@
 #include "detect/certified_rounds.h"
 #include "detect/outputs.h"
 #include "detect/recording.h"
-#include "gpu/barriers.h"
 #include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/certified_cull_comp.h"
@@ -39,8 +38,7 @@ struct PassKind {
     std::uint32_t queue;
 };
 
-/// In the order in which they run. The first has no queue.
-constexpr std::uint32_t kNoQueue = VOXTACT_QUEUES;
+/// In the order in which they run.
 const PassKind kPasses[] = {
     {spirv::certified_cull_comp, spirv::certified_cull_comp, spirv::certified_margin_cull_comp, "conservative cull",
      kNoQueue},
@@ -58,14 +56,6 @@ const PassKind kPasses[] = {
 
 std::span<const std::uint32_t> programOf(const PassKind& kind, const DetectorDesc& desc) {
     return desc.margin > 0 ? kind.withMargin : desc.outputs.any() ? kind.withOutputs : kind.plain;
-}
-
-/// Behind a pass, for the next one: what it has put into queues.
-void queuesBarrier(const ContextImpl& context, VkCommandBuffer commandBuffer) {
-    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
 } // namespace
@@ -91,6 +81,11 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
                                 outputs ? context.computeOutputLayout : context.computeLayout, "conservative tally");
         VOXTACT_TRY(made);
         pass.tally_ = std::move(*made);
+    }
+    if (desc.clearance) {
+        Result<ClearancePass> made = ClearancePass::create(context, desc);
+        VOXTACT_TRY(made);
+        pass.clearance_ = std::move(*made);
     }
     return pass;
 }
@@ -140,9 +135,10 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
 }
 
 void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
+    RoundRecorder recorder(*context_, commandBuffer, results, tally_.get());
     std::uint32_t firstPair = 0;
-    std::uint32_t rounds = 0;
     VkPipelineLayout layout = VK_NULL_HANDLE;
+    const std::vector<RoundPass> passes = passesOfRound();
     const RoundLimits limits{.clusters = clustersOfRound(results.queueRoom, desc_.stopAtFirst && !(desc_.margin > 0)),
                              .pairs = context_->limits.maxComputeWorkGroupCount[1],
                              .looks = looksOfRound(results.queueRoom)};
@@ -153,71 +149,27 @@ void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, co
             constants.firstPair = firstPair + round.firstPair;
             constants.firstCluster = round.firstCluster;
             constants.endCluster = round.endCluster;
-            recordRound(commandBuffer, results, layout, constants, round.pairs, rounds++);
+            recorder.record(passes, layout, constants, round.pairs);
         });
+        if (clearance_) {
+            constants.firstPair = firstPair;
+            clearance_->record(recorder, layout, item, constants);
+        }
         firstPair += static_cast<std::uint32_t>(item.pairs());
     }
-    if (desc_.counters && rounds > 0) {
-        queuesBarrier(*context_, commandBuffer);
-        recordTally(commandBuffer, results, layout, (rounds - 1) % VOXTACT_HEADERS + 1);
-    }
+    recorder.finish(layout);
 }
 
-void CertifiedPass::recordRound(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
-                                const shader::CertifiedConstants& given, std::uint32_t pairs,
-                                std::uint32_t round) const {
-    const DeviceFunctions& vk = context_->vk;
-    if (round > 0 && round % VOXTACT_HEADERS == 0) {
-        renewHeaders(commandBuffer, results, layout);
-    } else if (round > 0) {
-        queuesBarrier(*context_, commandBuffer);
-    }
-    shader::CertifiedConstants constants = given;
-    constants.headerWord = given.queueWord + round % VOXTACT_HEADERS * VOXTACT_HEADER_WORDS;
-    vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
+std::vector<RoundPass> CertifiedPass::passesOfRound() const {
+    std::vector<RoundPass> passes;
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
-        vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[i].get());
         if (desc_.margin > 0 && kPasses[i].queue == VOXTACT_QUEUE_OPEN) {
-            queuesBarrier(*context_, commandBuffer); // no cell is left open
-            continue;
+            continue; // no cell is left open
         }
-        if (kPasses[i].queue == kNoQueue) {
-            const std::uint32_t clusters = constants.endCluster - constants.firstCluster;
-            vk.CmdDispatch(commandBuffer, (clusters + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, pairs, 1);
-            continue;
-        }
-        queuesBarrier(*context_, commandBuffer);
-        const VkDeviceSize command = VkDeviceSize{constants.headerWord} + 4 * kPasses[i].queue;
-        vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(), command * sizeof(std::uint32_t));
+        passes.push_back({pipelines_[i].get(), kPasses[i].queue});
     }
-    // The last pass once more, for what had no room: it only adds to what the other one adds to.
-    const VkDeviceSize command = VkDeviceSize{constants.headerWord} + 4 * VOXTACT_QUEUE_LEFT;
-    vk.CmdDispatchIndirect(commandBuffer, results.transforms.get(), command * sizeof(std::uint32_t));
-}
-
-void CertifiedPass::recordTally(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
-                                std::uint32_t rounds) const {
-    const DeviceFunctions& vk = context_->vk;
-    const shader::TallyConstants constants{firstQueueWord(results), results.queueRoom, rounds};
-    vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, tally_.get());
-    vk.CmdDispatch(commandBuffer, 1, 1, 1);
-}
-
-void CertifiedPass::renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results,
-                                 VkPipelineLayout layout) const {
-    if (desc_.counters) {
-        queuesBarrier(*context_, commandBuffer);
-        recordTally(commandBuffer, results, layout, VOXTACT_HEADERS);
-    }
-    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    recordQueueHeaders(*context_, commandBuffer, results);
-    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-            VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
-            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+    passes.push_back({pipelines_.back().get(), VOXTACT_QUEUE_LEFT});
+    return passes;
 }
 
 } // namespace voxtact

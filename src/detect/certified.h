@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "detect/clearance.h"
 #include "detect/results_impl.h"
 #include "gpu/pipeline.h"
 #include "shared.h"
 #include "voxtact/detector.h"
 
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace voxtact {
 
@@ -33,19 +36,15 @@ class CertifiedPass {
     CertifiedPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
-    void recordRound(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
-                     const shader::CertifiedConstants& given, std::uint32_t pairs, std::uint32_t round) const;
-    void renewHeaders(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout) const;
-    /// Counts what the last `rounds` rounds did; between barriers for compute shaders.
-    void recordTally(VkCommandBuffer commandBuffer, const ResultsImpl& results, VkPipelineLayout layout,
-                     std::uint32_t rounds) const;
+    [[nodiscard]] std::vector<RoundPass> passesOfRound() const;
     [[nodiscard]] shader::CertifiedConstants constantsOf(const Batch& batch, const BatchItem& item,
                                                          const ResultsImpl& results) const;
 
     ContextImpl* context_;
     DetectorDesc desc_;
     std::array<Owned<VkPipeline>, kCertifiedPasses> pipelines_;
-    Owned<VkPipeline> tally_; ///< with DetectorDesc::counters
+    Owned<VkPipeline> tally_;                ///< with DetectorDesc::counters
+    std::optional<ClearancePass> clearance_; ///< with DetectorDesc::clearance
 };
 
 } // namespace voxtact

@@ -27,12 +27,19 @@ VkDeviceSize countersByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VOXTACT_WORD_COUNTERS * sizeof(std::uint32_t);
 }
 
+VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) + VOXTACT_WORD_CLEARANCES(results.queueRoom) * sizeof(std::uint32_t);
+}
+
 std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
     constexpr std::uint32_t kClustersOfPair = 64;
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
     const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, kMostQueueRoom / kClustersOfPair));
     std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
-    while (room >= kLeastQueueRoom && first + queueBytes(room) > bytes) {
+    const auto needed = [&] {
+        return first + queueBytes(room) + (desc.clearances ? clearanceBytes(room, desc.maxPairs) : 0);
+    };
+    while (room >= kLeastQueueRoom && needed() > bytes) {
         room /= 2;
     }
     return room >= kLeastQueueRoom ? room / kStep * kStep : 0;

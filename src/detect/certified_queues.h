@@ -34,6 +34,15 @@ static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::u
 /// Where the CertifiedCounters of a batch are in that buffer.
 [[nodiscard]] VkDeviceSize countersByte(const ResultsImpl& results) noexcept;
 
+/// Bytes behind the queues for the clearances of so many pairs.
+[[nodiscard]] constexpr VkDeviceSize clearanceBytes(std::uint32_t room, std::uint32_t pairs) noexcept {
+    return VkDeviceSize{VOXTACT_WORD_CLEARANCES(room)} * sizeof(std::uint32_t) - queueBytes(room) +
+           VkDeviceSize{pairs} * sizeof(ClearanceResult);
+}
+static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::uint32_t));
+/// Where they are in that buffer.
+[[nodiscard]] VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept;
+
 /// The room for Results, in a buffer of at most `bytes`, of which the queues begin at `first`; 0 where it has none.
 [[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept;
 

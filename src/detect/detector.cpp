@@ -142,6 +142,31 @@ Result<void> checkMargin(const DetectorDesc& desc) {
     return {};
 }
 
+Result<void> checkClearance(const DetectorDesc& desc) {
+    if (!desc.clearance) {
+        return {};
+    }
+    VOXTACT_TRY(checkTolerance(desc.clearance->tolerance));
+    VOXTACT_TRY(checkMaximum(desc.clearance->maximum));
+    if (!rowOf(desc.projection).certified) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     std::string("a clearance is for the projection conservative, not for ") +
+                         toString(desc.projection)};
+    }
+    if (desc.margin > 0) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "a clearance and a margin are two questions: they need a detector each"};
+    }
+    if (desc.outputs.any()) {
+        return Error{ErrorCode::InvalidArgument, 0, "clearances are measured without outputs"};
+    }
+    return {};
+}
+
+std::optional<double> maximumOf(const DetectorDesc& desc) {
+    return desc.clearance ? std::optional(desc.clearance->maximum) : std::nullopt;
+}
+
 /// What the pass itself refuses of a checked batch.
 Result<void> checkPass(const AnyPass& any, const Batch& batch) {
     return std::visit(
@@ -175,6 +200,7 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         VOXTACT_TRY(checkMethod(context, desc.method));
         VOXTACT_TRY(checkDesc(c, desc));
         VOXTACT_TRY(checkMargin(desc));
+        VOXTACT_TRY(checkClearance(desc));
         VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =
             rowOf(desc.projection).certified                    ? withPass(c, desc, CertifiedPass::create(c, desc))
@@ -219,12 +245,17 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                     " pairs, have no queues for the projection conservative: ResultsDesc::clustersAtOnce is 0, "
                     "or the device's maxStorageBufferRange has no room for them beside so many pairs"};
         }
+        if (live(impl_).desc.clearance && !slot.clearances) {
+            return Error{ErrorCode::InvalidArgument, 0,
+                         "the Results have no room for clearances: ResultsDesc::clearances is false"};
+        }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));
         slot.pairs = *pairs;
         slot.detectRecorded = true;
         slot.readBackRecorded = false;
         slot.counted = live(impl_).desc.counters;
+        slot.maximum = maximumOf(live(impl_).desc);
         if (slot.outputs) {
             slot.outputs->recorded = live(impl_).desc.outputs;
         }

@@ -96,6 +96,12 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     return {};
 }
 
+VkDeviceSize transformBytes(const ResultsImpl& results) {
+    const std::uint32_t room = results.queueRoom;
+    return firstQueueByte(results) + (room == 0 ? 0 : queueBytes(room)) +
+           (results.clearances ? clearanceBytes(room, results.maxPairs) : 0);
+}
+
 /// The buffers of a Results, each with what it is for.
 Result<void> makeBuffers(ResultsImpl& out, const ResultsDesc& desc) {
     const VkDeviceSize bytes = VkDeviceSize{out.maxPairs} * sizeof(PairResult);
@@ -110,13 +116,12 @@ Result<void> makeBuffers(ResultsImpl& out, const ResultsDesc& desc) {
     };
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const Wanted wanted[] = {
-        {true, out.transforms,
-         out.queueRoom == 0 ? firstQueueByte(out) : firstQueueByte(out) + queueBytes(out.queueRoom),
+        {true, out.transforms, transformBytes(out),
          kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device,
          "pair transforms"},
         {ownResults, out.ownResults, bytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
-        {desc.readBack, out.readBack, out.copyNumberOnHost() + sizeof out.copies, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-         MemoryUse::ReadBack, "pair results on the host"},
+        {desc.readBack, out.readBack, out.readBackBytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
+         "pair results on the host"},
     };
     for (const Wanted& each : wanted) {
         if (!each.wanted) {
@@ -170,6 +175,19 @@ Error notReady(const char* text) {
     return {ErrorCode::NotReady, 0, text};
 }
 
+PairClearance unpack(const PairResult& pair, const ClearanceResult& found, double maximum) {
+    PairClearance out;
+    out.pair = pair.pair;
+    out.item = pair.item;
+    out.pose = pair.pose;
+    out.bounds = {static_cast<double>(found.lo), static_cast<double>(found.hi)};
+    out.end = static_cast<ClearanceEnd>(found.end);
+    if (out.end == ClearanceEnd::Beyond) {
+        out.bounds.lo = maximum; // a float is not less
+    }
+    return out;
+}
+
 Result<void> checkReadable(const ResultsImpl& results) {
     VOXTACT_TRY(results.context.alive());
     if (!results.readBackRecorded) {
@@ -203,6 +221,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = c, .maxPairs = desc.maxPairs});
         impl->maxTransforms = transformsFor(c, desc.maxPairs);
         impl->queueRoom = queueRoomFor(desc, bytesFor(c), firstQueueByte(*impl));
+        impl->clearances = desc.clearances && impl->queueRoom > 0;
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         VOXTACT_TRY(makeBuffers(*impl, desc));
         for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
@@ -234,6 +253,14 @@ VkBuffer Results::buffer() const noexcept {
     return live(impl_).results.buffer;
 }
 
+BufferRange Results::clearances() const noexcept {
+    const ResultsImpl& r = live(impl_);
+    if (!r.clearances) {
+        return {};
+    }
+    return {r.transforms.get(), clearancesByte(r), VkDeviceSize{r.maxPairs} * sizeof(ClearanceResult)};
+}
+
 Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
         ResultsImpl& r = live(impl_);
@@ -258,6 +285,11 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
         if (r.counted) {
             const VkBufferCopy counters{countersByte(r), r.countersOnHost(), sizeof(CertifiedCounters)};
             r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &counters);
+        }
+        if (r.maximum) {
+            const VkBufferCopy clearances{clearancesByte(r), r.clearancesOnHost(),
+                                          VkDeviceSize{r.pairs} * sizeof(ClearanceResult)};
+            r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &clearances);
         }
         if (r.outputs) {
             copyOutputs(r.context, commandBuffer, *r.outputs);
@@ -291,6 +323,27 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
         }
         VOXTACT_TRY(invalidate(r.context, r.outputs->readBack));
         return unpackOutputs(*r.outputs, answer);
+    });
+}
+
+Result<std::vector<PairClearance>> Results::readClearances() {
+    return guard([&]() -> Result<std::vector<PairClearance>> {
+        const ResultsImpl& r = live(impl_);
+        VOXTACT_TRY(checkReadable(r));
+        if (!r.maximum) {
+            return notReady("the last cmdDetect() was of a detector without DetectorDesc::clearance");
+        }
+        const auto* pairs = static_cast<const PairResult*>(r.readBack.mapped);
+        std::vector<PairClearance> out;
+        out.reserve(r.pairs);
+        for (std::uint32_t i = 0; i < r.pairs; ++i) {
+            ClearanceResult found{};
+            std::memcpy(&found,
+                        static_cast<const std::byte*>(r.readBack.mapped) + r.clearancesOnHost() + i * sizeof found,
+                        sizeof found);
+            out.push_back(unpack(pairs[i], found, *r.maximum));
+        }
+        return out;
     });
 }
 

@@ -16,13 +16,16 @@ struct ResultsImpl {
     bool detectRecorded = false;     ///< cmdDetect() was recorded
     bool readBackRecorded = false;   ///< cmdReadBack() came after the last cmdDetect()
     bool counted = false;            ///< the batch recorded last has CertifiedCounters
+    bool clearances = false;         ///< there is room for those of maxPairs, behind the queues
+    std::optional<double> maximum{}; ///< of the batch recorded last, where it has clearances: ClearanceSearch
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
     std::uint32_t queueRoom = 0;     ///< of the projection conservative, in clusters: shaders/shared.h
     Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
     BufferRange results{};           ///< maxPairs PairResults, of `ownResults` or of the caller's buffer
     Buffer ownResults{};             ///< empty with ResultsDesc::into
-    Buffer readBack{};               ///< the host's copy, CertifiedCounters, the number of it; empty when not asked for
+    Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults; empty when not asked
+                       ///< for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
@@ -33,6 +36,10 @@ struct ResultsImpl {
     [[nodiscard]] VkDeviceSize countersOnHost() const noexcept { return VkDeviceSize{maxPairs} * sizeof(PairResult); }
     [[nodiscard]] VkDeviceSize copyNumberOnHost() const noexcept {
         return countersOnHost() + sizeof(CertifiedCounters);
+    }
+    [[nodiscard]] VkDeviceSize clearancesOnHost() const noexcept { return copyNumberOnHost() + sizeof copies; }
+    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+        return clearancesOnHost() + (clearances ? VkDeviceSize{maxPairs} * sizeof(ClearanceResult) : 0);
     }
 };
 

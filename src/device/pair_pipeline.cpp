@@ -157,6 +157,11 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
     }
     BatchAnswer answer;
     VOXTACT_TRY(desc.room ? results.readOutputs(flight.frame, answer) : Result<void>());
+    if (detector.desc().clearance) {
+        Result<std::vector<PairClearance>> clearances = flight.results->readClearances();
+        VOXTACT_TRY(clearances);
+        answer.clearances = std::move(*clearances);
+    }
     if (flight.results->counted()) {
         const Result<CertifiedCounters> counters = flight.results->counters();
         VOXTACT_TRY(counters);
@@ -228,7 +233,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                               .timestamps = how.timestamps,
                               .queueFamily = device.queueAccess().family,
                               .room = how.room,
-                              .clustersAtOnce = certified ? std::nullopt : std::optional(0U)};
+                              .clustersAtOnce = certified ? std::nullopt : std::optional(0U),
+                              .clearances = detector.desc().clearance.has_value()};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));

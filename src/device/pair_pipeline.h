@@ -37,7 +37,7 @@ class PairPipeline {
     struct Events {
         std::function<void(const TimedAnswer&)> pair;
         /// After all pairs of a submission: the answers beside their counts, where there is room for them, and the
-        /// counters of a detector that has them; `pair` counts from the first of these.
+        /// clearances and counters of a detector that has them; `pair` counts from the first of these.
         std::function<void(const BatchAnswer&)> submission{};
         /// Asked before each submission: true, and no more are made.
         std::function<bool()> stop{};

@@ -236,5 +236,43 @@ TEST_F(ClearanceDeviceTest, AMarginIsTheDevicesToo) {
     EXPECT_THAT(output(detect({"--margin", "5", "--count", "compute", "--stats"})), HasSubstr("# clusters="));
 }
 
+/// Its bounds are others, that overlap.
+TEST_F(ClearanceDeviceTest, AClearanceIsTheDevicesToo) {
+    // Voxels of 6 mm, and the last pose is 400 mm away: single precision tells no less apart.
+    for (const Arguments& more :
+         {Arguments{"--tolerance", "0.3"}, Arguments{"--tolerance", "0.2", "--answer", "yes-no"},
+          Arguments{"--max-clearance", "100", "--tolerance", "0.02"}, Arguments{"--opacity", "0:0"}}) {
+        Arguments asked{"--clearance"};
+        asked.insert(asked.end(), more.begin(), more.end());
+        auto onHost = rows(asked);
+        asked.insert(asked.end(), {"--count", "compute"});
+        auto onDevice = rows(asked);
+        ASSERT_EQ(onDevice.size(), 3U);
+        for (std::size_t i = 0; i < onDevice.size(); ++i) {
+            SCOPED_TRACE(more[0] + " " + more[1] + ", pose " + std::to_string(i));
+            EXPECT_EQ(onDevice[i].at("method"), "compute");
+            onDevice[i]["method"] = "cpu";
+            EXPECT_LE(std::stod(onDevice[i].at("clearance_lo")), std::stod(onHost[i].at("clearance_hi")));
+            EXPECT_GE(std::stod(onDevice[i].at("clearance_hi")), std::stod(onHost[i].at("clearance_lo")));
+            if (std::isfinite(std::stod(onDevice[i].at("clearance_hi")))) {
+                EXPECT_LE(std::stod(onDevice[i].at("clearance_hi")) - std::stod(onDevice[i].at("clearance_lo")),
+                          0.3001);
+                onDevice[i]["clearance_lo"] = onHost[i].at("clearance_lo");
+                onDevice[i]["clearance_hi"] = onHost[i].at("clearance_hi");
+            }
+            EXPECT_EQ(onDevice[i], onHost[i]);
+        }
+    }
+    EXPECT_THAT(output(detect({"--clearance", "--max-clearance", "1", "--count", "compute", "--stats"})),
+                HasSubstr("# clusters="));
+    const auto line = [&](Arguments more) {
+        more.insert(more.end(), {"--clearance", "--count", "compute"});
+        return refused(2, detect(more));
+    };
+    EXPECT_THAT(line({"--closest", "c.csv"}),
+                HasSubstr("--closest is answered by the host; leave out --count compute"));
+    EXPECT_THAT(line({"--triangles", "t.csv"}), HasSubstr("--triangles: with --clearance --count compute"));
+}
+
 } // namespace
 } // namespace voxtact::test

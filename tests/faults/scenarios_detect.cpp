@@ -159,6 +159,12 @@ std::vector<Scenario> detectScenarios() {
                                                .stopAtFirst = true,
                                                .counters = true});
                    }});
+    out.push_back({"compute conservative clearances", [](Play& play) {
+                       return askThrice(play, {.method = CountingMethod::Compute,
+                                               .projection = Projection::Conservative,
+                                               .stopAtFirst = true,
+                                               .clearance = ClearanceSearch{.maximum = 1}});
+                   }});
     for (DetectorDesc desc : allWays()) {
         // All at once where a method or projection is first seen, one at a time by the rasteriser and certified.
         for (const Outputs& outputs : allOutputs()) {

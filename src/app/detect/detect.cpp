@@ -242,7 +242,7 @@ Outcome runDetect(const CLI::App& parser, DetectOptions options) {
 void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
     parser.add_flag("--clearance", options.clearance,
                     "adds clearance_lo and clearance_hi: between them lies the least distance between the surface and "
-                    "what is opaque, in mm; by the host");
+                    "what is opaque, in mm; by the host, or by --count compute");
     addNumber(
         parser, "--tolerance", [&options](double mm) { options.tolerance = mm; },
         "mm, how near to each other these are brought", [](double mm) { return mm >= 1e-6; }, "at least 1e-6", "0.01");

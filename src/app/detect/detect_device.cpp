@@ -120,7 +120,13 @@ Result<void> DeviceEngine::answer(const Window& window, WindowRows& rows, const 
     }
     return pipeline_.run({items, volume_->view, options_.transferFunction.threshold},
                          {.pair = [&](const device::TimedAnswer& timed) { rows.add(timed); },
-                          .submission = [&](const BatchAnswer& answer) { rows.endBatch(answer); },
+                          .submission =
+                              [&](const BatchAnswer& answer) {
+                                  for (const PairClearance& clearance : answer.clearances) {
+                                      rows.addClearance(clearance);
+                                  }
+                                  rows.endBatch(answer);
+                              },
                           .stop = stop,
                           .pace = &pace_});
 }
@@ -137,6 +143,9 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.stopAtFirst = options.yesNo() && rowOf(desc.projection).certified;
     desc.counters = options.stats;
     desc.margin = options.distance.margin.value_or(0);
+    if (options.distance.clearance) {
+        desc.clearance = options.distance.search();
+    }
     return desc;
 }
 

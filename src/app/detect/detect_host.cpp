@@ -183,13 +183,13 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
         checker = std::move(*made);
     }
     if (options.distance.clearance || options.distance.margin) {
-        const DistanceOptions& distance = options.distance;
+        const ClearanceSearch search = options.distance.search();
         Result<cpu::ClearanceMeter> made =
             cpu::ClearanceMeter::create({.threads = options.threads,
-                                         .tolerance = distance.tolerance.value_or(kDefaultTolerance),
-                                         .maximum = distance.maximum.value_or(std::numeric_limits<double>::infinity()),
+                                         .tolerance = search.tolerance,
+                                         .maximum = search.maximum,
                                          .resolution = method.resolution.value_or(kDefaultResolution),
-                                         .labelsAtAnyOpacity = distance.toAnyOpacity});
+                                         .labelsAtAnyOpacity = options.distance.toAnyOpacity});
         VOXTACT_TRY(made);
         meter = std::move(*made);
     }

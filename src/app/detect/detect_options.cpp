@@ -59,12 +59,36 @@ Result<void> checkHost(const DetectOptions& options) {
 }
 
 /// Whether what is near is asked of a device.
-bool isMarginOnDevice(const DetectOptions& options) {
-    return options.distance.margin && !options.distance.clearance && options.method.count &&
-           options.method.count == CountingMethod::Compute;
+bool isDistanceOnDevice(const DetectOptions& options) {
+    const DistanceOptions& distance = options.distance;
+    return options.method.count == CountingMethod::Compute && !distance.poseTolerance &&
+           distance.margin.has_value() != distance.clearance;
 }
 
-/// Only the host measures, and only what is certified; a margin alone is the device's, too.
+/// A device says how near, not where, and not to which label.
+Result<void> checkDeviceDistance(const DetectOptions& options) {
+    const DistanceOptions& distance = options.distance;
+    if (distance.margin) {
+        const Result<void> margin = checkMargin(*distance.margin);
+        return margin.ok() ? margin : badArgument("--margin: " + margin.error().text);
+    }
+    for (const auto& [option, given] : {std::pair("--closest", !distance.closest.empty()),
+                                        std::pair("--label-clearance", !distance.labels.empty())}) {
+        if (given) {
+            return badArgument(option + std::string(" is answered by the host; leave out --count compute, or give "
+                                                    "--count cpu"));
+        }
+    }
+    if (options.extra.outputs().any()) {
+        return badArgument(
+            std::string(options.extra.asking()) +
+            ": with --clearance --count compute there are counts only; leave out one of the two, or give "
+            "--count cpu");
+    }
+    return {};
+}
+
+/// What is certified only, and by the host where a device is not asked for by name.
 Result<void> checkDistance(DetectOptions& options) {
     const DistanceOptions& distance = options.distance;
     const std::string clearance = "it is about clearances, and --clearance is not given";
@@ -96,18 +120,18 @@ Result<void> checkDistance(DetectOptions& options) {
     }
     const std::string option = distance.clearance ? "--clearance" : distance.margin ? "--margin" : "--pose-tolerance";
     MethodOptions& method = options.method;
-    if (method.count && !rowOf(*method.count).host && !isMarginOnDevice(options)) {
+    if (method.count && !rowOf(*method.count).host && !isDistanceOnDevice(options)) {
         return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +
-                           ", or give --count cpu" + (option == "--margin" ? " or compute" : ""));
+                           ", or give --count cpu" +
+                           (distance.margin.has_value() != distance.clearance ? " or compute" : ""));
     }
     if (method.projection && !rowOf(*method.projection).certified) {
         return badArgument(option + " is certified; leave out --projection " + toString(*method.projection) +
                            ", or give --projection conservative");
     }
-    if (isMarginOnDevice(options)) {
+    if (isDistanceOnDevice(options)) {
         method.projection = Projection::Conservative;
-        const Result<void> margin = checkMargin(*distance.margin);
-        return margin.ok() ? margin : badArgument("--margin: " + margin.error().text);
+        return checkDeviceDistance(options);
     }
     method.count = CountingMethod::Cpu;
     return {};
@@ -157,8 +181,9 @@ Result<void> checkStats(const DetectOptions& options) {
     if (!options.stats) {
         return {};
     }
-    if (options.distance.any() && !isMarginOnDevice(options)) {
-        return badArgument("--stats counts what a device does, and distances are the host's; leave it out");
+    if (options.distance.any() && !isDistanceOnDevice(options)) {
+        return badArgument("--stats counts what a device does, and distances are the host's; leave it out, or give "
+                           "--count compute");
     }
     if (options.method.count && rowOf(*options.method.count).host) {
         return badArgument("--stats: the counting method cpu counts nothing of what it does; leave it out, or give "

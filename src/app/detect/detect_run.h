@@ -36,6 +36,13 @@ struct DistanceOptions {
     std::vector<LabelWord> to;       ///< empty: all but 0
     bool toAnyOpacity = false;       ///< all of a label, not what is opaque of it
 
+    /// With `clearance`.
+    [[nodiscard]] ClearanceSearch search() const {
+        ClearanceSearch asked;
+        asked.tolerance = tolerance.value_or(asked.tolerance);
+        asked.maximum = maximum.value_or(asked.maximum);
+        return asked;
+    }
     [[nodiscard]] bool any() const { return clearance || isMargin(); }
     /// Whether what is asked is not if a pose touches, but if it or something near does.
     [[nodiscard]] bool isMargin() const { return margin.has_value() || poseTolerance.has_value(); }

@@ -180,6 +180,14 @@ std::array<Vec3, 3> voxelSides(const Grid& grid) {
 
 } // namespace
 
+double longestSide(const Grid& grid) noexcept {
+    double longest = 0;
+    for (const Vec3& side : voxelSides(grid)) {
+        longest = std::max(longest, length(side));
+    }
+    return longest;
+}
+
 std::array<double, 3> voxelsOfMargin(const Grid& grid, double margin) noexcept {
     const std::array<Vec3, 3> sides = voxelSides(grid);
     std::array<double, 3> out{};
@@ -196,10 +204,7 @@ std::array<double, 3> voxelsOfMargin(const Grid& grid, double margin) noexcept {
 shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, double margin) noexcept {
     constexpr double kOutward = 1 + 0x1p-18; // more than rounding here, to float, and in the sums of marginBounds()
     const std::array<Vec3, 3> sides = voxelSides(grid);
-    double longest = 0;
-    for (const Vec3& side : sides) {
-        longest = std::max(longest, std::sqrt(dot(side, side)));
-    }
+    const double longest = longestSide(grid);
     const Vec3 x = unit(sides[0]);
     const Vec3 y = unit(across(sides[1], x));
     const Vec3 z = unit(across(across(sides[2], x), y));
@@ -214,6 +219,32 @@ shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, d
     }
     item.resolution = static_cast<float>(margin / longest);
     return item;
+}
+
+shader::CertifiedItem withClearance(shader::CertifiedItem item, const Grid& grid, double tolerance) noexcept {
+    constexpr double kLeft = 0.75;      // the rest is for roundings
+    constexpr double kFinest = 0x1p-10; // voxels; single precision tells no less apart
+    const double side = longestSide(grid);
+    item = withMargin(item, grid, side);
+    item.resolution = static_cast<float>(std::max(kLeft * tolerance / side, kFinest));
+    return item;
+}
+
+Result<void> checkTolerance(double tolerance) {
+    constexpr double kLeastTolerance = 1e-6;
+    if (!(tolerance >= kLeastTolerance && tolerance < std::numeric_limits<double>::infinity())) {
+        return Error{ErrorCode::InvalidArgument, 0,
+                     "the tolerance " + number(tolerance) + " mm is not a number from " + number(kLeastTolerance) +
+                         " mm on"};
+    }
+    return {};
+}
+
+Result<void> checkMaximum(double maximum) {
+    if (!(maximum > 0)) {
+        return Error{ErrorCode::InvalidArgument, 0, "the maximum clearance " + number(maximum) + " mm is not above 0"};
+    }
+    return {};
 }
 
 } // namespace voxtact

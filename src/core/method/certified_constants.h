@@ -28,10 +28,23 @@ namespace voxtact {
 /// Refuses a margin that is not a number from 0 to 1,000,000 mm.
 [[nodiscard]] Result<void> checkMargin(double margin);
 
+/// Refuses a tolerance of a clearance that is not a number from 1e-6 mm on.
+[[nodiscard]] Result<void> checkTolerance(double tolerance);
+/// Refuses a maximum of a clearance, mm, that is not above 0.
+[[nodiscard]] Result<void> checkMaximum(double maximum);
+
+/// Of a voxel, mm: the unit of flat space.
+[[nodiscard]] double longestSide(const Grid& grid) noexcept;
+
 /// How far a margin, mm, reaches from a point, in voxels along each axis.
 [[nodiscard]] std::array<double, 3> voxelsOfMargin(const Grid& grid, double margin) noexcept;
 
 /// An item that is asked what is within a margin, mm, more than 0: marginOf() of shaders/certified_margin.h reads it.
 [[nodiscard]] shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, double margin) noexcept;
+
+/// An item that is asked how near what is opaque is: its `resolution` is then what of the tolerance, mm, the search may
+/// leave, flat, and what marginOf() reads is that of a margin of 1.
+[[nodiscard]] shader::CertifiedItem withClearance(shader::CertifiedItem item, const Grid& grid,
+                                                  double tolerance) noexcept;
 
 } // namespace voxtact

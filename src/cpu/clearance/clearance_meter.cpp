@@ -22,7 +22,6 @@ namespace {
 using glm::dvec3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLeastTolerance = 1e-6;
 
 using LabelSets = std::shared_ptr<const std::vector<LabelSet>>;
 
@@ -52,13 +51,8 @@ Error refuse(const std::string& text) {
 
 Result<void> checkDesc(const ClearanceDesc& desc) {
     VOXTACT_TRY(checkThreads(desc.threads));
-    if (!(desc.tolerance >= kLeastTolerance && desc.tolerance < kInfinity)) {
-        return refuse("the tolerance " + number(desc.tolerance) + " mm is not a number from " +
-                      number(kLeastTolerance) + " mm on");
-    }
-    if (!(desc.maximum > 0)) {
-        return refuse("the maximum clearance " + number(desc.maximum) + " mm is not above 0");
-    }
+    VOXTACT_TRY(checkTolerance(desc.tolerance));
+    VOXTACT_TRY(checkMaximum(desc.maximum));
     if (desc.mostSteps == 0) {
         return refuse("at most 0 steps are allowed, a clearance takes at least one step");
     }

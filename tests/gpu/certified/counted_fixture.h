@@ -10,9 +10,10 @@
 
 namespace voxtact::test {
 
-/// The answers of a batch, and what the passes count where that is asked for.
+/// The answers of a batch, and what the passes count and how near pairs are where that is asked for.
 struct Answered {
     std::vector<PairAnswer> pairs;
+    std::vector<PairClearance> clearances;
     CertifiedCounters counters{};
 };
 
@@ -30,7 +31,8 @@ class CertifiedTest : public RawGpuTest {
     /// With Results of so many `pairs` and `clusters` at once.
     Answered detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
         const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters}));
+        Results results = take(Results::create(
+            context(), {.maxPairs = pairs, .clustersAtOnce = clusters, .clearances = desc.clearance.has_value()}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));
@@ -38,6 +40,9 @@ class CertifiedTest : public RawGpuTest {
         Answered out;
         for (const PairResult& pair : take(results.read())) {
             out.pairs.push_back(unpack(pair));
+        }
+        if (desc.clearance) {
+            out.clearances = take(results.readClearances());
         }
         EXPECT_EQ(results.counted(), desc.counters);
         if (desc.counters) {

@@ -3,6 +3,7 @@
 // own cpu::ClearanceMeter::within(), and where distances are known.
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
+#include "certified/head_scene.h"
 
 #include "certified.h"
 #include "cpu/scenes/margin_cases.h"
@@ -154,36 +155,11 @@ TEST_F(MarginTest, OfASingleVoxel) {
     }
 }
 
-/// A scalpel, or what is larger, at some poses in and about a head.
-struct Head {
-    VolumeData head = take(makeBuiltinVolume("head:48"));
-    std::array<ControlPoint, 2> points{ControlPoint{40, 0}, ControlPoint{80, 1}};
-    MeshData data;
-    Volume volume;
-    TransferFunction function;
-    Mesh mesh;
-    cpu::Volume hostVolume = take(cpu::Volume::create(head.view()));
-    cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create({points, {0, 255}, kDefaultTableSize}));
-    cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
-    std::vector<Mat4> poses;
-    BatchItem item{};
-
-    Head(const Context& context, const QueueAccess& queue, MeshData given, std::size_t count, std::uint64_t seed,
-         bool clusters = true)
-        : data(std::move(given)), volume(take(Volume::upload(context, queue, head.view(), {.bricks = true}))),
-          function(take(TransferFunction::upload(context, queue, {points, {0, 255}, kDefaultTableSize}))),
-          mesh(take(Mesh::upload(context, queue, data.view(), {.clusters = clusters}))) {
-        std::mt19937_64 random(seed);
-        poses = randomPoses(head.grid, count, 1.2, random);
-        item = {&mesh, &volume, &function, poses};
-    }
-    [[nodiscard]] Batch batch() const { return {{&item, 1}, {}, kDefaultThreshold}; }
-    [[nodiscard]] std::vector<PairAnswer> onHost(double margin) const {
-        cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-        const cpu::BatchItem at{&hostMesh, &hostVolume, &hostFunction, poses};
-        return take(meter.within({{&at, 1}, {}, kDefaultThreshold}, margin)).pairs;
-    }
-};
+std::vector<PairAnswer> hostMargins(const Head& scene, double margin) {
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    const cpu::BatchItem at = scene.hostItem();
+    return take(meter.within({{&at, 1}, {}, kDefaultThreshold}, margin)).pairs;
+}
 
 void expectSame(const std::vector<PairAnswer>& a, const std::vector<PairAnswer>& b) {
     ASSERT_EQ(a.size(), b.size());
@@ -205,7 +181,7 @@ TEST_F(MarginTest, NothingDependsOnTheRooms) {
             const Answered one = detect(desc, scene.batch(), kPoses, 16384);
             const Answered many = detect(desc, scene.batch(), kPoses, 16);
             expectSame(one.pairs, many.pairs);
-            const std::vector<PairAnswer> host = scene.onHost(margin);
+            const std::vector<PairAnswer> host = hostMargins(scene, margin);
             for (std::size_t i = 0; i < kPoses; ++i) {
                 expectNoContradiction(one.pairs[i], host[i]);
                 EXPECT_FALSE(one.pairs[i].possible) << "pair " << i;
@@ -229,7 +205,7 @@ TEST_F(MarginTest, OfTrianglesThroughAllOfIt) {
     desc.counters = true;
     const Answered found = detect(desc, scene.batch(), kPoses, 16384);
     expectSame(found.pairs, detect(desc, scene.batch(), kPoses, 16).pairs);
-    const std::vector<PairAnswer> host = scene.onHost(11);
+    const std::vector<PairAnswer> host = hostMargins(scene, 11);
     for (std::size_t i = 0; i < kPoses; ++i) {
         expectNoContradiction(found.pairs[i], host[i]);
     }
@@ -249,7 +225,7 @@ TEST_F(MarginTest, GrowsWithTheMargin) {
     for (const double margin : {0.02, 3.0, 20.0}) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", margin " + std::to_string(margin));
         const std::vector<PairAnswer> now = detect(within(margin), scene.batch(), kPoses, 2048).pairs;
-        const std::vector<PairAnswer> host = scene.onHost(margin);
+        const std::vector<PairAnswer> host = hostMargins(scene, margin);
         for (std::size_t i = 0; i < kPoses; ++i) {
             EXPECT_FALSE(before[i].hit && !now[i].hit) << "pair " << i;
             expectNoContradiction(now[i], host[i]);

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Where clearances are measured: what is known of a pair, and how the passes with a margin read and better it. A step of
+// the search looks as far as the pair asks (VOXTACT_CLEARANCE_ASKED), but never as far as is known already to have
+// something opaque, less the tolerance: what is dropped is farther than both. Distances are flat, as in
+// certified_margin.h; those of a pair only shrink during a step, and are compared as the words behind them.
+#ifndef VOXTACT_CERTIFIED_CLEARANCE_GLSL
+#define VOXTACT_CERTIFIED_CLEARANCE_GLSL
+
+// Others better these words while they are read.
+layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) volatile buffer Live { uint live[]; };
+
+uint clearanceWord(uint pair) {
+    return constants.queueWord + VOXTACT_WORD_CLEARANCES(constants.queueRoom) + VOXTACT_CLEARANCE_WORDS * pair;
+}
+
+/// What bounds are not brought nearer to each other than: most of the tolerance, or what rounding leaves.
+float clearanceSpare(MarginSpace by, float distance) {
+    return max(constants.item.resolution, distance * by.size * VOXTACT_CLEARANCE_ROUNDING);
+}
+
+/// Nothing farther is of use, where something is known to be as near as `hi`.
+float clearanceLimit(MarginSpace by, float asked, float hi) {
+    return min(asked, hi - clearanceSpare(by, hi));
+}
+
+float clearanceHi(uint pair) {
+    return uintBitsToFloat(live[clearanceWord(pair) + VOXTACT_CLEARANCE_HI]);
+}
+
+float clearanceAsked(uint pair) {
+#ifdef PROBE
+    return VOXTACT_CLEARANCE_FAR; // what bounds the distance above may be farther
+#else
+    return uintBitsToFloat(live[clearanceWord(pair) + VOXTACT_CLEARANCE_ASKED]);
+#endif
+}
+
+/// The margin of a pair at this moment. `grow` is that of the step, from beginning to end: who deals the work and who
+/// does it must see the same boxes.
+MarginSpace clearanceSpace(uint pair) {
+    MarginSpace by = marginOf(constants.item);
+    // The length of the vector of the rows' sums: less than the sum of these, which marginOf() has.
+    const vec3 rows = vec3(abs(by.xx) + abs(by.xy) + abs(by.xz), abs(by.yy) + abs(by.yz), abs(by.zz));
+    by.size = sqrt(dot(rows, rows)) * MARGIN_OUTWARD;
+    const float asked = clearanceAsked(pair);
+    by.grow = voxelPoint(by.grow.x * asked, by.grow.y * asked, by.grow.z * asked);
+    by.margin = clearanceLimit(by, asked, clearanceHi(pair));
+    return by;
+}
+
+#define MARGIN_SPACE(pair) clearanceSpace(pair)
+
+/// Whether there is nothing left to be looked for.
+bool clearanceIsDone(uint pair) {
+    const uint word = clearanceWord(pair);
+    return live[word + VOXTACT_CLEARANCE_ASKED] < VOXTACT_CLEARANCE_ENDS ||
+           clearanceSpace(pair).margin <= uintBitsToFloat(live[word + VOXTACT_CLEARANCE_LO]);
+}
+
+/// Something opaque is at least as near.
+void foundAt(uint pair, float distance) {
+    atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_HI], floatBitsToUint(distance));
+}
+
+/// Something is left undecided, and may be as near.
+void leaveOpen(uint pair, float distance) {
+    const uint least = distance > 0.0 ? floatBitsToUint(distance) : VOXTACT_CLEARANCE_UNKNOWN;
+    atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_OPEN], max(least, VOXTACT_CLEARANCE_UNKNOWN));
+}
+
+/// Something is not looked at, as it is too much.
+void refuse(uint pair) {
+    atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_OPEN], VOXTACT_CLEARANCE_REFUSED);
+}
+
+/// What a gap between shadows says at least of a distance.
+float clearanceBelow(float gap, float square, float slack) {
+    const float distance = gap * MARGIN_INWARD / sqrt(max(square, MARGIN_LEAST_SQUARE)) - slack;
+    return square >= MARGIN_LEAST_SQUARE ? max(distance * MARGIN_INWARD, 0.0) : 0.0;
+}
+
+/// A triangle that has the point `near` is no farther from `at`.
+float clearanceAbove(MarginSpace by, float slack, VoxelPoint near, VoxelPoint at) {
+    const VoxelPoint way = marginFlat(by, voxelDifference(at, near));
+    return (sqrt(voxelDot(way, way)) * MARGIN_OUTWARD + slack) * MARGIN_OUTWARD;
+}
+
+/// What a lane finds of a pair.
+struct ClearanceFound {
+    float hi;   // something opaque is as near
+    float open; // what is left undecided is not nearer
+};
+
+ClearanceFound nothingFound() {
+    return ClearanceFound(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR);
+}
+
+#endif
