@@ -17,13 +17,13 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_clearance_blocks.glsl"
 #endif
 
-/// Bricks that a run looks at, and a triangle by itself.
 #ifdef CLEARANCE
+/// Bricks that a run looks at, and a triangle by itself.
 const int kMostBricks = 32768;
 const int kMostBricksOfTriangle = 2048;
 #else
+/// Bricks that a run or a triangle looks at.
 const int kMostBricks = 512;
-const int kMostBricksOfTriangle = 512;
 #endif
 
 const uint kRefused = 2; // beside that the queue is full
@@ -168,7 +168,7 @@ void main() {
             } else if (!bounds.usable) {
                 leaveOpen(own.pair, anyBlock() ? 0.0 : VOXTACT_CLEARANCE_FAR);
 #endif
-            } else if (!bounds.usable || areMoreThan(kMostBricksOfTriangle, bricksOf(cells))) {
+            } else if (!bounds.usable || areMoreThan(kMostBricks, bricksOf(cells))) {
                 putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);
             } else {
                 reaches[lane] = certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]);
@@ -183,6 +183,10 @@ void main() {
     const Together run = togetherOf(own);
     if (run.which != 0 && run.near) {
         putBricksOfRun(own, run.reach, bricksOf(run.cells), run.which);
+#ifdef CLEARANCE
+    } else if (ownCells[lane] > 0.0 && areMoreThan(kMostBricksOfTriangle, bricksOf(cellsOf(bounds)))) {
+        putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);
+#endif
     } else if (ownCells[lane] > 0.0) {
         putBricksOfTriangle(own, triangleOf(at, bounds.delta), bricksOf(cellsOf(bounds)));
     }

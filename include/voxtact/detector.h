@@ -187,6 +187,8 @@ class Results {
     /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
     /// times. What its detector was not made for is left empty. The same is expected as by read().
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
+    /// Whether the batch recorded last is of a detector with DetectorDesc::clearance.
+    [[nodiscard]] VOXTACT_API bool measured() const noexcept;
     /// The clearances of the batch recorded last, unpacked. The same is expected as by read(); NotReady where its
     /// detector was made without DetectorDesc::clearance.
     [[nodiscard]] VOXTACT_API Result<std::vector<PairClearance>> readClearances();

@@ -28,6 +28,10 @@ typedef struct vxt_detector_desc {
     uint32_t device_poses;      ///< items may have vxt_item::poses; the queue then needs compute, too; default 0
     /// CONSERVATIVE with stop_at_first: whether anything opaque is within so many mm is asked; 0 to 1e6; 0: the touch
     double margin;
+    /// CONSERVATIVE without a margin and outputs: how near each pair is, to so many mm, from 1e-6 on, for
+    /// vxt_answer_clearances(); the results need room for it. 0, the default: that is not asked
+    double clearance_tolerance;
+    double max_clearance; ///< with clearance_tolerance, mm: what is farther is not measured; 0, the default: all is
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -133,7 +137,7 @@ typedef struct vxt_results_desc {
     /// CONSERVATIVE: clusters that a dispatch looks at, at most, 16 to 16384: voxtact::ResultsDesc::clustersAtOnce.
     /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
     uint32_t clusters_at_once;
-    uint32_t reserved; ///< 0
+    uint32_t clearances; ///< not 0: there is room for vxt_detector_desc::clearance_tolerance; default 0
     /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the
     /// results: voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
     vxt_buffer_range into;
@@ -166,6 +170,7 @@ typedef enum vxt_device_part {
     VXT_DEVICE_CONTACTS = 3,        ///< four uints: found, low and high word; the room; 0. Then the ContactResults
     VXT_DEVICE_BOUNDS = 4,          ///< six uints for each pair
     VXT_DEVICE_LABEL_COUNTS = 5,    ///< a uint for each label of each pair
+    VXT_DEVICE_CLEARANCES = 6,      ///< a ClearanceResult, 16 bytes, for each pair
     VXT_DEVICE_MAX = 0x7fffffff     ///< makes the type 32 bits wide
 } vxt_device_part;
 
@@ -224,6 +229,10 @@ static inline vxt_certified_counters vxt_certified_counters_init(void) {
 
 /// Of an answer that a detector with vxt_detector_desc::counters gave; NOT_READY of any other.
 VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters);
+
+/// Of an answer of a detector with vxt_detector_desc::clearance_tolerance, in the order of the batch, without closest
+/// points; NOT_READY of any other. The time that `clearances` then have is that of the answer.
+VXT_CHECKED vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances);
 
 /// Results for frames in flight: voxtact::ResultRing.
 typedef struct vxt_result_ring vxt_result_ring;

@@ -68,6 +68,9 @@ vxt_answer toAnswer(const BatchAnswer& answer) {
     convert<LabelCount, vxt_label_count>(answer.labels, out.labels, toLabelCount);
     out.contactsFound = answer.contactsFound;
     out.counters = answer.counters;
+    if (answer.clearances.size() == answer.pairs.size()) { // of none there may be none
+        out.clearances = answer.clearances;
+    }
     out.gpuMilliseconds = answer.gpuMilliseconds;
     out.wallMilliseconds = answer.wallMilliseconds;
     return out;

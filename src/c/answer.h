@@ -16,6 +16,7 @@ struct vxt_answer {
     std::vector<vxt_label_count> labels;
     std::uint64_t contactsFound = 0;
     std::optional<voxtact::CertifiedCounters> counters;
+    std::optional<std::vector<voxtact::PairClearance>> clearances; ///< where they were measured
     double gpuMilliseconds = 0;
     double wallMilliseconds = 0;
 };

@@ -2,6 +2,7 @@
 // How near.
 #include "c/answer.h"
 #include "c/batch.h"
+#include "c/clearances.h"
 #include "c/convert.h"
 #include "c/handles.h"
 
@@ -10,12 +11,6 @@
 
 using namespace voxtact;
 using namespace voxtact::c;
-
-struct vxt_clearances {
-    std::vector<vxt_pair_clearance> pairs;
-    std::vector<vxt_label_clearance> labels;
-    double wallMilliseconds = 0;
-};
 
 namespace {
 
@@ -34,7 +29,20 @@ cpu::ClearanceDesc toDesc(const vxt_host_clearance_desc* given) {
             .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0};
 }
 
-vxt_pair_clearance toPair(const PairClearance& pair) noexcept {
+vxt_label_clearance toLabel(const LabelClearance& label) noexcept {
+    return {label.bounds.lo,
+            label.bounds.hi,
+            label.pair,
+            label.item,
+            label.pose,
+            label.label,
+            number<vxt_clearance_end>(label.end),
+            0};
+}
+
+} // namespace
+
+vxt_pair_clearance voxtact::c::toClearance(const PairClearance& pair) noexcept {
     vxt_pair_clearance out{};
     out.lo = pair.bounds.lo;
     out.hi = pair.bounds.hi;
@@ -52,19 +60,6 @@ vxt_pair_clearance toPair(const PairClearance& pair) noexcept {
     }
     return out;
 }
-
-vxt_label_clearance toLabel(const LabelClearance& label) noexcept {
-    return {label.bounds.lo,
-            label.bounds.hi,
-            label.pair,
-            label.item,
-            label.pose,
-            label.label,
-            number<vxt_clearance_end>(label.end),
-            0};
-}
-
-} // namespace
 
 const char* vxt_clearance_end_name(vxt_clearance_end end) {
     return toString(number<ClearanceEnd>(end));
@@ -102,7 +97,7 @@ vxt_result vxt_host_clearance_meter_measure(vxt_host_clearance_meter* meter, con
         const ClearanceAnswer answer = take(by.measure(of.batch()));
         vxt_clearances out;
         out.wallMilliseconds = answer.wallMilliseconds;
-        std::ranges::transform(answer.pairs, std::back_inserter(out.pairs), toPair);
+        std::ranges::transform(answer.pairs, std::back_inserter(out.pairs), toClearance);
         to = std::move(out);
     });
 }

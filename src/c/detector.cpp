@@ -11,6 +11,20 @@ namespace {
 
 using DeviceBatch = BatchOf<Batch, BatchItem>;
 
+std::optional<ClearanceSearch> searchOf(const vxt_detector_desc& desc) {
+    if (desc.clearance_tolerance == 0) {
+        if (desc.max_clearance != 0) {
+            refuse(ErrorCode::InvalidArgument, "detector: max_clearance is given, and clearance_tolerance is 0");
+        }
+        return std::nullopt;
+    }
+    ClearanceSearch search{.tolerance = desc.clearance_tolerance};
+    if (desc.max_clearance != 0) {
+        search.maximum = desc.max_clearance;
+    }
+    return search;
+}
+
 DetectorDesc toDesc(const vxt_detector_desc* given) {
     const vxt_detector_desc desc = readOptions(given, vxt_detector_desc_init(), "detector");
     return {.method = number<CountingMethod>(desc.method),
@@ -24,7 +38,8 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .counters = desc.counters != 0,
             .overestimate = desc.overestimate != 0,
             .devicePoses = desc.device_poses != 0,
-            .margin = desc.margin};
+            .margin = desc.margin,
+            .clearance = searchOf(desc)};
 }
 
 } // namespace

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Results and rings of them.
 #include "c/answer.h"
+#include "c/clearances.h"
 #include "c/convert_vulkan.h"
+
+#include <algorithm>
+#include <iterator>
 
 using namespace voxtact;
 using namespace voxtact::c;
@@ -14,6 +18,7 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
                     .readBack = desc.read_back != 0,
                     .timestamps = desc.timestamps != 0,
                     .queueFamily = desc.queue_family,
+                    .clearances = desc.clearances != 0,
                     .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
@@ -38,6 +43,8 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
         return results.bounds();
     case VXT_DEVICE_LABEL_COUNTS:
         return results.labelCounts();
+    case VXT_DEVICE_CLEARANCES:
+        return results.clearances();
     default:
         break;
     }
@@ -82,6 +89,9 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
         answer.pairs.push_back(unpack(pair));
     }
     take(results.readOutputs(answer));
+    if (results.measured()) {
+        answer.clearances = take(results.readClearances());
+    }
     if (results.counted()) {
         answer.counters = take(results.counters());
     }
@@ -126,6 +136,20 @@ vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters*
             refuse(ErrorCode::NotReady, "the answer has no counters: its detector was made without them");
         }
         writeStruct(counters, fromCounters(*from.counters), "counters");
+    });
+}
+
+vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances) {
+    return call([&] {
+        const vxt_answer& from = need(answer, "answer");
+        vxt_clearances& to = need(clearances, "clearances");
+        if (!from.clearances) {
+            refuse(ErrorCode::NotReady, "the answer has no clearances: its detector was made without them");
+        }
+        vxt_clearances out;
+        out.wallMilliseconds = from.wallMilliseconds;
+        std::ranges::transform(*from.clearances, std::back_inserter(out.pairs), toClearance);
+        to = std::move(out);
     });
 }
 

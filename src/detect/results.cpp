@@ -326,6 +326,10 @@ Result<void> Results::readOutputs(BatchAnswer& answer) {
     });
 }
 
+bool Results::measured() const noexcept {
+    return live(impl_).maximum.has_value();
+}
+
 Result<std::vector<PairClearance>> Results::readClearances() {
     return guard([&]() -> Result<std::vector<PairClearance>> {
         const ResultsImpl& r = live(impl_);

@@ -181,6 +181,56 @@ TEST_F(CGpuTest, DecidesWhatIsWithinAMargin) {
     EXPECT_EQ(none, nullptr);
 }
 
+TEST_F(CGpuTest, MeasuresHowNear) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    RandomScene scene = halfOpaque(); // up to x = 0.5, and z = 1
+    scene.poses = {identity(), translation({0.7, 0, 0}), translation({0, 0, 0.9})};
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    EXPECT_EQ(desc.clearance_tolerance, 0);
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.stop_at_first = 1;
+    const Owned<vxt_answer> answer = newAnswer();
+    const auto clearances = made<vxt_clearances>(vxt_clearances_destroy, vxt_clearances_create);
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    EXPECT_EQ(vxt_answer_clearances(answer.get(), clearances.get()), VXT_ERROR_NOT_READY);
+    desc.clearance_tolerance = 0.002;
+    desc.max_clearance = 0.3;
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    need(vxt_answer_clearances(answer.get(), clearances.get()));
+    vxt_clearance_view view = vxt_clearance_view_init();
+    need(vxt_clearances_get(clearances.get(), &view));
+    ASSERT_EQ(view.pair_count, 3U);
+    EXPECT_EQ(view.label_count, 0U);
+    EXPECT_EQ(view.pairs[0].hi, 0);
+    EXPECT_LE(view.pairs[1].lo, 0.2 + 0.001); // an entry of the table is a part of a voxel
+    EXPECT_GE(view.pairs[1].hi, 0.2 - 0.001);
+    EXPECT_LE(view.pairs[1].hi - view.pairs[1].lo, 0.002);
+    EXPECT_EQ(view.pairs[1].end, VXT_CLEARANCE_CLOSED);
+    EXPECT_EQ(view.pairs[1].has_closest, 0U);
+    EXPECT_EQ(view.pairs[2].lo, 0.3); // 0.4 away
+    EXPECT_EQ(view.pairs[2].end, VXT_CLEARANCE_BEYOND);
+    EXPECT_EQ(view.pairs[2].pose, 2U);
+    desc.clearance_tolerance = 0;
+    vxt_detector* none = nullptr;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+
+    vxt_results_desc room = vxt_results_desc_init();
+    room.max_pairs = 3;
+    for (const std::uint32_t wanted : {0U, 1U}) {
+        room.clearances = wanted;
+        const Owned<vxt_results> results = newResults(room);
+        vxt_buffer_range range{};
+        need(vxt_results_on_device(results.get(), VXT_DEVICE_CLEARANCES, &range));
+        EXPECT_EQ(range.size, wanted * 48U);
+    }
+}
+
 TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
     if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
         GTEST_SKIP() << "no conservative by compute on this device";
