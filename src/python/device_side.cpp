@@ -41,6 +41,7 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.overestimate = question.overestimate;
     desc.counters = question.counters;
     desc.margin = question.margin;
+    desc.clearance = question.clearance;
     return desc;
 }
 

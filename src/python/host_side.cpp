@@ -77,10 +77,14 @@ std::vector<std::byte> HostSide::voxels(const VolumeView& given) const {
     return all;
 }
 
+void refuseWithoutDevice(CountingMethod method) {
+    refuse(ErrorCode::Unsupported,
+           std::string("the method ") + toString(method) + " needs a Vulkan device; make the scene with device=");
+}
+
 cpu::Detector& HostSide::detectorFor(const Question& question, std::uint32_t threads) {
     if (question.method.value_or(CountingMethod::Cpu) != CountingMethod::Cpu) {
-        refuse(ErrorCode::Unsupported, std::string("the method ") + toString(*question.method) +
-                                           " needs a Vulkan device; make the scene with device=");
+        refuseWithoutDevice(*question.method);
     }
     if (question.filter.value_or(Filter::Exact) != Filter::Exact || question.overestimate) {
         refuse(ErrorCode::Unsupported, "the host engine has the filter exact alone, and no overestimate; for others "

@@ -13,6 +13,9 @@
 
 namespace voxtact::python {
 
+/// Of a scene without a device.
+[[noreturn]] void refuseWithoutDevice(CountingMethod method);
+
 /// A part of a request.
 struct Part {
     const Request& request;

@@ -75,7 +75,8 @@ struct Question {
     bool yesNo = false;
     bool overestimate = false;
     bool counters = false;
-    double margin = 0; ///< mm; on a device
+    double margin = 0;                        ///< mm; on a device
+    std::optional<ClearanceSearch> clearance; ///< on a device
     std::uint32_t mostContacts = 1U << 20U;
     std::optional<View> view; ///< nothing: the volume from above
 
@@ -83,11 +84,12 @@ struct Question {
     [[nodiscard]] auto key() const noexcept {
         return std::tuple(projection, method, filter, boundary, outputs.triangles, outputs.contacts, outputs.bounds,
                           outputs.labels, inKey(outputs.maxDepth), samplesPerVoxel, inKey(resolution), yesNo,
-                          overestimate, counters, inKey(margin), mostContacts);
+                          overestimate, counters, inKey(margin), inKey(clearance ? clearance->tolerance : 0),
+                          inKey(clearance ? clearance->maximum : 0), mostContacts);
     }
-    using Key =
-        std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool, bool,
-                   std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t, std::uint32_t>;
+    using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
+                           bool, std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t,
+                           std::uint64_t, std::uint64_t, std::uint32_t>;
 };
 
 /// How a clearance is measured.

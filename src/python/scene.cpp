@@ -172,6 +172,31 @@ std::shared_ptr<Clearances> Scene::clearance(std::shared_ptr<const Request> requ
     return found;
 }
 
+std::shared_ptr<Clearances> Scene::clearanceByDevice(std::shared_ptr<const Request> request,
+                                                     const ClearanceSearch& search, const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    if (desc_.device == nullptr) {
+        refuseWithoutDevice(CountingMethod::Compute);
+    }
+    Question question;
+    question.method = CountingMethod::Compute;
+    question.yesNo = true;
+    question.clearance = search;
+    DeviceSide& side = onDevice(desc_.device);
+    auto found = std::make_shared<Clearances>();
+    found->request = request;
+    inPieces(request->pairs, firstPiece(*request, kClearanceCost, 1), DeviceSide::mostPairs(*request, question),
+             progress, [&](std::size_t first, std::size_t count) {
+                 BatchAnswer answer = side.detect(*request, first, count, question, desc_.threshold);
+                 ClearanceAnswer piece;
+                 piece.pairs = std::move(answer.clearances);
+                 piece.wallMilliseconds = answer.wallMilliseconds;
+                 found->add(piece);
+             });
+    return found;
+}
+
 std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request> request, const Distance& distance,
                                                   std::vector<std::int32_t> labels, const Progress& progress) {
     const Turns::Turn turn(turns_);

@@ -126,6 +126,14 @@ std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, co
                   : scene.clearance(request, distance, progress);
 }
 
+std::shared_ptr<Clearances> clearanceByDevice(Scene& scene, const py::object& meshes, const py::object& poses,
+                                              double tolerance, double maximum, const py::object& callback) {
+    const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
+    const Progress progress = progressOf(callback, request->pairs);
+    const Unlocked unlocked;
+    return scene.clearanceByDevice(request, {tolerance, maximum}, progress);
+}
+
 std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py::object& poses, double margin,
                                bool byDevice, const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
@@ -203,6 +211,8 @@ void defineScene(py::module_& module) {
              py::arg("times"))
         .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
              py::arg("most_steps"), py::arg("labels"), py::arg("labels_at_any_opacity"), py::arg("progress"))
+        .def("clearance_by_device", &clearanceByDevice, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"),
+             py::arg("maximum"), py::arg("progress"))
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("by_device"),
              py::arg("progress"))
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),

@@ -66,6 +66,30 @@ def test_a_margin_is_decided_by_the_device_that_is_asked(device, head, knife):
         there.within(knife, poses, margin=1, method="compute").contacts
 
 
+def test_a_clearance_is_measured_by_the_device_that_is_asked(device, head, knife):
+    host, there = both(device, head)
+    poses = random_poses(24, 34)
+    for maximum in (np.inf, 4):
+        expected = there.clearance([(knife, poses[:10]), (knife, poses[10:])], tolerance=0.1, maximum=maximum)
+        found = there.clearance([(knife, poses[:10]), (knife, poses[10:])], tolerance=0.1, maximum=maximum, method="compute")
+        assert len(found) == 24 and (found.item == expected.item).all() and (found.pose == expected.pose).all()
+        assert (found.lo <= expected.hi).all() and (expected.lo <= found.hi).all()
+        np.testing.assert_array_equal(found.hi == 0, expected.hi == 0)
+        closed = found.end == "closed"
+        assert (found.hi[closed] - found.lo[closed] <= 0.1).all() and closed.mean() > 0.3
+        beyond = found.end == "beyond"
+        assert (found.lo[beyond] == maximum).all() and beyond.any() == np.isfinite(maximum)
+        assert (found.closest["triangle"] == -1).all()
+    with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
+        host.clearance(knife, poses, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="method is 'query'; a clearance is measured by"):
+        there.clearance(knife, poses, method="query")
+    with pytest.raises(vx.InvalidArgumentError, match="tolerance"):
+        there.clearance(knife, poses, tolerance=0, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="most_steps"):
+        there.clearance(knife, poses, most_steps=5, method="compute")
+
+
 @pytest.mark.parametrize("method", ["query", "atomic", "subgroup", "compute"])
 def test_methods(device, head, knife, method):
     if device.methods[method] is not None:

@@ -43,6 +43,11 @@ _MAX_DEPTH = 10.0
 _INFINITE = float("inf")
 
 
+def _check_method(method: str, what: str) -> None:
+    if method not in ("cpu", "compute"):
+        raise InvalidArgumentError(f"method is {method!r}; {what} by 'cpu' or by 'compute'")
+
+
 class Scene:
     """A volume, and what of it is opaque: what meshes are put to.
 
@@ -257,7 +262,8 @@ class Scene:
     def clearance(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
                   tolerance: float = core.DEFAULT_TOLERANCE, maximum: float = _INFINITE,
                   labels: Union[None, Literal[True], Sequence[Union[int, str]]] = None, labels_at_any_opacity: bool = False,
-                  most_steps: int = core.DEFAULT_MOST_STEPS, progress: Progress = None) -> Clearance:
+                  most_steps: int = core.DEFAULT_MOST_STEPS, method: Literal["cpu", "compute"] = "cpu",
+                  progress: Progress = None) -> Clearance:
         """How many mm are left between the mesh's surface and what is opaque: certified bounds for each pose.
 
         tolerance
@@ -271,9 +277,16 @@ class Scene:
             to all of each label, be it opaque or not
         most_steps
             a pose that takes more is left with the bounds that it has
-
-        The host engine measures, also for scenes on a device.
+        method
+            "cpu": the host engine measures, also for scenes on a device; "compute": that device does, in single precision and without closest
+            points, labels and `most_steps`
         """
+        _check_method(method, "a clearance is measured")
+        by_device = method == "compute"
+        if by_device and labels is not None:
+            raise InvalidArgumentError("clearances to labels are measured by 'cpu' alone: leave out method='compute'")
+        if by_device and most_steps != core.DEFAULT_MOST_STEPS:
+            raise InvalidArgumentError("most_steps is about the host's search: leave it out, or method='compute'")
         wanted: Optional[list[int]] = None
         if labels is not None:
             if self._labels is None:
@@ -285,6 +298,9 @@ class Scene:
         steps = whole_number(most_steps, "most_steps")
         meshes, matrices = asked(mesh, poses)
         with told(progress, pairs_in(meshes, matrices)) as tell:
+            if by_device:
+                return Clearance(self._core.clearance_by_device(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"),
+                                                                tell))
             return Clearance(self._core.clearance(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"), steps, wanted,
                                                   bool(labels_at_any_opacity), tell))
 
@@ -295,8 +311,7 @@ class Scene:
         Faster than `clearance`. A margin of 0 is the touch. The host engine measures, also for scenes on a device;
         with `method="compute"` that device does, where `possible` is a little more frequent.
         """
-        if method not in ("cpu", "compute"):
-            raise InvalidArgumentError(f"method is {method!r}; a margin is decided by 'cpu' or by 'compute'")
+        _check_method(method, "a margin is decided")
         meshes, matrices = asked(mesh, poses)
         with told(progress, pairs_in(meshes, matrices)) as tell:
             return Answer(self._core.within(meshes, matrices, number(margin, "margin"), method == "compute", tell), None)
