@@ -42,12 +42,12 @@ struct DetectorDesc {
     /// InvalidArgument for what is not a number from 0 to 1,000,000, other projections, counts, and outputs.
     double margin = 0;
     /// conservative without outputs and without a margin: after the touch, how near each pair is, for Results that were
-    /// made with ResultsDesc::clearances. The bounds are proven, and what cpu::ClearanceMeter says of the same pair is
-    /// never beside them. They are within the tolerance of each other where single precision can tell: not nearer than
-    /// some thousandths of a voxel, and less near where a triangle is many dozens of voxels long or some hundred voxels
-    /// away; ClearanceEnd says so. From run to run they are others, which overlap. InvalidArgument for a tolerance that
-    /// is not a number from 1e-6 mm on, a maximum that is not above 0, other projections, outputs, and a margin above
-    /// 0.
+    /// made with ResultsDesc::clearances. The bounds are proven: they always overlap those that cpu::ClearanceMeter has
+    /// of the same pair. They are as near to each other as the tolerance asks where single precision can tell: not
+    /// nearer than some thousandths of a voxel, and less near where a triangle is many dozens of voxels long or some
+    /// hundred voxels away; ClearanceEnd says so. They differ a little from run to run, and still overlap.
+    /// InvalidArgument for a tolerance that is not a number from 1e-6 mm on, a maximum that is not above 0, other
+    /// projections, outputs, and a margin above 0.
     std::optional<ClearanceSearch> clearance = std::nullopt;
 };
 

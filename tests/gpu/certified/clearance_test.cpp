@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How near, on the device: where distances are known, and never beside what the host's own cpu::ClearanceMeter says.
+// How near, on the device: where distances are known, and bounds that overlap those of the host's cpu::ClearanceMeter.
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
