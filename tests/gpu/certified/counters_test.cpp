@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the passes of the projection `conservative` count of themselves, and the rounds that bound their work by it.
 #include "certified/counted_fixture.h"
+#include "certified/head_scene.h"
 #include "detect/certified_rounds.h"
 #include "voxtact/cpu.h"
 
@@ -31,28 +32,13 @@ void expectSameCounts(const std::vector<PairAnswer>& a, const std::vector<PairAn
     }
 }
 
-/// A scalpel of small triangles at some poses in a head.
-struct Scalpel {
-    VolumeData head = take(makeBuiltinVolume("head:48"));
-    std::array<ControlPoint, 2> points{ControlPoint{40, 0}, ControlPoint{80, 1}};
-    Volume volume;
-    TransferFunction function;
-    Mesh mesh;
-    std::vector<Mat4> poses;
-    std::uint32_t clusters;
-    BatchItem item{};
+/// A scalpel of small triangles. Not at a seed of each run: how much work poses are is what the tests say, and some are
+/// none or more than a room.
+struct Scalpel : Head {
+    std::uint32_t clusters = (mesh.triangles() + kGroup - 1) / kGroup;
 
     Scalpel(const Context& context, const QueueAccess& queue, std::size_t count)
-        : volume(take(Volume::upload(context, queue, head.view(), {.bricks = true}))),
-          function(take(TransferFunction::upload(context, queue, {points, {0, 255}, kDefaultTableSize}))),
-          mesh(take(Mesh::upload(context, queue, take(makeBuiltinMesh("scalpel:1500")).view(), {.clusters = true}))),
-          clusters((mesh.triangles() + kGroup - 1) / kGroup) {
-        // Not a seed of each run: how much work poses are is what the tests say, and some are none or more than a room.
-        std::mt19937_64 random(7);
-        poses = randomPoses(head.grid, count, 0.7, random);
-        item = {&mesh, &volume, &function, poses};
-    }
-    [[nodiscard]] Batch batch() const { return {{&item, 1}, {}, kDefaultThreshold}; }
+        : Head(context, queue, take(makeBuiltinMesh("scalpel:1500")), count, 7, true, 0.7) {}
 };
 
 TEST_F(CountersTest, TheyAreTheWorkOfABatch) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/scenes.h"
+#include "support/take.h"
 #include "voxtact/cpu.h"
 #include "voxtact/detector.h"
 #include "voxtact/samples.h"
@@ -27,12 +28,12 @@ struct Head {
     BatchItem item{};
 
     Head(const Context& context, const QueueAccess& queue, MeshData given, std::size_t count, std::uint64_t seed,
-         bool clusters = true)
+         bool clusters = true, double spread = 1.2)
         : data(std::move(given)), volume(take(Volume::upload(context, queue, head.view(), {.bricks = true}))),
           function(take(TransferFunction::upload(context, queue, {points, {0, 255}, kDefaultTableSize}))),
           mesh(take(Mesh::upload(context, queue, data.view(), {.clusters = clusters}))) {
         std::mt19937_64 random(seed);
-        poses = randomPoses(head.grid, count, 1.2, random);
+        poses = randomPoses(head.grid, count, spread, random);
         item = {&mesh, &volume, &function, poses};
     }
     [[nodiscard]] Batch batch() const { return {{&item, 1}, {}, kDefaultThreshold}; }

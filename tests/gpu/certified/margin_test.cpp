@@ -4,6 +4,7 @@
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
+#include "certified/one_voxel.h"
 
 #include "certified.h"
 #include "cpu/scenes/margin_cases.h"
@@ -123,31 +124,18 @@ TEST_F(MarginTest, TellsKnownDistancesApart) {
     }
 }
 
-/// One opaque voxel in an empty image, and a point, a segment and a triangle beside, above and diagonally from it.
 TEST_F(MarginTest, OfASingleVoxel) {
     BlockingDetector device = detector(within(kMargin));
-    Grid grid;
-    grid.size = {24, 20, 22};
-    grid.spacing = {0.5, 1, 0.8};
-    const VolumeData image =
-        makeBytes(grid, [](auto x, auto y, auto z) { return x == 12 && y == 10 && z == 11 ? 255.0 : 0.0; });
-    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
-    // Opaque from half of 255 on: along an axis, half a voxel from its centre.
-    const Vec3 centre{6, 10, 8.8};
+    const OneVoxel one;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
             for (const double beyond : {-0.01, 0.01}) {
-                Vec3 tip = centre;
-                tip[axis] += side * (kMargin + grid.spacing[axis] / 2 + beyond);
-                Vec3 far = tip;
-                far[axis] += side * 5;
-                far[(axis + 1) % 3] += 1;
-                MeshData mesh;
-                addTriangle(mesh, tip, far, axis == 0 ? tip : far);
+                const MeshData mesh = one.meshAt(axis, side, kMargin + beyond);
                 SCOPED_TRACE("axis " + std::to_string(axis) + ", " + std::to_string(side * beyond));
                 EXPECT_EQ(
                     verdictOf(ask(
-                        device, {mesh.view(), image.view(), {points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
+                        device,
+                        {mesh.view(), one.image.view(), {one.points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
                         axis == 1)),
                     beyond > 0 ? CERTIFIED_NONE : CERTIFIED_CERTAIN);
             }
