@@ -121,8 +121,9 @@ TEST_F(ClearanceTest, IsNeverBesideTheHostsOnRandomCases) {
         for (const bool clusters : {false, true}) {
             const PairClearance found = ask(device, pair, clusters);
             expectOverlap(found.bounds, host.bounds);
-            if (host.bounds.lo == kInfinity) {
-                EXPECT_EQ(found.bounds.lo, kInfinity);
+            if (host.bounds.lo == kInfinity && found.bounds.lo < kInfinity) { // a float may not see it
+                EXPECT_EQ(found.end, ClearanceEnd::Rounding);
+                EXPECT_EQ(found.bounds.hi, kInfinity);
             }
             ++ends[found.end];
             apart += found.end == ClearanceEnd::Closed && found.bounds.lo > 0 && found.bounds.hi < kInfinity ? 1U : 0U;
