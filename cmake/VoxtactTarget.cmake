@@ -65,7 +65,7 @@ endfunction()
 
 # voxtact_together(TARGET [APART FILE...]): its files are compiled some at a time, because most of their time goes into
 # headers that all of them include. Names of unnamed namespaces are then distinct within the target; files that cannot
-# keep to that, or that take long by themselves, stay APART. tidy.py reads each file by itself, so that each still
+# keep to that, or that take long by themselves, stay APART. `./run lint --deep` reads each file by itself, so that each still
 # includes what it uses. Not for what others build.
 function(voxtact_together target)
   cmake_parse_arguments(together "" "" APART ${ARGN})

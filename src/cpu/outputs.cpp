@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/outputs.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 #include "core/batch/output_pair.h"
 #include "core/batch/sort_contacts.h"
 #include "core/geometry/pair_transform.h"
@@ -7,7 +9,6 @@
 #include "cpu/raster/scalar_sample.h"
 
 #include <algorithm>
-#include <limits>
 #include <new>
 #include <tuple>
 
@@ -115,7 +116,6 @@ template <class Survivor> class Fragments {
     std::uint64_t survivors_ = 0;
 };
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Box kNoBox{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 void grow(Box& box, const Box& by) {
@@ -186,8 +186,7 @@ void OutputRun::Sink::publish() {
 
 Result<void> checkOutputs(const DetectorDesc& desc) {
     if (desc.outputs.any() && desc.stopAtFirst) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "a yes or no ends at the first survivor, the outputs need all of them"};
+        return refuse("a yes or no ends at the first survivor, the outputs need all of them");
     }
     return voxtact::checkOutputs(desc.outputs);
 }
@@ -200,13 +199,13 @@ Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs) {
         const LabelData* labels = batch.items[i].labels;
         const std::string which = "batch item " + std::to_string(i);
         if (labels == nullptr && outputs.labels) {
-            return Error{ErrorCode::InvalidArgument, 0, which + " has no label map, which the output labels needs"};
+            return refuse(which + " has no label map, which the output labels needs");
         }
         if (labels == nullptr) {
             continue;
         }
         if (Result<void> checked = checkLabelValues(*labels); !checked.ok()) {
-            return Error{ErrorCode::InvalidArgument, 0, which + ": " + checked.error().text};
+            return refuse(which + ": " + checked.error().text);
         }
     }
     return {};

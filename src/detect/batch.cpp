@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/batch.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "core/batch/batch_check.h"
@@ -11,10 +12,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 /// What of an item was never uploaded; null: all was.
 const char* missingUpload(const BatchItem& item) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/certified.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
@@ -95,8 +96,7 @@ Result<void> CertifiedPass::check(const Batch& batch) const {
         const BatchItem& item = batch.items[i];
         const std::string which = "batch item " + std::to_string(i) + ": the projection conservative needs ";
         if (!item.volume->impl().bricks.buffer) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         which + "a volume with bricks (VolumeOptions::bricks, WrappedVolume::bricks)"};
+            return refuse(which + "a volume with bricks (VolumeOptions::bricks, WrappedVolume::bricks)");
         }
         if (!item.volume->impl().bricksFilled) {
             return Error{ErrorCode::NotReady, 0,
@@ -105,8 +105,7 @@ Result<void> CertifiedPass::check(const Batch& batch) const {
                              "Volume::cmdUpdateBricks() of the whole grid first"};
         }
         if (!item.transferFunction->impl().hasExtremes()) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         which + "a transfer function whose table the host knows (WrappedTransferFunction::table)"};
+            return refuse(which + "a transfer function whose table the host knows (WrappedTransferFunction::table)");
         }
         VOXTACT_TRY(checkStorage(item, "the projection conservative"));
     }

@@ -2,6 +2,7 @@
 #include "core/base/enum_check.h"
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/geometry/projection.h"
 #include "core/method/certified_constants.h"
@@ -63,12 +64,10 @@ Result<void> checkMethod(const Context& context, CountingMethod method) {
         }
     }
     if (isKnown(method)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("the counting method ") + toString(method) +
-                         " is the host engine's (voxtact/cpu.h), not a device's"};
+        return refuse(std::string("the counting method ") + toString(method) +
+                      " is the host engine's (voxtact/cpu.h), not a device's");
     }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 "there is no counting method number " + std::to_string(static_cast<std::uint32_t>(method))};
+    return refuse("there is no counting method number " + std::to_string(static_cast<std::uint32_t>(method)));
 }
 
 Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& desc) {
@@ -76,10 +75,9 @@ Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& d
         return {};
     }
     if (!rowOf(desc.projection).voxelGrid || rowOf(desc.method).coverage != Coverage::Rasteriser) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("the overestimate is for the projection dominant-axis by a method that "
-                                 "rasterises, not for ") +
-                         toString(desc.projection) + " by " + toString(desc.method)};
+        return refuse(std::string("the overestimate is for the projection dominant-axis by a method that "
+                                  "rasterises, not for ") +
+                      toString(desc.projection) + " by " + toString(desc.method));
     }
     if (!context.conservativeRasterization) {
         return Error{
@@ -99,10 +97,9 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
     }
     const ProjectionRow& projection = rowOf(desc.projection);
     if (!answers(desc.method, desc.projection)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("the projection ") + projection.name + " is answered by the counting methods " +
-                         methodNames([](const MethodRow& row) { return row.certified; }) + ", not by " +
-                         toString(desc.method)};
+        return refuse(std::string("the projection ") + projection.name + " is answered by the counting methods " +
+                      methodNames([](const MethodRow& row) { return row.certified; }) + ", not by " +
+                      toString(desc.method));
     }
     if (const char* control = missingFloatControl(context.floatControls); projection.certified && control != nullptr) {
         return Error{ErrorCode::Unsupported, 0,
@@ -111,12 +108,10 @@ Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
                          control + "; the host engine (voxtact/cpu.h) has it"};
     }
     if (desc.counters && !projection.certified) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("counters are of the projection conservative, not of ") + projection.name};
+        return refuse(std::string("counters are of the projection conservative, not of ") + projection.name);
     }
     if (desc.stopAtFirst && !projection.certified) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "to stop at the first survivor is for the projection conservative; a boolean query is query-any"};
+        return refuse("to stop at the first survivor is for the projection conservative; a boolean query is query-any");
     }
     VOXTACT_TRY(checkResolution(desc.resolution));
     VOXTACT_TRY(checkSamples(desc.samplesPerVoxel));
@@ -129,15 +124,13 @@ Result<void> checkMargin(const DetectorDesc& desc) {
         return {};
     }
     if (!rowOf(desc.projection).certified) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("a margin is for the projection conservative, not for ") + toString(desc.projection)};
+        return refuse(std::string("a margin is for the projection conservative, not for ") + toString(desc.projection));
     }
     if (!desc.stopAtFirst) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "a margin is answered by yes or no: it needs a detector that stops at the first survivor"};
+        return refuse("a margin is answered by yes or no: it needs a detector that stops at the first survivor");
     }
     if (desc.outputs.any()) {
-        return Error{ErrorCode::InvalidArgument, 0, "a margin is answered by yes or no, without outputs"};
+        return refuse("a margin is answered by yes or no, without outputs");
     }
     return {};
 }
@@ -149,16 +142,14 @@ Result<void> checkClearance(const DetectorDesc& desc) {
     VOXTACT_TRY(checkTolerance(desc.clearance->tolerance));
     VOXTACT_TRY(checkMaximum(desc.clearance->maximum));
     if (!rowOf(desc.projection).certified) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string("a clearance is for the projection conservative, not for ") +
-                         toString(desc.projection)};
+        return refuse(std::string("a clearance is for the projection conservative, not for ") +
+                      toString(desc.projection));
     }
     if (desc.margin > 0) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "a clearance and a margin are two questions: they need a detector each"};
+        return refuse("a clearance and a margin are two questions: they need a detector each");
     }
     if (desc.outputs.any()) {
-        return Error{ErrorCode::InvalidArgument, 0, "clearances are measured without outputs"};
+        return refuse("clearances are measured without outputs");
     }
     return {};
 }
@@ -222,14 +213,13 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         ResultsImpl& slot = results.impl();
         VOXTACT_TRY(context.recordable(commandBuffer));
         if (&slot.context != &context) {
-            return Error{ErrorCode::InvalidArgument, 0, "the Results belong to another Context"};
+            return refuse("the Results belong to another Context");
         }
         const Result<std::uint32_t> pairs = checkBatch(context, live(impl_).desc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs > slot.maxPairs) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
-                             std::to_string(slot.maxPairs)};
+            return refuse("the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
+                          std::to_string(slot.maxPairs));
         }
         if (const std::uint64_t transforms = std::uint64_t{*pairs} * transformsPerPair(live(impl_).desc.projection);
             transforms > slot.maxTransforms) {
@@ -246,8 +236,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                     "or the device's maxStorageBufferRange has no room for them beside so many pairs"};
         }
         if (live(impl_).desc.clearance && !slot.clearances) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the Results have no room for clearances: ResultsDesc::clearances is false"};
+            return refuse("the Results have no room for clearances: ResultsDesc::clearances is false");
         }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/enum_check.h"
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "voxtact/detector.h"
 
@@ -69,7 +70,7 @@ Result<double> measure(const Context& context, const QueueAccess& queue, const M
 Result<std::vector<MethodSpeed>> measureOn(const Context& context, const QueueAccess& queue, const MeasureDesc& desc,
                                            const MeasureScene& scene) {
     if (scene.world_from_object.empty()) {
-        return Error{ErrorCode::InvalidArgument, 0, "MeasureDesc::scene has no pose"};
+        return refuse("MeasureDesc::scene has no pose");
     }
     Result<std::vector<SelfTestVerdict>> verdicts = selfTest(context, queue, desc.methods);
     VOXTACT_TRY(verdicts);
@@ -101,7 +102,7 @@ Result<std::vector<MethodSpeed>> measureMethods(const Context& context, const Qu
     return guard([&]() -> Result<std::vector<MethodSpeed>> {
         VOXTACT_TRY(checkFilter(desc.filter.value_or(Filter::Exact)));
         if (desc.scene == nullptr) {
-            return Error{ErrorCode::InvalidArgument, 0, "MeasureDesc::scene is null; makeMeasureScene() gives one"};
+            return refuse("MeasureDesc::scene is null; makeMeasureScene() gives one");
         }
         return measureOn(context, queue, desc, *desc.scene);
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/outputs.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/batch/output_pair.h"
 #include "core/method/method_table.h"
@@ -18,12 +19,10 @@ Result<void> checkLabelMaps(const ContextImpl& context, const Batch& batch, cons
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const LabelMap* labels = batch.items[i].labels;
         if (labels == nullptr && outputs.labels) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "batch item " + std::to_string(i) + " has no label map, which the output labels needs"};
+            return refuse("batch item " + std::to_string(i) + " has no label map, which the output labels needs");
         }
         if (labels != nullptr && &labels->impl().context != &context) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "batch item " + std::to_string(i) + ": the label map belongs to another Context"};
+            return refuse("batch item " + std::to_string(i) + ": the label map belongs to another Context");
         }
         if (labels != nullptr && !labels->impl().uploaded) {
             return neverUploaded("batch item " + std::to_string(i) + ": the label map");
@@ -34,9 +33,8 @@ Result<void> checkLabelMaps(const ContextImpl& context, const Batch& batch, cons
 
 Result<void> checkRoom(const char* what, std::uint64_t needed, std::uint64_t room) {
     if (needed > room) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the pairs of the batch have " + std::to_string(needed) + " " + what +
-                         ", the Results have room for " + std::to_string(room)};
+        return refuse("the pairs of the batch have " + std::to_string(needed) + " " + what +
+                      ", the Results have room for " + std::to_string(room));
     }
     return {};
 }
@@ -87,8 +85,7 @@ Result<void> checkOutputs(const ContextImpl& context, const Batch& batch, const 
     }
     VOXTACT_TRY(checkLabelMaps(context, batch, outputs));
     if (results.outputs == nullptr) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the detector has outputs, the Results were made without room for them (ResultsDesc::room)"};
+        return refuse("the detector has outputs, the Results were made without room for them (ResultsDesc::room)");
     }
     const OutputRoom needed = roomFor(batch);
     if (Result<void> room =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/pixel_slices.h"
+#include "core/base/infinity.h"
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
 #include "exact.h"
@@ -8,14 +9,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace voxtact {
 
 namespace {
 
 constexpr double kPieces = EXACT_MAX_CORNERS - 2; // of a triangle that is clipped, each of as many pixels
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = kInfinity;
 
 /// The length of a row of a matrix, without what it moves points by.
 double lengthOfRow(const Mat4& m, std::size_t row) noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "voxtact/detector.h"
@@ -20,9 +21,8 @@ Result<void> checkInto(std::uint32_t frames, const ResultsDesc& desc) {
     if (desc.into.buffer == VK_NULL_HANDLE || desc.into.size >= needed) {
         return {};
     }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 "ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " + std::to_string(frames) +
-                     " frames of " + std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed)};
+    return refuse("ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " + std::to_string(frames) +
+                  " frames of " + std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed));
 }
 
 } // namespace
@@ -30,12 +30,11 @@ Result<void> checkInto(std::uint32_t frames, const ResultsDesc& desc) {
 Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t frames, const ResultsDesc& desc) {
     return guard([&]() -> Result<ResultRing> {
         if (frames == 0) {
-            return Error{ErrorCode::InvalidArgument, 0, "a ring needs at least one frame"};
+            return refuse("a ring needs at least one frame");
         }
         if (frames > kMostFrames) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "a ring of " + std::to_string(frames) +
-                             " frames is more than can be in flight: " + std::to_string(kMostFrames) + " at most"};
+            return refuse("a ring of " + std::to_string(frames) +
+                          " frames is more than can be in flight: " + std::to_string(kMostFrames) + " at most");
         }
         VOXTACT_TRY(checkInto(frames, desc));
         ResultRing out;
@@ -55,13 +54,12 @@ Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t fram
 Result<Results*> ResultRing::begin(std::uint64_t frame) {
     return guard([&]() -> Result<Results*> {
         if (slots_.empty()) {
-            return Error{ErrorCode::InvalidArgument, 0, "the ring was moved from: it has no frames"};
+            return refuse("the ring was moved from: it has no frames");
         }
         Slot& slot = slots_[frame % slots_.size()];
         if (slot.used && frame < slot.frame) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "frame " + std::to_string(frame) + " comes after frame " + std::to_string(slot.frame) +
-                             " in the same slot: frames ascend"};
+            return refuse("frame " + std::to_string(frame) + " comes after frame " + std::to_string(slot.frame) +
+                          " in the same slot: frames ascend");
         }
         slot.used = true;
         slot.frame = frame;
@@ -72,7 +70,7 @@ Result<Results*> ResultRing::begin(std::uint64_t frame) {
 Result<Results*> ResultRing::find(std::uint64_t frame) {
     return guard([&]() -> Result<Results*> {
         if (slots_.empty()) {
-            return Error{ErrorCode::InvalidArgument, 0, "the ring was moved from: it has no frames"};
+            return refuse("the ring was moved from: it has no frames");
         }
         Slot& slot = slots_[frame % slots_.size()];
         if (!slot.used || slot.frame < frame) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "detect/certified_queues.h"
 #include "detect/pair_setup.h"
@@ -55,27 +56,24 @@ Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
     // Results of 64-bit queries begin at multiples of 8.
     const VkDeviceSize alignment = std::max<VkDeviceSize>(context.limits.minStorageBufferOffsetAlignment, 8);
     if (desc.into.offset % alignment != 0) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "ResultsDesc::into begins at byte " + std::to_string(desc.into.offset) +
-                         "; on this device that must be a multiple of " + std::to_string(alignment)};
+        return refuse("ResultsDesc::into begins at byte " + std::to_string(desc.into.offset) +
+                      "; on this device that must be a multiple of " + std::to_string(alignment));
     }
     if (const VkDeviceSize needed = VkDeviceSize{desc.maxPairs} * sizeof(PairResult); desc.into.size < needed) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " +
-                         std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed)};
+        return refuse("ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " +
+                      std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed));
     }
     return {};
 }
 
 Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.maxPairs == 0) {
-        return Error{ErrorCode::InvalidArgument, 0, "ResultsDesc::maxPairs is 0"};
+        return refuse("ResultsDesc::maxPairs is 0");
     }
     if (const std::uint32_t clusters = desc.clustersAtOnce.value_or(0);
         clusters != 0 && (clusters < kLeastQueueRoom || clusters > kMostQueueRoom)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "ResultsDesc::clustersAtOnce is " + std::to_string(clusters) + "; 0, or " +
-                         std::to_string(kLeastQueueRoom) + " to " + std::to_string(kMostQueueRoom) + ", is possible"};
+        return refuse("ResultsDesc::clustersAtOnce is " + std::to_string(clusters) + "; 0, or " +
+                      std::to_string(kLeastQueueRoom) + " to " + std::to_string(kMostQueueRoom) + ", is possible");
     }
     const std::uint64_t bytes = std::uint64_t{desc.maxPairs} * sizeof(shader::PairTransform) + kSetupBytes;
     if (bytes > context.limits.maxStorageBufferRange) {
@@ -265,7 +263,7 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
         ResultsImpl& r = live(impl_);
         if (!r.readBack.buffer) {
-            return Error{ErrorCode::InvalidArgument, 0, "the Results were made without readBack"};
+            return refuse("the Results were made without readBack");
         }
         VOXTACT_TRY(r.context.recordable(commandBuffer));
         if (!r.detectRecorded) {

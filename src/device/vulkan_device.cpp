@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_device.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "device/created.h"
@@ -45,7 +46,7 @@ Error noSuchDevice(std::span<const PhysicalDevice> devices, std::string_view wan
     for (const PhysicalDevice& device : devices) {
         text += (device.index == 0 ? "" : ", ") + std::to_string(device.index) + " " + device.name;
     }
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
+    return refuse(std::move(text));
 }
 
 std::optional<VkQueueFamilyProperties> findGraphicsFamily(const InstanceFunctions& functions, VkPhysicalDevice physical,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "gpu/context_impl.h"
@@ -78,8 +79,7 @@ Result<void> checkFamilies(const ContextImpl& context, std::span<const std::uint
         const std::string which = "ContextDesc::queueFamilies[" + std::to_string(i) + "]";
         VOXTACT_TRY(context.checkFamily(families[i], kAny, which.c_str()));
         if (std::ranges::find(families.first(i), families[i]) != families.begin() + static_cast<std::ptrdiff_t>(i)) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         which + " is " + std::to_string(families[i]) + ", which is there before"};
+            return refuse(which + " is " + std::to_string(families[i]) + ", which is there before");
         }
     }
     return {};
@@ -228,16 +228,14 @@ std::uint32_t ContextImpl::timestampBits(std::uint32_t family) const {
 Result<void> ContextImpl::checkFamily(std::uint32_t family, VkQueueFlags anyOf, const char* what) const {
     const std::vector<VkQueueFamilyProperties> all = families();
     if (family >= all.size()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string(what) + " is " + std::to_string(family) + ", the device has " +
-                         std::to_string(all.size()) + " queue families"};
+        return refuse(std::string(what) + " is " + std::to_string(family) + ", the device has " +
+                      std::to_string(all.size()) + " queue families");
     }
     if ((all[family].queueFlags & anyOf) == 0) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     std::string(what) + " is " + std::to_string(family) + ", a family of queues that " +
-                         (anyOf == VK_QUEUE_GRAPHICS_BIT  ? "cannot draw"
-                          : anyOf == VK_QUEUE_COMPUTE_BIT ? "cannot compute"
-                                                          : "can neither draw nor compute")};
+        return refuse(std::string(what) + " is " + std::to_string(family) + ", a family of queues that " +
+                      (anyOf == VK_QUEUE_GRAPHICS_BIT  ? "cannot draw"
+                       : anyOf == VK_QUEUE_COMPUTE_BIT ? "cannot compute"
+                                                       : "can neither draw nor compute"));
     }
     return {};
 }

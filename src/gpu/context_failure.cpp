@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "gpu/context_impl.h"
 
 namespace voxtact {
@@ -21,7 +22,7 @@ Error ContextImpl::failure(VkResult result, const char* what) noexcept {
 
 Result<void> ContextImpl::recordable(VkCommandBuffer commandBuffer) const {
     if (commandBuffer == VK_NULL_HANDLE) {
-        return Error{ErrorCode::InvalidArgument, 0, "the command buffer is null"};
+        return refuse("the command buffer is null");
     }
     return alive();
 }

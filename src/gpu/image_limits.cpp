@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/image_limits.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 
@@ -36,10 +37,9 @@ Result<void> checkSampledLayout(VkImageLayout layout, const char* what) {
         layout == VK_IMAGE_LAYOUT_GENERAL) {
         return {};
     }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 std::string(what) + " (VkImageLayout " + std::to_string(static_cast<std::int64_t>(layout)) +
-                     ") is none in which an image of scalars can be sampled: SHADER_READ_ONLY_OPTIMAL, "
-                     "READ_ONLY_OPTIMAL and GENERAL"};
+    return refuse(std::string(what) + " (VkImageLayout " + std::to_string(static_cast<std::int64_t>(layout)) +
+                  ") is none in which an image of scalars can be sampled: SHADER_READ_ONLY_OPTIMAL, "
+                  "READ_ONLY_OPTIMAL and GENERAL");
 }
 
 Result<void> checkImageLimits(ContextImpl& context, const Grid& grid, VkFormat format, VkImageUsageFlags usage,

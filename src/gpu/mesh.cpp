@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/geometry/clusters.h"
 #include "gpu/barriers.h"
@@ -71,9 +72,8 @@ Result<std::vector<std::uint32_t>> orderOf(const WrappedMesh& wrapped) {
     const Result<MeshFacts> facts = checkMesh(wrapped.shape);
     VOXTACT_TRY(facts);
     if (facts->triangles != wrapped.triangleCount) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "WrappedMesh::shape has " + std::to_string(facts->triangles) + " triangles, triangleCount is " +
-                         std::to_string(wrapped.triangleCount)};
+        return refuse("WrappedMesh::shape has " + std::to_string(facts->triangles) + " triangles, triangleCount is " +
+                      std::to_string(wrapped.triangleCount));
     }
     return makeClusters(wrapped.shape).triangles;
 }
@@ -104,10 +104,6 @@ Result<void> makeWrappedClusters(MeshImpl& mesh, const WrappedMesh& wrapped) {
     mesh.uploaded = false;
     std::memcpy(mesh.staging.mapped, staged.data(), staged.size());
     return flush(context, mesh.staging);
-}
-
-Error refuse(const char* text) {
-    return {ErrorCode::InvalidArgument, 0, text};
 }
 
 Result<void> checkStride(VkDeviceSize stride, VkDeviceSize offset, const char* text) {

@@ -2,6 +2,7 @@
 // Meshes that bend: new vertices for one of voxtact's, and clusters for the caller's.
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -12,10 +13,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkEditable(const MeshImpl& mesh, VkCommandBuffer commandBuffer) {
     if (!mesh.editable) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "gpu/layouts.h"
@@ -13,10 +14,6 @@ namespace voxtact {
 namespace {
 
 constexpr VkDeviceSize kPoseBytes = 16 * sizeof(float);
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkWrapped(const ContextImpl& context, const WrappedPoses& wrapped) {
     if (wrapped.buffer == VK_NULL_HANDLE) {

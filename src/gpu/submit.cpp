@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/submit.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "gpu/debug.h"
@@ -16,10 +17,10 @@ constexpr int kLastTries = 8;
 Result<Submitter> Submitter::create(ContextImpl& context, const QueueAccess& queue, VkQueueFlags anyOf) {
     VOXTACT_TRY(context.alive());
     if (queue.queue == VK_NULL_HANDLE) {
-        return Error{ErrorCode::InvalidArgument, 0, "QueueAccess::queue is null"};
+        return refuse("QueueAccess::queue is null");
     }
     if ((queue.lock == nullptr) != (queue.unlock == nullptr)) {
-        return Error{ErrorCode::InvalidArgument, 0, "QueueAccess has only one of lock and unlock"};
+        return refuse("QueueAccess has only one of lock and unlock");
     }
     VOXTACT_TRY(context.checkFamily(queue.family, anyOf, "QueueAccess::family"));
     Submitter out(context, queue);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/geometry/domain.h"
 #include "core/transfer/table_extremes.h"
@@ -104,12 +105,11 @@ void cmdFilled(TransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
 
 Result<void> checkUpdate(const TransferFunctionImpl& function, const TransferFunctionDesc& desc) {
     if (!function.image.image) {
-        return Error{ErrorCode::InvalidArgument, 0, "the transfer function is wrapped: its table is the caller's"};
+        return refuse("the transfer function is wrapped: its table is the caller's");
     }
     if (desc.tableSize != function.table.size()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the new table has " + std::to_string(desc.tableSize) +
-                         " entries, that of the transfer function " + std::to_string(function.table.size())};
+        return refuse("the new table has " + std::to_string(desc.tableSize) +
+                      " entries, that of the transfer function " + std::to_string(function.table.size()));
     }
     return {};
 }
@@ -143,7 +143,7 @@ Result<TransferFunction> TransferFunction::wrap(const Context& context, const Wr
     return guard([&]() -> Result<TransferFunction> {
         VOXTACT_TRY(context.impl().alive());
         if (wrapped.view == VK_NULL_HANDLE) {
-            return Error{ErrorCode::InvalidArgument, 0, "WrappedTransferFunction::view is null"};
+            return refuse("WrappedTransferFunction::view is null");
         }
         VOXTACT_TRY(checkSampledLayout(wrapped.layout, "WrappedTransferFunction::layout"));
         VOXTACT_TRY(checkDomain(wrapped.domain, "WrappedTransferFunction::domain"));

@@ -2,6 +2,7 @@
 #include "core/base/enum_check.h"
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "core/volume/boundary.h"
@@ -120,16 +121,14 @@ Result<void> fillVolume(VolumeImpl& volume, const VolumeView& data, const Volume
 
 Result<void> checkWrapped(const ContextImpl& context, const WrappedVolume& wrapped) {
     if (wrapped.view == VK_NULL_HANDLE) {
-        return Error{ErrorCode::InvalidArgument, 0, "WrappedVolume::view is null"};
+        return refuse("WrappedVolume::view is null");
     }
     if (unitOf(wrapped.format) == 0) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "WrappedVolume::format (VkFormat " + std::to_string(wrapped.format) +
-                         ") is none of R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT and R32_SFLOAT"};
+        return refuse("WrappedVolume::format (VkFormat " + std::to_string(wrapped.format) +
+                      ") is none of R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT and R32_SFLOAT");
     }
     if (!std::isfinite(wrapped.slope) || wrapped.slope == 0 || !std::isfinite(wrapped.intercept)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "WrappedVolume::slope and intercept must be finite, the slope not zero"};
+        return refuse("WrappedVolume::slope and intercept must be finite, the slope not zero");
     }
     VOXTACT_TRY(checkSampledLayout(wrapped.layout, "WrappedVolume::layout"));
     VOXTACT_TRY(checkGrid(wrapped.grid));
@@ -226,7 +225,7 @@ Result<void> Volume::cmdUpload(VkCommandBuffer commandBuffer) {
 Result<void> Volume::cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed) {
     return guard([&]() -> Result<void> {
         if (!live(impl_).bricks.buffer) {
-            return Error{ErrorCode::InvalidArgument, 0, "the volume has no bricks"};
+            return refuse("the volume has no bricks");
         }
         if (!live(impl_).uploaded) {
             return neverUploaded("the volume");

@@ -2,6 +2,7 @@
 // Edits of a volume in place: through a scratch buffer of some slices, or from a buffer of the caller's.
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/volume/edit_rows.h"
 #include "core/volume/voxel_value.h"
@@ -23,10 +24,6 @@ constexpr VkDeviceSize kWord = 4; ///< what vkCmdFillBuffer and vkCmdUpdateBuffe
 
 VkDeviceSize roundedUp(VkDeviceSize bytes) {
     return (bytes + kWord - 1) / kWord * kWord;
-}
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
 }
 
 Result<void> checkEditable(const VolumeImpl& volume, VkCommandBuffer commandBuffer) {

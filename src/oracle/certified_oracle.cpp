@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/certified_oracle.h"
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "oracle/certified_cut.h"
@@ -8,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::oracle {
 
@@ -31,7 +32,6 @@ constexpr double kMostError = 0x1p-12;
 constexpr double kTransformRoundings = 64;
 constexpr double kCutRoundings = 256;
 constexpr int kBisections = 100;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A pair that has passed the checks.
 struct Scene {
@@ -42,10 +42,6 @@ struct Scene {
     Mat4 world_from_object{};
     double resolution = 0;
 };
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<Scene> prepare(const OraclePair& pair, double resolution) {
     VOXTACT_TRY(checkMesh(pair.mesh));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/certified_sample.h"
+#include "core/base/infinity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace voxtact::oracle::certified {
 
@@ -105,7 +105,7 @@ ValueRange Field::at(const Vec3& place, double error) const {
 /// replaced by their mean, and all the weights add up to 1: the value lies between the least and the greatest mean.
 ValueRange Field::over(const CellVoxels& voxels, const Cell& cell, const Corners& triangle, double error) const {
     const Mixed m = mixedValues(voxels, cell, triangle);
-    double lo = std::numeric_limits<double>::infinity();
+    double lo = kInfinity;
     double hi = -lo;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = i; j < 3; ++j) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/clearance_oracle.h"
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "oracle/certified_sample.h"
@@ -9,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 namespace voxtact::oracle {
 
@@ -20,8 +21,6 @@ using certified::CellVoxels;
 using certified::Field;
 using certified::Opacity;
 using Triangle = std::array<Vec3, 3>;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Vec3 minus(const Vec3& a, const Vec3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -248,8 +247,7 @@ Result<OracleClearance> measure(const OraclePair& pair, double resolution, std::
         Result<std::vector<float>> entries = sampleTable(pair.transferFunction);
         VOXTACT_TRY(entries);
         if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the threshold " + number(pair.threshold) + " is outside [0, 1]"};
+            return refuse("the threshold " + number(pair.threshold) + " is outside [0, 1]");
         }
         return Measurer(pair, *range, std::move(*entries)).run(resolution, mostBoxes, counts);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/motion_oracle.h"
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
 #include "core/base/try.h"
 #include "oracle/certified_oracle.h"
 #include "oracle/clearance_oracle.h"
@@ -105,7 +106,7 @@ Result<OracleMotion> motionOracle(const OraclePair& pair, const Mat4& to, Interp
             oraclePoses(pair.world_from_object, to, interpolation, centre, halvings);
         VOXTACT_TRY(poses);
         OracleMotion out;
-        out.clearance = std::numeric_limits<double>::infinity();
+        out.clearance = kInfinity;
         bool free = true;
         for (std::size_t i = 0; i < poses->size() && !out.touches; ++i) {
             OraclePair here = pair;

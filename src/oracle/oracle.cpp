@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/oracle.h"
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/projection.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::oracle {
 
@@ -114,7 +114,7 @@ Triangle triangleOf(const Scene& scene, std::size_t number) {
 }
 
 double domainDistance(const Vec3& coordinate) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const double c : coordinate) {
         least = std::min({least, c, 1 - c});
     }

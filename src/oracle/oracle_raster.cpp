@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/oracle_raster.h"
+#include "core/base/infinity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::oracle {
 
@@ -197,7 +197,6 @@ double greatestDrift(const std::vector<Corner>& undivided) {
 }
 
 template <class Corners> TextureBox boxOf(const Corners& corners) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     TextureBox box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
     for (const Corner& corner : corners) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -336,7 +335,7 @@ Vec3 extrapolatedCoordinate(const Triangle& triangle, const View& view, std::uin
 }
 
 double outlineDistance(const Polygon& polygon, std::uint32_t x, std::uint32_t y) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     forEachEdge(polygon, x, y, [&](const Edge& edge) { least = std::min(least, edge.distance()); });
     return least;
 }

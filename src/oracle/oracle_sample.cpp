@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/oracle_sample.h"
+#include "core/base/infinity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace voxtact::oracle {
 
@@ -69,8 +69,8 @@ double indexOf(const Grid& grid, std::size_t axis, double coordinate) {
 }
 
 struct Values {
-    double lo = std::numeric_limits<double>::infinity();
-    double hi = -std::numeric_limits<double>::infinity();
+    double lo = kInfinity;
+    double hi = -kInfinity;
     double magnitude = 0; ///< of the voxels behind them
 };
 

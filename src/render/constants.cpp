@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/transfer/table_extremes.h"
@@ -15,10 +16,6 @@ namespace {
 using shader::PictureConstants;
 
 constexpr double kMostSamples = 65536;
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 /// Whether the near plane is at depth 1. What is nearer to an eye has the larger w of world_from_clip; an orthographic
 /// camera has none, and looks towards larger depths.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "voxtact/render.h"
@@ -137,8 +138,7 @@ void splitVertex(MeshData& mesh, std::uint32_t vertex, std::span<const std::uint
 Result<MeshData> splitAtCreases(const MeshView& mesh, double degrees) {
     return guard([&]() -> Result<MeshData> {
         if (!(degrees >= 0 && degrees <= kStraightAngle)) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the angle of creases " + number(degrees) + " is outside [0, 180] degrees"};
+            return refuse("the angle of creases " + number(degrees) + " is outside [0, 180] degrees");
         }
         VOXTACT_TRY(checkMesh(mesh));
         const std::vector<Vec3> normals = unitNormals(mesh);

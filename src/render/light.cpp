@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
@@ -15,10 +16,6 @@ using shader::vec4;
 
 /// Voxels of the longest spacing behind a face that are shaded as it is.
 constexpr double kFaceVoxels = 2;
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 double lengthOf(const Vec3& v) {
     return std::hypot(v[0], v[1], v[2]);

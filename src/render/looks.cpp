@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "voxtact/looks.h"
+#include "core/base/refuse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,8 +108,7 @@ Result<Look> lookNamed(std::string_view name, const ValueRange& values) {
         for (const LookPreset& one : kPresets) {
             names += (names.empty() ? "" : ", ") + std::string(one.name);
         }
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "there is no look named \"" + std::string(name) + "\": take one of " + names};
+        return refuse("there is no look named \"" + std::string(name) + "\": take one of " + names);
     }
     const Points& points = kPoints[preset - std::begin(kPresets)];
     Look look{{points.opacity.begin(), points.opacity.end()}, {points.colours.begin(), points.colours.end()}};
@@ -116,7 +116,7 @@ Result<Look> lookNamed(std::string_view name, const ValueRange& values) {
         return look;
     }
     if (!std::isfinite(values.lo) || !std::isfinite(values.hi) || values.lo > values.hi) {
-        return Error{ErrorCode::InvalidArgument, 0, "values: the ends of the range are not finite, or not ascending"};
+        return refuse("values: the ends of the range are not finite, or not ascending");
     }
     const auto valueAt = [&](double fraction) { return values.lo + fraction * (values.hi - values.lo); };
     for (ControlPoint& point : look.opacity) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -100,9 +101,8 @@ Result<void> MeshNormals::cmdUpdate(VkCommandBuffer commandBuffer, const MeshVie
         const Result<MeshFacts> facts = checkMesh(data);
         VOXTACT_TRY(facts);
         if (facts->vertices != impl.vertices) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the mesh has " + std::to_string(facts->vertices) + " vertices, the normals are of " +
-                             std::to_string(impl.vertices)};
+            return refuse("the mesh has " + std::to_string(facts->vertices) + " vertices, the normals are of " +
+                          std::to_string(impl.vertices));
         }
         const std::vector<float> normals = vertexNormals(data);
         const Label label(context, commandBuffer, "voxtact normals update");

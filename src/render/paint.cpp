@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/pair_transform.h"
@@ -7,10 +8,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 /// [0, 1]; NaN is refused.
 Result<void> checkFraction(double value, const char* what) {

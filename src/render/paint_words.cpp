@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -13,10 +14,6 @@ namespace voxtact {
 namespace {
 
 constexpr VkDeviceSize kOffsets = 256; ///< what BufferRange promises; more than any minStorageBufferOffsetAlignment
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkSize(const ContextImpl& context, VkDeviceSize bytes, const PaintName& name) {
     VOXTACT_TRY(context.alive());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/submit.h"
 #include "render/render_impl.h"
@@ -11,10 +12,6 @@ namespace {
 
 constexpr std::uint32_t kBitsOfWord = 32;
 constexpr PaintName kName{"the bits of the painted triangles", "painted triangles"};
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkDevice(const ContextImpl& context) {
     VOXTACT_TRY(context.alive());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/submit.h"
 #include "render/render_impl.h"
@@ -34,7 +35,7 @@ PaintedVertices::~PaintedVertices() = default;
 Result<PaintedVertices> PaintedVertices::create(const Renderer& renderer, std::span<const Colour> colours) {
     return guard([&]() -> Result<PaintedVertices> {
         if (colours.empty()) {
-            return Error{ErrorCode::InvalidArgument, 0, "there are no colours of vertices"};
+            return refuse("there are no colours of vertices");
         }
         std::vector<std::uint32_t> words;
         words.reserve(colours.size());

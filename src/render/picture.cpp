@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -10,10 +11,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(const char* text) {
-    return {ErrorCode::InvalidArgument, 0, text};
-}
 
 Result<void> checkMeshParts(const ContextImpl& context, const SceneMesh& mesh) {
     if (mesh.mesh == nullptr) {

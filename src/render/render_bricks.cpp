@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "render/render_impl.h"
@@ -17,11 +18,10 @@ Result<RenderBricks> RenderBricks::create(const Renderer& renderer, const Volume
         ContextImpl& context = renderer.impl().context;
         VOXTACT_TRY(context.alive());
         if (&source.context != &context) {
-            return Error{ErrorCode::InvalidArgument, 0, "volume and renderer belong to different Contexts"};
+            return refuse("volume and renderer belong to different Contexts");
         }
         if (!source.bricks.buffer) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the volume has no bricks: it was made without VolumeOptions::bricks"};
+            return refuse("the volume has no bricks: it was made without VolumeOptions::bricks");
         }
         constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
         Result<DescriptorSet> set =

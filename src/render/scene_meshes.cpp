@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/geometry/pair_transform.h"
 #include "render/matrix_rows.h"
@@ -36,8 +37,7 @@ const SceneMesh& meshOf(const Scene& scene, std::size_t number) noexcept {
 Result<void> checkMeshLook(const SceneMesh& mesh) {
     VOXTACT_TRY(checkAffine(mesh.world_from_object, "the mesh's pose"));
     if (const Result<Mat4> object_from_world = inverse(linearPart(mesh.world_from_object)); !object_from_world.ok()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the mesh's pose cannot be used: " + object_from_world.error().text};
+        return refuse("the mesh's pose cannot be used: " + object_from_world.error().text);
     }
     return checkColour(mesh.meshColour, "the mesh's colour");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "render/render_impl.h"
 
@@ -17,8 +18,7 @@ std::string sizeText(std::uint32_t width, std::uint32_t height) {
 Result<void> checkExtent(const ContextImpl& context, VkExtent2D extent) {
     const VkPhysicalDeviceLimits& limits = context.limits;
     if (extent.width == 0 || extent.height == 0) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the picture is " + sizeText(extent.width, extent.height) + ", it needs at least one pixel"};
+        return refuse("the picture is " + sizeText(extent.width, extent.height) + ", it needs at least one pixel");
     }
     const std::uint32_t width =
         std::min({limits.maxViewportDimensions[0], limits.maxFramebufferWidth, limits.maxImageDimension2D});

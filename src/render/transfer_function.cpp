@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/transfer/table_extremes.h"
@@ -17,10 +18,6 @@ namespace voxtact {
 namespace {
 
 constexpr std::uint32_t kMostEntries = 1024;
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkPositive(double value, const char* what) {
     if (!(value > 0) || !std::isfinite(value)) {

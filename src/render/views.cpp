@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/infinity.h"
 #include "voxtact/looks.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace voxtact {
@@ -13,10 +13,7 @@ namespace {
 /// Keeps the box off the edge of the picture and off the near and far planes.
 constexpr double kMargin = 1.02;
 
-constexpr Box kNothing{{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-                        std::numeric_limits<double>::infinity()},
-                       {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                        -std::numeric_limits<double>::infinity()}};
+constexpr Box kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 /// The box of a box's corners after a matrix.
 Box boxOf(const Box& box, const Mat4& matrix) {

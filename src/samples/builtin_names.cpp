@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "samples/builtin_name.h"
@@ -25,9 +26,8 @@ Result<BuiltinName> parseBuiltinName(std::string_view kind, std::string_view nam
     std::uint32_t number = 0;
     const std::from_chars_result read = std::from_chars(digits.data(), end, number);
     if (digits.empty() || read.ptr != end || read.ec != std::errc{}) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "builtin " + std::string(kind) + " '" + std::string(name) + "': '" + std::string(digits) +
-                         "' is not a number of " + std::string(numberOf)};
+        return refuse("builtin " + std::string(kind) + " '" + std::string(name) + "': '" + std::string(digits) +
+                      "' is not a number of " + std::string(numberOf));
     }
     parsed.number = number;
     return parsed;
@@ -52,8 +52,8 @@ Result<MeshData> needleOf(std::string_view name, std::string_view sizes) {
     const std::optional<double> length =
         colon == std::string_view::npos ? std::nullopt : numberIn(sizes.substr(colon + 1));
     if (!diameter || !length) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "builtin mesh '" + std::string(name) + "': it is not needle:DIAMETER:LENGTH with two numbers, mm"};
+        return refuse("builtin mesh '" + std::string(name) +
+                      "': it is not needle:DIAMETER:LENGTH with two numbers, mm");
     }
     return makeNeedle(*diameter, *length);
 }
@@ -76,8 +76,7 @@ Result<MeshData> makeBuiltinMesh(std::string_view name) {
         if (parsed->stem == "ellipsoid") {
             return makeEllipsoid(parsed->number.value_or(kEllipsoidTriangles));
         }
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "unknown builtin mesh '" + parsed->stem + "': scalpel, ellipsoid, needle"};
+        return refuse("unknown builtin mesh '" + parsed->stem + "': scalpel, ellipsoid, needle");
     });
 }
 

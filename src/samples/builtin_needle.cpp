@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/text.h"
 #include "samples/loft.h"
@@ -60,9 +61,8 @@ Ring ringAt(double radius, double height) {
 Result<MeshData> makeNeedle(double diameter, double length) {
     return guard([&]() -> Result<MeshData> {
         if (!(diameter > 0 && length >= diameter && std::isfinite(length))) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "a needle of diameter " + number(diameter) + " mm and length " + number(length) +
-                             " mm: the diameter must be above 0, and the length no smaller than that"};
+            return refuse("a needle of diameter " + number(diameter) + " mm and length " + number(length) +
+                          " mm: the diameter must be above 0, and the length no smaller than that");
         }
         const double radius = 0.5 * diameter;
         const std::array<Turn, kQuarter + 1> turns = quarterTurns();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "samples/builtin_head.h"
@@ -187,14 +188,13 @@ Result<VolumeData> makeBuiltinVolume(std::string_view name) {
         const auto* const maker =
             std::find_if(kMakers.begin(), kMakers.end(), [&](const Maker& m) { return parsed->stem == m.stem; });
         if (maker == kMakers.end()) {
-            return Error{ErrorCode::InvalidArgument, 0, "unknown builtin volume '" + parsed->stem + "': " + known};
+            return refuse("unknown builtin volume '" + parsed->stem + "': " + known);
         }
         const std::uint32_t size = parsed->number.value_or(kDefaultSize);
         if (size < kMinSize || size > kMaxSize) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "builtin volume '" + std::string(name) + "': " + std::to_string(size) +
-                             " voxels a side is not possible, " + std::to_string(kMinSize) + " to " +
-                             std::to_string(kMaxSize) + " is"};
+            return refuse("builtin volume '" + std::string(name) + "': " + std::to_string(size) +
+                          " voxels a side is not possible, " + std::to_string(kMinSize) + " to " +
+                          std::to_string(kMaxSize) + " is");
         }
         VolumeData volume = maker->make(size);
         volume.name = parsed->stem;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "samples/loft.h"
+#include "core/base/refuse.h"
 
 #include <cmath>
 #include <cstddef>
@@ -83,8 +84,7 @@ Result<void> checkTriangleCount(const std::string& shape, std::uint32_t triangle
     } else {
         return {};
     }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 shape + " with " + std::to_string(triangles) + " triangles is not possible: " + why};
+    return refuse(shape + " with " + std::to_string(triangles) + " triangles is not possible: " + why);
 }
 
 MeshData toMesh(Surface surface, std::string name) {

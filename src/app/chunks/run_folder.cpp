@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/chunks/run_folder.h"
+#include "core/base/refuse.h"
 
 #include "app/chunks/content_hash.h"
 #include "core/base/try.h"
@@ -296,9 +297,8 @@ Result<RunFolder> RunFolder::join(const fs::path& path, const RunManifest& manif
     VOXTACT_TRY(there);
     const RunManifest here = asWritten(manifest);
     if (const std::string difference = differenceOf(there->facts, here.facts); !difference.empty()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "--resume: " + folderText(path) + " has another run: " + difference +
-                         "; give another folder, or what it has"};
+        return refuse("--resume: " + folderText(path) + " has another run: " + difference +
+                      "; give another folder, or what it has");
     }
     return RunFolder(path, std::move(*there));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_window.h"
+#include "core/base/infinity.h"
 
 #include "core/base/try.h"
 #include "voxtact/data.h"
@@ -8,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 namespace voxtact::app {
@@ -19,8 +19,6 @@ namespace {
 /// the box, and of the numbers that a coordinate is the sum of.
 constexpr double kOfTheBox = 1.0 / 64;
 constexpr double kOfTheNumbers = 1.0 / (1U << 18U);
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The volume in texture space.
 constexpr Box kVolume{{0, 0, 0}, {1, 1, 1}};

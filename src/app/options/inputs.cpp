@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/inputs.h"
+#include "core/base/refuse.h"
 
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
@@ -50,11 +51,10 @@ Result<VolumeData> readImage(const std::string& source, const io::ReadProgress& 
         const char* const end = image.which.data() + image.which.size();
         const auto [read, error] = std::from_chars(image.which.data(), end, frame);
         if (error != std::errc() || read != end) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         forMessage(source) +
-                             ": there is no such file, and what follows '#' is not the number of an "
-                             "image in " +
-                             forMessage(image.path.string())};
+            return refuse(forMessage(source) +
+                          ": there is no such file, and what follows '#' is not the number of an "
+                          "image in " +
+                          forMessage(image.path.string()));
         }
         options.frame = frame;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/render/clip.h"
+#include "core/base/infinity.h"
 #include "core/geometry/vec3.h"
 
 #include "app/options/shared_options.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::app {
 
@@ -52,7 +52,7 @@ ClipPlane planeOf(const ClipOption& clip, const Grid& grid, const Vec3& towardsE
 /// How far the volume's corners are along a normal.
 ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
     const Mat4 world_from_texture = worldFromTexture(grid);
-    ValueRange reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    ValueRange reach{kInfinity, -kInfinity};
     for (unsigned corner = 0; corner < 8; ++corner) {
         const double along = dot(
             normal, transformPoint(world_from_texture, {(corner & 1U) != 0 ? 1.0 : 0.0, (corner & 2U) != 0 ? 1.0 : 0.0,

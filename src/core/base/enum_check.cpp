@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/enum_check.h"
+#include "core/base/refuse.h"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +17,7 @@ template <class Values, class Value> Result<void> checkOneOf(const Values& value
     if (std::ranges::find(values, value) != values.end()) {
         return {};
     }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 std::string("there is no ") + what + " number " + std::to_string(static_cast<std::uint32_t>(value))};
+    return refuse(std::string("there is no ") + what + " number " + std::to_string(static_cast<std::uint32_t>(value)));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/projection.h"
@@ -26,18 +27,14 @@ concept BatchSide = requires(const Side& side, const Item& item, const WideExten
 
 namespace detail {
 
-inline Error refuseBatch(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
-
 template <class View, class Side> Result<void> checkView(const View& view, const Side& side) {
     const std::string size = "the viewport is " + std::to_string(view.width) + "x" + std::to_string(view.height);
     if (view.width == 0 || view.height == 0) {
-        return refuseBatch(size + ", it needs at least one pixel");
+        return refuse(size + ", it needs at least one pixel");
     }
     VOXTACT_TRY(side.checkExtent({view.width, view.height}, size));
     if (const Result<Mat4> world_from_clip = inverse(view.clip_from_world); !world_from_clip.ok()) {
-        return refuseBatch("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
+        return refuse("the camera's clip_from_world cannot be used: " + world_from_clip.error().text);
     }
     return {};
 }
@@ -65,7 +62,7 @@ template <class Item, class Side>
 Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t samplesPerVoxel, const Item& item,
                             const std::string& which, const Side& side) {
     if (item.mesh == nullptr || item.volume == nullptr || item.transferFunction == nullptr) {
-        return refuseBatch(which + ": mesh, volume or transferFunction is null");
+        return refuse(which + ": mesh, volume or transferFunction is null");
     }
     VOXTACT_TRY(side.checkItem(item, which));
     VOXTACT_TRY(checkPoses(item, which));
@@ -86,7 +83,7 @@ template <class Batch, class Side>
 Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPerVoxel, const Batch& batch,
                                  const Side& side) {
     if (!(batch.threshold >= 0 && batch.threshold <= 1)) {
-        return detail::refuseBatch("the threshold " + number(batch.threshold) + " is outside [0, 1]");
+        return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
     }
     const ProjectionRow& row = rowOf(projection);
     if (row.camera) {
@@ -100,7 +97,7 @@ Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPer
         pairs += detail::pairsOf(item);
     }
     if (pairs > std::numeric_limits<std::uint32_t>::max()) {
-        return detail::refuseBatch("the batch has " + std::to_string(pairs) + " pairs, more than 32 bits can number");
+        return refuse("the batch has " + std::to_string(pairs) + " pairs, more than 32 bits can number");
     }
     return static_cast<std::uint32_t>(pairs);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/batch/output_pair.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 
@@ -42,10 +43,6 @@ void setDepthSteps(shader::OutputPair& pair, const Grid& grid, double maxDepth) 
     pair.depthStep = static_cast<float>(step);
     pair.depthSteps =
         static_cast<std::uint32_t>(std::clamp(std::ceil(maxDepth / step), 1.0, double{CONTACT_MOST_STEPS}));
-}
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
 #include "core/base/try.h"
 #include "voxtact/data.h"
 
@@ -158,7 +159,6 @@ Result<void> checkCount(std::size_t boxes) {
 
 // What follows is directed rounding by error terms: exact operations stay exact, so that boxes that touch still touch.
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Below that the error term of a product may underflow itself.
 constexpr double kSmallestProduct = 0x1p-960;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/infinity.h"
 #include "voxtact/data.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace voxtact {
 
@@ -15,7 +15,6 @@ constexpr double kFramingMargin = 1.01;
 constexpr Mat4 kSideFromClip{0, 0, 0.5, 0, 0, 1, 0, 0, 2, 0, 0, 0, -1, 0, 0.5, 1};
 
 Box worldBox(const Grid& grid) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const Mat4 world_from_texture = worldFromTexture(grid);
     Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
     for (unsigned corner = 0; corner < 8; ++corner) {

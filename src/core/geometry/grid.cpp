@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/glm_bridge.h"
@@ -31,10 +32,6 @@ glm::dmat4 indexFromTextureGlm(const Grid& grid) {
     // index = texture * n - 0.5: voxel i's centre is at texture (i+0.5)/n.
     const glm::dmat4 shift = glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5));
     return glm::scale(shift, glm::dvec3(grid.size[0], grid.size[1], grid.size[2]));
-}
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
 }
 
 } // namespace

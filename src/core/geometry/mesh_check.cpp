@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "voxtact/data.h"
@@ -11,10 +13,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Vec3 vertex(const MeshView& mesh, std::uint32_t index) {
     const std::size_t at = std::size_t{3} * index;
@@ -55,7 +53,6 @@ Result<MeshFacts> checkMesh(const MeshView& mesh) {
         MeshFacts facts;
         facts.vertices = static_cast<std::uint32_t>(mesh.positions.size() / 3);
         facts.triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
         facts.bounds = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const auto coordinate = static_cast<double>(mesh.positions[i]);

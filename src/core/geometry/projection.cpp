@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/geometry/projection.h"
+#include "core/base/refuse.h"
 #include "core/method/method_table.h"
 
 #include <algorithm>
@@ -45,9 +46,8 @@ std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel) {
 
 Result<void> checkSamples(std::uint32_t samplesPerVoxel) {
     if (samplesPerVoxel < 1 || samplesPerVoxel > kMostSamplesPerVoxel) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the number of samples per voxel is " + std::to_string(samplesPerVoxel) + ", it must be 1 to " +
-                         std::to_string(kMostSamplesPerVoxel)};
+        return refuse("the number of samples per voxel is " + std::to_string(samplesPerVoxel) + ", it must be 1 to " +
+                      std::to_string(kMostSamplesPerVoxel));
     }
     return {};
 }

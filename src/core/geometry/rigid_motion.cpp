@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/geometry/rigid_motion.h"
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/glm_bridge.h"
@@ -91,10 +92,10 @@ Result<RigidMotion> RigidMotion::between(const Mat4& from, const Mat4& to, Inter
     const dmat3 rotation = nearestRotation(change);
     const double off = largest(change - rotation);
     if (!(off <= kMostDeformation) || !(glm::determinant(rotation) > 0)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     which + (std::isfinite(off) ? ": the motion from one to the other is not rigid (scale, shear or a "
-                                                   "mirror image); give poses of one scale"
-                                                 : ": they cannot be inverted; give poses of full rank")};
+        return refuse(which + (std::isfinite(off)
+                                   ? ": the motion from one to the other is not rigid (scale, shear or a "
+                                     "mirror image); give poses of one scale"
+                                   : ": they cannot be inverted; give poses of full rank"));
     }
     const dquat half = glm::normalize(glm::quat_cast(rotation));
     const dvec3 sine = (half.w < 0 ? -1.0 : 1.0) * dvec3(half.x, half.y, half.z);
@@ -171,7 +172,7 @@ Result<Mat4> poseBetween(const Mat4& from, const Mat4& to, double parameter, Int
                          const Vec3& centre) {
     return guard([&]() -> Result<Mat4> {
         if (!(parameter >= 0 && parameter <= 1)) {
-            return Error{ErrorCode::InvalidArgument, 0, "the parameter " + number(parameter) + " is outside of 0 to 1"};
+            return refuse("the parameter " + number(parameter) + " is outside of 0 to 1");
         }
         const Result<RigidMotion> motion = RigidMotion::between(from, to, interpolation, centre, "the two poses");
         VOXTACT_TRY(motion);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/geometry/shape_between.h"
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "voxtact/motion.h"
 
@@ -18,12 +19,11 @@ void fillShapeBetween(std::span<const float> from, std::span<const float> to, do
 Result<std::vector<float>> shapeBetween(std::span<const float> from, std::span<const float> to, double parameter) {
     return guard([&]() -> Result<std::vector<float>> {
         if (!(parameter >= 0 && parameter <= 1)) {
-            return Error{ErrorCode::InvalidArgument, 0, "the parameter " + number(parameter) + " is outside of 0 to 1"};
+            return refuse("the parameter " + number(parameter) + " is outside of 0 to 1");
         }
         if (from.size() != to.size()) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the shapes have " + std::to_string(from.size()) + " and " + std::to_string(to.size()) +
-                             " coordinates"};
+            return refuse("the shapes have " + std::to_string(from.size()) + " and " + std::to_string(to.size()) +
+                          " coordinates");
         }
         std::vector<float> out;
         fillShapeBetween(from, to, parameter, out);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/geometry/glm_bridge.h"
 
@@ -37,7 +38,7 @@ Result<Mat4> inverse(const Mat4& b_from_a) {
     double largest = 0;
     for (const double element : b_from_a) {
         if (!std::isfinite(element)) {
-            return Error{ErrorCode::InvalidArgument, 0, "the matrix has an element that is not finite"};
+            return refuse("the matrix has an element that is not finite");
         }
         largest = std::max(largest, std::abs(element));
     }
@@ -53,7 +54,7 @@ Result<Mat4> inverse(const Mat4& b_from_a) {
         }
     }
     if (largest == 0 || residual > 1e-6) {
-        return Error{ErrorCode::InvalidArgument, 0, "the matrix is singular"};
+        return refuse("the matrix is singular");
     }
     if (isAffine(b_from_a)) { // of a pose it is a pose: rounding must not get into the last row
         out[3] = out[7] = out[11] = 0;
@@ -78,15 +79,13 @@ Mat4 fromFloats(const float (&columnMajor)[16]) noexcept {
 Result<void> checkAffine(const Mat4& matrix, const std::string& what) {
     for (std::size_t i = 0; i < 16; ++i) {
         if (!std::isfinite(matrix[i])) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         what + ": row " + std::to_string(i % 4 + 1) + ", column " + std::to_string(i / 4 + 1) +
-                             " of the matrix is not finite"};
+            return refuse(what + ": row " + std::to_string(i % 4 + 1) + ", column " + std::to_string(i / 4 + 1) +
+                          " of the matrix is not finite");
         }
     }
     if (!isAffine(matrix)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     what + ": the last row of the matrix is " + number(matrix[3]) + " " + number(matrix[7]) + " " +
-                         number(matrix[11]) + " " + number(matrix[15]) + ", it must be 0 0 0 1"};
+        return refuse(what + ": the last row of the matrix is " + number(matrix[3]) + " " + number(matrix[7]) + " " +
+                      number(matrix[11]) + " " + number(matrix[15]) + ", it must be 0 0 0 1");
     }
     return {};
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/method/certified_constants.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/geometry/vec3.h"
 #include "core/geometry/wide_matrix.h"
@@ -65,8 +67,7 @@ double inverseError(const Mat4& texture_from_world, const Mat4& world_from_textu
 
 Result<void> checkResolution(double resolution) {
     if (!(resolution >= 0x1p-12 && resolution <= 1)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the resolution " + number(resolution) + " is outside of 1/4096 to 1 voxel"};
+        return refuse("the resolution " + number(resolution) + " is outside of 1/4096 to 1 voxel");
     }
     return {};
 }
@@ -153,8 +154,7 @@ shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double inter
 Result<void> checkMargin(double margin) {
     constexpr double kMostMargin = 1e6;
     if (!(margin >= 0 && margin <= kMostMargin)) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the margin " + number(margin) + " mm is not a number from 0 to 1000000"};
+        return refuse("the margin " + number(margin) + " mm is not a number from 0 to 1000000");
     }
     return {};
 }
@@ -232,17 +232,16 @@ shader::CertifiedItem withClearance(shader::CertifiedItem item, const Grid& grid
 
 Result<void> checkTolerance(double tolerance) {
     constexpr double kLeastTolerance = 1e-6;
-    if (!(tolerance >= kLeastTolerance && tolerance < std::numeric_limits<double>::infinity())) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "the tolerance " + number(tolerance) + " mm is not a number from " + number(kLeastTolerance) +
-                         " mm on"};
+    if (!(tolerance >= kLeastTolerance && tolerance < kInfinity)) {
+        return refuse("the tolerance " + number(tolerance) + " mm is not a number from " + number(kLeastTolerance) +
+                      " mm on");
     }
     return {};
 }
 
 Result<void> checkMaximum(double maximum) {
     if (!(maximum > 0)) {
-        return Error{ErrorCode::InvalidArgument, 0, "the maximum clearance " + number(maximum) + " mm is not above 0"};
+        return refuse("the maximum clearance " + number(maximum) + " mm is not above 0");
     }
     return {};
 }

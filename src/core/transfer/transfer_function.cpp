@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/domain.h"
@@ -11,10 +12,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkPoints(std::span<const ControlPoint> points) {
     if (points.empty()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/volume/edit_rows.h"
@@ -10,10 +11,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> check(const VoxelBox& box, const Grid& grid) {
     constexpr const char* kAxes[] = {"x", "y", "z"};

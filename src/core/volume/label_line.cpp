@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/volume/label_lookup.h"
 #include "voxtact/plan.h"
@@ -62,7 +63,7 @@ Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec
             return std::ranges::all_of(v, [](double x) { return std::isfinite(x); });
         };
         if (!isFinite(from) || !isFinite(to)) {
-            return Error{ErrorCode::InvalidArgument, 0, "an end of the line is not finite"};
+            return refuse("an end of the line is not finite");
         }
         const Result<Mat4> texture = textureFromWorld(labels.grid);
         VOXTACT_TRY(texture);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/volume/label_lookup.h"
@@ -22,11 +23,10 @@ template <class Scalar> Result<void> checkWhole(const Grid& grid, const Scalar* 
     for (std::uint64_t i = 0; i < count; ++i) {
         const auto value = static_cast<double>(voxels[i]);
         if (value != std::floor(value) || std::abs(value) > kLargestLabel) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "voxel (" + std::to_string(i % grid.size[0]) + ", " +
-                             std::to_string(i / grid.size[0] % grid.size[1]) + ", " +
-                             std::to_string(i / grid.size[0] / grid.size[1]) + ") of the label map is " +
-                             number(value) + ", a label is a whole number from -16777216 to 16777216"};
+            return refuse("voxel (" + std::to_string(i % grid.size[0]) + ", " +
+                          std::to_string(i / grid.size[0] % grid.size[1]) + ", " +
+                          std::to_string(i / grid.size[0] / grid.size[1]) + ") of the label map is " + number(value) +
+                          ", a label is a whole number from -16777216 to 16777216");
         }
     }
     return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/enum_check.h"
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/volume/voxel_visit.h"
 
@@ -42,9 +43,8 @@ Error notFinite(const Grid& grid, std::uint64_t voxel, double value) {
     const std::uint64_t x = voxel % grid.size[0];
     const std::uint64_t y = voxel / grid.size[0] % grid.size[1];
     const std::uint64_t z = voxel / grid.size[0] / grid.size[1];
-    return Error{ErrorCode::InvalidArgument, 0,
-                 "voxel (" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ") is " +
-                     (std::isnan(value) ? "NaN" : "infinite")};
+    return refuse("voxel (" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ") is " +
+                  (std::isnan(value) ? "NaN" : "infinite"));
 }
 
 template <class Scalar> Result<ValueRange> rangeOf(const Grid& grid, const Scalar* voxels) {
@@ -71,10 +71,9 @@ Result<ValueRange> checkVolume(const VolumeView& volume) {
         VOXTACT_TRY(checkScalarType(volume.type));
         const std::uint64_t expected = voxelCount(volume.grid) * bytesPerVoxel(volume.type);
         if (volume.voxels.size() != expected) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the image has " + std::to_string(volume.voxels.size()) +
-                             " bytes of voxels, its size and type (" + toString(volume.type) + ") need " +
-                             std::to_string(expected)};
+            return refuse("the image has " + std::to_string(volume.voxels.size()) +
+                          " bytes of voxels, its size and type (" + toString(volume.type) + ") need " +
+                          std::to_string(expected));
         }
         return visitVoxels(volume, [&](const auto* voxels) { return rangeOf(volume.grid, voxels); });
     });

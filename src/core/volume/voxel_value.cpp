@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/volume/voxel_value.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 
@@ -11,10 +12,6 @@
 namespace voxtact {
 
 namespace {
-
-Error refuse(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 template <class Scalar> Result<VoxelBytes> bytesOf(double value, const char* type) {
     using Limits = std::numeric_limits<Scalar>;

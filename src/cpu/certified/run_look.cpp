@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/run_look.h"
+#include "core/base/infinity.h"
 
 #include <cmath>
-#include <limits>
 
 namespace voxtact::cpu {
 
@@ -69,7 +69,7 @@ Range partOf(float lo, float hi, float delta, float origin, float cellLo, float 
 
 /// The least and the greatest dot product of a point with (x, y, z).
 Range along(const PointHull& hull, double x, double y, double z) noexcept {
-    Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    Range range{kInfinity, -kInfinity};
     for (std::size_t i = 0; i < hull.count; ++i) {
         const double at = x * hull.x[i] + y * hull.y[i] + z * hull.z[i];
         range.lo = std::min(range.lo, at);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/cell_piece.h"
+#include "core/base/infinity.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::cpu {
 
@@ -13,7 +13,6 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kX = 1;
 constexpr std::size_t kY = 2;
 constexpr std::size_t kZ = 4;

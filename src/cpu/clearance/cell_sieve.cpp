@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/cell_sieve.h"
+#include "core/base/infinity.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/clearance/cell_sieve.cpp"
@@ -53,7 +54,7 @@ HWY_INLINE unsigned sieveRow(const CellSieveJob& job, const RowPart& row, Double
 }
 
 void sieveCells(const CellSieveJob& job, SievedCells& out) {
-    DoubleV gone = all(std::numeric_limits<double>::infinity());
+    DoubleV gone = all(kInfinity);
     for (std::int32_t z = job.cells.lo[2]; z <= job.cells.hi[2]; ++z) {
         for (std::int32_t y = job.cells.lo[1]; y <= job.cells.hi[1]; ++y) {
             const auto number = static_cast<std::size_t>(y + kBrickSide * z);
@@ -100,7 +101,7 @@ double leastCell(const BrickCells& known, const CellBox& cells, const glm::dvec3
     const hn::Rebind<std::int32_t, Doubles> ints;
     const hn::Rebind<std::uint8_t, Doubles> bytes;
     const auto columns = hn::Set(ints, static_cast<std::int32_t>(cells.columns()));
-    DoubleV least = all(std::numeric_limits<double>::infinity());
+    DoubleV least = all(kInfinity);
     for (std::int32_t z = cells.lo[2]; z <= cells.hi[2]; ++z) {
         for (std::size_t first = 0; first < kSide; first += hn::Lanes(d)) {
             const std::uint8_t* rows = known.mayBeOpaque.data() + static_cast<std::size_t>(z) * kSide + first;

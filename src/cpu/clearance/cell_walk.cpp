@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/cell_walk.h"
+#include "core/base/infinity.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/clearance/cell_walk.cpp"
@@ -133,8 +133,7 @@ void walkToOpaque(const WalkJob& job, const PieceRows& rows, WalkRows& out) {
         }
         const PointV off = times(job.space.local_from_voxel, middle + half * at) - all(job.from);
         const DoubleV distance = hn::Sqrt(dot(off, off));
-        hn::Store(hn::IfThenElse(maskOf(arrived), distance, all(std::numeric_limits<double>::infinity())), d,
-                  out.distance.data() + first);
+        hn::Store(hn::IfThenElse(maskOf(arrived), distance, all(kInfinity)), d, out.distance.data() + first);
         hn::Store(at.x, d, out.at[0].data() + first);
         hn::Store(at.y, d, out.at[1].data() + first);
         hn::Store(at.z, d, out.at[2].data() + first);

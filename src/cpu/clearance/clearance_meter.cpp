@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/glm_bridge.h"
@@ -20,8 +22,6 @@ namespace voxtact::cpu {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using LabelSets = std::shared_ptr<const std::vector<LabelSet>>;
 
@@ -44,10 +44,6 @@ struct ClearanceMeterImpl {
 };
 
 namespace {
-
-Error refuse(const std::string& text) {
-    return Error{ErrorCode::InvalidArgument, 0, text};
-}
 
 Result<void> checkDesc(const ClearanceDesc& desc) {
     VOXTACT_TRY(checkThreads(desc.threads));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/infinity.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
@@ -12,8 +14,6 @@
 namespace voxtact::cpu {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What a clearance belongs to.
 struct TrackedScene {
@@ -46,10 +46,6 @@ double movedBy(const Mat4& from, const Mat4& to, const Box& box) {
         most = std::max(most, std::hypot(moved[0], moved[1], moved[2]));
     }
     return most + kRounding * (most + 16 * terms);
-}
-
-Error refuse(const std::string& text) {
-    return Error{ErrorCode::InvalidArgument, 0, text};
 }
 
 Result<void> checkDesc(const TrackerDesc& desc) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/infinity.h"
 #include "cpu/clearance/cell_piece.h"
 #include "cpu/clearance/placed.h"
 #include "cpu/clearance/sweep.h"
@@ -9,7 +10,6 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <limits>
 #include <span>
 
 namespace voxtact::cpu {
@@ -36,9 +36,9 @@ struct SieveJob {
 /// What is left of them.
 struct Sieved {
     std::uint64_t kept = 0;
-    std::uint8_t nearest = 0;                                   ///< of those that are kept
-    double least = std::numeric_limits<double>::infinity();     ///< mm: none of these is nearer
-    double leastGone = std::numeric_limits<double>::infinity(); ///< mm: none of the others is
+    std::uint8_t nearest = 0;     ///< of those that are kept
+    double least = kInfinity;     ///< mm: none of these is nearer
+    double leastGone = kInfinity; ///< mm: none of the others is
 };
 
 /// A box of centred voxel coordinates.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/infinity.h"
 #include "cpu/scene/scene_impl.h"
 
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
 namespace voxtact::cpu {
 
@@ -26,9 +26,9 @@ struct DistanceError {
 
 /// What a search found. Distances in mm.
 struct Found {
-    double lo = std::numeric_limits<double>::infinity(); ///< no opaque point is nearer
-    double hi = std::numeric_limits<double>::infinity(); ///< some opaque point is no farther
-    bool exhausted = false;                              ///< mostSteps ended it
+    double lo = kInfinity;                ///< no opaque point is nearer
+    double hi = kInfinity;                ///< some opaque point is no farther
+    bool exhausted = false;               ///< mostSteps ended it
     std::uint32_t triangle = kNoTriangle; ///< the closest one, by its place in the mesh's arrays; with hi finite
     glm::dvec3 onMesh{};                  ///< local
     glm::dvec3 inVolume{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/mesh_place.h"
+#include "core/base/infinity.h"
 #include "cpu/clearance/cluster_sieve.h"
 
 #include <glm/common.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::cpu {
 
@@ -69,7 +69,7 @@ void MeshPlace::findError(const Mat4& world_from_object) {
     }
     const double magnitude = largest + space_->magnitude;
     const bool usable = magnitude > kLeast && magnitude < kGreatest;
-    error_ = usable ? kRelativeError * magnitude * space_->condition : std::numeric_limits<double>::infinity();
+    error_ = usable ? kRelativeError * magnitude * space_->condition : kInfinity;
 }
 
 void MeshPlace::voxelBounds(const RunBox& box, dvec3& lo, dvec3& hi) const {

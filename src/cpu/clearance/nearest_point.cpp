@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/nearest_point.h"
+#include "core/base/infinity.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -230,7 +231,7 @@ class OpaqueSearch {
         [[nodiscard]] double least(const CellBox& cells) const {
             double sum = 0;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                double square = std::numeric_limits<double>::infinity();
+                double square = kInfinity;
                 for (std::int32_t cell = cells.lo[axis]; cell <= cells.hi[axis]; ++cell) {
                     square = std::min(square, at(axis, cell));
                 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/infinity.h"
 #include "cpu/clearance/cell_sieve.h"
 #include "cpu/clearance/cell_walk.h"
 #include "cpu/clearance/label_part.h"
@@ -9,20 +10,18 @@
 
 #include <glm/vec3.hpp>
 
-#include <limits>
-
 /// Points that are near, soon: what they are worth is for others to say. Local coordinates (VolumeSpace).
 namespace voxtact::cpu {
 
 struct MeshPoint {
     glm::dvec3 point{};
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
     std::uint32_t triangle = kNoTriangle; ///< its place in the mesh's arrays
 };
 
 struct OpaquePoint {
     glm::dvec3 point{};
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
 };
 
 /// What looking for an opaque point takes. Contents mean nothing before and after.

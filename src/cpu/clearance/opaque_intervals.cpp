@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/opaque_intervals.h"
+#include "core/base/infinity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@ namespace voxtact::cpu {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of a place among so many entries: the rounding of a quotient of differences of floats, and of the sum with the
 /// number of the entry.
 constexpr double kPlaceError = 0x1p-50;

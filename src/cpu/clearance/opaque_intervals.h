@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/infinity.h"
+
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,8 +11,8 @@ namespace voxtact::cpu {
 
 /// A closed interval of entry coordinates (shaders/opacity_ranges.h).
 struct EntryInterval {
-    double lo = -std::numeric_limits<double>::infinity();
-    double hi = std::numeric_limits<double>::infinity();
+    double lo = -kInfinity;
+    double hi = kInfinity;
 };
 
 /// Which entry coordinates are opaque: the table is linear between its entries and constant beyond them, so they are

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/piece_look.h"
+#include "core/base/infinity.h"
 #include "cpu/clearance/nearest_point.h"
 
 #include <glm/common.hpp>
@@ -13,8 +14,6 @@ namespace voxtact::cpu {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A place in a cell, and the interpolant there.
 struct PlacedValue {

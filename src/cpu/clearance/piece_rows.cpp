@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/piece_rows.h"
+#include "core/base/infinity.h"
 
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/clearance/piece_rows.cpp"
@@ -127,9 +127,9 @@ HWY_INLINE PieceV boundsAt(const PieceRows& rows, const VolumeSpace& space, std:
             slope,
             {hn::Div(one, slope.x), hn::Div(one, slope.y), hn::Div(one, slope.z)},
             hn::IfThenElse(hn::Gt(hullLo, rowAt(rows.lo, first)), hn::Sub(hn::Sub(hullLo, bent), terms.of[0]),
-                           all(-std::numeric_limits<double>::infinity())),
+                           all(-kInfinity)),
             hn::IfThenElse(hn::Lt(hullHi, rowAt(rows.hi, first)), hn::Sub(hn::Add(hullHi, bent), terms.of[0]),
-                           all(std::numeric_limits<double>::infinity())),
+                           all(kInfinity)),
             sum(abs(slope))};
 }
 
@@ -142,7 +142,7 @@ struct FarthestV {
 HWY_INLINE FarthestV farthestOf(const PointList& corners, const PointV& normal) {
     const Doubles d;
     const DoubleV one = all(1.0);
-    DoubleV along = all(-std::numeric_limits<double>::infinity());
+    DoubleV along = all(-kInfinity);
     DoubleV number = hn::Zero(d);
     DoubleV farthest = hn::Zero(d);
     for (std::size_t i = 0; i < corners.count; ++i) {
@@ -165,7 +165,7 @@ HWY_INLINE DoubleV apartAlong(const PieceJob& job, const PieceV& pieces, const P
 }
 
 HWY_INLINE DoubleV apartAlong(const PieceJob& job, const PieceV& pieces, const PointV& normal) {
-    DoubleV farthest = all(-std::numeric_limits<double>::infinity());
+    DoubleV farthest = all(-kInfinity);
     for (std::size_t i = 0; i < job.corners.count; ++i) {
         const PointV corner{all(job.corners.x[i]), all(job.corners.y[i]), all(job.corners.z[i])};
         farthest = greater(dot(normal, corner), farthest);

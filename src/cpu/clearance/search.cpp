@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/search.h"
+#include "core/base/infinity.h"
 
 #include <glm/geometric.hpp>
 
@@ -12,8 +13,6 @@ namespace {
 
 using glm::dvec3;
 using glm::length;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 

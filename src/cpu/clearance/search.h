@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/infinity.h"
 #include "cpu/cancel.h"
 #include "cpu/clearance/cell_piece.h"
 #include "cpu/clearance/cell_sieve.h"
@@ -15,7 +16,6 @@
 #include "cpu/clearance/volume_boxes.h"
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,11 +23,11 @@ namespace voxtact::cpu {
 
 /// When a search ends.
 struct SearchGoal {
-    double tolerance = 0;                                     ///< mm: the bounds are near enough
-    double relative = 0;                                      ///< of the upper bound: the same
-    double maximum = std::numeric_limits<double>::infinity(); ///< mm: what is not nearer is not looked for
-    double enough = -1;                                       ///< mm: an opaque point as near as this ends it
-    double finest = 0;                                        ///< mm: what is known as well is not looked at again
+    double tolerance = 0;       ///< mm: the bounds are near enough
+    double relative = 0;        ///< of the upper bound: the same
+    double maximum = kInfinity; ///< mm: what is not nearer is not looked for
+    double enough = -1;         ///< mm: an opaque point as near as this ends it
+    double finest = 0;          ///< mm: what is known as well is not looked at again
     std::uint64_t mostSteps = 0;
     std::optional<glm::dvec3> known{}; ///< local: a point that certainly is searched for. Not with a sweep
     bool measures = false; ///< a sweep that only shifts: how near it comes is asked, not only whether it is apart
@@ -94,7 +94,7 @@ class ClosestSearch {
             return goal_.maximum;
         }
         const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
-        return std::min(found_.hi - (found_.hi < std::numeric_limits<double>::infinity() ? slack : 0), goal_.maximum);
+        return std::min(found_.hi - (found_.hi < kInfinity ? slack : 0), goal_.maximum);
     }
     /// Whether all that is asked is if a sweep is apart.
     [[nodiscard]] bool decides() const noexcept { return mesh_->isSwept() && !goal_.measures; }

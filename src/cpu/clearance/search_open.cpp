@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a pair is divided into, and which of that is still looked for.
+#include "core/base/infinity.h"
 #include "cpu/clearance/cluster_sieve.h"
 #include "cpu/clearance/search.h"
 
@@ -22,7 +23,6 @@ using glm::length;
 /// alike. By so much they may be smaller; a sweep's boxes are looser, too.
 constexpr double kPreferVolume = 3;
 constexpr double kPreferVolumeOfSweep = 2;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 

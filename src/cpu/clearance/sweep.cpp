@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/sweep.h"
+#include "core/base/infinity.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxtact::cpu {
 
@@ -59,7 +59,7 @@ double Sweep::wide(const dvec3& x) const noexcept {
 double Sweep::reach(const dvec3& normal, const PlacedBox& box) const noexcept {
     if (turn > 0) {
         // Each rotation is linear: a corner reaches farthest.
-        double most = -std::numeric_limits<double>::infinity();
+        double most = -kInfinity;
         for (unsigned i = 0; i < 8; ++i) {
             const dvec3 corner = box.middle + ((i & 1U) != 0 ? 1.0 : -1.0) * box.sides[0] +
                                  ((i & 2U) != 0 ? 1.0 : -1.0) * box.sides[1] +
@@ -268,7 +268,7 @@ double Direction::reach(const PlacedTriangle& triangle) const noexcept {
 
 double Direction::reach(const PointList& points) const noexcept {
     // Two at a time, for the processor.
-    double even = -std::numeric_limits<double>::infinity();
+    double even = -kInfinity;
     double odd = even;
     std::size_t i = 0;
     if (sweep_ != nullptr) {

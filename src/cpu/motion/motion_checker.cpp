@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
@@ -22,10 +23,6 @@ struct MotionCheckerImpl {
 namespace {
 
 constexpr double kLeastResolution = 1e-6;
-
-Error refuse(const std::string& text) {
-    return Error{ErrorCode::InvalidArgument, 0, text};
-}
 
 Result<void> checkDesc(const MotionDesc& desc) {
     VOXTACT_TRY(checkThreads(desc.threads));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/motion/pose_tolerance.h"
+#include "core/base/infinity.h"
 #include "core/geometry/glm_bridge.h"
 #include "cpu/clearance/workers.h"
 
@@ -18,7 +19,6 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// mm: what is known as well is not looked at again.
 constexpr double kFinest = kDefaultTolerance / 4;
 constexpr double kRounding = 0x1p-40;

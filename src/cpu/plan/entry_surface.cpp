@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/plan/entry_surface.h"
+#include "core/base/infinity.h"
 #include "core/base/try.h"
 
 #include <glm/geometric.hpp>
@@ -25,7 +26,7 @@ struct VoxelRay {
     double end = 0; ///< mm: where it is in the grid's box; before begin where it misses it
 
     VoxelRay(const VolumeSpace& space, const dvec3& local, const dvec3& direction)
-        : from(space.toVoxel(local)), way(space.toVoxel(direction)), end(std::numeric_limits<double>::infinity()) {
+        : from(space.toVoxel(local)), way(space.toVoxel(direction)), end(kInfinity) {
         for (int axis = 0; axis < 3; ++axis) {
             if (way[axis] == 0) {
                 end = std::abs(from[axis]) <= space.reach[axis] ? end : -1;

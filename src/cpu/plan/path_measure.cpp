@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/plan/path_measure.h"
+#include "core/base/infinity.h"
 
 #include "core/geometry/glm_bridge.h"
 
@@ -11,8 +12,6 @@ namespace voxtact::cpu {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/plan/plan_check.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/batch/output_pair.h"
@@ -16,10 +17,6 @@ namespace {
 constexpr double kLeastTolerance = 1e-6;
 constexpr double kRightAngle = 90;
 constexpr double kFarthest = 1e9; // mm
-
-Error refuse(const std::string& text) {
-    return {ErrorCode::InvalidArgument, 0, text};
-}
 
 bool isFinite(const Vec3& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "cpu/plan/entry_surface.h"
@@ -169,14 +170,13 @@ Result<void> certifyTriangles(const PlanScene& scene, Workers& workers, PlanAnsw
 Error noEntries(const PlanAnswer& answer) {
     const std::string all = std::to_string(answer.directions);
     if (answer.noSurface == answer.directions) {
-        return {ErrorCode::InvalidArgument, 0,
-                "none of " + all + " directions from the target meets the surface of entries: there is none around it"};
+        return refuse("none of " + all +
+                      " directions from the target meets the surface of entries: there is none around it");
     }
-    return {ErrorCode::InvalidArgument, 0,
-            "no entry is left of " + all + " directions: " + std::to_string(answer.noSurface) + " meet no surface, " +
-                std::to_string(answer.onBorder) + " enter where the image ends, " + std::to_string(answer.tooLong) +
-                " are too long, " + std::to_string(answer.tooOblique) + " too oblique; allow more" +
-                (answer.onBorder > 0 ? ", border entries among them" : "")};
+    return refuse("no entry is left of " + all + " directions: " + std::to_string(answer.noSurface) +
+                  " meet no surface, " + std::to_string(answer.onBorder) + " enter where the image ends, " +
+                  std::to_string(answer.tooLong) + " are too long, " + std::to_string(answer.tooOblique) +
+                  " too oblique; allow more" + (answer.onBorder > 0 ? ", border entries among them" : ""));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
@@ -95,9 +96,8 @@ const MeshFacts& Mesh::facts() const noexcept {
 Result<void> Mesh::update(std::span<const float> positions) {
     return guard([&]() -> Result<void> {
         if (positions.size() != std::size_t{3} * impl_->facts.vertices) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "the update has " + std::to_string(positions.size()) + " coordinates, the mesh has " +
-                             std::to_string(impl_->facts.vertices) + " vertices of three"};
+            return refuse("the update has " + std::to_string(positions.size()) + " coordinates, the mesh has " +
+                          std::to_string(impl_->facts.vertices) + " vertices of three");
         }
         const std::vector<std::uint32_t> indices = impl_->indices();
         const Result<MeshFacts> facts = checkMesh({positions, indices});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "io/errors.h"
@@ -129,7 +130,7 @@ class Gatherer {
 
 Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& options) {
     if (!(options.scale > 0) || !std::isfinite(options.scale)) {
-        return Error{ErrorCode::InvalidArgument, 0, "the scale of a mesh must be positive and finite"};
+        return refuse("the scale of a mesh must be positive and finite");
     }
     Result<MeshFile> file = readMeshFile(source);
     VOXTACT_TRY(file);

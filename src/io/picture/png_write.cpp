@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "io/errors.h"
 #include "voxtact/io.h"
@@ -17,10 +18,6 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kChannels = 4;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
-
-Error refuse(std::string text) {
-    return {ErrorCode::InvalidArgument, 0, std::move(text)};
-}
 
 Result<void> checkPicture(std::uint32_t width, std::uint32_t height, Bytes rgba) {
     const std::uint64_t bytes = std::uint64_t{kChannels} * width * height;

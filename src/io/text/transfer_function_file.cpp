@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "io/errors.h"
@@ -183,10 +184,9 @@ Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path) 
 
 Result<std::vector<ControlPoint>> parseOpacity(std::string_view text) {
     return guard([&]() -> Result<Points> {
-        const auto refuse = [&](std::size_t item, std::string_view reason) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "opacity '" + printable(text) + "': point " + std::to_string(item + 1) + ": " +
-                             std::string(reason)};
+        const auto refusePoint = [&](std::size_t item, std::string_view reason) {
+            return refuse("opacity '" + printable(text) + "': point " + std::to_string(item + 1) + ": " +
+                          std::string(reason));
         };
         Points points;
         for (std::size_t begin = 0; begin <= text.size();) {
@@ -194,7 +194,7 @@ Result<std::vector<ControlPoint>> parseOpacity(std::string_view text) {
             const std::string_view item = trimmed(text.substr(begin, end - begin));
             const std::size_t colon = item.find(':');
             if (colon == std::string_view::npos) {
-                return refuse(points.size(), "expected value:opacity");
+                return refusePoint(points.size(), "expected value:opacity");
             }
             double value = 0;
             double opacity = 0;
@@ -206,7 +206,7 @@ Result<std::vector<ControlPoint>> parseOpacity(std::string_view text) {
                 reason = addPoint(points, value, opacity);
             }
             if (reason) {
-                return refuse(points.size(), *reason);
+                return refusePoint(points.size(), *reason);
             }
             begin = end + 1;
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/dicom_values.h"
+#include "core/base/infinity.h"
 
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -61,7 +62,7 @@ void fillAs(StoredType type, const DicomImage& image, const DicomSlice& slice, s
 } // namespace
 
 StoredType dicomType(const std::vector<DicomImage>& images, const std::vector<DicomSlice>& slices) {
-    double lo = std::numeric_limits<double>::infinity();
+    double lo = kInfinity;
     double hi = -lo;
     for (const DicomSlice& slice : slices) {
         if (!isWhole(slice.slope) || !isWhole(slice.intercept)) {

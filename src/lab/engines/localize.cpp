@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/localize.h"
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "detect/batch.h"
 #include "detect/recording.h"
@@ -125,13 +126,12 @@ Result<void> checkAids(const BatchItem& item, Localization way, const LocalizeAi
         return {};
     }
     if (aids.tree == nullptr || aids.tree->triangles.size() != item.mesh->triangles()) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "LocalizeAids::tree must be the tree of the mesh, which has " +
-                         std::to_string(item.mesh->triangles()) + " triangles; it has " +
-                         (aids.tree == nullptr ? "none" : std::to_string(aids.tree->triangles.size()))};
+        return refuse("LocalizeAids::tree must be the tree of the mesh, which has " +
+                      std::to_string(item.mesh->triangles()) + " triangles; it has " +
+                      (aids.tree == nullptr ? "none" : std::to_string(aids.tree->triangles.size())));
     }
     if (way == Localization::LeafBricks && !aids.mayBeOpaque) {
-        return Error{ErrorCode::InvalidArgument, 0, "LocalizeAids::mayBeOpaque is empty, leaf-bricks asks it"};
+        return refuse("LocalizeAids::mayBeOpaque is empty, leaf-bricks asks it");
     }
     return {};
 }
@@ -239,8 +239,7 @@ Result<LocalizedTriangles> Localizer::triangles(const Batch& batch, Localization
         const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs != 1) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "triangles are found for one pair, the batch has " + std::to_string(*pairs)};
+            return refuse("triangles are found for one pair, the batch has " + std::to_string(*pairs));
         }
         const BatchItem& item =
             *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });

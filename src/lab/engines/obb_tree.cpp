@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/obb_tree.h"
+#include "core/base/infinity.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <span>
 
@@ -114,7 +114,7 @@ dmat3 principalAxes(const MeshView& mesh, Triangles triangles) {
 
 void fitBox(const MeshView& mesh, Triangles triangles, ObbNode& node) {
     const dmat3 axes = principalAxes(mesh, triangles);
-    dvec3 lo(std::numeric_limits<double>::infinity());
+    dvec3 lo(kInfinity);
     dvec3 hi(-lo);
     visitVertices(mesh, triangles, [&](const dvec3& vertex) {
         lo = glm::min(lo, vertex * axes);

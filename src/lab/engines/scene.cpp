@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/scene.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 
@@ -79,9 +80,8 @@ Result<void> upload(const device::Session& session, const VolumeOptions& options
 Result<void> makeReady(const device::Session& session, const VolumeOptions& options, VolumePart& volume) {
     VOXTACT_TRY(uploadVoxels(session, options, volume));
     if (Result<void> table = uploadTable(session, volume); !table.ok()) {
-        return table.error().code == ErrorCode::LimitExceeded
-                   ? Error{ErrorCode::InvalidArgument, 0, "--tf-size: " + table.error().text}
-                   : table.error();
+        return table.error().code == ErrorCode::LimitExceeded ? refuse("--tf-size: " + table.error().text)
+                                                              : table.error();
     }
     return makeHost(volume);
 }
@@ -108,9 +108,8 @@ Result<void> checkViewport(const device::Session& session, const VkExtent2D& siz
         std::max(size.width, size.height) <= cpu::kMaxViewport) {
         return {};
     }
-    return Error{ErrorCode::InvalidArgument, 0,
-                 "--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) + " is beyond what '" +
-                     session.device.physical().name + "' can do"};
+    return refuse("--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) + " is beyond what '" +
+                  session.device.physical().name + "' can do");
 }
 
 } // namespace voxtact::lab

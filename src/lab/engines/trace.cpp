@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/trace.h"
 #include "core/base/guard.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "detect/batch.h"
 #include "detect/recording.h"
@@ -149,8 +150,7 @@ Result<std::vector<shader::TracedFragment>> FragmentTrace::survivors(const Batch
         const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs != 1) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "a trace is of one pair, the batch has " + std::to_string(*pairs)};
+            return refuse("a trace is of one pair, the batch has " + std::to_string(*pairs));
         }
         Result<std::uint32_t> count = run(*impl_, batch);
         if (count.ok() && kHeader + VkDeviceSize{*count} * sizeof(shader::TracedFragment) > impl_->list.size) {

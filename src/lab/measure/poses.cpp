@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/poses.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "voxtact/motion.h"
@@ -152,9 +153,8 @@ Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std
     std::vector<Mat4> poses;
     for (std::uint64_t tries = 0; poses.size() < count; ++tries) {
         if (tries == kTries * count) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "no poses around the onset of contact: of " + std::to_string(tries) + " random poses only " +
-                             std::to_string(poses.size()) + " touch"};
+            return refuse("no poses around the onset of contact: of " + std::to_string(tries) + " random poses only " +
+                          std::to_string(poses.size()) + " touch");
         }
         const Mat4 start = randomPose(world_from_texture, mesh, 0, random);
         const Vec3 direction = transformPoint(randomRotation(random), {0, 0, 1});

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/infinity.h"
 #include "voxtact/error.h"
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 
 namespace voxtact::lab {
 
-inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+inline constexpr double kNoLimit = kInfinity;
 
 /// A turn of something that is timed.
 struct Turn {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/refuse.h"
 #include "lab/paper/parts.h"
 
 #include "core/base/text.h"
@@ -221,11 +222,10 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
     std::uint64_t end = count;
     for (std::uint64_t tried = 0; scene.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
         if (tried == most) {
-            return Error{ErrorCode::InvalidArgument, 0,
-                         "--poses: of " + std::to_string(tried) + " random poses of " + name + " only " +
-                             std::to_string(scene.poses.size()) + " touch in a view of " +
-                             std::to_string(scene.view.width) + "x" + std::to_string(scene.view.height) +
-                             " pixels (--size)"};
+            return refuse("--poses: of " + std::to_string(tried) + " random poses of " + name + " only " +
+                          std::to_string(scene.poses.size()) + " touch in a view of " +
+                          std::to_string(scene.view.width) + "x" + std::to_string(scene.view.height) +
+                          " pixels (--size)");
         }
         const std::vector<Mat4> all =
             randomPoses(scene.volume->data.grid, scene.mesh->data.view(), static_cast<std::uint32_t>(end), seed);

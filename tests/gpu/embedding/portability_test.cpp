@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace voxtact::test {
 namespace {
@@ -125,12 +126,12 @@ class PortabilityTest : public GpuTest {
         standIn = {};
         volkInitialize();
         standIn.real = vkGetInstanceProcAddr;
+        ofDevices_ = std::exchange(vkGetDeviceProcAddr, nullptr);
         volkInitializeCustom(lookUp);
-        vkGetDeviceProcAddr = nullptr;
     }
     void TearDown() override {
         volkInitialize();
-        vkGetDeviceProcAddr = nullptr; // the next instance looks it up
+        vkGetDeviceProcAddr = ofDevices_; // other tests' instances go on
         GpuTest::TearDown();
     }
     static device::VulkanDevice make() {
@@ -141,6 +142,9 @@ class PortabilityTest : public GpuTest {
     static bool has(const std::vector<std::string>& all, const char* name) {
         return std::ranges::find(all, name) != all.end();
     }
+
+  private:
+    PFN_vkGetDeviceProcAddr ofDevices_ = nullptr;
 };
 
 TEST_F(PortabilityTest, AskedForWhereTheyAre) {

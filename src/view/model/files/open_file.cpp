@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/files/open_file.h"
+#include "core/base/refuse.h"
 
 #include "core/base/try.h"
 #include "view/model/files/session_file.h"
@@ -96,8 +97,7 @@ Result<void> openFile(const std::filesystem::path& path, State& state) {
     const Result<FileKind> kind = kindOfFile(path);
     VOXTACT_TRY(kind);
     if (state.blank && *kind != FileKind::Session && *kind != FileKind::Volume) {
-        return Error{ErrorCode::InvalidArgument, 0,
-                     "'" + path.string() + "' needs a volume to be shown with; open a volume or a session first"};
+        return refuse("'" + path.string() + "' needs a volume to be shown with; open a volume or a session first");
     }
     if (*kind == FileKind::Function) {
         return openFunction(path, state);
