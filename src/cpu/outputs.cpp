@@ -125,17 +125,61 @@ void grow(Box& box, const Box& by) {
     }
 }
 
-} // namespace
+using PairBox = std::pair<std::uint32_t, Box>;
 
-OutputRun::Sink::Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread)
-    : run_(run), item_(run.items_[item]), pair_(pair), found_(run.found_[thread]), box_(kNoBox) {
-    if (run.outputs_.labels) {
-        histogram_.resize(item_.labels->values.size());
+/// Parts of lists, one after the other, by pair and `what`; the counts of equal ones are added.
+template <class T, class What> std::vector<T> together(std::vector<T> parts, What what) {
+    std::sort(parts.begin(), parts.end(),
+              [&](const T& a, const T& b) { return std::tie(a.pair, a.*what) < std::tie(b.pair, b.*what); });
+    std::vector<T> whole;
+    for (const T& part : parts) {
+        if (!whole.empty() && whole.back().pair == part.pair && whole.back().*what == part.*what) {
+            whole.back().count += part.count;
+        } else {
+            whole.push_back(part);
+        }
+    }
+    return whole;
+}
+
+void mergeBoxes(const std::vector<PairBox>& parts, std::vector<std::optional<Box>>& bounds) {
+    for (const auto& [pair, box] : parts) {
+        std::optional<Box>& whole = bounds[pair];
+        if (!whole) {
+            whole = box;
+        }
+        grow(*whole, box);
     }
 }
 
+template <class T> void append(std::vector<T>& to, const std::vector<T>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+} // namespace
+
+/// What one thread has found.
+struct OutputRun::Found {
+    std::vector<TouchedTriangle> triangles;
+    std::vector<Contact> contacts;
+    std::vector<PairBox> boxes;     ///< of parts of pairs
+    std::vector<LabelCount> labels; ///< of parts of pairs
+
+    /// Of the sink that there is.
+    bool any = false;
+    Box box = kNoBox;
+    std::vector<std::uint64_t> histogram;
+};
+
+OutputRun::Sink::Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread)
+    : run_(run), item_(run.items_[item]), pair_(pair), found_(*run.found_[thread]) {
+    found_.any = false;
+    found_.box = kNoBox;
+    found_.histogram.assign(run.outputs_.labels ? item_.labels->values.size() : 0, 0);
+}
+
 void OutputRun::Sink::add(std::uint32_t triangle, const ContactVector& at, const std::optional<ContactSample>& known) {
-    any_ = true;
+    found_.any = true;
     if (run_.outputs_.triangles) {
         std::vector<TouchedTriangle>& list = found_.triangles;
         if (list.empty() || list.back().pair != pair_ || list.back().triangle != triangle) {
@@ -146,11 +190,11 @@ void OutputRun::Sink::add(std::uint32_t triangle, const ContactVector& at, const
     const auto& rows = item_.pair.world_from_texture;
     const Vec3 position = widened(contactTransform(rows[0], rows[1], rows[2], at));
     if (run_.outputs_.bounds) {
-        grow(box_, {position, position});
+        grow(found_.box, {position, position});
     }
     const std::uint32_t label = item_.labels == nullptr ? 0 : labelNumber(item_.pair, *item_.labels, at);
     if (run_.outputs_.labels) {
-        ++histogram_[label];
+        ++found_.histogram[label];
     }
     if (run_.outputs_.contacts && run_.contacts_.fetch_add(1, std::memory_order_relaxed) < run_.mostContacts_) {
         const HostField field{*item_.image, *item_.table, item_.pair.item};
@@ -174,12 +218,13 @@ void OutputRun::Sink::addContact(const ContactVector& at, const Vec3& position, 
 }
 
 void OutputRun::Sink::publish() {
-    if (run_.outputs_.bounds && any_) {
-        found_.boxes.emplace_back(pair_, box_);
+    if (run_.outputs_.bounds && found_.any) {
+        found_.boxes.emplace_back(pair_, found_.box);
     }
-    for (std::size_t label = 0; label < histogram_.size(); ++label) {
-        if (histogram_[label] > 0) {
-            found_.labels.push_back({pair_, item_.labels->values[label], histogram_[label]});
+    const std::vector<std::uint64_t>& histogram = found_.histogram;
+    for (std::size_t label = 0; label < histogram.size(); ++label) {
+        if (histogram[label] > 0) {
+            found_.labels.push_back({pair_, item_.labels->values[label], histogram[label]});
         }
     }
 }
@@ -213,6 +258,7 @@ Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs) {
 
 OutputRun::OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t pairs, std::uint32_t threads)
     : outputs_(desc.outputs), mostContacts_(desc.mostContacts), pairs_(pairs), found_(threads) {
+    std::ranges::generate(found_, [] { return std::make_unique<Found>(); });
     for (const BatchItem& item : batch.items) {
         const VolumeImpl& volume = item.volume->impl();
         const ItemConstants constants =
@@ -226,6 +272,8 @@ OutputRun::OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t
         }
     }
 }
+
+OutputRun::~OutputRun() = default;
 
 void OutputRun::collect(std::size_t item, std::uint32_t pair, std::uint32_t thread,
                         const std::function<void(Sink&)>& body) {
@@ -243,67 +291,19 @@ std::uint64_t OutputRun::collect(const PairJob& job, std::size_t item, std::uint
     return survivors;
 }
 
-void OutputRun::mergeTriangles(BatchAnswer& answer) const {
-    std::vector<TouchedTriangle> parts;
-    for (const Found& found : found_) {
-        parts.insert(parts.end(), found.triangles.begin(), found.triangles.end());
-    }
-    std::sort(parts.begin(), parts.end(), [](const TouchedTriangle& a, const TouchedTriangle& b) {
-        return std::tie(a.pair, a.triangle) < std::tie(b.pair, b.triangle);
-    });
-    for (const TouchedTriangle& part : parts) {
-        // A triangle comes more than once where a pair is seen more than once.
-        if (!answer.triangles.empty() && answer.triangles.back().pair == part.pair &&
-            answer.triangles.back().triangle == part.triangle) {
-            answer.triangles.back().count += part.count;
-        } else {
-            answer.triangles.push_back(part);
-        }
-    }
-}
-
-void OutputRun::mergeBoxes(BatchAnswer& answer) const {
-    answer.bounds.resize(pairs_);
-    for (const Found& found : found_) {
-        for (const auto& [pair, box] : found.boxes) {
-            std::optional<Box>& whole = answer.bounds[pair];
-            if (!whole) {
-                whole = box;
-            }
-            grow(*whole, box);
-        }
-    }
-}
-
-void OutputRun::mergeLabels(BatchAnswer& answer) const {
-    std::vector<LabelCount> parts;
-    for (const Found& found : found_) {
-        parts.insert(parts.end(), found.labels.begin(), found.labels.end());
-    }
-    std::sort(parts.begin(), parts.end(), [](const LabelCount& a, const LabelCount& b) {
-        return std::tie(a.pair, a.label) < std::tie(b.pair, b.label);
-    });
-    for (const LabelCount& part : parts) {
-        if (!answer.labels.empty() && answer.labels.back().pair == part.pair &&
-            answer.labels.back().label == part.label) {
-            answer.labels.back().count += part.count;
-        } else {
-            answer.labels.push_back(part);
-        }
-    }
-}
-
 void OutputRun::finish(BatchAnswer& answer) {
-    for (const Found& found : found_) {
-        answer.contacts.insert(answer.contacts.end(), found.contacts.begin(), found.contacts.end());
+    answer.bounds.resize(outputs_.bounds ? pairs_ : 0);
+    for (const std::unique_ptr<Found>& found : found_) {
+        append(answer.triangles, found->triangles);
+        append(answer.contacts, found->contacts);
+        append(answer.labels, found->labels);
+        mergeBoxes(found->boxes, answer.bounds);
     }
-    mergeTriangles(answer);
+    // A triangle comes more than once where a pair is seen more than once.
+    answer.triangles = together(std::move(answer.triangles), &TouchedTriangle::triangle);
+    answer.labels = together(std::move(answer.labels), &LabelCount::label);
     sortContacts(answer.contacts);
     answer.contactsFound = contacts_.load(std::memory_order_relaxed);
-    if (outputs_.bounds) {
-        mergeBoxes(answer);
-    }
-    mergeLabels(answer);
 }
 
 } // namespace voxtact::cpu

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,7 @@ class OutputRun {
     class Sink;
 
     OutputRun(const Batch& batch, const DetectorDesc& desc, std::uint32_t pairs, std::uint32_t threads);
+    ~OutputRun();
 
     /// Survivors of the job's clusters, every fragment one after the other, after whose outputs were taken. No two
     /// calls at a time with the same thread, nor two with the same cluster of a pair.
@@ -34,13 +36,7 @@ class OutputRun {
     void finish(BatchAnswer& answer);
 
   private:
-    /// What one thread has found.
-    struct Found {
-        std::vector<TouchedTriangle> triangles;
-        std::vector<Contact> contacts;
-        std::vector<std::pair<std::uint32_t, Box>> boxes; ///< of parts of pairs
-        std::vector<LabelCount> labels;                   ///< of parts of pairs
-    };
+    struct Found;
     /// What is the same for all pairs of an item.
     struct ItemOutputs {
         shader::OutputPair pair;
@@ -49,19 +45,15 @@ class OutputRun {
         const std::vector<float>* table;
     };
 
-    void mergeTriangles(BatchAnswer& answer) const;
-    void mergeBoxes(BatchAnswer& answer) const;
-    void mergeLabels(BatchAnswer& answer) const;
-
     Outputs outputs_;
     std::uint32_t mostContacts_;
     std::uint32_t pairs_;
     std::vector<ItemOutputs> items_;
-    std::vector<Found> found_; ///< by thread
+    std::vector<std::unique_ptr<Found>> found_; ///< by thread
     std::atomic<std::uint64_t> contacts_{0};
 };
 
-/// Takes the outputs of survivors of one pair.
+/// Takes the outputs of survivors of one pair; one at a time for each thread.
 class OutputRun::Sink {
   public:
     Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread);
@@ -81,9 +73,6 @@ class OutputRun::Sink {
     const ItemOutputs& item_;
     std::uint32_t pair_;
     Found& found_;
-    bool any_ = false;
-    Box box_;
-    std::vector<std::uint64_t> histogram_;
 };
 
 } // namespace voxtact::cpu

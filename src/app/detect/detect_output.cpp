@@ -186,10 +186,11 @@ void DetectOutput::begin(const std::string& device, const std::string& driver) {
 Result<void> DetectOutput::add(std::span<const Row> rows) {
     State& state = *state_;
     state.rows += rows.size();
-    if (state.options.extra.bounds && !state.options.extra.contacts.empty()) {
+    if (state.options.extra.asked.bounds && !state.options.extra.contacts.empty()) {
         for (const Row& row : rows) {
-            if (row.extra.bounds && state.bounds.size() < state.options.extra.contactRoom()) {
-                state.bounds.push_back({*row.extra.bounds, row.job, row.pose});
+            const std::optional<Box> bounds = boundsOf(row.extra);
+            if (bounds && state.bounds.size() < state.options.extra.contactRoom()) {
+                state.bounds.push_back({*bounds, row.job, row.pose});
             }
         }
     }

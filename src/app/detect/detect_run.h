@@ -95,7 +95,7 @@ struct Row {
     std::uint32_t job = 0;
     std::uint64_t pose = 0; ///< number in its file
     device::TimedAnswer timed;
-    ExtraAnswers extra;
+    KeptExtra extra;
     std::optional<PairClearance> clearance; ///< with --clearance
 };
 

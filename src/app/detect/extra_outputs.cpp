@@ -13,6 +13,14 @@
 
 namespace voxtact::app {
 
+struct ExtraAnswers {
+    std::uint64_t triangles = 0; ///< touched ones
+    std::uint64_t contacts = 0;  ///< found, kept or not
+    double depth = 0;            ///< of the deepest contact that was kept, mm
+    std::optional<Box> bounds;
+    std::vector<LabelCount> labels;
+};
+
 namespace {
 
 /// An option that asks for an output.
@@ -24,8 +32,21 @@ struct Asking {
 constexpr std::array kAsking{
     Asking{"--contacts", &Outputs::contacts, [](const ExtraOptions& given) { return !given.contacts.empty(); }},
     Asking{"--triangles", &Outputs::triangles, [](const ExtraOptions& given) { return !given.triangles.empty(); }},
-    Asking{"--bounds", &Outputs::bounds, [](const ExtraOptions& given) { return given.bounds; }},
+    Asking{"--bounds", &Outputs::bounds, [](const ExtraOptions& given) { return given.asked.bounds; }},
     Asking{"--labels", &Outputs::labels, [](const ExtraOptions& given) { return !given.labels.empty(); }},
+};
+
+ExtraAnswers& keptOf(Row& row) {
+    if (!row.extra) {
+        row.extra = std::make_shared<ExtraAnswers>();
+    }
+    return *row.extra;
+}
+
+/// A column, of a row that has answers.
+struct AnswerColumn {
+    std::string name;
+    std::function<io::Cell(const ExtraAnswers&)> cell;
 };
 
 io::Cell depthOf(const ExtraAnswers& row) {
@@ -47,7 +68,7 @@ std::vector<io::NamedCount> labelsOf(const std::map<std::int32_t, std::string>& 
     return counts;
 }
 
-ExtraColumn boundColumn(bool upper, std::size_t axis) {
+AnswerColumn boundColumn(bool upper, std::size_t axis) {
     return {std::string(upper ? "max_" : "min_") + "xyz"[axis], [upper, axis](const ExtraAnswers& row) {
                 return row.bounds ? io::Cell(rounded((upper ? row.bounds->hi : row.bounds->lo)[axis], 1e6))
                                   : io::Cell();
@@ -58,9 +79,10 @@ void keepContacts(const BatchAnswer& answer, std::span<const std::uint32_t> batc
                   DetectOutput& output) {
     for (const Contact& contact : answer.contacts) {
         Row& row = rows[batch[contact.pair]];
-        ++row.extra.contacts;
+        ExtraAnswers& kept = keptOf(row);
+        ++kept.contacts;
         if (output.keepContact(row, contact)) {
-            row.extra.depth = std::max(row.extra.depth, contact.depth);
+            kept.depth = std::max(kept.depth, contact.depth);
         }
     }
     output.countContacts(answer.contactsFound);
@@ -68,9 +90,32 @@ void keepContacts(const BatchAnswer& answer, std::span<const std::uint32_t> batc
     if (answer.contactsFound > answer.contacts.size()) {
         for (const std::uint32_t number : batch) {
             Row& row = rows[number];
-            row.extra.contacts = std::max(row.extra.contacts, row.timed.answer.count);
+            ExtraAnswers& kept = keptOf(row);
+            kept.contacts = std::max(kept.contacts, row.timed.answer.count);
         }
     }
+}
+
+std::vector<AnswerColumn> columnsOf(const Outputs& outputs, const std::map<std::int32_t, std::string>& names) {
+    std::vector<AnswerColumn> columns;
+    if (outputs.triangles) {
+        columns.push_back({"triangles", [](const ExtraAnswers& row) { return row.triangles; }});
+    }
+    if (outputs.contacts) {
+        columns.push_back({"contacts", [](const ExtraAnswers& row) { return row.contacts; }});
+        columns.push_back({"depth", depthOf});
+    }
+    if (outputs.labels) {
+        columns.push_back({"labels", [&names](const ExtraAnswers& row) { return labelsOf(names, row); }});
+    }
+    if (outputs.bounds) {
+        for (const bool upper : {false, true}) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                columns.push_back(boundColumn(upper, axis));
+            }
+        }
+    }
+    return columns;
 }
 
 } // namespace
@@ -102,43 +147,38 @@ void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
     addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
     addPath(parser, "--label-names", options.labelNames,
             "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
-    parser.add_flag("--bounds", options.bounds, "adds the world box of the survivors to each row");
+    parser.add_flag("--bounds", options.asked.bounds, "adds the world box of the survivors to each row");
 }
 
 void keepExtra(const BatchAnswer& answer, std::span<const std::uint32_t> batch, std::span<Row> rows,
                DetectOutput& output) {
     for (const TouchedTriangle& touched : answer.triangles) {
         Row& row = rows[batch[touched.pair]];
-        ++row.extra.triangles;
+        ++keptOf(row).triangles;
         output.addTriangle(row, touched);
     }
     keepContacts(answer, batch, rows, output);
     for (std::size_t pair = 0; pair < answer.bounds.size(); ++pair) {
-        rows[batch[pair]].extra.bounds = answer.bounds[pair];
+        if (answer.bounds[pair]) {
+            keptOf(rows[batch[pair]]).bounds = answer.bounds[pair];
+        }
     }
     for (const LabelCount& label : answer.labels) {
-        rows[batch[label.pair]].extra.labels.push_back(label);
+        keptOf(rows[batch[label.pair]]).labels.push_back(label);
     }
+}
+
+std::optional<Box> boundsOf(const KeptExtra& kept) {
+    return kept ? kept->bounds : std::nullopt;
 }
 
 std::vector<ExtraColumn> extraColumns(const Outputs& outputs, const std::map<std::int32_t, std::string>& names) {
     std::vector<ExtraColumn> columns;
-    if (outputs.triangles) {
-        columns.push_back({"triangles", [](const ExtraAnswers& row) { return row.triangles; }});
-    }
-    if (outputs.contacts) {
-        columns.push_back({"contacts", [](const ExtraAnswers& row) { return row.contacts; }});
-        columns.push_back({"depth", depthOf});
-    }
-    if (outputs.labels) {
-        columns.push_back({"labels", [&names](const ExtraAnswers& row) { return labelsOf(names, row); }});
-    }
-    if (outputs.bounds) {
-        for (const bool upper : {false, true}) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                columns.push_back(boundColumn(upper, axis));
-            }
-        }
+    for (AnswerColumn& column : columnsOf(outputs, names)) {
+        columns.push_back({column.name, [cell = std::move(column.cell)](const KeptExtra& kept) {
+                               static const ExtraAnswers kNothing;
+                               return cell(kept ? *kept : kNothing);
+                           }});
     }
     return columns;
 }

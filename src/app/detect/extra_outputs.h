@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,7 +32,7 @@ struct ExtraOptions {
     std::filesystem::path contacts;
     std::filesystem::path labels; ///< a label map to read
     std::filesystem::path labelNames;
-    bool bounds = false;
+    Outputs asked; ///< those that a flag alone asks for
     std::optional<double> maxDepth;
     std::optional<std::uint32_t> mostContacts;
 
@@ -44,13 +45,11 @@ struct ExtraOptions {
 void addExtraOptions(CLI::App& parser, ExtraOptions& options);
 
 /// What a row keeps of them.
-struct ExtraAnswers {
-    std::uint64_t triangles = 0; ///< touched ones
-    std::uint64_t contacts = 0;  ///< found, kept or not
-    double depth = 0;            ///< of the deepest contact that was kept, mm
-    std::optional<Box> bounds;
-    std::vector<LabelCount> labels;
-};
+struct ExtraAnswers;
+/// Null: nothing was found.
+using KeptExtra = std::shared_ptr<ExtraAnswers>;
+
+[[nodiscard]] std::optional<Box> boundsOf(const KeptExtra& kept);
 
 /// Gives the answers of a batch to the rows of its pairs, by the numbers in `batch`, and to the output.
 void keepExtra(const BatchAnswer& answer, std::span<const std::uint32_t> batch, std::span<Row> rows,
@@ -58,7 +57,7 @@ void keepExtra(const BatchAnswer& answer, std::span<const std::uint32_t> batch, 
 
 struct ExtraColumn {
     std::string name;
-    std::function<io::Cell(const ExtraAnswers&)> cell;
+    std::function<io::Cell(const KeptExtra&)> cell;
 };
 
 /// The columns of what is asked for. `names` of labels must outlive them.
