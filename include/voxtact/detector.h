@@ -225,7 +225,11 @@ class ResultRing {
     /// Claims the slot of `frame` for recording. The caller knows that frame `frame - frames()` has completed.
     /// Frames ascend; claiming one that is older than its slot's is refused.
     [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
-    /// The results of a completed frame. NotReady when its slot was never used, or has been taken by a later frame.
+    /// The slot of a completed frame, to read whatever its Results have: clearances, counters, times. NotReady when it
+    /// was never used, or has been taken by a later frame. Lives as long as the ring does, and is the next frame's from
+    /// the begin() of that on.
+    [[nodiscard]] VOXTACT_API Result<Results*> results(std::uint64_t frame);
+    /// Results::read() of the slot of a completed frame.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read(std::uint64_t frame);
     /// The same for Results::readOutputs().
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(std::uint64_t frame, BatchAnswer& answer);
@@ -236,8 +240,6 @@ class ResultRing {
         std::uint64_t frame = 0;
         bool used = false;
     };
-    /// The slot that holds a frame.
-    [[nodiscard]] Result<Results*> find(std::uint64_t frame);
     std::vector<Slot> slots_;
 };
 

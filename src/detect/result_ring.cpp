@@ -67,7 +67,7 @@ Result<Results*> ResultRing::begin(std::uint64_t frame) {
     });
 }
 
-Result<Results*> ResultRing::find(std::uint64_t frame) {
+Result<Results*> ResultRing::results(std::uint64_t frame) {
     return guard([&]() -> Result<Results*> {
         if (slots_.empty()) {
             return refuse("the ring was moved from: it has no frames");
@@ -87,13 +87,13 @@ Result<Results*> ResultRing::find(std::uint64_t frame) {
 }
 
 Result<std::span<const PairResult>> ResultRing::read(std::uint64_t frame) {
-    const Result<Results*> results = find(frame);
-    return results.ok() ? (*results)->read() : results.error();
+    const Result<Results*> of = results(frame);
+    return of.ok() ? (*of)->read() : of.error();
 }
 
 Result<void> ResultRing::readOutputs(std::uint64_t frame, BatchAnswer& answer) {
-    const Result<Results*> results = find(frame);
-    return results.ok() ? (*results)->readOutputs(answer) : results.error();
+    const Result<Results*> of = results(frame);
+    return of.ok() ? (*of)->readOutputs(answer) : of.error();
 }
 
 } // namespace voxtact

@@ -369,6 +369,27 @@ TEST_F(ClearanceTest, IsOnTheDeviceForTheNextPass) {
     }
 }
 
+TEST_F(ClearanceTest, IsReadOutOfARing) {
+    const Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), 1, testSeed());
+    DetectorDesc desc = howNear({.maximum = 30});
+    desc.counters = true;
+    const Detector device = take(Detector::create(context(), desc));
+    ResultRing ring = take(ResultRing::create(context(), 2, {.maxPairs = 1, .clearances = true}));
+    EXPECT_EQ(ring.results(0).error().code, ErrorCode::NotReady);
+    for (const std::uint64_t frame : {0U, 1U, 2U}) {
+        Results* results = take(ring.begin(frame));
+        const VkCommandBuffer commands = raw().begin();
+        take(device.cmdDetect(commands, scene.batch(), *results));
+        take(results->cmdReadBack(commands));
+        raw().submitAndWait(commands);
+        EXPECT_EQ(take(ring.results(frame)), results);
+        EXPECT_EQ(take(take(ring.results(frame))->readClearances()).size(), 1U);
+        EXPECT_GT(take(take(ring.results(frame))->counters()).clusters, 0U);
+    }
+    EXPECT_EQ(ring.results(0).error().code, ErrorCode::NotReady) << "frame 2 has its slot";
+    EXPECT_EQ(ring.results(3).error().code, ErrorCode::NotReady);
+}
+
 TEST_F(ClearanceTest, RefusesWhatHasNoAnswer) {
     const auto refusal = [&](const DetectorDesc& desc) {
         const Result<Detector> made = Detector::create(context(), desc);
