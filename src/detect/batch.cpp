@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/batch.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/batch/batch_check.h"
 #include "gpu/scene_impl.h"

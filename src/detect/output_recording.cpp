@@ -11,8 +11,6 @@ namespace voxtact {
 
 namespace {
 
-constexpr VkDeviceSize kWord = sizeof(std::uint32_t);
-
 /// Words that the batch recorded last uses of a part; of a list, all that it has room for.
 std::uint64_t usedOf(const OutputStore& store, const OutputPartRow& part) {
     if (!(store.recorded.*part.output)) {
@@ -33,10 +31,11 @@ void clear(const ContextImpl& context, VkCommandBuffer commandBuffer, const Outp
         const OutputPartRow& part = outputParts()[i];
         const std::uint64_t words = usedOf(store, part);
         if (words > 0 && part.ofPair != nullptr) {
-            context.vk.CmdFillBuffer(commandBuffer, store.words.get(), store.layout[i] * kWord, words * kWord, 0);
+            context.vk.CmdFillBuffer(commandBuffer, store.words.get(), store.layout[i] * kOutputWord,
+                                     words * kOutputWord, 0);
         } else if (words > 0) {
             const std::uint32_t header[OUTPUT_HEADER_WORDS] = {0, 0, store.room.contacts, 0};
-            context.vk.CmdUpdateBuffer(commandBuffer, store.words.get(), store.layout[i] * kWord, sizeof header,
+            context.vk.CmdUpdateBuffer(commandBuffer, store.words.get(), store.layout[i] * kOutputWord, sizeof header,
                                        header);
         }
     }
@@ -99,7 +98,8 @@ void copyOutputs(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
         const OutputPartRow& part = outputParts()[i];
         const std::uint64_t words = part.unpack == nullptr ? 0 : usedOf(store, part);
         if (words > 0) {
-            const VkBufferCopy region{store.layout[i] * kWord, store.layout[i] * kWord, words * kWord};
+            const VkBufferCopy region{store.layout[i] * kOutputWord, store.layout[i] * kOutputWord,
+                                      words * kOutputWord};
             context.vk.CmdCopyBuffer(commandBuffer, store.words.get(), store.readBack.get(), 1, &region);
         }
     }

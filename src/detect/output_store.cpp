@@ -10,10 +10,9 @@ namespace {
 
 /// Bytes; no device has a larger minStorageBufferOffsetAlignment.
 constexpr std::uint64_t kAlignment = 256;
-constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 
 std::uint64_t aligned(std::uint64_t word) {
-    constexpr std::uint64_t kWords = kAlignment / kWord;
+    constexpr std::uint64_t kWords = kAlignment / kOutputWord;
     return (word + kWords - 1) / kWords * kWords;
 }
 
@@ -35,7 +34,7 @@ Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
     const std::uint64_t most = context.limits.maxStorageBufferRange;
     // Sums of larger ones could overflow.
     const bool huge = desc.room->triangles > most || desc.room->labels > most;
-    if (huge || wordsOf(layoutOf(*desc.room, desc.maxPairs)) * kWord > most) {
+    if (huge || wordsOf(layoutOf(*desc.room, desc.maxPairs)) * kOutputWord > most) {
         return Error{ErrorCode::LimitExceeded, 0,
                      "the outputs of " + std::to_string(desc.maxPairs) + " pairs with room for " +
                          std::to_string(desc.room->triangles) + " triangles, " + std::to_string(desc.room->labels) +
@@ -52,7 +51,7 @@ Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
 }
 
 Result<void> makeBuffers(ContextImpl& context, const ResultsDesc& desc, OutputStore& out) {
-    const VkDeviceSize bytes = wordsOf(out.layout) * kWord;
+    const VkDeviceSize bytes = wordsOf(out.layout) * kOutputWord;
     constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Result<Buffer> pairs = makeBuffer(context, VkDeviceSize{desc.maxPairs} * sizeof(shader::OutputPair), kTo,
                                       MemoryUse::Device, "output pairs");
@@ -126,7 +125,8 @@ VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noex
 
 BufferRange rangeOf(const OutputStore* store, std::size_t part) noexcept {
     const std::uint64_t words = store == nullptr ? 0 : outputParts()[part].room(store->room, store->maxPairs);
-    return words == 0 ? BufferRange{} : BufferRange{store->words.get(), store->layout[part] * kWord, words * kWord};
+    return words == 0 ? BufferRange{}
+                      : BufferRange{store->words.get(), store->layout[part] * kOutputWord, words * kOutputWord};
 }
 
 } // namespace voxtact

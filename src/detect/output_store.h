@@ -8,6 +8,9 @@
 
 namespace voxtact {
 
+/// Bytes of what OutputLayout counts.
+inline constexpr VkDeviceSize kOutputWord = sizeof(std::uint32_t);
+
 /// The outputs of a Results that has room for them.
 struct OutputStore {
     std::uint32_t maxPairs = 0;

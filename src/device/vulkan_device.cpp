@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/vulkan_device.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "device/created.h"
 #include "device/enumerate.h"

@@ -13,7 +13,7 @@ namespace voxtact {
 namespace {
 
 /// The brick pass's pipeline, made for the first volume with bricks.
-Result<void> makePipeline(ContextImpl& context) {
+Result<void> makeBricksPipeline(ContextImpl& context) {
     if (context.computeLayout == VK_NULL_HANDLE) {
         return Error{ErrorCode::Unsupported, 0,
                      "bricks cannot be had on this device: its maxPerStageDescriptorStorageBuffers is " +
@@ -52,7 +52,7 @@ Result<void> makeBricks(VolumeImpl& volume, const char* name) {
                          " bytes, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
-    VOXTACT_TRY(makePipeline(context));
+    VOXTACT_TRY(makeBricksPipeline(context));
     Result<Buffer> buffer =
         makeBuffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                    MemoryUse::Device, (std::string(name) + " bricks").c_str());

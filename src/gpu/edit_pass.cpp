@@ -20,7 +20,7 @@ constexpr VkDeviceSize kRowBytes = 65536;
 constexpr VkDeviceSize kBytesOfRow = 2 * sizeof(std::uint32_t);
 
 /// The pass, made for the first volume that can be edited. Its set is like that of pairs: two storage buffers.
-Result<void> makePipeline(ContextImpl& context) {
+Result<void> makeEditPipeline(ContextImpl& context) {
     const std::lock_guard lock(context.onDemandMutex);
     if (context.editPipeline) {
         return {};
@@ -45,7 +45,7 @@ Result<void> makeEditPass(VolumeImpl& volume) {
     ContextImpl& context = volume.context;
     static_assert(VOXTACT_BINDING_EDIT_ROWS == VOXTACT_BINDING_TRANSFORMS &&
                   VOXTACT_BINDING_EDIT_TEXELS == VOXTACT_BINDING_RESULTS);
-    VOXTACT_TRY(makePipeline(context));
+    VOXTACT_TRY(makeEditPipeline(context));
     const auto& size = volume.grid.size;
     const VkDeviceSize slice = roundedUp(VkDeviceSize{size[0]} * size[1] * bytesPerVoxel(volume.type));
     if (slice > context.limits.maxStorageBufferRange) {

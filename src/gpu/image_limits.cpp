@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/image_limits.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t kBindings = VOXTACT_BINDING_CLUSTERS + 1;
 
 /// The pass, made for the first mesh that needs it.
-Result<void> makePipeline(ContextImpl& context) {
+Result<void> makeRefitPipeline(ContextImpl& context) {
     const std::lock_guard lock(context.onDemandMutex);
     if (context.refitPipeline) {
         return {};
@@ -43,7 +43,7 @@ Result<void> makePipeline(ContextImpl& context) {
 
 Result<void> makeRefit(MeshImpl& mesh) {
     ContextImpl& context = mesh.context;
-    VOXTACT_TRY(makePipeline(context));
+    VOXTACT_TRY(makeRefitPipeline(context));
     const VkDescriptorPoolSize buffers{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.refitSetLayout.get(), {&buffers, 1}, "mesh refit");
     VOXTACT_TRY(set);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/submit.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "gpu/debug.h"
 

@@ -3,6 +3,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/geometry/mesh_vertex.h"
 #include "voxtact/render.h"
 
 #include <algorithm>
@@ -16,11 +17,6 @@ namespace voxtact {
 namespace {
 
 constexpr double kStraightAngle = 180;
-
-Vec3 vertexOf(const MeshView& mesh, std::uint32_t vertex) {
-    const std::size_t at = std::size_t{3} * vertex;
-    return {mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2]};
-}
 
 /// Unit length; zero where there is no area.
 std::vector<Vec3> unitNormals(const MeshView& mesh) {

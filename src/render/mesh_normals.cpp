@@ -3,6 +3,7 @@
 #include "core/base/live.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "core/geometry/mesh_vertex.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/submit.h"
@@ -14,11 +15,6 @@
 namespace voxtact {
 
 namespace {
-
-Vec3 vertexOf(const MeshView& mesh, std::uint32_t vertex) {
-    const std::size_t at = std::size_t{3} * vertex;
-    return {mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2]};
-}
 
 /// Twice the area long.
 Vec3 triangleNormal(const Vec3& a, const Vec3& b, const Vec3& c) {

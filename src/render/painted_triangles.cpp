@@ -11,7 +11,7 @@ namespace voxtact {
 namespace {
 
 constexpr std::uint32_t kBitsOfWord = 32;
-constexpr PaintName kName{"the bits of the painted triangles", "painted triangles"};
+constexpr PaintName kTrianglesName{"the bits of the painted triangles", "painted triangles"};
 
 Result<void> checkDevice(const ContextImpl& context) {
     VOXTACT_TRY(context.alive());
@@ -52,7 +52,7 @@ Result<PaintedTriangles> PaintedTriangles::create(const Renderer& renderer, std:
         VOXTACT_TRY(bits);
         VOXTACT_TRY(checkDevice(context));
         auto impl = std::make_unique<PaintedTrianglesImpl>(context);
-        VOXTACT_TRY(makePaintWords(*impl, renderer.impl(), *bits, kBitsOfWord, kName));
+        VOXTACT_TRY(makePaintWords(*impl, renderer.impl(), *bits, kBitsOfWord, kTrianglesName));
         return PaintedTriangles(std::move(impl));
     });
 }
@@ -68,13 +68,13 @@ Result<PaintedTriangles> PaintedTriangles::wrap(const Renderer& renderer, const 
         ContextImpl& context = renderer.impl().context;
         VOXTACT_TRY(checkDevice(context));
         auto impl = std::make_unique<PaintedTrianglesImpl>(context);
-        VOXTACT_TRY(wrapPaintWords(*impl, renderer.impl(), mask, kBitsOfWord, kName));
+        VOXTACT_TRY(wrapPaintWords(*impl, renderer.impl(), mask, kBitsOfWord, kTrianglesName));
         return PaintedTriangles(std::move(impl));
     });
 }
 
 Result<void> PaintedTriangles::cmdUpload(VkCommandBuffer commandBuffer) {
-    return guard([&] { return cmdUploadPaintWords(live(impl_), commandBuffer, kName); });
+    return guard([&] { return cmdUploadPaintWords(live(impl_), commandBuffer, kTrianglesName); });
 }
 
 void PaintedTriangles::releaseStaging() noexcept {

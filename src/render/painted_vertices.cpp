@@ -12,7 +12,7 @@ namespace voxtact {
 
 namespace {
 
-constexpr PaintName kName{"the colours of the vertices", "painted vertices"};
+constexpr PaintName kVerticesName{"the colours of the vertices", "painted vertices"};
 
 /// As unpackUnorm4x8 reads it.
 Result<std::uint32_t> packed(const Colour& colour) {
@@ -45,7 +45,7 @@ Result<PaintedVertices> PaintedVertices::create(const Renderer& renderer, std::s
             words.push_back(*word);
         }
         auto impl = std::make_unique<PaintedVerticesImpl>(renderer.impl().context);
-        VOXTACT_TRY(makePaintWords(*impl, renderer.impl(), words, 1, kName));
+        VOXTACT_TRY(makePaintWords(*impl, renderer.impl(), words, 1, kVerticesName));
         return PaintedVertices(std::move(impl));
     });
 }
@@ -58,13 +58,13 @@ Result<PaintedVertices> PaintedVertices::upload(const Renderer& renderer, const 
 Result<PaintedVertices> PaintedVertices::wrap(const Renderer& renderer, const BufferRange& colours) {
     return guard([&]() -> Result<PaintedVertices> {
         auto impl = std::make_unique<PaintedVerticesImpl>(renderer.impl().context);
-        VOXTACT_TRY(wrapPaintWords(*impl, renderer.impl(), colours, 1, kName));
+        VOXTACT_TRY(wrapPaintWords(*impl, renderer.impl(), colours, 1, kVerticesName));
         return PaintedVertices(std::move(impl));
     });
 }
 
 Result<void> PaintedVertices::cmdUpload(VkCommandBuffer commandBuffer) {
-    return guard([&] { return cmdUploadPaintWords(live(impl_), commandBuffer, kName); });
+    return guard([&] { return cmdUploadPaintWords(live(impl_), commandBuffer, kVerticesName); });
 }
 
 void PaintedVertices::releaseStaging() noexcept {

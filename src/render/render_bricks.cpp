@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
-
 #include "core/base/try.h"
 #include "render/render_impl.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
-
 #include "core/base/text.h"
 #include "samples/loft.h"
 #include "voxtact/samples.h"

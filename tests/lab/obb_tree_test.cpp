@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OBB trees: what the boxes hold, what the descent keeps, and meshes that have no directions of their own.
+#include "core/geometry/mesh_vertex.h"
 #include "lab/engines/obb_tree.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
@@ -71,7 +72,9 @@ void checkTree(const MeshData& mesh) {
         const ObbNode& node = tree.nodes[at];
         for (std::uint32_t i = node.firstTriangle; i < node.firstTriangle + node.triangleCount; ++i) {
             for (std::size_t corner = 0; corner < 3; ++corner) {
-                ASSERT_TRUE(holds(node, vertexOf(mesh.view(), tree.triangles[i], corner))) << "node " << at;
+                ASSERT_TRUE(holds(
+                    node, vertexOf(mesh.view(), mesh.view().indices[std::size_t{3} * tree.triangles[i] + corner])))
+                    << "node " << at;
             }
         }
         if (node.triangleCount <= kObbLeafTriangles) {
@@ -335,7 +338,7 @@ bool certainlyMeets(std::vector<Long3> polygon, const Box& box) {
 std::vector<Long3> transformed(const MeshData& mesh, std::uint32_t triangle, const Mat4& matrix) {
     std::vector<Long3> corners;
     for (std::size_t corner = 0; corner < 3; ++corner) {
-        const Vec3 vertex = vertexOf(mesh.view(), triangle, corner);
+        const Vec3 vertex = vertexOf(mesh.view(), mesh.view().indices[std::size_t{3} * triangle + corner]);
         Long3 at{};
         for (std::size_t row = 0; row < 3; ++row) {
             at[row] = matrix[12 + row];

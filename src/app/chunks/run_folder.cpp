@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/chunks/run_folder.h"
-#include "core/base/refuse.h"
 
 #include "app/chunks/content_hash.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/pair_window.h"
-#include "core/base/infinity.h"
 
+#include "core/base/infinity.h"
 #include "core/base/try.h"
 #include "voxtact/data.h"
 

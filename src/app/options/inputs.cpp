@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/inputs.h"
-#include "core/base/refuse.h"
 
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
 #include "app/output/text_for_messages.h"
+#include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "voxtact/io.h"

@@ -2,8 +2,8 @@
 #include "core/base/guard.h"
 #include "core/base/infinity.h"
 #include "core/base/refuse.h"
-
 #include "core/base/try.h"
+#include "core/geometry/mesh_vertex.h"
 #include "voxtact/data.h"
 
 #include <algorithm>
@@ -13,12 +13,6 @@
 namespace voxtact {
 
 namespace {
-
-Vec3 vertex(const MeshView& mesh, std::uint32_t index) {
-    const std::size_t at = std::size_t{3} * index;
-    return {static_cast<double>(mesh.positions[at]), static_cast<double>(mesh.positions[at + 1]),
-            static_cast<double>(mesh.positions[at + 2])};
-}
 
 /// Twice the area is the length of the cross product. Products of two floats are exact in double, so that a triangle
 /// whose corners are in one line in float is found to be so unless their differences round.
@@ -71,8 +65,8 @@ Result<MeshFacts> checkMesh(const MeshView& mesh) {
             }
         }
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-            facts.degenerate += isDegenerate(vertex(mesh, mesh.indices[i]), vertex(mesh, mesh.indices[i + 1]),
-                                             vertex(mesh, mesh.indices[i + 2]))
+            facts.degenerate += isDegenerate(vertexOf(mesh, mesh.indices[i]), vertexOf(mesh, mesh.indices[i + 1]),
+                                             vertexOf(mesh, mesh.indices[i + 2]))
                                     ? 1U
                                     : 0U;
         }

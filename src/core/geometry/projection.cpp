@@ -11,7 +11,7 @@ namespace {
 
 constexpr Mat4 kNoCamera{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.5, 1};
 
-std::uint32_t longestSide(const Grid& grid) {
+std::uint32_t mostVoxels(const Grid& grid) {
     return std::max({grid.size[0], grid.size[1], grid.size[2]});
 }
 
@@ -29,13 +29,13 @@ std::uint32_t viewsPerPair(Projection projection) noexcept {
 }
 
 std::uint64_t dominantSide(const Grid& grid, std::uint32_t samplesPerVoxel) noexcept {
-    return std::uint64_t{samplesPerVoxel} * longestSide(grid);
+    return std::uint64_t{samplesPerVoxel} * mostVoxels(grid);
 }
 
 shader::DominantGrid dominantGrid(const Grid& grid) noexcept {
     // pixel = samples * voxels and clip = 2 * pixel / side - 1: the samples cancel.
     return {static_cast<float>(grid.size[0]), static_cast<float>(grid.size[1]), static_cast<float>(grid.size[2]),
-            static_cast<float>(2.0 / longestSide(grid))};
+            static_cast<float>(2.0 / mostVoxels(grid))};
 }
 
 std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel) {

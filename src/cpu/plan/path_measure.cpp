@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/plan/path_measure.h"
-#include "core/base/infinity.h"
 
+#include "core/base/infinity.h"
 #include "core/geometry/glm_bridge.h"
 
 #include <algorithm>

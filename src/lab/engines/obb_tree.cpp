@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/obb_tree.h"
+
 #include "core/base/infinity.h"
+#include "core/geometry/mesh_vertex.h"
 
 #include <glm/glm.hpp>
 
@@ -26,7 +28,7 @@ dvec3 wide(const Vec3& vector) {
 }
 
 dvec3 cornerOf(const MeshView& mesh, std::uint32_t triangle, std::size_t corner) {
-    return wide(vertexOf(mesh, triangle, corner));
+    return wide(vertexOf(mesh, mesh.indices[std::size_t{3} * triangle + corner]));
 }
 
 template <class Visit> void visitVertices(const MeshView& mesh, Triangles triangles, Visit&& visit) {

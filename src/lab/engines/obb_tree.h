@@ -9,11 +9,6 @@
 
 namespace voxtact {
 
-[[nodiscard]] inline Vec3 vertexOf(const MeshView& mesh, std::uint32_t triangle, std::size_t corner) noexcept {
-    const float* at = mesh.positions.data() + std::size_t{3} * mesh.indices[std::size_t{3} * triangle + corner];
-    return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
-}
-
 inline constexpr std::uint32_t kObbLeafTriangles = 1;
 
 /// A box at any angle around some triangles, in object space: centre + sum of s[i] * half[i] * axes[i], s in [-1,1].

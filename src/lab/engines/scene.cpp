@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/scene.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 
 #include <algorithm>

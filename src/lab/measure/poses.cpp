@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/measure/poses.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "voxtact/motion.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/files/open_file.h"
-#include "core/base/refuse.h"
 
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "view/model/files/session_file.h"
 #include "voxtact/io.h"
