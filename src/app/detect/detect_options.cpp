@@ -212,6 +212,10 @@ Result<void> checkExtra(const DetectOptions& options) {
         return badArgument("--contacts: the ending of '" + extra.contacts.string() + "' says no format; it must be " +
                            contactEndings());
     }
+    if (options.answer == "count" && options.distance.isMargin()) {
+        return badArgument(std::string(options.distance.margin ? "--margin" : "--pose-tolerance") +
+                           " is answered by yes or no, and --answer count asks for a count; leave out one of the two");
+    }
     if (const bool yesNo = options.answer == "yes-no"; options.yesNo() && extra.outputs().any()) {
         return badArgument(std::string(yesNo ? "--answer yes-no stops at the first contact, and "
                                        : options.distance.margin

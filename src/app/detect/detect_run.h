@@ -61,7 +61,7 @@ struct DetectOptions {
     ChunkOptions chunks;
     ExtraOptions extra;
     DistanceOptions distance;
-    std::string answer = "count";
+    std::string answer; ///< count, yes-no; empty: not said, count
     bool progress = true;
     bool timing = false;
     bool stats = false;
