@@ -13,6 +13,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 
 namespace voxtact::test {
 namespace {
@@ -137,6 +138,12 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
     std::mt19937_64 random(testSeed());
     constexpr std::size_t kPoses = 100;
     std::size_t finite = 0;
+    std::map<Projection, Detector> detectors;
+    for (const Projection projection : {Projection::Conservative, Projection::TwoView}) {
+        detectors.emplace(projection, take(Detector::create(context(), {.method = CountingMethod::Compute,
+                                                                        .projection = projection,
+                                                                        .devicePoses = true})));
+    }
     for (std::size_t scenes = 0; scenes < randomCases(1000, 125); ++scenes) {
         const Grid grid = anyGrid(random);
         const Volume volume = take(
@@ -147,20 +154,15 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
         std::ranges::generate(poses, [&] { return anyPose(grid, random); });
         const RawVulkan::HostBuffer buffer = write(poses);
         const PoseBuffer onDevice = wrap(buffer, kPoses);
-        for (const DetectorDesc& desc :
-             {DetectorDesc{
-                  .method = CountingMethod::Compute, .projection = Projection::Conservative, .devicePoses = true},
-              DetectorDesc{
-                  .method = CountingMethod::Compute, .projection = Projection::TwoView, .devicePoses = true}}) {
-            const Detector detector = take(Detector::create(context(), desc));
+        for (const auto& [projection, detector] : detectors) {
             const View view = flatView(-50, 50, 8, 8);
             const std::array items{
                 BatchItem{&mesh, &volume, &function, poses},
                 BatchItem{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice}};
             Results results = take(Results::create(context(), {.maxPairs = 2 * kPoses}));
             const std::vector<PairResult> found = run(detector, {items, view, 0.5}, results);
-            const std::size_t ofPair = desc.projection == Projection::Conservative ? sizeof(shader::CertifiedPair)
-                                                                                   : 2 * sizeof(shader::PairTransform);
+            const std::size_t ofPair = projection == Projection::Conservative ? sizeof(shader::CertifiedPair)
+                                                                              : 2 * sizeof(shader::PairTransform);
             const std::vector<std::byte> bytes = raw().readBuffer(results.impl().transforms.get(), 2 * kPoses * ofPair);
             for (std::size_t i = 0; i < kPoses && !HasFailure(); ++i) {
                 std::vector<float> host(ofPair / sizeof(float));
