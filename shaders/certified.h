@@ -339,20 +339,11 @@ EXACT void certifiedPart(float a, float b, float c, float delta, float cellLo, f
     hi = certifiedClamp(greatest, cellLo, cellHi);
 }
 
-/// Whether some point in the box of the triangle's part in the cell may be opaque: the interpolant is linear along each
+/// The least and the greatest value in a box of the cell, from the cell's corner: the interpolant is linear along each
 /// axis, so its extremes in a box are at the corners.
-EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell,
-                                    VoxelPoint origin) {
-    const VoxelPoint a = voxelDifference(triangle.corner0, origin);
-    const VoxelPoint b = voxelDifference(triangle.corner1, origin);
-    const VoxelPoint c = voxelDifference(triangle.corner2, origin);
-    VoxelPoint lo;
-    VoxelPoint hi;
-    certifiedPart(a.x, b.x, c.x, triangle.delta, cell.lo.x, cell.hi.x, lo.x, hi.x);
-    certifiedPart(a.y, b.y, c.y, triangle.delta, cell.lo.y, cell.hi.y, lo.y, hi.y);
-    certifiedPart(a.z, b.z, c.z, triangle.delta, cell.lo.z, cell.hi.z, lo.z, hi.z);
-    float least = 0.0f;
-    float greatest = 0.0f;
+EXACT void certifiedBoxRange(CertifiedCell cell, VoxelPoint lo, VoxelPoint hi, OUT(float) least, OUT(float) greatest) {
+    least = 0.0f;
+    greatest = 0.0f;
     ROLLED for (int side = 0; side < 2; ++side) {
         const float x = side == 0 ? lo.x : hi.x;
         const float v00 = exactLerp(cell.x000, cell.x100, x);
@@ -372,6 +363,22 @@ EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triang
         least = side == 0 ? smallest : certifiedMin(least, smallest);
         greatest = side == 0 ? largest : certifiedMax(greatest, largest);
     }
+}
+
+/// Whether some point in the box of the triangle's part in the cell may be opaque.
+EXACT bool certifiedPartMayBeOpaque(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell,
+                                    VoxelPoint origin) {
+    const VoxelPoint a = voxelDifference(triangle.corner0, origin);
+    const VoxelPoint b = voxelDifference(triangle.corner1, origin);
+    const VoxelPoint c = voxelDifference(triangle.corner2, origin);
+    VoxelPoint lo;
+    VoxelPoint hi;
+    certifiedPart(a.x, b.x, c.x, triangle.delta, cell.lo.x, cell.hi.x, lo.x, hi.x);
+    certifiedPart(a.y, b.y, c.y, triangle.delta, cell.lo.y, cell.hi.y, lo.y, hi.y);
+    certifiedPart(a.z, b.z, c.z, triangle.delta, cell.lo.z, cell.hi.z, lo.z, hi.z);
+    float least;
+    float greatest;
+    certifiedBoxRange(cell, lo, hi, least, greatest);
     return certifiedMayBeOpaque(table, least, greatest, cell.pointError);
 }
 

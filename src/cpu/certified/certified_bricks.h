@@ -98,6 +98,8 @@ class CertifiedBricks {
         return made != nullptr ? *made : makeAllOpaque(volume, item, table, number, place);
     }
 
+    [[nodiscard]] const OpaqueHull& hull() const noexcept { return hull_; }
+
   private:
     const BrickCells& makeCells(const VolumeImpl& volume, const shader::CertifiedItem& item,
                                 const shader::OpacityTable& table, std::size_t number,

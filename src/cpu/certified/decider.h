@@ -28,7 +28,7 @@ template <class Kept, class Mode> class Decider {
   public:
     Decider(const CertifiedJob& job, const Kept* voxels, const CertifiedSink& sink)
         : job_(job), cells_(job, voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()),
-          placed_(job.mesh, job.transform), boxes_(item_, job.transform, job.mesh.tree) {
+          look_(job.occupancy.look()), placed_(job.mesh, job.transform), boxes_(item_, job.transform, job.mesh.tree) {
         delta_.delta = boxes_.delta();
         delta_.usable = boxes_.usable();
     }
@@ -151,7 +151,7 @@ template <class Kept, class Mode> class Decider {
         const TriangleHull hull(a.point, b.point, c.point, bounds.delta);
         const auto goesOn = [this] { return !done(); };
         likely.forCells(run, cells, goesOn, [&](std::int32_t x, std::int32_t y, std::int32_t z, const auto& known) {
-            if (!hullMayMeetLinearly(table_, hull.hull(), known, x, y, z)) {
+            if (!hullMayMeetLinearly(look_, hull.hull(), known, x, y, z)) {
                 return;
             }
             const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
@@ -358,7 +358,7 @@ template <class Kept, class Mode> class Decider {
                     const BrickCells& known, bool isLikely) {
         const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
         const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
-        if (!isLikely && !hullMayMeetLinearly(table_, TriangleHull(triangle).hull(), cell, x, y, z)) {
+        if (!isLikely && !hullMayMeetLinearly(look_, TriangleHull(triangle).hull(), cell, x, y, z)) {
             return;
         }
         if (Mode::kCounts && cornerProves(triangle, cell, x, y, z)) {
@@ -397,6 +397,7 @@ template <class Kept, class Mode> class Decider {
     const CertifiedSink& sink_;
     shader::CertifiedItem item_;
     shader::OpacityTable table_;
+    OpacityLook look_;
     CertifiedTally tally_;
     Triangle triangle_;                 ///< at hand
     RowCounter rows_;                   ///< of the same

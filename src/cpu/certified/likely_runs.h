@@ -28,7 +28,7 @@ template <class Kept> class LikelyRuns {
 
     /// All must outlive it.
     LikelyRuns(const CertifiedJob& job, const VolumeCells<Kept>& cells, PlacedVertices& placed)
-        : mesh_(job.mesh), item_(job.occupancy.item()), table_(job.occupancy.table()), cells_(cells), placed_(placed) {}
+        : mesh_(job.mesh), item_(job.occupancy.item()), look_(job.occupancy.look()), cells_(cells), placed_(placed) {}
 
     [[nodiscard]] const std::vector<Run>& all() const { return runs_; }
 
@@ -74,7 +74,7 @@ template <class Kept> class LikelyRuns {
         const auto always = [] { return true; };
         cells_.forCells(box, always, [&](std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& brick) {
             const shader::CertifiedCell cell = cells_.cell(x, y, z, brick, hull.delta);
-            if (hullMayMeet(table_, hull, cell, x, y, z)) {
+            if (hullMayMeet(look_, hull, cell, x, y, z)) {
                 here_[run.cells.add(x, y, z)] = cell;
             }
         });
@@ -83,7 +83,7 @@ template <class Kept> class LikelyRuns {
 
     const MeshImpl& mesh_;
     shader::CertifiedItem item_;
-    shader::OpacityTable table_;
+    OpacityLook look_;
     const VolumeCells<Kept>& cells_;
     PlacedVertices& placed_;
     std::vector<Run> runs_;

@@ -59,23 +59,48 @@ Linear linearIn(const shader::CertifiedCell& cell, const Range& x, const Range& 
     return out;
 }
 
-/// Along an axis: the part of the hull's box, and the cell, from its corner.
-Range partOf(float lo, float hi, float delta, float origin, float cellLo, float cellHi) noexcept {
-    float from = 0;
-    float to = 0;
-    shader::certifiedPart(lo - origin, hi - origin, hi - origin, delta, cellLo, cellHi, from, to);
-    return {from, to};
+/// Of a hull's box, the part in a cell, from the cell's corner.
+struct Part {
+    VoxelPoint lo{};
+    VoxelPoint hi{};
+};
+
+Part partOf(const PointHull& hull, const VoxelPoint& origin, const shader::CertifiedCell& cell) noexcept {
+    const VoxelPoint lo = shader::voxelDifference(hull.lo, origin);
+    const VoxelPoint hi = shader::voxelDifference(hull.hi, origin);
+    Part part;
+    shader::certifiedPart(lo.x, hi.x, hi.x, hull.delta, cell.lo.x, cell.hi.x, part.lo.x, part.hi.x);
+    shader::certifiedPart(lo.y, hi.y, hi.y, hull.delta, cell.lo.y, cell.hi.y, part.lo.y, part.hi.y);
+    shader::certifiedPart(lo.z, hi.z, hi.z, hull.delta, cell.lo.z, cell.hi.z, part.lo.z, part.hi.z);
+    return part;
 }
 
 /// The least and the greatest dot product of a point with (x, y, z).
 Range along(const PointHull& hull, double x, double y, double z) noexcept {
-    Range range{kInfinity, -kInfinity};
-    for (std::size_t i = 0; i < hull.count; ++i) {
+    // Several chains of comparisons, each of which waits for itself alone. None takes what is not a number.
+    constexpr std::size_t kChains = 4;
+    std::array<Range, kChains> ranges;
+    ranges.fill({kInfinity, -kInfinity});
+    const auto take = [&](Range& range, std::size_t i) {
         const double at = x * hull.x[i] + y * hull.y[i] + z * hull.z[i];
         range.lo = std::min(range.lo, at);
         range.hi = std::max(range.hi, at);
+    };
+    std::size_t i = 0;
+    for (; i + kChains <= hull.count; i += kChains) {
+        for (std::size_t chain = 0; chain < kChains; ++chain) {
+            take(ranges[chain], i + chain);
+        }
     }
-    return range;
+    for (; i < hull.count; ++i) {
+        take(ranges[i % kChains], i);
+    }
+    Range whole = ranges[0];
+    for (const Range& range : ranges) {
+        whole.lo = std::min(whole.lo, range.lo);
+        whole.hi = std::max(whole.hi, range.hi);
+    }
+    return whole;
 }
 
 /// Of a cell's pointError: the interpolation here is off by one, that of certifiedPartMayBeOpaque() for a triangle by
@@ -84,6 +109,28 @@ constexpr float kErrors = 3;
 
 VoxelPoint originOf(std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+bool partMayMeetLinearly(const OpacityLook& look, const PointHull& hull, const shader::CertifiedCell& cell,
+                         const VoxelPoint& origin, const Part& part) noexcept {
+    const Range partX{part.lo.x, part.hi.x};
+    const Range partY{part.lo.y, part.hi.y};
+    const Range partZ{part.lo.z, part.hi.z};
+    const Linear linear = linearIn(cell, partX, partY, partZ);
+    // A linear function is nowhere in the hull beyond its values at the points.
+    const Range dots = along(hull, linear.x, linear.y, linear.z);
+    const double from = linear.value - linear.x * (origin.x + partX.middle()) - linear.y * (origin.y + partY.middle()) -
+                        linear.z * (origin.z + partZ.middle());
+    const double displaced = 2.0 * hull.delta * (std::abs(linear.x) + std::abs(linear.y) + std::abs(linear.z));
+    const double least = std::max(from + dots.lo - displaced - linear.rest, double{cell.least});
+    const double greatest = std::min(from + dots.hi + displaced + linear.rest, double{cell.greatest});
+    if (!(least <= greatest)) {
+        return true; // not a number, or the hull is beside the cell: others tell
+    }
+    // The part of the range that is added is far more than what certifiedDecide() leaves open at its resolution.
+    constexpr float kPart = 1.0F / 64;
+    const float slack = kErrors * cell.pointError + kPart * (cell.greatest - cell.least);
+    return look.mayBeOpaque(static_cast<float>(least), static_cast<float>(greatest), slack);
 }
 
 } // namespace
@@ -107,36 +154,21 @@ shader::CertifiedBounds RunPoints::bounds(const shader::CertifiedItem& item) con
     return shader::certifiedBounds(item, {lo_, error_}, {hi_, error_}, {hi_, error_});
 }
 
-bool hullMayMeet(const shader::OpacityTable& table, const PointHull& hull, const shader::CertifiedCell& cell,
-                 std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
-    shader::CertifiedCell wide = cell;
-    wide.pointError *= kErrors;
-    const shader::CertifiedTriangle box{hull.lo, hull.hi, hull.hi, {}, 0, hull.delta};
-    return shader::certifiedPartMayBeOpaque(table, box, wide, originOf(x, y, z)) &&
-           hullMayMeetLinearly(table, hull, cell, x, y, z);
+bool hullMayMeet(const OpacityLook& look, const PointHull& hull, const shader::CertifiedCell& cell, std::int32_t x,
+                 std::int32_t y, std::int32_t z) noexcept {
+    const VoxelPoint origin = originOf(x, y, z);
+    const Part part = partOf(hull, origin, cell);
+    float least = 0;
+    float greatest = 0;
+    shader::certifiedBoxRange(cell, part.lo, part.hi, least, greatest);
+    return look.mayBeOpaque(least, greatest, kErrors * cell.pointError) &&
+           partMayMeetLinearly(look, hull, cell, origin, part);
 }
 
-bool hullMayMeetLinearly(const shader::OpacityTable& table, const PointHull& hull, const shader::CertifiedCell& cell,
+bool hullMayMeetLinearly(const OpacityLook& look, const PointHull& hull, const shader::CertifiedCell& cell,
                          std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
     const VoxelPoint origin = originOf(x, y, z);
-    const Range partX = partOf(hull.lo.x, hull.hi.x, hull.delta, origin.x, cell.lo.x, cell.hi.x);
-    const Range partY = partOf(hull.lo.y, hull.hi.y, hull.delta, origin.y, cell.lo.y, cell.hi.y);
-    const Range partZ = partOf(hull.lo.z, hull.hi.z, hull.delta, origin.z, cell.lo.z, cell.hi.z);
-    const Linear linear = linearIn(cell, partX, partY, partZ);
-    // A linear function is nowhere in the hull beyond its values at the points.
-    const Range dots = along(hull, linear.x, linear.y, linear.z);
-    const double from = linear.value - linear.x * (origin.x + partX.middle()) - linear.y * (origin.y + partY.middle()) -
-                        linear.z * (origin.z + partZ.middle());
-    const double displaced = 2.0 * hull.delta * (std::abs(linear.x) + std::abs(linear.y) + std::abs(linear.z));
-    const double least = std::max(from + dots.lo - displaced - linear.rest, double{cell.least});
-    const double greatest = std::min(from + dots.hi + displaced + linear.rest, double{cell.greatest});
-    if (!(least <= greatest)) {
-        return true; // not a number, or the hull is beside the cell: others tell
-    }
-    // The part of the range that is added is far more than what certifiedDecide() leaves open at its resolution.
-    constexpr float kPart = 1.0F / 64;
-    const float slack = kErrors * cell.pointError + kPart * (cell.greatest - cell.least);
-    return shader::certifiedMayBeOpaque(table, static_cast<float>(least), static_cast<float>(greatest), slack);
+    return partMayMeetLinearly(look, hull, cell, origin, partOf(hull, origin, cell));
 }
 
 } // namespace voxtact::cpu

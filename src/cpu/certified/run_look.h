@@ -4,6 +4,7 @@
 #include "certified.h"
 #include "core/geometry/clusters.h"
 #include "cpu/certified/cell_box.h"
+#include "cpu/certified/opaque_hull.h"
 
 #include <algorithm>
 #include <array>
@@ -86,11 +87,10 @@ class TriangleHull {
 /// One look at a cell for all triangles in a hull, each of which may be far smaller than the cell: false where none of
 /// their fragments there has an opaque point, as certifiedSettle() says of each of them as well. `cell` is that of the
 /// hull's delta, in place (x, y, z).
-[[nodiscard]] bool hullMayMeet(const shader::OpacityTable& table, const PointHull& hull,
-                               const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y,
-                               std::int32_t z) noexcept;
+[[nodiscard]] bool hullMayMeet(const OpacityLook& look, const PointHull& hull, const shader::CertifiedCell& cell,
+                               std::int32_t x, std::int32_t y, std::int32_t z) noexcept;
 /// Half of that look: by the interpolant's linear part, where certifiedPartMayBeOpaque() has been asked already.
-[[nodiscard]] bool hullMayMeetLinearly(const shader::OpacityTable& table, const PointHull& hull,
+[[nodiscard]] bool hullMayMeetLinearly(const OpacityLook& look, const PointHull& hull,
                                        const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y,
                                        std::int32_t z) noexcept;
 

@@ -133,12 +133,13 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
         if (!shader::certifiedCellMayBeOpaque(scene.table(), cell)) {
             continue;
         }
-        const bool may = cpu::hullMayMeet(scene.table(), points.hull(bounds.delta), cell, x, 20, 20);
+        const cpu::OpacityLook look{scene.table(), cpu::opaqueHullOf(scene.table())};
+        const bool may = cpu::hullMayMeet(look, points.hull(bounds.delta), cell, x, 20, 20);
         bool none = true;
         for (const auto& triangle : run) {
             const bool isNone = verdictOf(scene, corners, triangle, x, 20, 20) == CERTIFIED_NONE;
             const cpu::TriangleHull hull(triangle[0].point, triangle[1].point, triangle[2].point, bounds.delta);
-            const bool mayAlone = cpu::hullMayMeetLinearly(scene.table(), hull.hull(), cell, x, 20, 20);
+            const bool mayAlone = cpu::hullMayMeetLinearly(look, hull.hull(), cell, x, 20, 20);
             EXPECT_TRUE(isNone || (may && mayAlone)) << "round " << round;
             none = none && isNone;
             byItself += isNone ? 1 : 0;
@@ -163,7 +164,8 @@ TEST(RunLookTest, LeavesWhatIsNotANumber) {
         const auto run = drawnRun(random);
         const cpu::TriangleHull hull(run[0][0].point, run[0][1].point, run[0][2].point, 1e-4F);
         const shader::CertifiedCell cell = shader::certifiedCell(scene.item, corners, 20, 20, 20, 1e-4F);
-        EXPECT_TRUE(cpu::hullMayMeetLinearly(scene.table(), hull.hull(), cell, 20, 20, 20)) << "round " << round;
+        const cpu::OpacityLook look{scene.table(), cpu::opaqueHullOf(scene.table())};
+        EXPECT_TRUE(cpu::hullMayMeetLinearly(look, hull.hull(), cell, 20, 20, 20)) << "round " << round;
     }
 }
 
