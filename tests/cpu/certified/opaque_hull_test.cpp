@@ -2,6 +2,7 @@
 // What two comparisons say of a range of entry coordinates, against the look-ups that they stand for.
 #include "cpu/certified/opaque_hull.h"
 
+#include "certified_cell.h"
 #include "core/transfer/table_extremes.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
@@ -77,10 +78,15 @@ TEST(OpaqueHullTest, SaysWhatTheTableSaysOfARangeAndItsParts) {
         const shader::OpacityTable table{static_cast<int>(entries), static_cast<int>(extremes.levels()), threshold,
                                          extremes.values().data()};
         const OpaqueHull hull = cpu::opaqueHullOf(table);
+        const cpu::OpacityLook look{table, hull};
         whole += hull.whole ? 1 : 0;
         for (int i = 0; i < 50; ++i) {
             const Range range = drawnRange(random, hull, entries);
             const float middle = range.lo + (range.hi - range.lo) / 2;
+            const float error = chance(random, 0.5) ? 1e-3F : 0;
+            EXPECT_TRUE(look.mayBeOpaque(range.lo, range.hi, error) ||
+                        !shader::certifiedMayBeOpaque(table, range.lo, range.hi, error))
+                << range.lo << " to " << range.hi << ", error " << error << ", round " << round;
             for (const Range& part : {range, {range.lo, middle}, {middle, range.hi}, {middle, middle}}) {
                 const bool may = shader::mayBeOpaque(table, part.lo, part.hi);
                 if (range.hi < hull.first || range.lo > hull.last) {
