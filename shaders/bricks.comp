@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The ranges of the stored values of bricks (src/core/volume/bricks.h), a work group a brick: of all the corners of its cells,
 // and of those of the cells one farther out too. A NaN counts for neither end: every sample that it has a part in is
-// NaN, which is never opaque. A brick of nothing else has an empty range, +inf to -inf.
+// NaN, which is never opaque. A brick of nothing else has an empty range, +inf to -inf. Of a level above the bricks
+// (brick_levels.h) a work group has a node, and a lane one of those below it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shared.h"
+#include "brick_levels.h"
 
 layout(local_size_x = VOXTACT_BRICK_GROUP) in;
 
 layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;
-layout(set = VOXTACT_SET_VOLUME, binding = VOXTACT_BINDING_BRICKS, std430) writeonly buffer Bricks {
+layout(set = VOXTACT_SET_VOLUME, binding = VOXTACT_BINDING_BRICKS, std430) buffer Bricks {
     vec4 bricks[]; // lo, hi, wideLo, wideHi
 };
 layout(push_constant) uniform Item { BrickConstants constants; };
@@ -49,10 +51,29 @@ vec4 rangesOfLane(ivec3 brick) {
     return found;
 }
 
+BrickLevel levelOf(int level) {
+    return brickLevel(constants.sizeX, constants.sizeY, constants.sizeZ, level);
+}
+
+int placeIn(BrickLevel level, ivec3 node) {
+    return level.first + node.x + level.countX * (node.y + level.countY * node.z);
+}
+
+/// The ranges of the one of 2^3 nodes of the level below that is the lane's.
+vec4 rangesOfNode(ivec3 node) {
+    const BrickLevel below = levelOf(constants.level - 1);
+    const int lane = int(gl_LocalInvocationIndex);
+    const int last = (1 << VOXTACT_LEVEL_SHIFT) - 1;
+    const ivec3 child = (node << VOXTACT_LEVEL_SHIFT) + ivec3(lane & last, (lane >> VOXTACT_LEVEL_SHIFT) & last,
+                                                              lane >> (2 * VOXTACT_LEVEL_SHIFT));
+    const bool some = lane < 1 << (3 * VOXTACT_LEVEL_SHIFT) && all(lessThan(child, ivec3(below.countX, below.countY, below.countZ)));
+    return some ? bricks[placeIn(below, child)] : vec4(INFINITE, -INFINITE, INFINITE, -INFINITE);
+}
+
 void main() {
-    const ivec3 brick = ivec3(constants.firstX, constants.firstY, constants.firstZ) + ivec3(gl_WorkGroupID);
+    const ivec3 node = ivec3(constants.firstX, constants.firstY, constants.firstZ) + ivec3(gl_WorkGroupID);
     const uint lane = gl_LocalInvocationIndex;
-    ranges[lane] = rangesOfLane(brick);
+    ranges[lane] = constants.level > 0 ? rangesOfNode(node) : rangesOfLane(node);
     for (uint reach = VOXTACT_BRICK_GROUP / 2; reach > 0; reach /= 2) {
         barrier();
         if (lane < reach) {
@@ -60,6 +81,6 @@ void main() {
         }
     }
     if (lane == 0) {
-        bricks[brick.x + constants.countX * (brick.y + constants.countY * brick.z)] = ranges[0];
+        bricks[placeIn(levelOf(constants.level), node)] = ranges[0];
     }
 }

@@ -15,7 +15,6 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputsWanted = 0;
 #include "certified_scene.glsl"
 #ifdef CLEARANCE
-#include "certified_clearance_blocks.glsl"
 #include "certified_clearance_near.glsl"
 #endif
 
@@ -68,6 +67,12 @@ CertifiedBox boxOf(uint number) {
 }
 
 #ifdef CLEARANCE
+#ifdef SCOUT
+const bool kAnyBrick = false; // the nearest of all
+#else
+const bool kAnyBrick = true;
+#endif
+
 /// Whether something nearer than what is known may be near a node. What certainly is, is made known.
 bool isNear(Node node) {
     const CertifiedPair transform = transforms[node.pair];
@@ -76,9 +81,9 @@ bool isNear(Node node) {
     if (reach.delta <= CERTIFIED_MOST_DELTA) {
         const vec3 position = positionOf(constants.mesh, 3 * triangleAt(node.number * kNodeTriangles));
         found = lookAround(clearanceSpace(node.pair), reach,
-                           certifiedVertex(transform, position.x, position.y, position.z).point);
+                           certifiedVertex(transform, position.x, position.y, position.z).point, kAnyBrick);
     } else {
-        found.open = anyBlock() ? 0.0 : found.open;
+        found.open = mayHaveAnything() ? 0.0 : found.open;
     }
     if (isCut()) {
         found = ClearanceFound(VOXTACT_CLEARANCE_FAR, 0.0);
@@ -191,7 +196,7 @@ void main() {
     }
 #ifdef SCOUT
     else if (keep) {
-        leaveOpen(node.pair, anyBlock() ? 0.0 : VOXTACT_CLEARANCE_FAR);
+        leaveOpen(node.pair, mayHaveAnything() ? 0.0 : VOXTACT_CLEARANCE_FAR);
     }
 #endif
 #else

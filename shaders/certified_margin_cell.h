@@ -140,8 +140,10 @@ EXACT MarginLinear marginLinear(CertifiedCell cell, MarginBox box) {
         found.lo = certifiedMin(found.lo, corner[i]);
         found.hi = certifiedMax(found.hi, corner[i]);
     }
-    // The sums with signs: x has the lowest bit.
-    for (int bit = 1; bit < 8; bit = bit + bit) {
+    // The sums with signs: x has the lowest bit. Loops of a known length are unrolled, and the corners kept in
+    // registers.
+    for (int axis = 0; axis < 3; ++axis) {
+        const int bit = 1 << axis;
         for (int i = 0; i < 8; ++i) {
             if ((i & bit) == 0) {
                 PRECISE float sum = corner[i] + corner[i + bit];

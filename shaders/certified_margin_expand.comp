@@ -13,9 +13,6 @@
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
-#ifdef CLEARANCE
-#include "certified_clearance_blocks.glsl"
-#endif
 
 #ifdef CLEARANCE
 /// Bricks that a run looks at, and a triangle by itself.
@@ -166,7 +163,7 @@ void main() {
             if (isDone(own.pair)) {
 #ifdef CLEARANCE
             } else if (!bounds.usable) {
-                leaveOpen(own.pair, anyBlock() ? 0.0 : VOXTACT_CLEARANCE_FAR);
+                leaveOpen(own.pair, mayHaveAnything() ? 0.0 : VOXTACT_CLEARANCE_FAR);
 #endif
             } else if (!bounds.usable || areMoreThan(kMostBricks, bricksOf(cells))) {
                 putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);

@@ -16,6 +16,12 @@ layout(local_size_x = VOXTACT_MARGIN_GROUP) in;
 #include "certified_scene.glsl"
 #ifdef CLEARANCE
 #include "certified_clearance_cell.glsl"
+#include "certified_clearance_along.glsl"
+#define ALONG(direction) , AlongBrick direction
+#define WITH_ALONG(direction) , direction
+#else
+#define ALONG(direction)
+#define WITH_ALONG(direction)
 #endif
 
 const int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
@@ -94,7 +100,7 @@ void findTriangles(uvec4 entry) {
     }
 }
 
-void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner) {
+void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
     const MarginSpace by = MARGIN_SPACE(entry.x);
     const CertifiedReach reach = reachOfAll();
     const CellBox inside = within(cellsOf(marginBounds(constants.item, by, reach)), brick);
@@ -103,19 +109,33 @@ void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner) {
     for (int i = int(gl_LocalInvocationIndex); i < cells; i += VOXTACT_MARGIN_GROUP) {
         const ivec3 cell = placeIn(inside, i);
         const vec3 middle = vec3(cell) + 0.5;
+#ifdef CLEARANCE
+        if (cellAlong(direction, middle - brickCentre(brick)) >= by.margin) {
+            continue;
+        }
+#endif
         if (!marginReachFarther(by, reach, voxelPoint(middle.x, middle.y, middle.z), voxelPoint(0.5, 0.5, 0.5))) {
             nearCells[atomicAdd(nearCount, 1u)] = numberIn(corner, cell);
         }
     }
 }
 
-void findOpaqueCells(ivec3 brick, ivec3 corner) {
+void findOpaqueCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
     const vec4 range = brickAt(brick);
+#ifdef CLEARANCE
+    const MarginSpace by = clearanceSpace(entry.x);
+#endif
     for (uint i = gl_LocalInvocationIndex; i < nearCount; i += VOXTACT_MARGIN_GROUP) {
         const ivec3 cell = cellOf(corner, nearCells[i]);
         const CertifiedCell known =
             certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, 0.0);
         if (marginCellMay(opacities(), known)) {
+#ifdef CLEARANCE
+            // Once for all triangles: what is opaque of most cells is farther than the cell.
+            if (partAlong(by, direction, known, vec3(cell) - brickCentre(brick)) >= by.margin) {
+                continue;
+            }
+#endif
             opaqueCells[atomicAdd(opaqueCount, 1u)] =
                 nearCells[i] | uint(marginCellHas(opacities(), known)) << kHasShift;
             atomicMin(opaqueLo.x, cell.x);
@@ -292,10 +312,13 @@ void main() {
     if (passedOver != 0) {
         return;
     }
+    const bool some = lane < VOXTACT_RUN_TRIANGLES && isOfEntry(entry, lane);
+    const AlongBrick direction =
+        findAlong(MARGIN_SPACE(entry.x), some, triangles[some ? lane : 0], reachOfAll(), brickCentre(brick));
 #endif
-    findNearCells(entry, brick, corner);
+    findNearCells(entry, brick, corner WITH_ALONG(direction));
     barrier();
-    findOpaqueCells(brick, corner);
+    findOpaqueCells(entry, brick, corner WITH_ALONG(direction));
     barrier();
     findNearTriangles(entry);
     barrier();

@@ -34,6 +34,7 @@ const bool kCarry = true;
 #include "count.glsl"
 #include "certified_queues.glsl"
 #ifdef CLEARANCE
+#include "brick_levels.h"
 #include "certified_clearance.glsl"
 #elif defined(MARGIN)
 #define MARGIN_SPACE(pair) marginOf(constants.item)
@@ -204,6 +205,13 @@ bool isCut() {
 #ifdef CLEARANCE
 bool isDone(uint pair) {
     return clearanceIsDone(pair);
+}
+
+/// Whether the volume may have anything opaque.
+bool mayHaveAnything() {
+    const int top = brickLevels(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
+    return brickMayBeOpaque(
+        bricks[brickLevel(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ, top).first]);
 }
 #else
 /// Where stopAtFirst is wanted, what is found of a pair that has a survivor is of no use.

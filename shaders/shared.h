@@ -110,8 +110,9 @@ struct PairSetupConstants {
 
 /// Push constants of the brick pass.
 struct BrickConstants {
-    int firstX, firstY, firstZ; // the brick of work group (0, 0, 0)
-    int countX, countY;         // of all bricks along x and y
+    int firstX, firstY, firstZ; // the brick, or node of a level above, of work group (0, 0, 0)
+    int sizeX, sizeY, sizeZ;    // of the volume, voxels
+    int level;                  // of brick_levels.h; those below are up to date
     float storedUnit;           // as in ItemConstants
 };
 
@@ -233,13 +234,9 @@ struct CertifiedConstants {
 // or pair, triangle, 0, and this: all bricks of one triangle.
 #define VOXTACT_MARGIN_ALL (1u << VOXTACT_RUN_TRIANGLES)
 #define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
-// Where clearances are measured, behind the queues, from a multiple of 256 bytes on: for each block of bricks whether
-// one of them may have something opaque; and then four words a pair, in the end its ClearanceResult.
-#define VOXTACT_WORD_BLOCKS(room) ((VOXTACT_QUEUE_WORDS(room) + 63) / 64 * 64)
-#define VOXTACT_WORD_CLEARANCES(room) (VOXTACT_WORD_BLOCKS(room) + VOXTACT_BLOCKS)
-/// Blocks of a volume, at most. One is 2^VOXTACT_BLOCK_SHIFT bricks a side, or twice, four times ... as many.
-#define VOXTACT_BLOCKS 4096
-#define VOXTACT_BLOCK_SHIFT 2
+// Where clearances are measured, behind the queues, from a multiple of 256 bytes on: four words a pair, in the end its
+// ClearanceResult.
+#define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_QUEUE_WORDS(room) + 63) / 64 * 64)
 // Of a pair that is being measured; lengths are flat, as in certified_margin.h.
 #define VOXTACT_CLEARANCE_LO 0    // nothing opaque is nearer
 #define VOXTACT_CLEARANCE_HI 1    // something is as near
@@ -333,7 +330,7 @@ static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstant
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CERTAIN < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_MARGIN_WORD_LEFT(16) + 4 * VOXTACT_MARGIN_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);
-static_assert(sizeof(BrickConstants) == 24);
+static_assert(sizeof(BrickConstants) == 32);
 static_assert(sizeof(RefitConstants) == 28);
 } // namespace voxtact::shader
 #endif

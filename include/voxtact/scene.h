@@ -49,7 +49,8 @@ struct WrappedVolume {
 struct VolumeOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
     /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent
-    /// need. 16 bytes a brick; refused where they are more than the device's maxStorageBufferRange.
+    /// need. 16 bytes a brick, and about a seventh more for boxes of 2^3, 4^3, ... bricks; refused where they are more
+    /// than the device's maxStorageBufferRange.
     bool bricks = false;
     /// Allows cmdSet(), cmdWrite() and cmdCopy(); keeps room on the device for the texels of one slice or of a MiB,
     /// what is more, and 64 KiB for rows. Refused where a slice has more than the device's maxStorageBufferRange.

@@ -7,7 +7,6 @@
 #include "detect/certified_rounds.h"
 #include "gpu/scene_impl.h"
 
-#include "voxtact_shaders/certified_clearance_blocks_comp.h"
 #include "voxtact_shaders/certified_clearance_cull_comp.h"
 #include "voxtact_shaders/certified_clearance_decide_comp.h"
 #include "voxtact_shaders/certified_clearance_expand_comp.h"
@@ -92,7 +91,6 @@ Result<ClearancePass> ClearancePass::create(ContextImpl& context, const Detector
         const char* name;
     };
     const Program programs[Count] = {
-        {spirv::certified_clearance_blocks_comp, "clearance blocks"},
         {spirv::certified_clearance_cull_comp, "clearance cull"},
         {spirv::certified_clearance_scout_comp, "clearance scout"},
         {spirv::certified_clearance_refine_comp, "clearance refine"},
@@ -112,15 +110,6 @@ Result<ClearancePass> ClearancePass::create(ContextImpl& context, const Detector
         pass.pipelines_[i] = std::move(*made);
     }
     return pass;
-}
-
-void ClearancePass::recordBlocks(RoundRecorder& recorder, VkPipelineLayout layout,
-                                 const shader::CertifiedConstants& constants) const {
-    const DeviceFunctions& vk = context_->vk;
-    const VkCommandBuffer commandBuffer = recorder.commandBuffer();
-    vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[Blocks].get());
-    vk.CmdDispatch(commandBuffer, VOXTACT_BLOCKS / VOXTACT_COMPUTE_GROUP, 1, 1);
 }
 
 void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layout,
@@ -177,7 +166,6 @@ void ClearancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, con
     of.item = withClearance(of.item, item.volume->impl().grid, desc_.tolerance);
     shader::ClearanceConstants search = searchOf(of, item, desc_);
     queuesBarrier(*context_, recorder.commandBuffer());
-    recordBlocks(recorder, layout, of);
     recordSearch(recorder, layout, search);
     for (search.step = 1; search.step <= search.steps; ++search.step) {
         recordStep(recorder, layout, item, of, search.step == 1);

@@ -23,12 +23,10 @@ class ClearancePass {
                 const shader::CertifiedConstants& constants) const;
 
   private:
-    enum Pipeline : std::size_t { Blocks, Cull, Scout, Refine, Expand, Probe, Large, Decide, Finish, Search, Count };
+    enum Pipeline : std::size_t { Cull, Scout, Refine, Expand, Probe, Large, Decide, Finish, Search, Count };
 
     ClearancePass(ContextImpl& context, const ClearanceSearch& desc) noexcept : context_(&context), desc_(desc) {}
 
-    void recordBlocks(RoundRecorder& recorder, VkPipelineLayout layout,
-                      const shader::CertifiedConstants& constants) const;
     void recordSearch(RoundRecorder& recorder, VkPipelineLayout layout,
                       const shader::ClearanceConstants& constants) const;
     void recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,

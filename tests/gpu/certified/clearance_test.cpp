@@ -168,7 +168,8 @@ TEST_F(ClearanceTest, OfAToolAndAHead) {
     const std::vector<PairClearance> host = onHost(scene);
     DetectorDesc desc = howNear({.tolerance = 0.02});
     desc.counters = true;
-    const Answered found = detect(desc, scene.batch(), kPoses, 2048);
+    const Detector device = take(Detector::create(context(), desc));
+    const Answered found = detect(device, scene.batch(), kPoses, 2048);
     std::size_t apart = 0;
     for (std::size_t i = 0; i < kPoses; ++i) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", pair " + std::to_string(i));
@@ -185,7 +186,7 @@ TEST_F(ClearanceTest, OfAToolAndAHead) {
     // With next to no room much is left to the last pass, and may be too much: the bounds are true all the same.
     constexpr std::uint32_t kFew = 5;
     scene.item.world_from_object = std::span(scene.poses).first(kFew);
-    const Answered narrow = detect(desc, scene.batch(), kFew, 16);
+    const Answered narrow = detect(device, scene.batch(), kFew, 16);
     for (std::size_t i = 0; i < kFew; ++i) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", pair " + std::to_string(i) + ", narrow");
         expectOverlap(narrow.clearances.at(i).bounds, host[i].bounds);
@@ -239,18 +240,19 @@ TEST_F(ClearanceTest, WhereNothingIsOpaque) {
     const Volume volume = take(Volume::upload(context(), queue(), image.view(), {.bricks = true}));
     const TransferFunction function = upload(std::array{ControlPoint{0, 0}, ControlPoint{255, 1}}, {0, 255});
     const MeshData flat = makeFlat(0.2, 0.8, 0.2, 0.8, 0.5);
+    const Detector anywhere = take(Detector::create(context(), howNear({.maximum = kInfinity})));
+    const Detector near = take(Detector::create(context(), howNear({.maximum = 3})));
     for (const bool clusters : {true, false}) {
         const Mesh mesh = take(Mesh::upload(context(), queue(), flat.view(), {.clusters = clusters}));
         const std::array poses{identity(), translation({5, 0, 0})};
         const BatchItem item{&mesh, &volume, &function, poses};
-        for (const PairClearance& pair :
-             detect(howNear({.maximum = kInfinity}), {{&item, 1}, {}, 0.5}, 2, 2048).clearances) {
+        for (const PairClearance& pair : detect(anywhere, {{&item, 1}, {}, 0.5}, 2, 2048).clearances) {
             EXPECT_EQ(pair.bounds.lo, kInfinity);
             EXPECT_EQ(pair.bounds.hi, kInfinity);
             EXPECT_EQ(pair.end, ClearanceEnd::Closed);
         }
         // As the host says it.
-        for (const PairClearance& pair : detect(howNear({.maximum = 3}), {{&item, 1}, {}, 0.5}, 2, 2048).clearances) {
+        for (const PairClearance& pair : detect(near, {{&item, 1}, {}, 0.5}, 2, 2048).clearances) {
             EXPECT_EQ(pair.bounds.lo, 3);
             EXPECT_EQ(pair.end, ClearanceEnd::Beyond);
         }
@@ -267,9 +269,10 @@ TEST_F(ClearanceTest, OfSeveralItems) {
     const TransferFunction bone = upload(std::array{ControlPoint{150, 0}, ControlPoint{200, 1}}, {0, 255});
     second.item.transferFunction = &bone;
     const BatchItem items[] = {first.item, second.item, first.item};
-    const Answered together = detect(howNear(), {items, {}, kDefaultThreshold}, 3 * kPoses, 2048);
+    const Detector device = take(Detector::create(context(), howNear()));
+    const Answered together = detect(device, {items, {}, kDefaultThreshold}, 3 * kPoses, 2048);
     for (std::size_t i = 0; i < std::size(items); ++i) {
-        const Answered one = detect(howNear(), {{&items[i], 1}, {}, kDefaultThreshold}, kPoses, 2048);
+        const Answered one = detect(device, {{&items[i], 1}, {}, kDefaultThreshold}, kPoses, 2048);
         for (std::size_t pose = 0; pose < kPoses; ++pose) {
             const PairClearance& pair = together.clearances.at(i * kPoses + pose);
             EXPECT_EQ(pair.item, i);
@@ -329,8 +332,9 @@ TEST_F(ClearanceTest, WhatIsTooMuchEndsTheSearch) {
     const Mesh onDevice = take(Mesh::upload(context(), queue(), mesh.view(), {.clusters = true}));
     const Mat4 pose = identity();
     const BatchItem item{&onDevice, &volume, &function, {&pose, 1}};
-    const PairClearance narrow = detect(howNear({.tolerance = 1e-5}), {{&item, 1}, {}, 0.5}, 1, 16).clearances.at(0);
-    const PairClearance roomy = detect(howNear({.tolerance = 1e-5}), {{&item, 1}, {}, 0.5}, 1, 16384).clearances.at(0);
+    const Detector device = take(Detector::create(context(), howNear({.tolerance = 1e-5})));
+    const PairClearance narrow = detect(device, {{&item, 1}, {}, 0.5}, 1, 16).clearances.at(0);
+    const PairClearance roomy = detect(device, {{&item, 1}, {}, 0.5}, 1, 16384).clearances.at(0);
     // The uppermost triangle is at 0.363; the first opaque voxel's centre at 84.5 / 96, and half of it is opaque.
     const double distance = 84.0 / 96 - 0.363;
     for (const PairClearance& pair : {narrow, roomy}) {

@@ -30,7 +30,10 @@ class CertifiedTest : public RawGpuTest {
 
     /// With Results of so many `pairs` and `clusters` at once.
     Answered detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
-        const Detector detector = take(Detector::create(context(), desc));
+        return detect(take(Detector::create(context(), desc)), batch, pairs, clusters);
+    }
+    Answered detect(const Detector& detector, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
+        const DetectorDesc& desc = detector.desc();
         Results results = take(Results::create(
             context(), {.maxPairs = pairs, .clustersAtOnce = clusters, .clearances = desc.clearance.has_value()}));
         const VkCommandBuffer commands = raw().begin();
