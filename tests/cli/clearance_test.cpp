@@ -204,7 +204,8 @@ TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(line({"--margin", "1", "--stats"}), HasSubstr("--stats"));
     EXPECT_THAT(line({"--margin", "1", "--contacts", "c.csv"}), HasSubstr("--margin is answered by yes or no"));
     EXPECT_THAT(line({"--margin", "1", "--answer", "count"}), HasSubstr("--answer count asks for a count"));
-    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--answer", "count"}), HasSubstr("--pose-tolerance is answered by yes"));
+    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--answer", "count"}),
+                HasSubstr("--pose-tolerance is answered by yes"));
     EXPECT_THAT(line({"--clearance", "--closest", path("poses.txt") + "/../poses.txt"}), HasSubstr("--closest"));
     EXPECT_EQ(filesInFolder(), 1U);
 }
