@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Where the ranges of a volume's bricks lie, and those of what is above them: level 0 are the bricks, and a node of any
-// other level has 2^3 of the one below. One text for GLSL and C++.
+// other level has 2^3 of the one below. One text for GLSL and C++. Expects VOXTACT_BRICK_SHIFT.
 #ifndef VOXTACT_BRICK_LEVELS_H
 #define VOXTACT_BRICK_LEVELS_H
 
 /// A node is 2^VOXTACT_LEVEL_SHIFT nodes of the level below a side.
 #define VOXTACT_LEVEL_SHIFT 1
-/// The highest level is one node: of no device a 3D image has 2^17 voxels along an axis.
+/// Enough for a highest level of one node: no device has 3D images of 2^17 voxels along an axis.
 #define VOXTACT_MOST_LEVELS 15
 
 #include "exact_language.h"

@@ -66,7 +66,8 @@ vec4 rangesOfNode(ivec3 node) {
     const int last = (1 << VOXTACT_LEVEL_SHIFT) - 1;
     const ivec3 child = (node << VOXTACT_LEVEL_SHIFT) + ivec3(lane & last, (lane >> VOXTACT_LEVEL_SHIFT) & last,
                                                               lane >> (2 * VOXTACT_LEVEL_SHIFT));
-    const bool some = lane < 1 << (3 * VOXTACT_LEVEL_SHIFT) && all(lessThan(child, ivec3(below.countX, below.countY, below.countZ)));
+    const bool some = lane < 1 << (3 * VOXTACT_LEVEL_SHIFT) &&
+                      all(lessThan(child, ivec3(below.countX, below.countY, below.countZ)));
     return some ? bricks[placeIn(below, child)] : vec4(INFINITE, -INFINITE, INFINITE, -INFINITE);
 }
 

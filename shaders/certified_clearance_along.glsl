@@ -5,9 +5,9 @@
 #ifndef VOXTACT_CERTIFIED_CLEARANCE_ALONG_GLSL
 #define VOXTACT_CERTIFIED_CLEARANCE_ALONG_GLSL
 
-shared uint nearestBelow;                         // the bits of what a triangle is no nearer to the brick than
-shared VoxelPoint way;                            // flat: from the nearest triangle to what is nearest of the brick
-shared float shadowOf[VOXTACT_RUN_TRIANGLES];     // of each triangle on it, about the brick's middle
+shared uint nearestKey;                       // the least key of a triangle: how near it may be to the brick, and its lane
+shared VoxelPoint way;                        // flat: from that triangle to what is nearest of the brick
+shared float shadowOf[VOXTACT_RUN_TRIANGLES]; // of each triangle on it, about the brick's middle
 const uint kNothing = 0x7f800000u;
 
 struct AlongBrick {
@@ -24,24 +24,26 @@ AlongBrick findAlong(MarginSpace by, bool some, CertifiedTriangle triangle, Cert
     const VoxelPoint middle = voxelPoint(centre.x, centre.y, centre.z);
     const float r = MARGIN_BRICK_RADIUS;
     if (lane == 0) {
-        nearestBelow = kNothing;
+        nearestKey = kNothing;
         way = voxelPoint(0.0, 0.0, 0.0);
     }
     barrier();
     MarginTriangle about;
     VoxelPoint own = voxelPoint(0.0, 0.0, 0.0);
-    uint below = kNothing;
+    uint key = kNothing;
     if (some) {
         about = marginTriangle(by, triangle, middle, r);
         const MarginNear near = marginNear(by, about, own);
-        below = floatBitsToUint(boxBelow(by, about, near, voxelPoint(r, r, r)));
+        // The lane in place of the last bits: no two are alike.
+        key = floatBitsToUint(boxBelow(by, about, near, voxelPoint(r, r, r))) / VOXTACT_RUN_TRIANGLES *
+                  VOXTACT_RUN_TRIANGLES + lane;
         const VoxelPoint to = voxelPoint(clamp(near.at.x, -r, r), clamp(near.at.y, -r, r), clamp(near.at.z, -r, r));
         own = marginFlat(by, voxelDifference(to, near.at));
-        atomicMin(nearestBelow, below);
+        atomicMin(nearestKey, key);
     }
     barrier();
-    if (some && below == nearestBelow) {
-        way = own; // of one of those that are as near
+    if (some && key == nearestKey) {
+        way = own;
     }
     barrier();
     AlongBrick found;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/error.h"
+#include "core/base/refuse.h"
 
 #include <string>
 
@@ -25,7 +25,7 @@ struct Outcome {
 
 /// The same error, blamed on an argument: exit status 2.
 [[nodiscard]] inline Error badArgument(std::string text) {
-    return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
+    return refuse(std::move(text));
 }
 
 } // namespace voxtact::app

@@ -23,7 +23,7 @@ class CertifiedOccupancy {
     [[nodiscard]] shader::OpacityTable table() const noexcept {
         return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data()};
     }
-    /// The same.
+    /// The table with its hull; valid while this object lives.
     [[nodiscard]] OpacityLook look() const noexcept { return {table(), bricks_.hull()}; }
     [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {
         return (static_cast<std::size_t>(brick[2]) * static_cast<std::size_t>(count_[1]) +
