@@ -211,7 +211,7 @@ TEST(CNear, AnswersAsTheCppInterfaceDoes) {
     Engines engines;
     engines.start();
     Tally tally;
-    for (int round = 0; round < 25 && !HasFatalFailure(); ++round) {
+    for (int round = 0; round < 10 && !HasFatalFailure(); ++round) {
         const std::uint64_t seed = random();
         SCOPED_TRACE("scene " + std::to_string(seed));
         std::mt19937_64 local(seed);

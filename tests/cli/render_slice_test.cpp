@@ -97,7 +97,7 @@ TEST_F(RenderSliceTest, SidesAreWhereRadiologistsHaveThem) {
 TEST_F(RenderSliceTest, InterruptedItLeavesNoFile) {
     writeText(path("a.png"), "as it was");
     // As large as a picture may be: it is written for a while.
-    Child child({"render", "--volume", "builtin:head:16", "--slice", "axial:0", "--size", "12000x12000", "--output",
+    Child child({"render", "--volume", "builtin:head:16", "--slice", "axial:0", "--size", "6000x6000", "--output",
                  path("a.png")});
     for (int i = 0; i < 1200 && filesInFolder() < 2; ++i) {
         ::usleep(50000);

@@ -60,7 +60,7 @@ class MarginTest : public CertifiedTest {
 
 TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
     constexpr std::uint64_t kTypes = 4;
-    const std::uint64_t ofEach = randomCases(75, 3);
+    const std::uint64_t ofEach = randomCases(75, 7);
     const std::uint64_t seed = testSeed();
     BlockingDetector device = detector(within(kMargin));
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
@@ -94,8 +94,10 @@ TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
     }
     std::cout << "  " << cases << " cases: " << said[CERTIFIED_CERTAIN] << " within, " << said[CERTIFIED_NONE]
               << " not, " << said[CERTIFIED_UNDECIDED] << " undecided\n";
-    EXPECT_GT(said[CERTIFIED_CERTAIN], cases / 10);
-    EXPECT_GT(said[CERTIFIED_NONE], cases / 10);
+    if (cases >= 200) { // of fewer, any verdict may have hardly any
+        EXPECT_GT(said[CERTIFIED_CERTAIN], cases / 10);
+        EXPECT_GT(said[CERTIFIED_NONE], cases / 10);
+    }
 }
 
 TEST_F(MarginTest, TellsKnownDistancesApart) {

@@ -169,7 +169,7 @@ class RandomPosesTest : public HostAgreementTest {
   protected:
     void run() {
         expectAgreementOnScenes(makeDetectors(Boundary::Range), makeDetectors(Boundary::Clamp),
-                                randomCases(kScenes / 2, 14));
+                                randomCases(kScenes / 2, 35));
     }
 };
 
@@ -183,17 +183,17 @@ TEST_F(RandomPosesTest, AllMethodsOnTheSecondHalf) {
 
 TEST_F(HostAgreementTest, AllMethodsByTwoView) {
     expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::TwoView),
-                            makeDetectors(Boundary::Clamp, Projection::TwoView), randomCases(kScenes / 14, 5));
+                            makeDetectors(Boundary::Clamp, Projection::TwoView), randomCases(kScenes / 14, 10));
 }
 
 TEST_F(HostAgreementTest, AllMethodsByDominantAxis) {
     expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::DominantAxis),
-                            makeDetectors(Boundary::Clamp, Projection::DominantAxis), randomCases(kScenes / 14, 5));
+                            makeDetectors(Boundary::Clamp, Projection::DominantAxis), randomCases(kScenes / 14, 10));
 }
 
 TEST_F(HostAgreementTest, AllMethodsByDominantAxisWithMoreSamples) {
     expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::DominantAxis, 3),
-                            makeDetectors(Boundary::Clamp, Projection::DominantAxis, 3), randomCases(kScenes / 28, 4));
+                            makeDetectors(Boundary::Clamp, Projection::DominantAxis, 3), randomCases(kScenes / 28, 8));
 }
 
 TEST_F(HostAgreementTest, AllMethodsOnTheRealHead) {

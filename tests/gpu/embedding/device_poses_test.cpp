@@ -144,7 +144,7 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
                                                                         .projection = projection,
                                                                         .devicePoses = true})));
     }
-    for (std::size_t scenes = 0; scenes < randomCases(1000, 125); ++scenes) {
+    for (std::size_t scenes = 0; scenes < randomCases(1000, 200); ++scenes) {
         const Grid grid = anyGrid(random);
         const Volume volume = take(
             Volume::upload(context(), queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));

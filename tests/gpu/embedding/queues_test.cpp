@@ -77,7 +77,7 @@ TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
     const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
     const cpu::Volume hostVolume = take(cpu::Volume::create(head.view()));
     const cpu::TransferFunction hostFunction = take(cpu::TransferFunction::create(table));
-    const std::vector<Mat4> poses = randomPoses(head.grid, 4, 1, random);
+    const std::vector<Mat4> poses = randomPoses(head.grid, 3, 1, random);
     for (const char* source : {"scalpel:1500", "scalpel:100"}) {
         const MeshData data = take(makeBuiltinMesh(source));
         const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));

@@ -63,7 +63,7 @@ TEST_F(WrappedBendTest, AnswersAreThoseOfAMeshMadeAfresh) {
     const std::uint64_t seed = testSeed();
     std::mt19937_64 random(seed);
     std::vector<Way> ways = allWays();
-    const std::size_t rounds = randomCases(60, 6);
+    const std::size_t rounds = randomCases(60, 20);
     for (std::size_t round = 0; round < rounds && !HasFatalFailure(); ++round) {
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", round " << round);
         poses_ = randomPoses(image_.grid, 2, 1, random);
