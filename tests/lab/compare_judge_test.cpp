@@ -6,13 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace voxtact::test {
 namespace {
 
-using lab::DifferingFragment;
 using lab::FragmentCheck;
 using lab::NamedCounts;
 using lab::Verdict;
+using oracle::Doubt;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -64,41 +66,38 @@ TEST(CompareJudge, GroupsMayDifferAndAreTold) {
     EXPECT_THAT(verdict.detail, HasSubstr("4 of 23 fragments"));
 }
 
-FragmentCheck checkOf(std::uint32_t pose, const std::vector<const char*>& reasons) {
-    FragmentCheck check;
-    check.pose = pose;
-    check.onDevice = 100 + reasons.size();
-    check.byOracle = 100;
-    check.counted = check.onDevice;
-    for (const char* reason : reasons) {
-        DifferingFragment fragment;
-        fragment.pose = pose;
-        fragment.triangle = 42;
-        fragment.x = 3;
-        fragment.y = 4;
-        fragment.onDevice = true;
-        fragment.reason = reason;
-        check.differing.push_back(fragment);
+FragmentCheck checkOf(std::uint32_t pose, const std::vector<Doubt>& doubts) {
+    FragmentCheck check{.pose = pose, .onDevice = 100 + doubts.size(), .byOracle = 100, .counted = 100 + doubts.size()};
+    for (const Doubt doubt : doubts) {
+        check.differing.push_back(
+            {.pose = pose, .fragment = {42, 3, 4}, .onDevice = true, .evidence = {.doubt = doubt}});
     }
     return check;
 }
 
+std::array<std::uint64_t, 4> countsOf(const std::vector<FragmentCheck>& checks) {
+    std::array<std::uint64_t, 4> counts{};
+    std::ranges::transform(lab::kDoubts, counts.begin(), [&](Doubt doubt) { return lab::countOf(doubt, checks); });
+    return counts;
+}
+
 TEST(CompareJudge, FragmentsWithAReasonAgree) {
-    const std::vector<FragmentCheck> checks{checkOf(1, {}), checkOf(2, {"coverage", "opacity", "opacity"})};
+    const std::vector<FragmentCheck> checks{checkOf(1, {}),
+                                            checkOf(2, {Doubt::Coverage, Doubt::Opacity, Doubt::Opacity})};
     const Verdict verdict = lab::judgeFragments(checks);
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.compared, 203U);
     EXPECT_EQ(verdict.differing, 3U);
-    EXPECT_THAT(lab::countReasons(checks), ElementsAre(1, 0, 2, 0));
+    EXPECT_THAT(countsOf(checks), ElementsAre(1, 0, 2, 0));
 }
 
 TEST(CompareJudge, AFragmentWithoutAReasonIsADisagreement) {
-    const std::vector<FragmentCheck> checks{checkOf(1, {"coverage"}), checkOf(2, {"opacity", "none"})};
+    const std::vector<FragmentCheck> checks{checkOf(1, {Doubt::Coverage}), checkOf(2, {Doubt::Opacity, Doubt::None})};
     const Verdict verdict = lab::judgeFragments(checks);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.first->pose, 2U);
     EXPECT_THAT(verdict.first->text, HasSubstr("triangle 42 at pixel 3,4"));
-    EXPECT_THAT(lab::countReasons(checks), ElementsAre(1, 0, 1, 1));
+    EXPECT_THAT(countsOf(checks), ElementsAre(1, 0, 1, 1));
 }
 
 TEST(CompareJudge, AListThatIsNotWhatWasCountedIsADisagreement) {

@@ -7,6 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
+
 namespace voxtact::app {
 
 using namespace lab;
@@ -78,6 +81,20 @@ Examples:
   voxtact bench --paper --format text
   voxtact bench --certified --volume head.nii.gz --mesh tool.stl --format json --output bench.json)";
 
+struct ModeFlag {
+    const char* name;
+    std::optional<BenchMode> mode; ///< none: --paper
+    const char* help;
+};
+constexpr std::array<ModeFlag, 5> kModes{{
+    {"--certified", BenchMode::Certified, "yes or no, and counts, that miss no contact"},
+    {"--outputs", BenchMode::Outputs, "what each projection and each output costs beside the bare count"},
+    {"--latency", BenchMode::Latency, "one pair, now: how long a loop waits for each answer"},
+    {"--batches", BenchMode::Batches, "what a batch costs by how many pairs it has"},
+    {"--paper", std::nullopt,
+     "the paper's tables and sweeps, measured again: what detection adds to a frame; the default"},
+}};
+
 void addPaperOptions(CLI::App& parser, BenchOptions& options) {
     addPath(parser, "--data", options.paperSettings.data,
             "with --paper: a folder with files of its scenes; default: builtins");
@@ -98,27 +115,12 @@ void addPaperOptions(CLI::App& parser, BenchOptions& options) {
 }
 
 void addOptions(CLI::App& parser, BenchOptions& options) {
-    CLI::Option* certified =
-        parser.add_flag("--certified", options.certified, "yes or no, and counts, that miss no contact");
-    CLI::Option* outputs =
-        parser
-            .add_flag("--outputs", options.outputs, "what each projection and each output costs beside the bare count")
-            ->excludes(certified);
-    CLI::Option* latency =
-        parser.add_flag("--latency", options.latency, "one pair, now: how long a loop waits for each answer")
-            ->excludes(certified)
-            ->excludes(outputs);
-    CLI::Option* batches = parser.add_flag("--batches", options.batches, "what a batch costs by how many pairs it has")
-                               ->excludes(certified)
-                               ->excludes(outputs)
-                               ->excludes(latency);
-    parser
-        .add_flag("--paper", options.paper,
-                  "the paper's tables and sweeps, measured again: what detection adds to a frame; the default")
-        ->excludes(certified)
-        ->excludes(outputs)
-        ->excludes(latency)
-        ->excludes(batches);
+    for (const ModeFlag& flag : kModes) {
+        CLI::Option* const added = parser.add_flag(flag.name, flag.help);
+        for (const ModeFlag* other = kModes.data(); other != &flag; ++other) {
+            added->excludes(other->name);
+        }
+    }
     addVolumeOption(parser, options.volumes);
     parser.get_option("--volume")->required(false);
     addMeshOptions(parser, options.meshes);
@@ -142,20 +144,22 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
         "--volume",  "--mesh",      "--mesh-space", "--mesh-scale", "--transfer-function",
         "--opacity", "--tf-domain", "--tf-size",    "--threshold"};
     constexpr const char* kOfPaper[] = {"--data", "--scale", "--no-sweeps", "--size", "--report"};
-    for (const char* option : options.paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
+    const bool paper = !options.mode;
+    const bool latency = options.mode == BenchMode::Latency;
+    for (const char* option : paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
         if (parser.count(option) > 0) {
-            return badArgument(options.paper ? std::string("--paper has its own scenes; leave out ") + option +
-                                                   ", or ask for --certified, --outputs, --latency or --batches"
-                                             : std::string(option) + " is for --paper");
+            return badArgument(paper ? std::string("--paper has its own scenes; leave out ") + option +
+                                           ", or ask for --certified, --outputs, --latency or --batches"
+                                     : std::string(option) + " is for --paper");
         }
     }
-    if (parser.count("--time-limit") > 0 && !options.paper && !options.latency && !options.batches) {
+    if (parser.count("--time-limit") > 0 && !paper && !latency && options.mode != BenchMode::Batches) {
         return badArgument("--time-limit is for --paper, --latency and --batches");
     }
-    if (parser.count("--repetitions") > 0 && options.latency) {
+    if (parser.count("--repetitions") > 0 && latency) {
         return badArgument("--repetitions is not for --latency; --number says how many ticks there are");
     }
-    if (options.latency && options.settings.number > kMostTicks) {
+    if (latency && options.settings.number > kMostTicks) {
         return badArgument("--number: there can be " + std::to_string(kMostTicks) + " ticks");
     }
     if (options.paperSettings.scale > 1 && !options.paperSettings.data.empty()) {
@@ -166,23 +170,25 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
 
 Outcome runBench(const BenchOptions& given, const CLI::App& parser) {
     BenchOptions options = given;
-    options.paper = !options.certified && !options.outputs && !options.latency && !options.batches;
+    const auto* const asked =
+        std::ranges::find_if(kModes, [&](const ModeFlag& flag) { return parser.count(flag.name) > 0; });
+    options.mode = asked == kModes.end() ? std::nullopt : asked->mode;
     VOXTACT_TRY(checkTogether(options, parser));
     const auto take = [&parser](const char* option, auto from, auto& to) { to = parser.count(option) > 0 ? from : to; };
-    if (options.paper) {
+    if (!options.mode) {
         take("--number", options.settings.number, options.paperSettings.poses);
         take("--repetitions", options.settings.repetitions, options.paperSettings.repetitions);
         options.paperSettings.seed = options.settings.seed;
         return runPaper(options, parser);
     }
-    options.settings = defaultSettings(options.latency   ? BenchMode::Latency
-                                       : options.batches ? BenchMode::Batches
-                                       : options.outputs ? BenchMode::Outputs
-                                                         : BenchMode::Certified);
+    const BenchDefaults defaults = defaultsOf(*options.mode);
+    options.settings = {.mode = *options.mode,
+                        .number = defaults.number,
+                        .seed = given.settings.seed,
+                        .repetitions = defaults.repetitions};
     take("--number", given.settings.number, options.settings.number);
     take("--repetitions", given.settings.repetitions, options.settings.repetitions);
     take("--time-limit", given.paperSettings.timeLimit, options.settings.timeLimit);
-    options.settings.seed = given.settings.seed;
     return runBenchEngines(options, parser);
 }
 

@@ -5,21 +5,18 @@
 #include "lab/bench/bench.h"
 #include "lab/paper/paper.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace voxtact::app {
 
 struct BenchOptions {
-    bool certified = false; ///< one of the five is meant
-    bool outputs = false;
-    bool latency = false;
-    bool batches = false;
-    bool paper = false;
-    lab::BenchSettings settings;      ///< of the others
-    lab::PaperSettings paperSettings; ///< of --paper
-    std::vector<std::string> volumes; ///< none: the mode's own scene
-    MeshOptions meshes;               ///< the same
+    std::optional<lab::BenchMode> mode; ///< none: --paper
+    lab::BenchSettings settings;        ///< of the others
+    lab::PaperSettings paperSettings;   ///< of --paper
+    std::vector<std::string> volumes;   ///< none: the mode's own scene
+    MeshOptions meshes;                 ///< the same
     TransferFunctionOptions transferFunction;
     DeviceChoice device;
     OutputOptions output;

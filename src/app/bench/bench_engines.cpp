@@ -24,7 +24,7 @@ Result<VolumePart> loadBenchVolume(const BenchOptions& options, const std::strin
 Result<std::vector<MeshPart>> loadBenchMeshes(const BenchOptions& options) {
     std::vector<MeshPart> meshes;
     for (const std::string& source :
-         options.meshes.sources.empty() ? defaultMeshes(options.settings.mode) : options.meshes.sources) {
+         options.meshes.sources.empty() ? defaultsOf(options.settings.mode).meshes : options.meshes.sources) {
         Result<MeshPart> mesh = loadMeshPart(source, options.meshes);
         VOXTACT_TRY(mesh);
         meshes.push_back(std::move(*mesh));
@@ -74,7 +74,7 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
         return writable.error();
     }
     BenchResult result;
-    result.volume = options.volumes.empty() ? defaultVolume(options.settings.mode) : options.volumes.front();
+    result.volume = options.volumes.empty() ? defaultsOf(options.settings.mode).volume : options.volumes.front();
     std::shared_ptr<const device::ValidationMessages> messages;
     {
         const Result<std::optional<device::Session>> session = openBenchSession(options, result);
@@ -90,7 +90,7 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
     Outcome outcome;
     if (!result.disagreement.empty()) {
         outcome = {kExitVerify, "engines that must agree do not: " + result.disagreement};
-        if (!options.latency && !options.batches) {
+        if (options.mode == BenchMode::Certified || options.mode == BenchMode::Outputs) {
             return outcome;
         }
         // What was measured before is written.

@@ -38,17 +38,13 @@ Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
         return usable.error();
     }
     PaperResult result;
-    std::shared_ptr<const device::ValidationMessages> messages;
-    {
-        const Result<device::Session> session = openSession(options.device);
-        VOXTACT_TRY(session);
-        messages = session->instance.messages();
-        result.machine.provenance = provenanceOf(parser);
+    result.machine.provenance = provenanceOf(parser);
+    const auto measure = [&](const device::Session& session) {
         ShownSteps shown(options.progress, "voxtact bench");
-        VOXTACT_TRY(measurePaper(settings, *session, shown.steps(), result));
-    }
-    if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
-        return invalid;
+        return measurePaper(settings, session, shown.steps(), result);
+    };
+    if (Outcome failed = measureOn(options.device, measure); failed.status != kExitDone) {
+        return failed;
     }
     if (!result.disagreement.empty()) {
         return {kExitVerify, "methods that must agree do not: " + result.disagreement};

@@ -64,8 +64,7 @@ Outcome outcomeOf(const CompareOptions& options, const CLI::App& parser, const C
                                                    "--oracle", "--keep-going", "--progress"}) +
                               " --only-pose " + std::to_string(failure->first->pose) + " --oracle " +
                               (options.settings.oraclePoses > 0 ? "1" : "0") + " --sweep " + failure->sweep;
-    return {kExitVerify, failure->rule + ": disagreement on pose " + std::to_string(failure->first->pose) + ": " +
-                             failure->first->text + "; again with: " + again};
+    return {kExitVerify, disagreementOf(*failure) + "; again with: " + again};
 }
 
 Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
@@ -83,24 +82,18 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    std::optional<device::Session> session; // ends after what the scene has on it
     const Result<Scene> scene = readScene(options);
     VOXTACT_TRY(scene);
     CompareResult result;
-    std::shared_ptr<const device::ValidationMessages> messages;
-    {
-        Result<device::Session> opened = openSession(options.device);
-        VOXTACT_TRY(opened);
-        session.emplace(std::move(*opened));
-        messages = session->instance.messages();
-        result.machine = describeMachine(*session, scene->volume->data.type, provenanceOf(parser));
+    const auto measure = [&](const device::Session& session) {
+        result.machine = describeMachine(session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
-        VOXTACT_TRY(compare(options.settings, *scene, *session, shown.steps(), result));
-    }
-    scene->leaveDevice();
-    session.reset();
-    if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
-        return invalid;
+        Result<void> done = compare(options.settings, *scene, session, shown.steps(), result);
+        scene->leaveDevice();
+        return done;
+    };
+    if (Outcome failed = measureOn(options.device, measure); failed.status != kExitDone) {
+        return failed;
     }
     Outcome outcome = outcomeOf(options, parser, result);
     if (outcome.status != kExitDone && !options.settings.keepGoing) {

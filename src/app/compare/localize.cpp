@@ -45,27 +45,20 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    std::optional<device::Session> session; // ends after what the scene has on it
     const Result<Scene> scene = readScene(options);
     VOXTACT_TRY(scene);
     LocalizeResult result;
-    std::shared_ptr<const device::ValidationMessages> messages;
-    {
-        Result<device::Session> opened = openSession(options.device);
-        VOXTACT_TRY(opened);
-        session.emplace(std::move(*opened));
-        messages = session->instance.messages();
-        result.machine = describeMachine(*session, scene->volume->data.type, provenanceOf(parser));
+    const auto measure = [&](const device::Session& session) {
+        result.machine = describeMachine(session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
         const Steps steps = shown.steps();
         steps.begin(std::uint64_t{options.settings.repeats} * scene->poses.size());
-        const Result<void> done = localize(*session, options.settings, *scene, result, steps.step);
-        VOXTACT_TRY(done);
-    }
-    scene->leaveDevice();
-    session.reset();
-    if (Outcome invalid = validationOutcome(*messages); invalid.status != kExitDone) {
-        return invalid;
+        Result<void> done = localize(session, options.settings, *scene, result, steps.step);
+        scene->leaveDevice();
+        return done;
+    };
+    if (Outcome failed = measureOn(options.device, measure); failed.status != kExitDone) {
+        return failed;
     }
     Outcome outcome = outcomeOf(result, parser);
     if (outcome.status != kExitDone && !options.settings.keepGoing) {

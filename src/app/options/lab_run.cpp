@@ -95,6 +95,17 @@ Steps ShownSteps::steps() {
             [this] { progress_->update(++done_); }, [this](const std::string& what) { progress_->doing(what); }};
 }
 
+Outcome measureOn(const DeviceChoice& choice, const std::function<Result<void>(const device::Session&)>& measure) {
+    std::shared_ptr<const device::ValidationMessages> messages;
+    {
+        const Result<device::Session> session = openSession(choice);
+        VOXTACT_TRY(session);
+        messages = session->instance.messages();
+        VOXTACT_TRY(measure(*session));
+    }
+    return validationOutcome(*messages);
+}
+
 Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
                               const std::vector<NamedPath>& inputs) {
     VOXTACT_TRY(report.empty() ? Result<void>() : reportPossible());

@@ -36,6 +36,11 @@ class ShownSteps {
     std::uint64_t done_ = 0;
 };
 
+/// Opens the session of the device that the user chose, measures on it, and ends it; then says what the validation
+/// layer found until its end. Nothing that `measure` leaves behind may be on the device.
+[[nodiscard]] Outcome measureOn(const DeviceChoice& choice,
+                                const std::function<Result<void>(const device::Session&)>& measure);
+
 /// checkOutputs() of both, each of them may be empty. Unsupported where there is to be a report, and the program was
 /// built without the library that draws the charts.
 [[nodiscard]] Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,

@@ -10,21 +10,6 @@ namespace voxtact::lab {
 
 namespace {
 
-Result<double> takeBatch(KnownPoses& poses, Engine& engine, bool kept, BenchRow& row, std::string& disagreement) {
-    const Result<Pass> pass = engine.run(poses.at(0, row.pairs), {});
-    VOXTACT_TRY(pass);
-    std::size_t wrongAt = 0;
-    if (const std::string wrong = poses.judge(*pass, 0, kept, row, wrongAt); !wrong.empty()) {
-        disagreement =
-            row.mesh + ", pose " + std::to_string(wrongAt) + " of " + std::to_string(row.pairs) + ": " + wrong;
-    }
-    if (kept) {
-        row.wall.push_back(pass->wallMilliseconds);
-        keep(pass->gpuMilliseconds, row.gpu);
-    }
-    return pass->wallMilliseconds;
-}
-
 /// One size, by every engine that is still `alive`; those for which the next would take longer than `longest` ms end,
 /// and all where the host would take longer than `mostLearning` ms to say what must be answered.
 Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<Engine*>& alive, std::uint32_t batch,
@@ -38,9 +23,8 @@ Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<Eng
     std::vector<Timed> things;
     for (Engine* const engine : alive) {
         const std::size_t row = run.addRow(*engine, "", batch);
-        things.push_back({.take = [&, engine, row](const Turn& turn) {
-            return takeBatch(poses, *engine, turn.round > 0, rows[row], run.result.disagreement);
-        }});
+        things.push_back(
+            {.take = [&, engine, row](const Turn& turn) { return poses.take(*engine, 0, turn.round > 0, rows[row]); }});
     }
     VOXTACT_TRY(run.time(things, {.repeats = run.settings.repetitions, .warmUp = true}));
     if (run.result.disagreement.empty()) {
@@ -65,7 +49,7 @@ std::vector<std::uint32_t> batchSizes(std::uint32_t most) {
 
 Result<void> benchBatches(const BenchRun& run) {
     KnownPoses poses(
-        run.work,
+        run,
         randomPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number, run.settings.seed),
         *run.engines[0], *run.engines[1]);
     // The largest batch, its warm-up and what is smaller: a ninth more.

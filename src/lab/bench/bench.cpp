@@ -24,50 +24,40 @@ LabelData octants(const Grid& grid) {
     return labels;
 }
 
-/// What a mode does with a mesh, and the steps of it.
-struct Part {
+/// What is of one mode alone.
+struct ModeRow {
+    BenchDefaults defaults;
+    void (*addEngines)(const BenchParts& parts, EngineList& engines);
     Result<void> (*run)(const BenchRun& run);
-    std::uint64_t steps;
+    std::uint64_t (*steps)(const BenchSettings& settings); ///< that `run` takes
 };
 
-Part partOf(const BenchSettings& settings) {
-    switch (settings.mode) {
-    case BenchMode::Certified:
-        return {benchPoses, std::uint64_t{2} * settings.repetitions};
-    case BenchMode::Outputs:
-        return {benchPoses, settings.repetitions};
-    case BenchMode::Latency:
-        return {benchTicks, std::uint64_t{tickRounds(settings.number)} + 1};
-    case BenchMode::Batches:
-        break;
-    }
-    return {benchBatches, batchSizes(settings.number).size()};
+const ModeRow& rowOf(BenchMode mode) {
+    static const std::array<ModeRow, 4> kRows{{
+        {{.meshes = {"builtin:scalpel:3068", "builtin:ellipsoid:49998"}},
+         addCertified,
+         benchPoses,
+         [](const BenchSettings& settings) { return std::uint64_t{2} * settings.repetitions; }},
+        {{.volume = "builtin:head:128"},
+         addOutputs,
+         benchPoses,
+         [](const BenchSettings& settings) { return std::uint64_t{settings.repetitions}; }},
+        {{.number = 10000},
+         addLatency,
+         benchTicks,
+         [](const BenchSettings& settings) { return std::uint64_t{tickRounds(settings.number)} + 1; }},
+        {{.number = 100000, .repetitions = 3},
+         addBatches,
+         benchBatches,
+         [](const BenchSettings& settings) { return std::uint64_t{batchSizes(settings.number).size()}; }},
+    }};
+    return kRows.at(static_cast<std::size_t>(mode));
 }
 
 } // namespace
 
-BenchSettings defaultSettings(BenchMode mode) {
-    BenchSettings settings{.mode = mode};
-    if (mode == BenchMode::Latency) {
-        settings.number = 10000;
-    } else if (mode == BenchMode::Batches) {
-        settings.number = 100000;
-        settings.repetitions = 3;
-    }
-    return settings;
-}
-
-const char* defaultVolume(BenchMode mode) {
-    // The large scene is for engines that skip what cannot touch.
-    return mode == BenchMode::Outputs ? "builtin:head:128" : "builtin:head:256";
-}
-
-std::vector<std::string> defaultMeshes(BenchMode mode) {
-    std::vector<std::string> meshes{"builtin:scalpel:3068"};
-    if (mode == BenchMode::Certified) {
-        meshes.emplace_back("builtin:ellipsoid:49998");
-    }
-    return meshes;
+BenchDefaults defaultsOf(BenchMode mode) {
+    return rowOf(mode).defaults;
 }
 
 std::size_t BenchRun::addRow(const Engine& engine, const char* poses, std::size_t pairs) const {
@@ -103,13 +93,15 @@ Result<void> bench(const BenchSettings& settings, const device::Session* session
     if (settings.mode == BenchMode::Certified) {
         result.notes.push_back(makeOctree(volume));
     }
-    const Part part = partOf(settings);
-    steps.begin(part.steps * meshes.size());
+    const ModeRow& mode = rowOf(settings.mode);
+    steps.begin(mode.steps(settings) * meshes.size());
     for (MeshPart& mesh : meshes) {
         VOXTACT_TRY(makeReady(session, mesh));
-        const Result<Engines> engines = makeBenchEngines(settings.mode, volume, mesh, session);
+        EngineList list;
+        mode.addEngines({volume, mesh, session}, list);
+        const Result<Engines> engines = list.take();
         VOXTACT_TRY(engines);
-        VOXTACT_TRY(part.run({.settings = settings,
+        VOXTACT_TRY(mode.run({.settings = settings,
                               .work = {volume, mesh, {}, {framingCamera(volume.data.grid, 512, 512), 512, 512}},
                               .engines = *engines,
                               .limit = settings.timeLimit * 1000 / static_cast<double>(meshes.size()),

@@ -23,14 +23,18 @@ struct BenchSettings {
     std::uint32_t repetitions = 7; ///< not of ticks
     double timeLimit = 60;         ///< seconds of ticks and batches: fewer of them are taken where they do not fit
 };
-/// With the number and the repetitions of a mode where none were asked for.
-[[nodiscard]] BenchSettings defaultSettings(BenchMode mode);
 /// Ticks of a measurement, at most: all their poses are held at once.
 inline constexpr std::uint32_t kMostTicks = 10'000'000;
 
-/// The scene of a mode where none was asked for: its volume and how many voxels of it are opaque, and its meshes.
-[[nodiscard]] const char* defaultVolume(BenchMode mode);
-[[nodiscard]] std::vector<std::string> defaultMeshes(BenchMode mode);
+/// What a mode measures where nothing else was asked for.
+struct BenchDefaults {
+    std::uint32_t number = 256;
+    std::uint32_t repetitions = 7;
+    const char* volume = "builtin:head:256"; ///< large, for engines that skip what cannot touch
+    std::vector<std::string> meshes{"builtin:scalpel:3068"};
+};
+[[nodiscard]] BenchDefaults defaultsOf(BenchMode mode);
+/// Of the voxels of such a volume, which are opaque.
 inline constexpr const char* kDefaultOpacity = "40:0,80:1";
 
 /// One engine on one set of pairs of one mesh. Samples are in the order of the rounds.
@@ -65,15 +69,6 @@ struct BenchResult {
     std::string disagreement; ///< of engines that must agree; empty: there is none
     std::vector<BenchRow> rows;
 };
-
-/// The engines of a mode for this volume and mesh, which must be ready and outlive them. `session` may be null: no
-/// engines of a device.
-///   certified  the first is the host's yes or no on one thread, the second the host's count
-///   outputs    the first is the host's count in the view, the second the host's in the projection conservative
-///   latency    an empty submission, the host, and every method of the device, polled and waited for
-///   batches    the first is the host's certified yes or no, the second its count in the view
-[[nodiscard]] Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
-                                               const device::Session* session);
 
 /// Engines side by side on each of the meshes, checked and timed, in the view. The volume and the meshes are made
 /// ready; `session` may be null, and must outlive the parts. `result` has the machine.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/method/method_table.h"
 #include "detect/output_parts.h"
-#include "lab/bench/bench.h"
+#include "lab/bench/parts.h"
 
 #include <algorithm>
 #include <array>
@@ -39,26 +39,6 @@ DetectorDesc methodOf(CountingMethod method) {
     return {.method = method, .filter = defaultFilter(method)};
 }
 
-void addCertified(const VolumePart& volume, const MeshPart& mesh, const device::Session* session, EngineList& engines) {
-    auto host = askedOf(cpu::DetectorDesc{});
-    cpu::DetectorDesc alone = host[0];
-    alone.threads = 1;
-    for (const cpu::DetectorDesc& desc : {alone, host[1], host[0], host[2]}) {
-        engines.add(makeHostEngine(desc));
-    }
-    const auto computed = askedOf(methodOf(CountingMethod::Compute));
-    for (const DetectorDesc& desc : {computed[0], computed[1], methodOf(CountingMethod::Query)}) {
-        if (can(session, desc.method, desc.projection)) {
-            engines.add(makeBlockingEngine(*session, desc));
-        }
-    }
-    for (const FclScalar scalar : {FclScalar::Float, FclScalar::Double}) {
-        if (volume.fcl != nullptr) {
-            engines.add(makeFclEngine(volume, mesh, scalar));
-        }
-    }
-}
-
 /// Projections of the host, and then outputs in two of them.
 void addHostOutputs(EngineList& engines) {
     constexpr std::array kOrder{Projection::View, Projection::Conservative, Projection::TwoView,
@@ -93,20 +73,6 @@ void addDeviceOutputs(const device::Session& session, CountingMethod method, Pro
     }
 }
 
-void addOutputs(const device::Session* session, EngineList& engines) {
-    addHostOutputs(engines);
-    constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
-        {CountingMethod::Query, Projection::View},
-        {CountingMethod::Atomic, Projection::View},
-        {CountingMethod::Compute, Projection::Conservative},
-    };
-    for (const auto& [method, withOutputs] : kOfDevice) {
-        if (can(session, method, withOutputs)) {
-            addDeviceOutputs(*session, method, withOutputs, engines);
-        }
-    }
-}
-
 /// A method of the device, polled and waited for; nothing: an empty submission.
 void addTicks(const device::Session& session, const std::optional<DetectorDesc>& desc, EngineList& engines) {
     for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
@@ -129,9 +95,45 @@ void addDeviceTicks(const device::Session& session, EngineList& engines) {
     }
 }
 
-void addLatency(const device::Session* session, EngineList& engines) {
-    if (session != nullptr) {
-        addTicks(*session, std::nullopt, engines);
+} // namespace
+
+void addCertified(const BenchParts& parts, EngineList& engines) {
+    auto host = askedOf(cpu::DetectorDesc{});
+    cpu::DetectorDesc alone = host[0];
+    alone.threads = 1;
+    for (const cpu::DetectorDesc& desc : {alone, host[1], host[0], host[2]}) {
+        engines.add(makeHostEngine(desc));
+    }
+    const auto computed = askedOf(methodOf(CountingMethod::Compute));
+    for (const DetectorDesc& desc : {computed[0], computed[1], methodOf(CountingMethod::Query)}) {
+        if (can(parts.session, desc.method, desc.projection)) {
+            engines.add(makeBlockingEngine(*parts.session, desc));
+        }
+    }
+    for (const FclScalar scalar : {FclScalar::Float, FclScalar::Double}) {
+        if (parts.volume.fcl != nullptr) {
+            engines.add(makeFclEngine(parts.volume, parts.mesh, scalar));
+        }
+    }
+}
+
+void addOutputs(const BenchParts& parts, EngineList& engines) {
+    addHostOutputs(engines);
+    constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
+        {CountingMethod::Query, Projection::View},
+        {CountingMethod::Atomic, Projection::View},
+        {CountingMethod::Compute, Projection::Conservative},
+    };
+    for (const auto& [method, withOutputs] : kOfDevice) {
+        if (can(parts.session, method, withOutputs)) {
+            addDeviceOutputs(*parts.session, method, withOutputs, engines);
+        }
+    }
+}
+
+void addLatency(const BenchParts& parts, EngineList& engines) {
+    if (parts.session != nullptr) {
+        addTicks(*parts.session, std::nullopt, engines);
     }
     const std::uint32_t threads = std::max(1U, std::thread::hardware_concurrency());
     for (cpu::DetectorDesc desc : askedOf(cpu::DetectorDesc{.threads = 1})) {
@@ -141,44 +143,22 @@ void addLatency(const device::Session* session, EngineList& engines) {
             engines.add(makeHostEngine(desc));
         }
     }
-    if (session != nullptr) {
-        addDeviceTicks(*session, engines);
+    if (parts.session != nullptr) {
+        addDeviceTicks(*parts.session, engines);
     }
 }
 
-void addBatches(const device::Session* session, EngineList& engines) {
+void addBatches(const BenchParts& parts, EngineList& engines) {
     const auto host = askedOf(cpu::DetectorDesc{});
     engines.add(makeHostEngine(host[0]));
     engines.add(makeHostEngine(host[2]));
     const auto computed = askedOf(methodOf(CountingMethod::Compute));
     for (const DetectorDesc& desc :
          {computed[0], computed[2], methodOf(CountingMethod::Query), methodOf(CountingMethod::Atomic)}) {
-        if (can(session, desc.method, desc.projection)) {
-            engines.add(makeDeviceEngine(*session, desc));
+        if (can(parts.session, desc.method, desc.projection)) {
+            engines.add(makeDeviceEngine(*parts.session, desc));
         }
     }
-}
-
-} // namespace
-
-Result<Engines> makeBenchEngines(BenchMode mode, const VolumePart& volume, const MeshPart& mesh,
-                                 const device::Session* session) {
-    EngineList engines;
-    switch (mode) {
-    case BenchMode::Certified:
-        addCertified(volume, mesh, session, engines);
-        break;
-    case BenchMode::Outputs:
-        addOutputs(session, engines);
-        break;
-    case BenchMode::Latency:
-        addLatency(session, engines);
-        break;
-    case BenchMode::Batches:
-        addBatches(session, engines);
-        break;
-    }
-    return engines.take();
 }
 
 } // namespace voxtact::lab

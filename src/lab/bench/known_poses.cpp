@@ -2,6 +2,7 @@
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "lab/bench/parts.h"
+#include "lab/measure/numbers.h"
 
 #include <algorithm>
 
@@ -70,19 +71,31 @@ Result<void> KnownPoses::learn(std::size_t end) {
     return {};
 }
 
-std::string KnownPoses::judge(const Pass& pass, std::size_t first, bool kept, BenchRow& row, std::size_t& wrongAt) {
-    for (std::size_t i = 0; i < pass.pairs.size(); ++i) {
-        const PairAnswer& answer = pass.pairs[i];
+Result<double> KnownPoses::take(Engine& engine, std::size_t first, bool kept, BenchRow& row) {
+    const Result<Pass> pass = engine.run(at(first, row.pairs), {});
+    VOXTACT_TRY(pass);
+    for (std::size_t i = 0; i < pass->pairs.size(); ++i) {
+        const PairAnswer& answer = pass->pairs[i];
         PoseTruth& truth = truths_[first + i];
-        std::string wrong = judgePose(row.engine, answer, truth);
+        const std::string wrong = judgePose(row.engine, answer, truth);
         row.touching += kept && answer.hit ? 1 : 0;
         row.rounding += kept && !row.engine.certified && differs(answer, truth.view) ? 1 : 0;
         if (!wrong.empty()) {
-            wrongAt = first + i;
-            return wrong;
+            const std::string number = std::to_string(first + i);
+            run_.result.disagreement =
+                row.mesh +
+                (run_.settings.mode == BenchMode::Latency ? ", tick " + number
+                                                          : ", pose " + number + " of " + std::to_string(row.pairs)) +
+                ": " + wrong;
+            break;
         }
     }
-    return {};
+    if (kept) {
+        row.wall.push_back(pass->wallMilliseconds);
+        keep(pass->gpuMilliseconds, row.gpu);
+        keep(pass->recordMilliseconds, row.recording);
+    }
+    return pass->wallMilliseconds;
 }
 
 } // namespace voxtact::lab

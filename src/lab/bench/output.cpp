@@ -57,7 +57,28 @@ void addBatchColumns(const BenchRow& row, Row& out) {
         .add("pairs_per_s", 1000 * static_cast<double>(row.pairs) / std::max(medianOf(row.wall), 1e-6));
 }
 
-Row rowOf(BenchMode mode, const BenchRow& row) {
+/// How a mode is written.
+struct ModeOutput {
+    void (*addColumns)(const BenchRow& row, Row& out);
+    std::vector<const char*> notInText; ///< columns that are left out of the table for people
+    const char* about;                  ///< behind the name of the volume
+};
+
+const ModeOutput& outputOf(BenchMode mode) {
+    static const std::vector<const char*> kNotOfRates{
+        "triangles",           "pairs",      "samples",        "pairs_per_cpu_s_min",
+        "pairs_per_cpu_s_max", "wall_ratio", "wall_ratio_min", "wall_ratio_max"};
+    static const std::array<ModeOutput, 4> kOutputs{{
+        {addRateColumns, kNotOfRates, ", ratios to the first engine of each scene, round by round"},
+        {addRateColumns, kNotOfRates,
+         ", ratios of projections to the view by the same method, of outputs to the bare count, round by round"},
+        {addTickColumns, {"triangles", "touching", "rounding"}, ", one pair a tick"},
+        {addBatchColumns, {}, ", a batch is a submission that is waited for, or a call of the host"},
+    }};
+    return kOutputs.at(static_cast<std::size_t>(mode));
+}
+
+Row rowOf(const ModeOutput& mode, const BenchRow& row) {
     Row out;
     out.add("mesh", row.mesh).add("triangles", row.triangles);
     if (!row.poses.empty()) {
@@ -67,25 +88,8 @@ Row rowOf(BenchMode mode, const BenchRow& row) {
         .addSome("projection", row.engine.projection)
         .addSome("question", row.engine.question)
         .add("threads", row.engine.threads > 0 ? std::optional(row.engine.threads) : std::nullopt);
-    (mode == BenchMode::Latency   ? addTickColumns
-     : mode == BenchMode::Batches ? addBatchColumns
-                                  : addRateColumns)(row, out);
+    mode.addColumns(row, out);
     return out;
-}
-
-/// What is left out of the table for people.
-std::vector<const char*> notInText(BenchMode mode) {
-    switch (mode) {
-    case BenchMode::Batches:
-        return {};
-    case BenchMode::Latency:
-        return {"triangles", "touching", "rounding"};
-    case BenchMode::Certified:
-    case BenchMode::Outputs:
-        break;
-    }
-    return {"triangles",           "pairs",      "samples",        "pairs_per_cpu_s_min",
-            "pairs_per_cpu_s_max", "wall_ratio", "wall_ratio_min", "wall_ratio_max"};
 }
 
 std::string shortText(double value) {
@@ -163,27 +167,14 @@ std::vector<std::string> soonestTicks(const BenchResult& result) {
     return out;
 }
 
-std::string aboutOf(BenchMode mode) {
-    switch (mode) {
-    case BenchMode::Certified:
-        return ", ratios to the first engine of each scene, round by round";
-    case BenchMode::Outputs:
-        return ", ratios of projections to the view by the same method, of outputs to the bare count, round by round";
-    case BenchMode::Latency:
-        return ", one pair a tick";
-    case BenchMode::Batches:
-        break;
-    }
-    return ", a batch is a submission that is waited for, or a call of the host";
-}
-
 } // namespace
 
 void writeBench(std::ostream& out, io::Format format, const BenchSettings& settings, const BenchResult& result) {
     const BenchMode mode = settings.mode;
     const bool ticks = mode == BenchMode::Latency;
-    const auto row = [mode](const BenchRow& of) { return rowOf(mode, of); };
-    Output output{.machine = result.machine, .members = {}, .about = "volume " + result.volume + aboutOf(mode)};
+    const ModeOutput& how = outputOf(mode);
+    const auto row = [&how](const BenchRow& of) { return rowOf(how, of); };
+    Output output{.machine = result.machine, .members = {}, .about = "volume " + result.volume + how.about};
     output.notes = result.notes;
     output.sentences = ticks ? soonestTicks(result) : besideFcl(result);
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
@@ -192,7 +183,7 @@ void writeBench(std::ostream& out, io::Format format, const BenchSettings& setti
                                " ticks are of the first ones: the engine's share of --time-limit was used up");
     }
     const std::vector<io::NamedCells> rows = cellsOf(result.rows, row);
-    output.table = format == io::Format::Text ? tableWithout(notInText(mode), rows) : tableOf(rows);
+    output.table = format == io::Format::Text ? tableWithout(how.notInText, rows) : tableOf(rows);
     output.members["scene"] = {{"volume", result.volume},
                                {"voxels", result.voxels},
                                {"threshold", result.threshold},

@@ -30,6 +30,21 @@ struct BenchRun {
 /// 1, 10, 100, ... and `most`.
 [[nodiscard]] std::vector<std::uint32_t> batchSizes(std::uint32_t most);
 
+/// What the engines of a mode are made for: it is ready and outlives them. `session` may be null: none of a device.
+struct BenchParts {
+    const VolumePart& volume;
+    const MeshPart& mesh;
+    const device::Session* session;
+};
+/// The first is the host's yes or no on one thread, the second the host's count.
+void addCertified(const BenchParts& parts, EngineList& engines);
+/// The first is the host's count in the view, the second the host's in the projection conservative.
+void addOutputs(const BenchParts& parts, EngineList& engines);
+/// An empty submission, the host, and every method of the device, polled and waited for.
+void addLatency(const BenchParts& parts, EngineList& engines);
+/// The first is the host's certified yes or no, the second its count in the view.
+void addBatches(const BenchParts& parts, EngineList& engines);
+
 /// Whether the mesh touches at a pose, by an engine.
 [[nodiscard]] std::function<Result<bool>(const Mat4& pose)> touchesBy(Engine& engine, const Work& work);
 
@@ -56,24 +71,25 @@ inline constexpr std::uint64_t kRoundedFragments = 64;
 class KnownPoses {
   public:
     /// What must be answered is what `certified` and `view` say, two engines of the host.
-    KnownPoses(const Work& work, std::vector<Mat4> poses, Engine& certified, Engine& view)
-        : work_(work), poses_(std::move(poses)), certified_(certified), view_(view) {}
+    KnownPoses(const BenchRun& run, std::vector<Mat4> poses, Engine& certified, Engine& view)
+        : run_(run), poses_(std::move(poses)), certified_(certified), view_(view) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return poses_.size(); }
-    [[nodiscard]] Work at(std::size_t first, std::size_t count) const {
-        return work_.at(std::span(poses_).subspan(first, count));
-    }
     /// Up to a pose.
     [[nodiscard]] Result<void> learn(std::size_t end);
     /// ms that the last ones took.
     [[nodiscard]] double learning() const noexcept { return learning_; }
-    /// Holds the answers from pose `first` on against what must be answered, counts in `row` if they are `kept`, and
-    /// says what is wrong of pose `wrongAt`, or nothing.
-    [[nodiscard]] std::string judge(const Pass& pass, std::size_t first, bool kept, BenchRow& row,
-                                    std::size_t& wrongAt);
+    /// One sample of an engine: as many pairs as its row has, from pose `first` on. Its answers are held against what
+    /// must be answered, and what is wrong is the result's disagreement. Returns the sample's ms; its times and what it
+    /// found are in the row if it is `kept`.
+    [[nodiscard]] Result<double> take(Engine& engine, std::size_t first, bool kept, BenchRow& row);
 
   private:
-    Work work_;
+    [[nodiscard]] Work at(std::size_t first, std::size_t count) const {
+        return run_.work.at(std::span(poses_).subspan(first, count));
+    }
+
+    const BenchRun& run_;
     std::vector<Mat4> poses_;
     std::vector<PoseTruth> truths_; ///< of the first poses
     Engine& certified_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/try.h"
 #include "lab/bench/parts.h"
-#include "lab/measure/numbers.h"
 #include "lab/measure/poses.h"
 
 #include <algorithm>
@@ -15,36 +14,20 @@ constexpr std::uint32_t kLeadIn = 10; ///< before them, not timed: what the engi
 constexpr std::uint32_t kFewest = 10; ///< of a block that is cut because it takes too long
 constexpr std::uint32_t kWarmUp = 50; ///< ticks of the warm-up
 
-/// One tick: its time, and whether its answer is right.
-Result<double> takeTick(KnownPoses& poses, Engine& engine, std::size_t tick, bool kept, BenchRow& row,
-                        std::string& disagreement) {
-    const Result<Pass> pass = engine.run(poses.at(tick, 1), {});
-    VOXTACT_TRY(pass);
-    std::size_t wrongAt = 0;
-    if (const std::string wrong = poses.judge(*pass, tick, kept, row, wrongAt); !wrong.empty()) {
-        disagreement = row.mesh + ", tick " + std::to_string(wrongAt) + ": " + wrong;
-    }
-    if (kept) {
-        row.wall.push_back(pass->wallMilliseconds);
-        keep(pass->recordMilliseconds, row.recording);
-    }
-    return pass->wallMilliseconds;
-}
-
 /// The ticks of a turn; fewer where the engine has used up its time.
-Result<double> takeBlock(KnownPoses& poses, Engine& engine, const Turn& turn, double limit, BenchRow& row,
-                         std::string& disagreement) {
+Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, Engine& engine, const Turn& turn, double limit,
+                         BenchRow& row) {
     const std::size_t begin = turn.round == 0 ? 0 : (turn.round - 1) * kBlock;
     const std::size_t end = std::min<std::size_t>(begin + kLeadIn + (turn.round == 0 ? kWarmUp : kBlock), poses.size());
     VOXTACT_TRY(poses.learn(end));
     const double most = turn.round == 0 ? limit / 4 : limit;
     double spent = 0;
-    for (std::size_t tick = begin; tick < end && disagreement.empty(); ++tick) {
+    for (std::size_t tick = begin; tick < end && run.result.disagreement.empty(); ++tick) {
         if (spent > most && tick >= begin + kLeadIn + kFewest) {
             break;
         }
         const bool kept = turn.round > 0 && tick >= begin + kLeadIn;
-        const Result<double> took = takeTick(poses, engine, tick, kept, row, disagreement);
+        const Result<double> took = poses.take(engine, tick, kept, row);
         VOXTACT_TRY(took);
         spent += *took;
     }
@@ -76,17 +59,15 @@ Result<void> benchTicks(const BenchRun& run) {
     VOXTACT_TRY(view);
     Result<std::vector<Mat4>> all = makePoses(run, **certified);
     VOXTACT_TRY(all);
-    KnownPoses poses(run.work, std::move(*all), **certified, **view);
+    KnownPoses poses(run, std::move(*all), **certified, **view);
     const double share = run.limit / static_cast<double>(run.engines.size());
     std::vector<Timed> things;
     for (const std::unique_ptr<Engine>& engine : run.engines) {
         const std::size_t row = run.addRow(*engine, "", 1);
-        things.push_back({.take =
-                              [&, row](const Turn& turn) {
-                                  return takeBlock(poses, *engine, turn, share, run.result.rows[row],
-                                                   run.result.disagreement);
-                              },
-                          .limit = share});
+        const auto take = [&, row](const Turn& turn) {
+            return takeBlock(run, poses, *engine, turn, share, run.result.rows[row]);
+        };
+        things.push_back({.take = take, .limit = share});
     }
     return run.time(things, {.repeats = tickRounds(run.settings.number), .warmUp = true, .step = run.step});
 }

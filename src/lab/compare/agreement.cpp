@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/agreement.h"
 
-#include "core/method/method_table.h"
 #include "lab/measure/numbers.h"
 
 #include <algorithm>
@@ -15,10 +14,34 @@ std::string countText(const NamedCounts& counts, std::size_t at) {
     return counts.method + " " + std::to_string(counts.counts[at]);
 }
 
-std::string fragmentText(const DifferingFragment& fragment) {
+/// Of methods that must all count the same.
+Verdict verdictOn(const std::vector<std::string>& methods) {
+    return {.rule = joined(methods, " = "), .members = listed(methods)};
+}
+
+/// Holds counts against each other, pose by pose: how far they are `apart`, and in words. A rule tells the first pose
+/// that breaks it; what is only told, the pose with the largest difference.
+template <class Apart, class Text>
+void comparePoses(std::span<const std::uint32_t> poses, Verdict& verdict, Apart apart, Text text) {
+    verdict.compared = poses.size();
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const std::uint64_t difference = apart(i);
+        if (difference == 0) {
+            continue;
+        }
+        ++verdict.differing;
+        if (!verdict.first || (!verdict.required && difference > verdict.largest)) {
+            verdict.first = {poses[i], text(i)};
+        }
+        verdict.largest = std::max(verdict.largest, difference);
+    }
+}
+
+std::string fragmentText(const DifferingFragment& differing) {
+    const oracle::OracleFragment& fragment = differing.fragment;
     return "the fragment of triangle " + std::to_string(fragment.triangle) + " at pixel " + std::to_string(fragment.x) +
            "," + std::to_string(fragment.y) +
-           (fragment.onDevice ? " is the device's, not the oracle's" : " is the oracle's, not the device's") +
+           (differing.onDevice ? " is the device's, not the oracle's" : " is the oracle's, not the device's") +
            ", and rounding is no reason";
 }
 
@@ -28,151 +51,111 @@ std::optional<std::string> faultOf(const FragmentCheck& check) {
         return "the device lists " + std::to_string(check.onDevice) + " fragments and counts " +
                std::to_string(*check.counted);
     }
-    const auto fault = std::find_if(check.differing.begin(), check.differing.end(),
-                                    [](const DifferingFragment& fragment) { return fragment.reason == kReasons[3]; });
+    const auto fault = std::ranges::find(check.differing, oracle::Doubt::None, &DifferingFragment::doubt);
     return fault == check.differing.end() ? std::nullopt : std::optional(fragmentText(*fault));
 }
 
-std::vector<NamedCounts> groupOf(std::span<const NamedCounts> counts, std::span<const CountingMethod> methods) {
+/// The rule for the methods of a group: those that were run must count the same.
+Verdict judgeGroup(std::span<const NamedCounts> run, Coverage coverage, std::span<const std::uint32_t> poses) {
+    if (!run.empty()) {
+        return judgeEqual(run, poses);
+    }
+    std::vector<std::string> names;
+    std::ranges::transform(methodsThatCount(coverage), std::back_inserter(names),
+                           [](CountingMethod method) { return toString(method); });
+    Verdict verdict = verdictOn(names);
+    verdict.unchecked = "none of them was run";
+    return verdict;
+}
+
+} // namespace
+
+std::string disagreementOf(const Verdict& verdict) {
+    return verdict.rule + ": disagreement on pose " + std::to_string(verdict.first->pose) + ": " + verdict.first->text;
+}
+
+std::vector<NamedCounts> countsBy(std::span<const NamedCounts> counts, Coverage coverage) {
     std::vector<NamedCounts> group;
-    for (const CountingMethod method : methods) {
+    for (const CountingMethod method : methodsThatCount(coverage)) {
         std::ranges::copy_if(counts, std::back_inserter(group),
                              [method](const NamedCounts& one) { return one.method == toString(method); });
     }
     return group;
 }
 
-/// Of methods of which none was run.
-Verdict noneRun(Coverage coverage) {
-    std::string rule;
-    for (const CountingMethod method : methodsThatCount(coverage)) {
-        rule += (rule.empty() ? "" : " = ") + std::string(toString(method));
+std::vector<Verdict> judgeCounts(std::span<const NamedCounts> counts, std::span<const std::uint32_t> poses) {
+    const std::vector<NamedCounts> raster = countsBy(counts, Coverage::Rasteriser);
+    const std::vector<NamedCounts> exact = countsBy(counts, Coverage::Computed);
+    const auto any = std::ranges::find(counts, toString(CountingMethod::QueryAny), &NamedCounts::method);
+    std::vector<Verdict> verdicts{judgeGroup(raster, Coverage::Rasteriser, poses)};
+    if (any != counts.end() && !raster.empty()) {
+        verdicts.push_back(judgeHits(*any, raster.front(), poses));
     }
-    return notChecked(rule, "none of them was run");
-}
-
-} // namespace
-
-std::vector<NamedCounts> rasterGroup(std::span<const NamedCounts> counts) {
-    return groupOf(counts, methodsThatCount(Coverage::Rasteriser));
-}
-
-std::vector<NamedCounts> exactGroup(std::span<const NamedCounts> counts) {
-    return groupOf(counts, methodsThatCount(Coverage::Computed));
-}
-
-std::vector<Verdict> judgeCounts(const std::vector<NamedCounts>& counts, std::span<const std::uint32_t> poses) {
-    const std::vector<NamedCounts> raster = rasterGroup(counts);
-    const std::vector<NamedCounts> exact = exactGroup(counts);
-    const std::vector<NamedCounts> any = groupOf(counts, std::array{CountingMethod::QueryAny});
-    std::vector<Verdict> verdicts;
-    verdicts.push_back(raster.empty() ? noneRun(Coverage::Rasteriser) : judgeEqual(raster, poses));
-    if (!any.empty() && !raster.empty()) {
-        verdicts.push_back(judgeHits(any.front(), raster.front(), poses));
-    }
-    verdicts.push_back(exact.empty() ? noneRun(Coverage::Computed) : judgeEqual(exact, poses));
+    verdicts.push_back(judgeGroup(exact, Coverage::Computed, poses));
     if (!raster.empty() && !exact.empty()) {
         verdicts.push_back(tellDifference(raster.front(), exact.back(), poses));
     }
     return verdicts;
 }
 
-Verdict notChecked(std::string rule, std::string why) {
-    Verdict verdict;
-    verdict.rule = std::move(rule);
-    verdict.unchecked = std::move(why);
-    return verdict;
-}
-
 Verdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint32_t> poses) {
-    Verdict verdict;
-    for (const NamedCounts& method : group) {
-        verdict.rule += (verdict.rule.empty() ? "" : " = ") + method.method;
-    }
+    std::vector<std::string> methods;
+    std::ranges::transform(group, std::back_inserter(methods), &NamedCounts::method);
+    Verdict verdict = verdictOn(methods);
     if (group.size() < 2) {
         verdict.unchecked = "there is no second method to compare with";
         return verdict;
     }
-    verdict.compared = poses.size();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto apart = [group](std::size_t i) {
         const auto [least, most] =
-            std::minmax_element(group.begin(), group.end(),
-                                [i](const NamedCounts& a, const NamedCounts& b) { return a.counts[i] < b.counts[i]; });
-        const std::uint64_t difference = most->counts[i] - least->counts[i];
-        if (difference == 0) {
-            continue;
-        }
-        ++verdict.differing;
-        verdict.largest = std::max(verdict.largest, difference);
-        if (!verdict.first) {
-            std::string text;
-            for (const NamedCounts& method : group) {
-                text += (text.empty() ? "" : ", ") + countText(method, i);
-            }
-            verdict.first = {poses[i], text};
-        }
-    }
+            std::ranges::minmax_element(group, {}, [i](const NamedCounts& one) { return one.counts[i]; });
+        return most->counts[i] - least->counts[i];
+    };
+    comparePoses(poses, verdict, apart, [group](std::size_t i) {
+        std::vector<std::string> counts;
+        std::ranges::transform(group, std::back_inserter(counts),
+                               [i](const NamedCounts& one) { return countText(one, i); });
+        return joined(counts, ", ");
+    });
     return verdict;
 }
 
 Verdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<const std::uint32_t> poses) {
-    Verdict verdict;
-    verdict.hits = true;
-    verdict.rule = any.method + " hits where " + exact.method + " does";
-    verdict.compared = poses.size();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        const bool hit = any.counts[i] != 0;
-        if (hit == (exact.counts[i] != 0)) {
-            continue;
-        }
-        ++verdict.differing;
-        if (!verdict.first) {
-            verdict.first = {poses[i], any.method + (hit ? " hits, " : " misses, ") + countText(exact, i)};
-        }
-    }
+    Verdict verdict{.rule = any.method + " hits where " + exact.method + " does", .hits = true};
+    const auto hits = [](const NamedCounts& by, std::size_t i) { return by.counts[i] != 0; };
+    comparePoses(
+        poses, verdict, [&](std::size_t i) { return hits(any, i) == hits(exact, i) ? 0 : 1; },
+        [&](std::size_t i) { return any.method + (hits(any, i) ? " hits, " : " misses, ") + countText(exact, i); });
+    verdict.largest = 0; // no difference of counts
     return verdict;
 }
 
 Verdict tellDifference(const NamedCounts& one, const NamedCounts& other, std::span<const std::uint32_t> poses) {
-    Verdict verdict;
-    verdict.rule = one.method + " and " + other.method;
+    Verdict verdict = verdictOn({one.method + " and " + other.method});
     verdict.required = false;
-    verdict.compared = poses.size();
     std::uint64_t all = 0;
-    std::uint64_t apart = 0;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    std::uint64_t sum = 0;
+    const auto apart = [&](std::size_t i) {
         const auto [least, most] = std::minmax(one.counts[i], other.counts[i]);
-        const std::uint64_t difference = most - least;
         all += other.counts[i];
-        apart += difference;
-        if (difference == 0) {
-            continue;
-        }
-        ++verdict.differing;
-        if (difference > verdict.largest) {
-            verdict.largest = difference;
-            verdict.first = {poses[i], countText(one, i) + ", " + countText(other, i)};
-        }
-    }
-    verdict.detail = grouped(apart) + " of " + grouped(all) + " fragments apart in all";
+        sum += most - least;
+        return most - least;
+    };
+    comparePoses(poses, verdict, apart, [&](std::size_t i) { return countText(one, i) + ", " + countText(other, i); });
+    verdict.detail = grouped(sum) + " of " + grouped(all) + " fragments apart in all";
     return verdict;
 }
 
-std::array<std::uint64_t, 4> countReasons(std::span<const FragmentCheck> checks) {
-    std::array<std::uint64_t, 4> counts{};
+std::uint64_t countOf(oracle::Doubt doubt, std::span<const FragmentCheck> checks) {
+    std::uint64_t count = 0;
     for (const FragmentCheck& check : checks) {
-        for (const DifferingFragment& fragment : check.differing) {
-            const auto found = std::find(kReasons.begin(), kReasons.end(), fragment.reason);
-            ++counts.at(std::min<std::size_t>(static_cast<std::size_t>(found - kReasons.begin()), 3));
-        }
+        count += static_cast<std::uint64_t>(std::ranges::count(check.differing, doubt, &DifferingFragment::doubt));
     }
-    return counts;
+    return count;
 }
 
 Verdict judgeFragments(std::span<const FragmentCheck> checks) {
-    Verdict verdict;
-    verdict.rule = kFragmentRule;
-    verdict.unit = "fragments";
+    Verdict verdict{.rule = kFragmentRule, .unit = "fragments"};
     for (const FragmentCheck& check : checks) {
         // In both, and on one side only: the union.
         verdict.compared += (check.onDevice + check.byOracle + check.differing.size()) / 2;
@@ -182,16 +165,15 @@ Verdict judgeFragments(std::span<const FragmentCheck> checks) {
             verdict.first = {check.pose, *fault};
         }
     }
-    const std::array<std::uint64_t, 4> reasons = countReasons(checks);
-    verdict.detail = "on " + std::to_string(checks.size()) + " poses";
-    bool any = false;
-    for (std::size_t i = 0; i < reasons.size(); ++i) {
-        if (reasons.at(i) > 0) {
-            verdict.detail += std::string(any ? ", " : ": ") + std::to_string(reasons.at(i)) + " by " +
-                              (i == 3 ? "nothing that explains them" : kReasons.at(i));
-            any = true;
+    std::vector<std::string> reasons;
+    for (const oracle::Doubt doubt : kDoubts) {
+        if (const std::uint64_t count = countOf(doubt, checks); count > 0) {
+            reasons.push_back(std::to_string(count) + " by " +
+                              (doubt == oracle::Doubt::None ? "nothing that explains them" : toString(doubt)));
         }
     }
+    verdict.detail =
+        "on " + std::to_string(checks.size()) + " poses" + (reasons.empty() ? "" : ": ") + joined(reasons, ", ");
     return verdict;
 }
 

@@ -11,7 +11,6 @@ namespace voxtact::lab {
 namespace {
 
 constexpr std::size_t kCountBatch = 1024;
-constexpr const char* kOracle = "oracle";
 
 /// The oracle's time is that of its checks: one thread, one pose after the other.
 void addOracleSeries(const Scene& scene, CompareResult& result) {
@@ -22,19 +21,11 @@ void addOracleSeries(const Scene& scene, CompareResult& result) {
     for (const FragmentCheck& check : result.fragmentChecks) {
         fragments += static_cast<double>(check.byOracle);
     }
-    const auto poses = static_cast<std::uint32_t>(result.fragmentChecks.size());
-    result.series.push_back({.sweep = Sweep::Batch,
-                             .method = kOracle,
-                             .mode = Mode::Sync,
-                             .batch = 1,
-                             .width = scene.view.width,
-                             .height = scene.view.height,
-                             .triangles = result.triangles,
-                             .pairs = poses,
-                             .fragments = fragments / poses,
-                             .wall = {*result.oracleMilliseconds},
-                             .gpu = {},
-                             .voxels = scene.volume->data.grid.size});
+    Series series = seriesOf(Sweep::Batch, kOracle, Work(scene), Mode::Sync, 1);
+    series.pairs = static_cast<std::uint32_t>(result.fragmentChecks.size());
+    series.fragments = fragments / series.pairs;
+    series.wall = {*result.oracleMilliseconds};
+    result.series.push_back(std::move(series));
 }
 
 } // namespace
@@ -46,6 +37,18 @@ const char* toString(Sweep sweep) noexcept {
 
 const char* toString(Mode mode) noexcept {
     return mode == Mode::Sync ? "sync" : "pipelined";
+}
+
+Series seriesOf(Sweep sweep, const std::string& method, const Work& work, Mode mode, std::uint32_t batch) {
+    return {.sweep = sweep,
+            .method = method,
+            .mode = mode,
+            .batch = batch,
+            .width = work.view.width,
+            .height = work.view.height,
+            .triangles = work.mesh->triangles(),
+            .pairs = static_cast<std::uint32_t>(work.poses.size()),
+            .voxels = work.volume->data.grid.size};
 }
 
 double Series::pairsPerSecond() const {
@@ -113,13 +116,19 @@ Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& wo
     return all;
 }
 
+Result<void> checkCounts(const CompareRun& run) {
+    Result<std::vector<NamedCounts>> counts = countAll(run.engines, Work(run.scene));
+    VOXTACT_TRY(counts);
+    run.result.counts = std::move(*counts);
+    run.result.verdicts = judgeCounts(run.result.counts, run.scene.poseNumbers);
+    run.step();
+    return {};
+}
+
 Result<void> compare(const CompareSettings& settings, const Scene& scene, const device::Session& session,
                      const Steps& steps, CompareResult& result) {
-    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
+    VOXTACT_TRY(makeReady(session, scene));
     result.poseNumbers = scene.poseNumbers;
-    result.triangles = scene.mesh->triangles();
-    VOXTACT_TRY(makeReady(session, {}, *scene.volume));
-    VOXTACT_TRY(makeReady(&session, *scene.mesh));
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
     VOXTACT_TRY(engines);
     std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, scene.poses.size());
@@ -127,17 +136,14 @@ Result<void> compare(const CompareSettings& settings, const Scene& scene, const 
         total += stepsOf(sweep, settings.repeats);
     }
     steps.begin(total);
-    Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(scene));
-    VOXTACT_TRY(counts);
-    result.counts = std::move(*counts);
-    result.verdicts = judgeCounts(result.counts, scene.poseNumbers);
-    steps.step();
-    VOXTACT_TRY(checkFragments(session, settings.oraclePoses, scene, result, steps.step));
+    const CompareRun run{session, settings, scene, *engines, result, steps.step};
+    VOXTACT_TRY(checkCounts(run));
+    VOXTACT_TRY(checkFragments(run));
     for (const Sweep sweep : settings.sweeps) {
-        if (result.firstFailure() != nullptr && !settings.keepGoing) {
+        if (run.ended()) {
             break;
         }
-        VOXTACT_TRY(timeSweep(sweep, session, settings, scene, *engines, result, steps.step));
+        VOXTACT_TRY(timeSweep(run, sweep));
         if (sweep == Sweep::Batch) {
             addOracleSeries(scene, result);
         }

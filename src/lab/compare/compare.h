@@ -29,16 +29,16 @@ enum class Mode { Sync, Pipelined };
 /// The times of one method at one point of a sweep.
 struct Series {
     Sweep sweep = Sweep::Batch;
-    std::string method;
+    std::string method{};
     Mode mode = Mode::Sync;
     std::uint32_t batch = 1; ///< the times are of so many pairs
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t triangles = 0;
-    std::uint32_t pairs = 0;         ///< measured in a sample
-    std::optional<double> fragments; ///< survivors of a pair, on average
-    std::vector<double> wall;        ///< ms of a batch, a sample each
-    std::vector<double> gpu;         ///< the same; empty where there is no GPU time
+    std::uint32_t pairs = 0;           ///< measured in a sample
+    std::optional<double> fragments{}; ///< survivors of a pair, on average
+    std::vector<double> wall{};        ///< ms of a batch, a sample each
+    std::vector<double> gpu{};         ///< the same; empty where there is no GPU time
     std::array<std::uint32_t, 3> voxels{};
 
     [[nodiscard]] double pairsPerSecond() const;
@@ -46,8 +46,13 @@ struct Series {
     /// Whether it answers more than yes or no, and is no judge.
     [[nodiscard]] bool counts() const;
 };
+/// Without times, of a method at a work.
+[[nodiscard]] Series seriesOf(Sweep sweep, const std::string& method, const Work& work, Mode mode, std::uint32_t batch);
 /// The fastest that counts, of those that `wanted` accepts; null where there is none.
 [[nodiscard]] const Series* fastestOf(std::span<const Series> all, const std::function<bool(const Series&)>& wanted);
+
+/// The series, and the counts, of the oracle.
+inline constexpr const char* kOracle = "oracle";
 
 struct MethodEntry {
     std::string name;
@@ -68,7 +73,6 @@ struct CompareResult {
     std::optional<double> oracleMilliseconds; ///< of a pose, on average
     std::vector<Series> series;
     std::vector<std::string> notes;
-    std::uint32_t triangles = 0;
 
     [[nodiscard]] const Verdict* firstFailure() const;
 };
@@ -85,21 +89,33 @@ struct CompareResult {
 /// Counts every pose by every method.
 [[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work);
 
-/// The device's fragments against the oracle's, on so many of the poses, spread evenly. Adds to `result` the checks,
-/// the verdicts and the oracle's counts and time.
-[[nodiscard]] Result<void> checkFragments(const device::Session& session, std::uint32_t poses, const Scene& scene,
-                                          CompareResult& result, const std::function<void()>& step);
+/// A comparison under way: of what, by whom, and where it goes what is found.
+struct CompareRun {
+    const device::Session& session;
+    const CompareSettings& settings;
+    const Scene& scene;
+    const Engines& engines;
+    CompareResult& result;
+    const std::function<void()>& step;
 
-/// Times one sweep and adds its series to `result`. Batches are of the scene; the others verify the counts of each
+    /// A verdict failed, and that ends it.
+    [[nodiscard]] bool ended() const { return result.firstFailure() != nullptr && !settings.keepGoing; }
+};
+
+/// Counts every pose by every method, and judges the counts.
+[[nodiscard]] Result<void> checkCounts(const CompareRun& run);
+/// The device's fragments against the oracle's, on as many poses as the settings say, spread evenly. Adds to the result
+/// the checks, the verdicts and the oracle's counts and time.
+[[nodiscard]] Result<void> checkFragments(const CompareRun& run);
+
+/// Times one sweep and adds its series to the result. Batches are of the scene; the others verify the counts of each
 /// point first, and time nothing where they are wrong and the run is not to go on:
 ///   triangles  builtin meshes of several sizes; another mesh is told in the notes
 ///   fragments  viewports of several sizes
 ///   voxels     a builtin volume of half to twice as many voxels a side; another volume is told in the notes, and so
 ///              are sizes that the device or the builtin cannot have. Mesh, poses, camera and transfer function stay.
-[[nodiscard]] Result<void> timeSweep(Sweep sweep, const device::Session& session, const CompareSettings& settings,
-                                     const Scene& scene, const Engines& engines, CompareResult& result,
-                                     const std::function<void()>& step);
-/// Steps that a sweep calls `step` for.
+[[nodiscard]] Result<void> timeSweep(const CompareRun& run, Sweep sweep);
+/// Steps of a sweep.
 [[nodiscard]] std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept;
 
 } // namespace voxtact::lab

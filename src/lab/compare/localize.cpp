@@ -4,7 +4,6 @@
 #include "core/base/try.h"
 #include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"
-#include "oracle/oracle.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,8 +18,7 @@ bool before(const TouchedTriangle& a, const TouchedTriangle& b) {
 
 /// The ways, as many as there are in LocalizeResult::ways; null where one cannot be had. The last is certified.
 Result<Engines> makeWays(const device::Session& session, const Scene& scene, LocalizeResult& result) {
-    Result<Engines> ways = makePolygonEngines(session, *scene.volume, *scene.mesh,
-                                              result.machine.eightBitFilter ? oracle::kEightBitFilterError : 0);
+    Result<Engines> ways = makePolygonEngines(session, *scene.volume, *scene.mesh, result.machine.filterError);
     MadeEngine certified = makeHostEngine({.projection = Projection::Conservative, .outputs = {.triangles = true}});
     if (!ways.ok() || !certified.ok()) {
         return ways.ok() ? certified.error() : ways.error();
@@ -82,33 +80,29 @@ Result<void> findOne(Engine& engine, const Work& work, bool keepsFound, Localize
     return {};
 }
 
-/// Every way on a pose.
-Result<void> findByAll(const Engines& engines, const Work& work, bool keep, std::vector<LocalizeWay>& ways) {
-    for (std::size_t i = 0; i < engines.size(); ++i) {
-        if (engines[i] == nullptr) {
-            continue;
-        }
-        VOXTACT_TRY(findOne(*engines[i], work, keep, ways[i]));
-    }
-    return {};
-}
-
 /// Every way on every pose; before the rounds, on the first one, one whose results go nowhere.
 Result<void> findAll(const Engines& engines, const CompareSettings& settings, const Scene& scene,
                      LocalizeResult& result, const std::function<void()>& step) {
     const Work work(scene);
+    const auto byAll = [&](std::size_t pose, bool keepsFound, std::vector<LocalizeWay>& ways) -> Result<void> {
+        for (std::size_t i = 0; i < engines.size(); ++i) {
+            if (engines[i] != nullptr) {
+                VOXTACT_TRY(findOne(*engines[i], work.at(work.poses.subspan(pose, 1)), keepsFound, ways[i]));
+            }
+        }
+        return {};
+    };
     std::vector<LocalizeWay> unkept = result.ways;
-    VOXTACT_TRY(findByAll(engines, work.at(work.poses.first(1)), true, unkept));
-    const auto aRound = [&](const Turn& turn) -> Result<double> {
+    VOXTACT_TRY(byAll(0, true, unkept));
+    Timed round{.take = [&](const Turn& turn) -> Result<double> {
         for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
-            VOXTACT_TRY(findByAll(engines, work.at(work.poses.subspan(pose, 1)), turn.round == 1, result.ways));
+            VOXTACT_TRY(byAll(pose, turn.round == 1, result.ways));
             step();
         }
         return 0.0;
-    };
-    Timed ways{.take = aRound};
+    }};
     const Result<std::uint64_t> rounds =
-        takeRounds({&ways, 1}, {.repeats = settings.repeats, .limit = settings.timeLimit * 1000});
+        takeRounds({&round, 1}, {.repeats = settings.repeats, .limit = settings.timeLimit * 1000});
     VOXTACT_TRY(rounds);
     if (*rounds < settings.repeats) {
         result.notes.push_back(std::to_string(*rounds) + " of " + std::to_string(settings.repeats) +
@@ -194,10 +188,7 @@ std::string disagreementOf(const LocalizeResult& result) {
 Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
                       LocalizeResult& result, const std::function<void()>& step) {
     result.poseNumbers = scene.poseNumbers;
-    result.triangles = scene.mesh->triangles();
-    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
-    VOXTACT_TRY(makeReady(session, {}, *scene.volume));
-    VOXTACT_TRY(makeReady(&session, *scene.mesh));
+    VOXTACT_TRY(makeReady(session, scene));
     const Result<Engines> engines = makeWays(session, scene, result);
     VOXTACT_TRY(engines);
     VOXTACT_TRY(findAll(*engines, settings, scene, result, step));

@@ -39,7 +39,6 @@ struct LocalizeResult {
     std::optional<std::uint32_t> failedPose; ///< the first on which the ways of the view disagree
     std::string failure;
     std::vector<std::string> notes;
-    std::uint32_t triangles = 0; ///< of the mesh
 };
 
 /// Every way on every pose of the scene, in `settings.repeats` rounds as far as they fit in `settings.timeLimit`, and

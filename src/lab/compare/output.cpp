@@ -27,31 +27,30 @@ Json verdictJson(const Verdict& verdict) {
     return json;
 }
 
-Json fragmentJson(const DifferingFragment& fragment) {
+Json fragmentJson(const DifferingFragment& differing) {
     // What is far away is infinite, and JSON has no word for it.
     const auto real = [](double value) { return std::isfinite(value) ? Json(rounded(value)) : Json(); };
-    return {{"pose", fragment.pose},
-            {"triangle", fragment.triangle},
-            {"x", fragment.x},
-            {"y", fragment.y},
-            {"on", fragment.onDevice ? "device" : "oracle"},
-            {"reason", fragment.reason},
-            {"edge_distance_px", real(fragment.edgeDistance)},
-            {"domain_distance", real(fragment.domainDistance)},
-            {"opacity", real(fragment.opacity)},
-            {"opacity_low", real(fragment.opacityLow)},
-            {"opacity_high", real(fragment.opacityHigh)}};
+    return {{"pose", differing.pose},
+            {"triangle", differing.fragment.triangle},
+            {"x", differing.fragment.x},
+            {"y", differing.fragment.y},
+            {"on", differing.onDevice ? "device" : "oracle"},
+            {"reason", toString(differing.doubt())},
+            {"edge_distance_px", real(differing.evidence.edgeDistance)},
+            {"domain_distance", real(differing.evidence.domainDistance)},
+            {"opacity", real(differing.evidence.opacity)},
+            {"opacity_low", real(differing.evidence.opacityLow)},
+            {"opacity_high", real(differing.evidence.opacityHigh)}};
 }
 
 Json oracleJson(const CompareResult& result) {
-    const std::array<std::uint64_t, 4> reasons = countReasons(result.fragmentChecks);
     Json json{{"poses", result.fragmentChecks.size()},
               {"ms_a_pose", result.oracleMilliseconds ? Json(rounded(*result.oracleMilliseconds)) : Json()},
               {"by_reason", Json::object()},
               {"checks", Json::array()},
               {"differing", Json::array()}};
-    for (std::size_t i = 0; i < reasons.size(); ++i) {
-        json["by_reason"][kReasons.at(i)] = reasons.at(i);
+    for (const oracle::Doubt doubt : kDoubts) {
+        json["by_reason"][toString(doubt)] = countOf(doubt, result.fragmentChecks);
     }
     for (const FragmentCheck& check : result.fragmentChecks) {
         json["checks"].push_back({{"pose", check.pose},

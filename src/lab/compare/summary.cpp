@@ -25,21 +25,9 @@ std::string milliseconds(double value) {
     return text;
 }
 
-/// "a = b = c" as "a, b and c".
-std::string membersOf(std::string rule) {
-    constexpr std::string_view kEqual = " = ";
-    std::vector<std::string> members;
-    for (std::size_t at = rule.find(kEqual); at != std::string::npos; at = rule.find(kEqual)) {
-        members.push_back(rule.substr(0, at));
-        rule.erase(0, at + kEqual.size());
-    }
-    members.push_back(std::move(rule));
-    return listed(members);
-}
-
 std::string sentenceOf(const Verdict& verdict) {
     if (!verdict.unchecked.empty()) {
-        return membersOf(verdict.rule) + ": not checked, " + verdict.unchecked;
+        return verdict.members + ": not checked, " + verdict.unchecked;
     }
     if (verdict.failed()) {
         return "DISAGREEMENT: " + verdict.rule + ": pose " + std::to_string(verdict.first->pose) + ": " +
@@ -52,11 +40,10 @@ std::string sentenceOf(const Verdict& verdict) {
     }
     const std::string where = (verdict.compared == 1 ? "the one pose" : "all " + plural(verdict.compared, "poses"));
     if (verdict.differing == 0) {
-        return verdict.hits ? verdict.rule + ", on " + where : membersOf(verdict.rule) + " count the same on " + where;
+        return verdict.hits ? verdict.rule + ", on " + where : verdict.members + " count the same on " + where;
     }
-    return membersOf(verdict.rule) + " differ on " + grouped(verdict.differing) + " of " +
-           plural(verdict.compared, "poses") + ", by at most " + plural(verdict.largest, "fragments") + " (" +
-           verdict.detail + ")";
+    return verdict.members + " differ on " + grouped(verdict.differing) + " of " + plural(verdict.compared, "poses") +
+           ", by at most " + plural(verdict.largest, "fragments") + " (" + verdict.detail + ")";
 }
 
 std::string speedOf(const Series& series, const std::string& what) {

@@ -32,25 +32,14 @@ struct Point {
     Engine* engine = nullptr;
     Work work;
     Feeding feeding{};
-    Series series;
+    Series series{};
 };
 
 Point makePoint(Sweep sweep, Engine& engine, const Work& work, Mode mode, std::uint32_t batch) {
-    Point point{.engine = &engine, .work = work, .series = {}};
-    point.feeding = mode == Mode::Sync ? Feeding{1, 1} : Feeding{batch, kFramesInFlight};
-    point.series = {.sweep = sweep,
-                    .method = engine.name(),
-                    .mode = mode,
-                    .batch = batch,
-                    .width = work.view.width,
-                    .height = work.view.height,
-                    .triangles = work.mesh->triangles(),
-                    .pairs = static_cast<std::uint32_t>(work.poses.size()),
-                    .fragments = std::nullopt,
-                    .wall = {},
-                    .gpu = {},
-                    .voxels = work.volume->data.grid.size};
-    return point;
+    return {.engine = &engine,
+            .work = work,
+            .feeding = mode == Mode::Sync ? Feeding{1, 1} : Feeding{batch, kFramesInFlight},
+            .series = seriesOf(sweep, engine.name(), work, mode, batch)};
 }
 
 Result<double> takeSample(Point& point) {
@@ -99,20 +88,17 @@ Result<double> warmUp(Point& point, double share, double most, CompareResult& re
 }
 
 /// Each point has its share of the time.
-Result<void> measure(std::vector<Point>& points, const CompareSettings& settings, CompareResult& result,
-                     const std::function<void()>& step) {
-    const double limit = settings.timeLimit * 1000;
+Result<void> measure(const CompareRun& run, std::vector<Point>& points) {
+    const double limit = run.settings.timeLimit * 1000;
     const double share = limit / static_cast<double>(points.size());
     std::vector<Timed> things;
     for (Point& point : points) {
-        things.push_back({.take =
-                              [&point, &result, share, limit](const Turn& turn) {
-                                  return turn.round == 0 ? warmUp(point, share, limit * kLongestSample, result)
-                                                         : takeSample(point);
-                              },
-                          .limit = share});
+        const auto take = [&, share, limit](const Turn& turn) {
+            return turn.round == 0 ? warmUp(point, share, limit * kLongestSample, run.result) : takeSample(point);
+        };
+        things.push_back({.take = take, .limit = share});
     }
-    VOXTACT_TRY(takeRounds(things, {.repeats = settings.repeats, .warmUp = true, .step = step}));
+    VOXTACT_TRY(takeRounds(things, {.repeats = run.settings.repeats, .warmUp = true, .step = run.step}));
     return {};
 }
 
@@ -166,8 +152,8 @@ Series scaled(Series series, std::uint32_t batch) {
     return series;
 }
 
-Result<void> timeBatches(const CompareSettings& settings, const Engines& engines, const Work& work,
-                         CompareResult& result, const std::function<void()>& step) {
+Result<void> timeBatches(const CompareRun& run) {
+    const Work work(run.scene);
     std::array<std::vector<Mat4>, kBatches.size()> poses;
     const std::vector<Mat4> one = cycled(work.poses, work.poses.size());
     std::vector<Point> points;
@@ -175,26 +161,26 @@ Result<void> timeBatches(const CompareSettings& settings, const Engines& engines
         const std::size_t batch = kBatches[i];
         const std::size_t batches = (std::max(work.poses.size(), batch) + batch - 1) / batch;
         poses[i] = cycled(work.poses, batches * batch);
-        for (const std::unique_ptr<Engine>& engine : engines) {
+        for (const std::unique_ptr<Engine>& engine : run.engines) {
             points.push_back(makePoint(Sweep::Batch, *engine, work.at(poses[i]), Mode::Pipelined, kBatches[i]));
         }
     }
-    for (const std::unique_ptr<Engine>& engine : engines) {
+    for (const std::unique_ptr<Engine>& engine : run.engines) {
         points.push_back(makePoint(Sweep::Batch, *engine, work.at(one), Mode::Sync, 1));
     }
-    VOXTACT_TRY(measure(points, settings, result, step));
-    for (std::size_t i = points.size() - engines.size(), end = points.size(); i < end; ++i) {
+    VOXTACT_TRY(measure(run, points));
+    for (std::size_t i = points.size() - run.engines.size(), end = points.size(); i < end; ++i) {
         for (std::size_t batch = 1; batch < kBatches.size(); ++batch) {
             Point copy = points[i];
             copy.series = scaled(points[i].series, kBatches[batch]);
             points.push_back(std::move(copy));
         }
     }
-    collect(points, result);
+    collect(points, run.result);
     return {};
 }
 
-/// What the other sweeps hold against each other, each with all engines.
+/// A point of the other sweeps, which all engines take.
 struct Swept {
     std::shared_ptr<VolumePart> volume;
     std::shared_ptr<MeshPart> mesh;
@@ -202,79 +188,80 @@ struct Swept {
     std::string where; ///< says which point it is
 };
 
-/// What makes them needs.
-struct Sweeping {
-    const device::Session& session;
-    const CompareSettings& settings;
-    const Scene& scene;
-    CompareResult& result;
-    const std::function<void()>& step;
-
-    void note(const std::string& text) const { result.notes.push_back(text); }
-};
-
 /// A builtin of another size: "builtin:head:128" as "builtin:head:64".
 std::string resized(const std::string& source, std::uint32_t size) {
     return source.substr(0, source.find(':', std::string_view("builtin:").size())) + ":" + std::to_string(size);
 }
 
-Result<std::vector<Swept>> sizedMeshes(const Sweeping& of) {
+/// That a point is left out, and why.
+void leaveOut(const CompareRun& run, const std::string& what, const Error& why) {
+    run.result.notes.push_back("no point of " + what + ": " + why.text);
+}
+
+/// Whether a source is a builtin; a note where it is not.
+bool isSizable(const CompareRun& run, const std::string& source, const char* sweep, const char* what) {
+    const bool builtin = source.starts_with("builtin:");
+    if (!builtin) {
+        run.result.notes.push_back(std::string("no sweep of ") + sweep + ": the " + what +
+                                   " is not a builtin one, which can be had in any size");
+    }
+    return builtin;
+}
+
+Result<std::vector<Swept>> sizedMeshes(const CompareRun& run) {
     std::vector<Swept> points;
-    if (!of.scene.mesh->name.starts_with("builtin:")) {
-        of.note("no sweep of triangles: the mesh is not a builtin one, which can be had in any size");
+    if (!isSizable(run, run.scene.mesh->name, "triangles", "mesh")) {
         return points;
     }
     for (const std::uint32_t triangles : kTriangles) {
-        Result<MeshData> data = of.settings.load.mesh(resized(of.scene.mesh->name, triangles));
+        const std::string which = std::to_string(triangles) + " triangles";
+        Result<MeshData> data = run.settings.load.mesh(resized(run.scene.mesh->name, triangles));
         if (!data.ok()) {
-            of.note("no point of " + std::to_string(triangles) + " triangles: " + data.error().text);
+            leaveOut(run, which, data.error());
             continue;
         }
         const auto mesh = std::make_shared<MeshPart>(MeshPart{.name = {}, .data = std::move(*data)});
-        VOXTACT_TRY(makeReady(&of.session, *mesh));
-        points.push_back({of.scene.volume, mesh, of.scene.view, std::to_string(triangles) + " triangles"});
+        VOXTACT_TRY(makeReady(&run.session, *mesh));
+        points.push_back({run.scene.volume, mesh, run.scene.view, which});
     }
     return points;
 }
 
-Result<std::vector<Swept>> sizedViewports(const Sweeping& of) {
+Result<std::vector<Swept>> sizedViewports(const CompareRun& run) {
     std::vector<Swept> points;
-    const VkExtent2D most = of.session.context.maxViewport();
     for (const std::uint32_t side : kSides) {
-        View view = of.scene.view;
+        View view = run.scene.view;
         view.width = side;
         view.height = static_cast<std::uint32_t>(
-            std::max(1L, std::lround(static_cast<double>(side) * of.scene.view.height / of.scene.view.width)));
-        if (view.width > most.width || view.height > most.height || view.height > cpu::kMaxViewport) {
-            continue;
+            std::max(1L, std::lround(static_cast<double>(side) * run.scene.view.height / run.scene.view.width)));
+        if (checkViewport(run.session, {view.width, view.height}).ok()) {
+            points.push_back({run.scene.volume, run.scene.mesh, view,
+                              "--size " + std::to_string(view.width) + "x" + std::to_string(view.height)});
         }
-        points.push_back({of.scene.volume, of.scene.mesh, view,
-                          "--size " + std::to_string(view.width) + "x" + std::to_string(view.height)});
     }
     return points;
 }
 
 /// The volume of so many voxels a side, ready; null, and a note, where it cannot be had.
-Result<std::shared_ptr<VolumePart>> sizedVolume(const Sweeping& of, std::uint32_t side) {
-    const VolumePart& like = *of.scene.volume;
+Result<std::shared_ptr<VolumePart>> sizedVolume(const CompareRun& run, std::uint32_t side) {
+    const VolumePart& like = *run.scene.volume;
     const auto sized = std::make_shared<VolumePart>(VolumePart{.name = resized(like.name, side),
                                                                .data = {},
                                                                .points = like.points,
                                                                .domain = like.domain,
                                                                .tableSize = like.tableSize,
                                                                .threshold = like.threshold});
-    Result<VolumeData> data = of.settings.load.volume(sized->name);
+    Result<VolumeData> data = run.settings.load.volume(sized->name);
     if (!data.ok()) {
-        of.note("no point of " + sized->name + ": " + data.error().text);
+        leaveOut(run, sized->name, data.error());
         return std::shared_ptr<VolumePart>();
     }
     sized->data = std::move(*data);
-    if (const Result<void> ready = makeReady(of.session, {}, *sized); !ready.ok()) {
-        const Error& why = ready.error();
-        if (why.code != ErrorCode::LimitExceeded && why.code != ErrorCode::OutOfMemory) {
-            return why;
+    if (const Result<void> ready = makeReady(run.session, {}, *sized); !ready.ok()) {
+        if (ready.error().code != ErrorCode::LimitExceeded && ready.error().code != ErrorCode::OutOfMemory) {
+            return ready.error();
         }
-        of.note("no point of " + sized->name + ": " + why.text);
+        leaveOut(run, sized->name, ready.error());
         return std::shared_ptr<VolumePart>();
     }
     // In both engines by now, and as many bytes as either.
@@ -282,56 +269,55 @@ Result<std::shared_ptr<VolumePart>> sizedVolume(const Sweeping& of, std::uint32_
     return sized;
 }
 
-Result<std::vector<Swept>> sizedVolumes(const Sweeping& of) {
+Result<std::vector<Swept>> sizedVolumes(const CompareRun& run) {
     std::vector<Swept> points;
-    if (!of.scene.volume->name.starts_with("builtin:")) {
-        of.note("no sweep of voxels: the volume is not a builtin one, which can be had in any size");
+    if (!isSizable(run, run.scene.volume->name, "voxels", "volume")) {
         return points;
     }
     for (const std::uint32_t quarters : kQuarters) {
         const Result<std::shared_ptr<VolumePart>> sized =
-            sizedVolume(of, of.scene.volume->data.grid.size[0] * quarters / 4);
+            sizedVolume(run, run.scene.volume->data.grid.size[0] * quarters / 4);
         VOXTACT_TRY(sized);
-        of.step();
+        run.step();
         if (*sized != nullptr) {
-            points.push_back({*sized, of.scene.mesh, of.scene.view, sizeText((*sized)->data.grid.size) + " voxels"});
+            points.push_back({*sized, run.scene.mesh, run.scene.view, sizeText((*sized)->data.grid.size) + " voxels"});
         }
     }
     return points;
 }
 
 /// The counts of a point agree before it is timed: adds the verdicts that failed.
-Result<void> verify(Sweep sweep, const Engines& engines, const Work& work, std::span<const std::uint32_t> poses,
-                    const std::string& where, CompareResult& result) {
-    const Result<std::vector<NamedCounts>> counts = countAll(engines, work);
+Result<void> verify(const CompareRun& run, Sweep sweep, const Work& work, std::span<const std::uint32_t> poses,
+                    const std::string& where) {
+    const Result<std::vector<NamedCounts>> counts = countAll(run.engines, work);
     VOXTACT_TRY(counts);
     for (Verdict& verdict : judgeCounts(*counts, poses)) {
         if (verdict.failed()) {
             verdict.rule += " (" + where + ")";
             verdict.sweep = toString(sweep);
-            result.verdicts.push_back(std::move(verdict));
+            run.result.verdicts.push_back(std::move(verdict));
         }
     }
     return {};
 }
 
 /// Verifies all points, and times them.
-Result<void> timeSwept(Sweep sweep, const std::vector<Swept>& swept, const Engines& engines, const Sweeping& of) {
-    const Scene some = of.scene.withPoses(kSweepPairs);
+Result<void> timeSwept(const CompareRun& run, Sweep sweep, const std::vector<Swept>& swept) {
+    const Scene some = run.scene.withPoses(kSweepPairs);
+    const auto pairs = static_cast<std::uint32_t>(some.poses.size());
     std::vector<Point> points;
     for (const Swept& one : swept) {
         const Work work{*one.volume, *one.mesh, some.poses, one.view};
-        VOXTACT_TRY(verify(sweep, engines, work, some.poseNumbers, one.where, of.result));
-        for (const std::unique_ptr<Engine>& engine : engines) {
-            points.push_back(
-                makePoint(sweep, *engine, work, Mode::Pipelined, static_cast<std::uint32_t>(work.poses.size())));
+        VOXTACT_TRY(verify(run, sweep, work, some.poseNumbers, one.where));
+        for (const std::unique_ptr<Engine>& engine : run.engines) {
+            points.push_back(makePoint(sweep, *engine, work, Mode::Pipelined, pairs));
         }
     }
-    if (points.empty() || (of.result.firstFailure() != nullptr && !of.settings.keepGoing)) {
+    if (points.empty() || run.ended()) {
         return {};
     }
-    VOXTACT_TRY(measure(points, of.settings, of.result, of.step));
-    collect(points, of.result);
+    VOXTACT_TRY(measure(run, points));
+    collect(points, run.result);
     return {};
 }
 
@@ -342,17 +328,15 @@ std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept {
     return std::uint64_t{repeats} + 1 + (sweep == Sweep::Voxels ? kQuarters.size() : 0);
 }
 
-Result<void> timeSweep(Sweep sweep, const device::Session& session, const CompareSettings& settings, const Scene& scene,
-                       const Engines& engines, CompareResult& result, const std::function<void()>& step) {
+Result<void> timeSweep(const CompareRun& run, Sweep sweep) {
     if (sweep == Sweep::Batch) {
-        return timeBatches(settings, engines, Work(scene), result, step);
+        return timeBatches(run);
     }
-    const Sweeping of{session, settings, scene, result, step};
-    const Result<std::vector<Swept>> points = sweep == Sweep::Triangles   ? sizedMeshes(of)
-                                              : sweep == Sweep::Fragments ? sizedViewports(of)
-                                                                          : sizedVolumes(of);
+    const Result<std::vector<Swept>> points = sweep == Sweep::Triangles   ? sizedMeshes(run)
+                                              : sweep == Sweep::Fragments ? sizedViewports(run)
+                                                                          : sizedVolumes(run);
     VOXTACT_TRY(points);
-    return timeSwept(sweep, *points, engines, of);
+    return timeSwept(run, sweep, *points);
 }
 
 } // namespace voxtact::lab

@@ -44,14 +44,6 @@ std::string questionOf(bool yesNo, const Outputs& outputs) {
     return yesNo ? "yes/no" : found == outputParts().end() ? "count" : std::string("count, ") + found->name;
 }
 
-EngineFacts factsOf(const DetectorDesc& desc) {
-    return {.name = toString(desc.method),
-            .projection = toString(desc.projection),
-            .question = questionOf(desc.stopAtFirst, desc.outputs),
-            .threads = 0,
-            .certified = desc.projection == Projection::Conservative};
-}
-
 MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method) {
     return rowOf(method).host ? makeHostEngine()
                               : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});

@@ -107,8 +107,15 @@ class EngineList {
 
 /// What an engine answers: yes or no, or the count and the output beside it.
 [[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
-/// Of a method of the device.
-[[nodiscard]] EngineFacts factsOf(const DetectorDesc& desc);
+/// Of a method; the threads are the host's, 0: the device works.
+template <class Desc>
+[[nodiscard]] EngineFacts factsOf(CountingMethod method, const Desc& desc, std::uint32_t threads) {
+    return {.name = toString(method),
+            .projection = toString(desc.projection),
+            .question = questionOf(desc.stopAtFirst, desc.outputs),
+            .threads = threads,
+            .certified = desc.projection == Projection::Conservative};
+}
 
 /// The host.
 [[nodiscard]] MadeEngine makeHostEngine(const cpu::DetectorDesc& desc = {});

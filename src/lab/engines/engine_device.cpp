@@ -13,7 +13,8 @@ namespace {
 class DeviceEngine final : public Engine {
   public:
     DeviceEngine(const device::Session& session, Detector detector)
-        : Engine(factsOf(detector.desc())), session_(session), detector_(std::move(detector)) {}
+        : Engine(factsOf(detector.desc().method, detector.desc(), 0)), session_(session),
+          detector_(std::move(detector)) {}
 
     Result<Pass> run(const Work& work, const Feeding& feeding) override;
 
@@ -73,7 +74,7 @@ MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& 
 MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     VOXTACT_TRY(detector);
-    return engineOf(factsOf(desc),
+    return engineOf(factsOf(desc.method, desc, 0),
                     [detector = std::move(*detector)](const Work& work, const Feeding&) mutable -> Result<Pass> {
                         const BatchItem item = work.onDevice();
                         Result<BatchAnswer> answer = detector.detect({{&item, 1}, work.view, work.volume->threshold});

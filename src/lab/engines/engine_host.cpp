@@ -33,11 +33,7 @@ Result<Pass> runOnHost(cpu::Detector& detector, const Work& work, const Feeding&
 MadeEngine makeHostEngine(const cpu::DetectorDesc& desc) {
     Result<cpu::Detector> detector = cpu::Detector::create(desc);
     VOXTACT_TRY(detector);
-    EngineFacts facts{.name = toString(CountingMethod::Cpu),
-                      .projection = toString(desc.projection),
-                      .question = questionOf(desc.stopAtFirst, desc.outputs),
-                      .threads = detector->threads(),
-                      .certified = desc.projection == Projection::Conservative};
+    EngineFacts facts = factsOf(CountingMethod::Cpu, desc, detector->threads());
     return engineOf(std::move(facts),
                     [detector = std::move(*detector)](const Work& work, const Feeding& feeding) mutable {
                         return runOnHost(detector, work, feeding);

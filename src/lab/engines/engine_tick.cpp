@@ -62,7 +62,7 @@ struct Asking {
 };
 
 EngineFacts tickFacts(const std::optional<DetectorDesc>& desc, Awaiting awaiting) {
-    EngineFacts facts = desc ? factsOf(*desc) : EngineFacts{.name = "empty submit", .threads = 0};
+    EngineFacts facts = desc ? factsOf(desc->method, *desc, 0) : EngineFacts{.name = "empty submit", .threads = 0};
     facts.recorded = desc && !desc->devicePoses ? "each tick" : "once";
     facts.awaited = awaiting == Awaiting::Poll ? "polled" : "waited";
     return facts;

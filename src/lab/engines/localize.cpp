@@ -12,17 +12,18 @@
 #include "lab/measure/stopwatch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace voxtact {
 
-struct LocalizerImpl {
+struct Localizer::State {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
-    std::optional<ViewPass> pass{};
-    std::optional<Results> results{}; ///< for the transform and the timestamps; counts nothing
-    Owned<VkQueryPool> queries{};
+    ViewPass pass;
+    Results results; ///< for the transform and the timestamps; counts nothing
+    Owned<VkQueryPool> queries;
     Submitter submitter;
 };
 
@@ -65,7 +66,8 @@ class NodeTest {
 
     [[nodiscard]] bool operator()(const ObbNode& node) {
         ++tested_;
-        const Box box = boundsOf(node);
+        // But for rounding, which is far below the margin.
+        const Box box = transformBox(multiply(texture_from_object_, frameOf(node)), {{-1, -1, -1}, {1, 1, 1}});
         Box within;
         Box grown;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -82,23 +84,6 @@ class NodeTest {
     [[nodiscard]] std::uint64_t tested() const noexcept { return tested_; }
 
   private:
-    /// But for rounding, which is far below the margin.
-    [[nodiscard]] Box boundsOf(const ObbNode& node) const {
-        const Vec3 centre = transformPoint(texture_from_object_, node.centre);
-        Box box{centre, centre};
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t row = 0; row < 3; ++row) {
-                double reach = 0;
-                for (std::size_t column = 0; column < 3; ++column) {
-                    reach += texture_from_object_[4 * column + row] * node.axes[i][column];
-                }
-                box.lo[row] -= std::abs(reach) * node.half[i];
-                box.hi[row] += std::abs(reach) * node.half[i];
-            }
-        }
-        return box;
-    }
-
     const LocalizeAids& aids_;
     bool bricks_;
     Mat4 texture_from_object_;
@@ -137,20 +122,20 @@ Result<void> checkAids(const BatchItem& item, Localization way, const LocalizeAi
 }
 
 /// One submission: the survivors of at most kQueries triangles.
-Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& batch,
+Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batch& batch,
                                          std::span<const std::uint32_t> triangles, double& gpuMilliseconds) {
     ContextImpl& context = localizer.context;
     const Result<VkCommandBuffer> commandBuffer = localizer.submitter.begin();
     VOXTACT_TRY(commandBuffer);
     const auto queries = static_cast<std::uint32_t>(triangles.size());
-    ResultsImpl& results = localizer.results->impl();
+    ResultsImpl& results = localizer.results.impl();
     results.pairs = 1;
     results.detectRecorded = true;
     {
         const Label label(context, *commandBuffer, "voxtact localize");
         prepareResults(context, *commandBuffer, batch, results, kDesc);
         context.vk.CmdResetQueryPool(*commandBuffer, localizer.queries.get(), 0, queries);
-        localizer.pass->recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
+        localizer.pass.recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
         publishResults(context, *commandBuffer, results, kDesc);
     }
     VOXTACT_TRY(localizer.submitter.submitAndWait());
@@ -162,14 +147,14 @@ Result<std::vector<std::uint64_t>> count(LocalizerImpl& localizer, const Batch& 
         return context.failure(read, "reading queries");
     }
     if (results.timestamps) {
-        const Result<double> time = localizer.results->gpuMilliseconds();
+        const Result<double> time = localizer.results.gpuMilliseconds();
         VOXTACT_TRY(time);
         gpuMilliseconds += *time;
     }
     return counts;
 }
 
-Result<LocalizedTriangles> localize(LocalizerImpl& localizer, const Batch& batch, const BatchItem& item,
+Result<LocalizedTriangles> localize(Localizer::State& localizer, const Batch& batch, const BatchItem& item,
                                     Localization way, const LocalizeAids& aids) {
     const lab::Stopwatch watch;
     LocalizedTriangles out;
@@ -192,21 +177,9 @@ Result<LocalizedTriangles> localize(LocalizerImpl& localizer, const Batch& batch
 } // namespace
 
 const char* toString(Localization way) noexcept {
-    switch (way) {
-    case Localization::Polygon:
-        return "polygon";
-    case Localization::Leaf:
-        return "leaf";
-    case Localization::LeafBricks:
-        return "leaf-bricks";
-    }
-    return "unknown";
+    constexpr std::array kNames{"polygon", "leaf", "leaf-bricks"};
+    return kNames.at(static_cast<std::size_t>(way));
 }
-
-Localizer::Localizer(std::unique_ptr<LocalizerImpl> impl) noexcept : impl_(std::move(impl)) {}
-Localizer::Localizer(Localizer&&) noexcept = default;
-Localizer& Localizer::operator=(Localizer&&) noexcept = default;
-Localizer::~Localizer() = default;
 
 Result<Localizer> Localizer::create(const Context& context, Filter filter, const QueueAccess& queue) {
     return guard([&]() -> Result<Localizer> {
@@ -217,26 +190,26 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
         }
         Result<Submitter> submitter = Submitter::create(c, queue);
         VOXTACT_TRY(submitter);
-        auto impl = std::make_unique<LocalizerImpl>(LocalizerImpl{.context = c, .submitter = std::move(*submitter)});
         Result<ViewPass> pass = ViewPass::create(c, {.method = CountingMethod::Query, .filter = filter});
         VOXTACT_TRY(pass);
-        impl->pass.emplace(std::move(*pass));
         Result<Results> results = Results::create(context, {.maxPairs = 1,
                                                             .readBack = false,
                                                             .timestamps = c.timestampBits(queue.family) > 0,
                                                             .queueFamily = queue.family});
         VOXTACT_TRY(results);
-        impl->results.emplace(std::move(*results));
         Result<Owned<VkQueryPool>> queries = makeQueries(c);
         VOXTACT_TRY(queries);
-        impl->queries = std::move(*queries);
-        return Localizer(std::move(impl));
+        return Localizer(std::make_shared<State>(State{.context = c,
+                                                       .pass = std::move(*pass),
+                                                       .results = std::move(*results),
+                                                       .queries = std::move(*queries),
+                                                       .submitter = std::move(*submitter)}));
     });
 }
 
 Result<LocalizedTriangles> Localizer::triangles(const Batch& batch, Localization way, const LocalizeAids& aids) {
     return guard([&]() -> Result<LocalizedTriangles> {
-        const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
+        const Result<std::uint32_t> pairs = checkBatch(state_->context, kDesc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs != 1) {
             return refuse("triangles are found for one pair, the batch has " + std::to_string(*pairs));
@@ -244,7 +217,7 @@ Result<LocalizedTriangles> Localizer::triangles(const Batch& batch, Localization
         const BatchItem& item =
             *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });
         VOXTACT_TRY(checkAids(item, way, aids));
-        return localize(*impl_, batch, item, way, aids);
+        return localize(*state_, batch, item, way, aids);
     });
 }
 

@@ -10,8 +10,6 @@
 
 namespace voxtact {
 
-struct LocalizerImpl;
-
 /// The paper's two ways to say which triangles touch: an occlusion query a triangle (section 3),
 /// or one for the set of triangles in a leaf of an OBB tree (section 6).
 enum class Localization {
@@ -44,21 +42,20 @@ struct LocalizedTriangles {
 /// made larger by half a voxel. A triangle thinner than the rasteriser's sub-pixels can have a fragment whose
 /// coordinate is extrapolated farther than that, in the volume while the triangle is not: it has a query by Polygon
 /// only.
-/// Thread-safety: none; one thread at a time.
+/// Copies share it. Thread-safety: none; one thread at a time.
 class Localizer {
   public:
     [[nodiscard]] static Result<Localizer> create(const Context& context, Filter filter, const QueueAccess& queue);
-    Localizer(Localizer&&) noexcept;
-    Localizer& operator=(Localizer&&) noexcept;
-    ~Localizer();
 
     /// Of a batch of one pair. InvalidArgument where an aid is missing, or the tree is of another number of triangles.
     [[nodiscard]] Result<LocalizedTriangles> triangles(const Batch& batch, Localization way,
                                                        const LocalizeAids& aids = {});
 
+    struct State;
+
   private:
-    explicit Localizer(std::unique_ptr<LocalizerImpl> impl) noexcept;
-    std::unique_ptr<LocalizerImpl> impl_;
+    explicit Localizer(std::shared_ptr<State> state) noexcept : state_(std::move(state)) {}
+    std::shared_ptr<State> state_;
 };
 
 } // namespace voxtact

@@ -2,6 +2,7 @@
 #include "lab/engines/obb_tree.h"
 
 #include "core/base/infinity.h"
+#include "core/geometry/glm_bridge.h"
 #include "core/geometry/mesh_vertex.h"
 
 #include <glm/glm.hpp>
@@ -23,12 +24,8 @@ using Triangles = std::span<const std::uint32_t>;
 /// Covers, relative to the box, the rounding of projections and of axes that are not quite at right angles.
 constexpr double kOutward = 0x1p-40;
 
-dvec3 wide(const Vec3& vector) {
-    return {vector[0], vector[1], vector[2]};
-}
-
 dvec3 cornerOf(const MeshView& mesh, std::uint32_t triangle, std::size_t corner) {
-    return wide(vertexOf(mesh, mesh.indices[std::size_t{3} * triangle + corner]));
+    return toGlm(vertexOf(mesh, mesh.indices[std::size_t{3} * triangle + corner]));
 }
 
 template <class Visit> void visitVertices(const MeshView& mesh, Triangles triangles, Visit&& visit) {
@@ -131,12 +128,9 @@ void fitBox(const MeshView& mesh, Triangles triangles, ObbNode& node) {
         half = glm::max(half, glm::abs((vertex - centre) * axes));
     });
     half += std::sqrt(farthest) * kOutward;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto axis = static_cast<glm::length_t>(i);
-        node.axes[i] = {axes[axis][0], axes[axis][1], axes[axis][2]};
-        node.centre[i] = centre[axis];
-        node.half[i] = half[axis];
-    }
+    node.axes = {fromGlm(axes[0]), fromGlm(axes[1]), fromGlm(axes[2])};
+    node.centre = fromGlm(centre);
+    node.half = fromGlm(half);
 }
 
 class Builder {
@@ -180,7 +174,7 @@ class Builder {
         std::array<std::size_t, 3> byLength{0, 1, 2};
         std::ranges::stable_sort(byLength, std::greater{}, [&](std::size_t axis) { return node.half[axis]; });
         for (const std::size_t axis : byLength) {
-            const auto at = [&, along = wide(node.axes[axis])](std::uint32_t triangle) {
+            const auto at = [&, along = toGlm(node.axes[axis])](std::uint32_t triangle) {
                 return glm::dot(along, centroids_[triangle]);
             };
             double mean = 0;
@@ -225,17 +219,17 @@ struct Meeting {
     dvec3 half;      ///< of the box
     dvec3 magnitude; ///< along each axis, of everything that went into these
 
-    Meeting(const ObbNode& node, const Mat4& matrix, const Box& box) : half(wide(box.hi) / 2.0 - wide(box.lo) / 2.0) {
-        const dvec3 translated(matrix[12], matrix[13], matrix[14]);
-        const dmat3 linear(matrix[0], matrix[1], matrix[2], matrix[4], matrix[5], matrix[6], matrix[8], matrix[9],
-                           matrix[10]);
+    Meeting(const ObbNode& node, const Mat4& matrix, const Box& box) : half(toGlm(box.hi) / 2.0 - toGlm(box.lo) / 2.0) {
+        const glm::dmat4 affine = toGlm(matrix);
+        const dvec3 translated(affine[3]);
+        const dmat3 linear(affine);
         const dmat3 magnitudes(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
-        const dvec3 centre = wide(node.centre);
-        offset = translated + linear * centre - (wide(box.lo) / 2.0 + wide(box.hi) / 2.0);
+        const dvec3 centre = toGlm(node.centre);
+        offset = translated + linear * centre - (toGlm(box.lo) / 2.0 + toGlm(box.hi) / 2.0);
         magnitude =
-            glm::abs(translated) + glm::abs(wide(box.lo)) + glm::abs(wide(box.hi)) + magnitudes * glm::abs(centre);
+            glm::abs(translated) + glm::abs(toGlm(box.lo)) + glm::abs(toGlm(box.hi)) + magnitudes * glm::abs(centre);
         for (std::size_t i = 0; i < 3; ++i) {
-            const dvec3 edge = node.half[i] * wide(node.axes[i]);
+            const dvec3 edge = node.half[i] * toGlm(node.axes[i]);
             edges[static_cast<glm::length_t>(i)] = linear * edge;
             magnitude += magnitudes * glm::abs(edge);
         }
@@ -251,6 +245,16 @@ struct Meeting {
 };
 
 } // namespace
+
+Mat4 frameOf(const ObbNode& node) noexcept {
+    Mat4 object_from_box = translation(node.centre);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            object_from_box[4 * axis + row] = node.half[axis] * node.axes[axis][row];
+        }
+    }
+    return object_from_box;
+}
 
 ObbTree makeObbTree(const MeshView& mesh) {
     return Builder(mesh).build();

@@ -22,6 +22,9 @@ struct ObbNode {
     std::uint32_t next = 0;          ///< the first node that is not below this one; that of a leaf is the one after it
 };
 
+/// object_from_box, of a box from -1 to 1 along each axis.
+[[nodiscard]] Mat4 frameOf(const ObbNode& node) noexcept;
+
 /// Parents come before their children and left before right: the left child follows its parent, and the right child
 /// is the left one's `next`.
 struct ObbTree {

@@ -10,26 +10,23 @@ namespace voxtact::lab {
 
 namespace {
 
-Result<void> uploadTable(const device::Session& session, VolumePart& volume) {
-    Result<TransferFunction> table =
-        TransferFunction::upload(session.context, session.device.queueAccess(), volume.transferFunction());
-    VOXTACT_TRY(table);
-    volume.deviceFunction.emplace(std::move(*table));
+template <class Part> Result<void> put(Result<Part> made, std::optional<Part>& place) {
+    VOXTACT_TRY(made);
+    place.emplace(std::move(*made));
     return {};
+}
+
+Result<void> uploadTable(const device::Session& session, VolumePart& volume) {
+    return put(TransferFunction::upload(session.context, session.device.queueAccess(), volume.transferFunction()),
+               volume.deviceFunction);
 }
 
 Result<void> uploadVoxels(const device::Session& session, const VolumeOptions& options, VolumePart& volume) {
     const QueueAccess queue = session.device.queueAccess();
-    Result<Volume> image = Volume::upload(session.context, queue, volume.data.view(), options);
-    VOXTACT_TRY(image);
-    volume.device.emplace(std::move(*image));
-    if (volume.labels.values.empty()) {
-        return {};
-    }
-    Result<LabelMap> labels = LabelMap::upload(session.context, queue, volume.labels);
-    VOXTACT_TRY(labels);
-    volume.deviceLabels.emplace(std::move(*labels));
-    return {};
+    VOXTACT_TRY(put(Volume::upload(session.context, queue, volume.data.view(), options), volume.device));
+    return volume.labels.values.empty()
+               ? Result<void>()
+               : put(LabelMap::upload(session.context, queue, volume.labels), volume.deviceLabels);
 }
 
 } // namespace
@@ -63,13 +60,8 @@ Result<void> makeHost(VolumePart& volume) {
     if (volume.host) {
         return {};
     }
-    Result<cpu::Volume> host = cpu::Volume::create(volume.data.view());
-    VOXTACT_TRY(host);
-    Result<cpu::TransferFunction> table = cpu::TransferFunction::create(volume.transferFunction());
-    VOXTACT_TRY(table);
-    volume.host.emplace(std::move(*host));
-    volume.hostFunction.emplace(std::move(*table));
-    return {};
+    VOXTACT_TRY(put(cpu::Volume::create(volume.data.view()), volume.host));
+    return put(cpu::TransferFunction::create(volume.transferFunction()), volume.hostFunction);
 }
 
 Result<void> upload(const device::Session& session, const VolumeOptions& options, VolumePart& volume) {
@@ -88,18 +80,17 @@ Result<void> makeReady(const device::Session& session, const VolumeOptions& opti
 
 Result<void> makeReady(const device::Session* session, MeshPart& mesh) {
     if (session != nullptr) {
-        Result<Mesh> device = Mesh::upload(session->context, session->device.queueAccess(), mesh.data.view(),
-                                           {.name = mesh.data.name.c_str(), .clusters = true});
-        VOXTACT_TRY(device);
-        mesh.device.emplace(std::move(*device));
+        VOXTACT_TRY(put(Mesh::upload(session->context, session->device.queueAccess(), mesh.data.view(),
+                                     {.name = mesh.data.name.c_str(), .clusters = true}),
+                        mesh.device));
     }
-    if (mesh.host) {
-        return {};
-    }
-    Result<cpu::Mesh> host = cpu::Mesh::create(mesh.data.view());
-    VOXTACT_TRY(host);
-    mesh.host.emplace(std::move(*host));
-    return {};
+    return mesh.host ? Result<void>() : put(cpu::Mesh::create(mesh.data.view()), mesh.host);
+}
+
+Result<void> makeReady(const device::Session& session, const Scene& scene, const VolumeOptions& options) {
+    VOXTACT_TRY(checkViewport(session, {scene.view.width, scene.view.height}));
+    VOXTACT_TRY(makeReady(session, options, *scene.volume));
+    return makeReady(&session, *scene.mesh);
 }
 
 Result<void> checkViewport(const device::Session& session, const VkExtent2D& size) {

@@ -80,6 +80,9 @@ struct Scene {
 [[nodiscard]] Result<void> makeReady(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
 /// For the host engine, and for the device unless `session` is null.
 [[nodiscard]] Result<void> makeReady(const device::Session* session, MeshPart& mesh);
+/// A whole scene, whose viewport is checked as below.
+[[nodiscard]] Result<void> makeReady(const device::Session& session, const Scene& scene,
+                                     const VolumeOptions& options = {});
 
 /// Refuses a viewport beyond what the device or the host can do.
 [[nodiscard]] Result<void> checkViewport(const device::Session& session, const VkExtent2D& size);

@@ -19,7 +19,7 @@
 
 namespace voxtact {
 
-struct FragmentTraceImpl {
+struct FragmentTrace::State {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     Owned<VkDescriptorSetLayout> setLayout{};
@@ -40,7 +40,7 @@ constexpr VkDeviceSize kHeader = sizeof(std::uint32_t);
 /// What prepareResults() and publishResults() are to do: nothing about queries.
 constexpr DetectorDesc kDesc{.method = CountingMethod::Atomic, .boundary = Boundary::Range};
 
-Result<void> makeLayouts(FragmentTraceImpl& trace) {
+Result<void> makeLayouts(FragmentTrace::State& trace) {
     ContextImpl& context = trace.context;
     const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
                                                nullptr};
@@ -53,7 +53,7 @@ Result<void> makeLayouts(FragmentTraceImpl& trace) {
 }
 
 /// Makes room for a list of `capacity` fragments.
-Result<void> reserve(FragmentTraceImpl& trace, std::uint32_t capacity) {
+Result<void> reserve(FragmentTrace::State& trace, std::uint32_t capacity) {
     ContextImpl& context = trace.context;
     const VkDeviceSize bytes = kHeader + VkDeviceSize{capacity} * sizeof(shader::TracedFragment);
     if (bytes > context.limits.maxStorageBufferRange) {
@@ -80,7 +80,7 @@ Result<void> reserve(FragmentTraceImpl& trace, std::uint32_t capacity) {
     return {};
 }
 
-void record(FragmentTraceImpl& trace, VkCommandBuffer commandBuffer, const Batch& batch) {
+void record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, const Batch& batch) {
     ContextImpl& context = trace.context;
     ResultsImpl& results = trace.results->impl();
     const Label label(context, commandBuffer, "voxtact fragment trace");
@@ -99,7 +99,7 @@ void record(FragmentTraceImpl& trace, VkCommandBuffer commandBuffer, const Batch
 }
 
 /// One try: the number of survivors, of which the list may hold fewer.
-Result<std::uint32_t> run(FragmentTraceImpl& trace, const Batch& batch) {
+Result<std::uint32_t> run(FragmentTrace::State& trace, const Batch& batch) {
     const Result<VkCommandBuffer> commandBuffer = trace.submitter.begin();
     VOXTACT_TRY(commandBuffer);
     record(trace, *commandBuffer, batch);
@@ -120,46 +120,40 @@ Result<void> checkFeatures(const ContextImpl& context) {
 
 } // namespace
 
-FragmentTrace::FragmentTrace(std::unique_ptr<FragmentTraceImpl> impl) noexcept : impl_(std::move(impl)) {}
-FragmentTrace::FragmentTrace(FragmentTrace&&) noexcept = default;
-FragmentTrace& FragmentTrace::operator=(FragmentTrace&&) noexcept = default;
-FragmentTrace::~FragmentTrace() = default;
-
 Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filter, const QueueAccess& queue) {
     return guard([&]() -> Result<FragmentTrace> {
         ContextImpl& c = context.impl();
         VOXTACT_TRY(checkFeatures(c));
         Result<Submitter> submitter = Submitter::create(c, queue);
         VOXTACT_TRY(submitter);
-        auto impl =
-            std::make_unique<FragmentTraceImpl>(FragmentTraceImpl{.context = c, .submitter = std::move(*submitter)});
-        VOXTACT_TRY(makeLayouts(*impl));
-        Result<ViewPass> pass = ViewPass::createTrace(c, filter, impl->layout.get());
+        const auto state = std::make_shared<State>(State{.context = c, .submitter = std::move(*submitter)});
+        VOXTACT_TRY(makeLayouts(*state));
+        Result<ViewPass> pass = ViewPass::createTrace(c, filter, state->layout.get());
         VOXTACT_TRY(pass);
-        impl->pass.emplace(std::move(*pass));
+        state->pass.emplace(std::move(*pass));
         Result<Results> results = Results::create(context, {.maxPairs = 1, .readBack = false});
         VOXTACT_TRY(results);
-        impl->results.emplace(std::move(*results));
-        VOXTACT_TRY(reserve(*impl, kFirstCapacity));
-        return FragmentTrace(std::move(impl));
+        state->results.emplace(std::move(*results));
+        VOXTACT_TRY(reserve(*state, kFirstCapacity));
+        return FragmentTrace(state);
     });
 }
 
 Result<std::vector<shader::TracedFragment>> FragmentTrace::survivors(const Batch& batch) {
     return guard([&]() -> Result<std::vector<shader::TracedFragment>> {
-        const Result<std::uint32_t> pairs = checkBatch(impl_->context, kDesc, batch);
+        const Result<std::uint32_t> pairs = checkBatch(state_->context, kDesc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs != 1) {
             return refuse("a trace is of one pair, the batch has " + std::to_string(*pairs));
         }
-        Result<std::uint32_t> count = run(*impl_, batch);
-        if (count.ok() && kHeader + VkDeviceSize{*count} * sizeof(shader::TracedFragment) > impl_->list.size) {
-            VOXTACT_TRY(reserve(*impl_, *count));
-            count = run(*impl_, batch);
+        Result<std::uint32_t> count = run(*state_, batch);
+        if (count.ok() && kHeader + VkDeviceSize{*count} * sizeof(shader::TracedFragment) > state_->list.size) {
+            VOXTACT_TRY(reserve(*state_, *count));
+            count = run(*state_, batch);
         }
         VOXTACT_TRY(count);
         std::vector<shader::TracedFragment> out(*count);
-        std::ranges::copy_n(static_cast<const std::byte*>(impl_->readBack.mapped) + kHeader,
+        std::ranges::copy_n(static_cast<const std::byte*>(state_->readBack.mapped) + kHeader,
                             static_cast<std::ptrdiff_t>(out.size() * sizeof out[0]),
                             std::as_writable_bytes(std::span(out)).begin());
         std::ranges::sort(out, {}, [](const shader::TracedFragment& f) { return std::tuple(f.triangle, f.y, f.x); });

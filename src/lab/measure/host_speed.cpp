@@ -4,7 +4,6 @@
 #include "core/base/try.h"
 #include "lab/engines/engine.h"
 #include "lab/measure/numbers.h"
-#include "lab/measure/rounds.h"
 
 #include <algorithm>
 #include <vector>
@@ -21,17 +20,13 @@ Result<double> medianSeconds(Engine& host, const MeasureScene& scene, std::uint3
     VOXTACT_TRY(makeHost(volume));
     VOXTACT_TRY(makeReady(nullptr, mesh));
     const Work work{volume, mesh, scene.world_from_object, scene.view};
+    VOXTACT_TRY(host.run(work, {})); // makes the threads and the table of opaque bricks
     std::vector<double> seconds;
-    // The warm-up makes the threads and the table of opaque bricks.
-    Timed pairs{.take = [&](const Turn& turn) -> Result<double> {
+    do {
         const Result<Pass> pass = host.run(work, {});
         VOXTACT_TRY(pass);
-        if (turn.round > 0) {
-            seconds.push_back(pass->wallMilliseconds / 1000);
-        }
-        return pass->wallMilliseconds;
-    }};
-    VOXTACT_TRY(takeRounds({&pairs, 1}, {.repeats = std::max(repetitions, 1U), .warmUp = true}));
+        seconds.push_back(pass->wallMilliseconds / 1000);
+    } while (seconds.size() < repetitions);
     return std::max(medianOf(seconds), 1e-9);
 }
 
@@ -40,11 +35,7 @@ Result<double> medianSeconds(Engine& host, const MeasureScene& scene, std::uint3
 MethodSpeed measureHost(const MeasureScene& scene, std::uint32_t repetitions) {
     MethodSpeed speed{{CountingMethod::Cpu, true, false, {}}};
     const MadeEngine host = makeHostEngine();
-    if (!host.ok()) {
-        speed.verdict.text = host.error().text;
-        return speed;
-    }
-    const Result<double> seconds = medianSeconds(**host, scene, repetitions);
+    const Result<double> seconds = host.ok() ? medianSeconds(**host, scene, repetitions) : host.error();
     if (!seconds.ok()) {
         speed.verdict.text = seconds.error().text;
         return speed;

@@ -2,6 +2,7 @@
 #include "lab/measure/machine.h"
 
 #include "device/timed_commands.h"
+#include "oracle/oracle.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -22,7 +23,8 @@ std::string cpuName() {
     return "unknown";
 }
 
-void describeDriver(const device::Session& session, Machine& machine) {
+/// Fills what the driver says of itself.
+VkDriverId describeDriver(const device::Session& session, Machine& machine) {
     const auto getProperties =
         device::instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(session, "vkGetPhysicalDeviceProperties2");
     VkPhysicalDeviceDriverProperties driver{};
@@ -33,7 +35,7 @@ void describeDriver(const device::Session& session, Machine& machine) {
     getProperties(session.device.physical().handle, &properties);
     machine.driver = driver.driverName;
     machine.driverVersion = driver.driverInfo;
-    machine.llvmpipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+    return driver.driverID;
 }
 
 bool floatFilterForced() {
@@ -62,14 +64,14 @@ Machine describeMachine(const device::Session& session, ScalarType type, const P
     machine.device = physical.name;
     machine.deviceType = device::deviceTypeName(physical.type);
     machine.api = device::apiVersionText(physical.apiVersion);
-    describeDriver(session, machine);
-    machine.eightBitFilter = machine.llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
+    const bool llvmpipe = describeDriver(session, machine) == VK_DRIVER_ID_MESA_LLVMPIPE;
+    const bool inEightBits = llvmpipe && type == ScalarType::UInt8 && !floatFilterForced();
+    machine.filterError = inEightBits ? oracle::kEightBitFilterError : 0;
     machine.filter =
-        machine.eightBitFilter
-            ? "llvmpipe filters a uint8 volume in 8-bit arithmetic (GALLIVM_PERF=no_aos_sampling: in float)"
-        : machine.llvmpipe ? "llvmpipe filters this volume in float"
-                           : "the device's sampler; its weights may have as few as 8 fraction bits";
-    if (machine.llvmpipe) {
+        inEightBits ? "llvmpipe filters a uint8 volume in 8-bit arithmetic (GALLIVM_PERF=no_aos_sampling: in float)"
+        : llvmpipe  ? "llvmpipe filters this volume in float"
+                    : "the device's sampler; its weights may have as few as 8 fraction bits";
+    if (llvmpipe) {
         machine.notes.emplace_back("llvmpipe is a rasteriser on the CPU: the methods of the device and cpu share the "
                                    "same cores");
         machine.notes.emplace_back("a query counts one draw, so query and query-any split a batch into a draw a pair; "

@@ -35,9 +35,8 @@ struct Machine {
     std::string api;
     std::string cpu;
     std::uint32_t cpuThreads = 0;
-    bool llvmpipe = false;
-    bool eightBitFilter = false;    ///< the sampler filters this volume in 8-bit arithmetic
     std::string filter;             ///< the arithmetic of the hardware filter, in words
+    double filterError = 0;         ///< by which it is off, in stored units, beside its weights
     std::vector<std::string> notes; ///< what to know when reading the times
 };
 

@@ -84,12 +84,19 @@ std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
     return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
 }
 
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+std::string joined(const std::vector<std::string>& texts, const char* between) {
+    std::string all;
+    for (const std::string& text : texts) {
+        all += (&text == texts.data() ? "" : between) + text;
     }
-    return text;
+    return all;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    if (names.size() < 2) {
+        return joined(names, "");
+    }
+    return joined({names.begin(), names.end() - 1}, ", ") + " and " + names.back();
 }
 
 } // namespace voxtact::lab

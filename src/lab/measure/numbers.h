@@ -51,6 +51,8 @@ inline void keep(const std::optional<double>& time, std::vector<double>& samples
 [[nodiscard]] std::string grouped(std::uint64_t value);
 /// "181x217x181"
 [[nodiscard]] std::string sizeText(const std::array<std::uint32_t, 3>& voxels);
+/// With something between each two.
+[[nodiscard]] std::string joined(const std::vector<std::string>& texts, const char* between);
 /// "a, b and c"
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

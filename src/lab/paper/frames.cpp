@@ -86,7 +86,6 @@ struct FrameLoop::State {
     Result<void> record(FramePart part, CountingMethod method, const Mat4& pose);
     Result<void> cmdPicture(VkCommandBuffer buffer, const Mat4& pose);
     Result<void> cmdDetect(VkCommandBuffer buffer, CountingMethod method, const Mat4& pose);
-    Result<std::uint64_t> detectOnHost(const Mat4& pose);
     Result<void> readTimes(FramePart part, bool onDevice, FrameSample& sample);
 };
 
@@ -132,46 +131,27 @@ Result<void> FrameLoop::State::record(FramePart part, CountingMethod method, con
     return commands.end();
 }
 
-Result<std::uint64_t> FrameLoop::State::detectOnHost(const Mat4& pose) {
-    const Result<Pass> pass = host->run(Work(scene).at({&pose, 1}), {});
-    return pass.ok() ? Result<std::uint64_t>(pass->pairs.front().count) : pass.error();
-}
-
 Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSample& sample) {
     if (commands.timestamps() == VK_NULL_HANDLE) {
         return {};
     }
-    struct Reading {
-        std::optional<double>& time;
-        std::uint32_t from;
-        std::uint32_t to;
-        bool wanted;
+    const auto read = [this](std::uint32_t from, std::uint32_t to, std::optional<double>& time) -> Result<void> {
+        const Result<std::optional<double>> between = commands.between(from, to);
+        VOXTACT_TRY(between);
+        time = *between;
+        return {};
     };
-    const bool drawn = part != FramePart::Detection;
-    // While the host detects, a frame is not what is submitted alone.
-    const bool whole = part != FramePart::Both || onDevice;
-    for (const Reading& reading :
-         {Reading{sample.mesh, kPictureBegins, kMeshDone, drawn}, Reading{sample.volume, kMeshDone, kVolumeDone, drawn},
-          Reading{sample.all, kFrameBegins, kFrameEnds, whole}}) {
-        if (!reading.wanted) {
-            continue;
-        }
-        const Result<std::optional<double>> time = commands.between(reading.from, reading.to);
-        VOXTACT_TRY(time);
-        reading.time = *time;
-    }
     if (part == FramePart::Detection) {
         const Result<double> time = results.gpuMilliseconds();
         VOXTACT_TRY(time);
-        sample.detection = *time;
+        sample.gpu = *time;
+        return {};
     }
-    return {};
+    VOXTACT_TRY(read(kPictureBegins, kMeshDone, sample.mesh));
+    VOXTACT_TRY(read(kMeshDone, kVolumeDone, sample.volume));
+    // While the host detects, a frame is not what is submitted alone.
+    return part == FramePart::Both && !onDevice ? Result<void>() : read(kFrameBegins, kFrameEnds, sample.gpu);
 }
-
-FrameLoop::FrameLoop(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
-FrameLoop::FrameLoop(FrameLoop&&) noexcept = default;
-FrameLoop& FrameLoop::operator=(FrameLoop&&) noexcept = default;
-FrameLoop::~FrameLoop() = default;
 
 Result<FrameLoop> FrameLoop::create(const device::Session& session, const Scene& scene,
                                     const std::vector<ColourPoint>& colours) {
@@ -181,11 +161,11 @@ Result<FrameLoop> FrameLoop::create(const device::Session& session, const Scene&
     VOXTACT_TRY(results);
     Result<device::TimedCommands> commands = device::TimedCommands::create(session, kFrameStamps);
     VOXTACT_TRY(commands);
-    return FrameLoop(std::unique_ptr<State>(new State{.session = session,
-                                                      .scene = scene,
-                                                      .picture = std::move(*picture),
-                                                      .results = std::move(*results),
-                                                      .commands = std::move(*commands)}));
+    return FrameLoop(std::make_shared<State>(State{.session = session,
+                                                   .scene = scene,
+                                                   .picture = std::move(*picture),
+                                                   .results = std::move(*results),
+                                                   .commands = std::move(*commands)}));
 }
 
 Result<void> FrameLoop::add(CountingMethod method) {
@@ -215,9 +195,9 @@ Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const 
         VOXTACT_TRY(state_->commands.submit());
     }
     if (onHost) {
-        const Result<std::uint64_t> count = state_->detectOnHost(world_from_object);
-        VOXTACT_TRY(count);
-        sample.count = *count;
+        const Result<Pass> pass = state_->host->run(Work(state_->scene).at({&world_from_object, 1}), {});
+        VOXTACT_TRY(pass);
+        sample.count = pass->pairs.front().count;
     }
     if (submits) {
         VOXTACT_TRY(state_->commands.wait());

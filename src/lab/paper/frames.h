@@ -17,26 +17,22 @@ enum class FramePart {
 
 /// A frame that is done. Times in ms; nothing where the clock cannot tell, or the part is not in the frame.
 struct FrameSample {
-    double wall = 0; ///< from the submission to the end of the wait
+    double wall = 0;             ///< from the submission to the end of the wait
+    std::optional<double> gpu{}; ///< of the detection where there is nothing else; around everything that was submitted
     std::optional<double> mesh{};
     std::optional<double> volume{};
-    std::optional<double> detection{}; ///< of a frame that detects and nothing else
-    std::optional<double> all{};       ///< around everything that was submitted
     std::optional<std::uint64_t> count{};
 };
 
 /// Frames as an embedder makes them: a picture and the detection in one command buffer, with the same camera, volume
 /// and mesh, recorded anew for each, submitted and waited for. Recording is in none of the times.
-/// Thread-safety: none; one thread at a time.
+/// Copies share it. Thread-safety: none; one thread at a time.
 class FrameLoop {
   public:
     /// The parts must be ready, the volume with bricks. `colours` are those of the picture. What it is given must
     /// outlive it.
     [[nodiscard]] static Result<FrameLoop> create(const device::Session& session, const Scene& scene,
                                                   const std::vector<ColourPoint>& colours);
-    FrameLoop(FrameLoop&&) noexcept;
-    FrameLoop& operator=(FrameLoop&&) noexcept;
-    ~FrameLoop();
 
     /// Makes what a method needs; frames with it may then be made.
     [[nodiscard]] Result<void> add(CountingMethod method);
@@ -45,8 +41,8 @@ class FrameLoop {
 
   private:
     struct State;
-    explicit FrameLoop(std::unique_ptr<State> state) noexcept;
-    std::unique_ptr<State> state_;
+    explicit FrameLoop(std::shared_ptr<State> state) noexcept : state_(std::move(state)) {}
+    std::shared_ptr<State> state_;
 };
 
 } // namespace voxtact::lab

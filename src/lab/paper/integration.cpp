@@ -27,54 +27,38 @@ RenderTransferFunctionDesc functionOf(std::uint32_t entries, std::size_t number)
     return {.opacity = {kOpacities.at(number), kDomain, entries}, .colours = kColours.at(number)};
 }
 
-/// One size of the table.
-struct SizedTable {
-    RenderTransferFunction function;
-    IntegrationPoint point;
-};
-
-Result<std::vector<SizedTable>> makeTables(const Renderer& renderer) {
-    std::vector<SizedTable> tables;
-    for (const std::uint32_t entries : kEntries) {
-        Result<RenderTransferFunction> made = RenderTransferFunction::create(renderer, functionOf(entries, 0));
-        VOXTACT_TRY(made);
-        tables.push_back({std::move(*made), {.entries = entries}});
-    }
-    return tables;
-}
-
-/// Of a function that has changed.
-Result<double> makeTable(device::TimedSubmission& submission, std::uint64_t round, SizedTable& table) {
-    const Result<device::TimedSubmission::Times> times = submission.run([&](VkCommandBuffer commands) {
-        return table.function.cmdUpdate(commands, functionOf(table.point.entries, round % 2));
-    });
-    VOXTACT_TRY(times);
-    if (round > 0) {
-        table.point.wall.push_back(times->wallMilliseconds);
-        keep(times->gpuMilliseconds, table.point.gpu);
-    }
-    return times->wallMilliseconds;
-}
-
 } // namespace
 
 Result<std::vector<IntegrationPoint>> timeIntegration(const device::Session& session, std::uint32_t repetitions,
                                                       const std::function<void()>& step) {
     const Result<Renderer> renderer = Renderer::create(session.context);
     VOXTACT_TRY(renderer);
-    Result<std::vector<SizedTable>> tables = makeTables(*renderer);
-    VOXTACT_TRY(tables);
+    std::vector<RenderTransferFunction> tables;
+    std::vector<IntegrationPoint> points;
+    for (const std::uint32_t entries : kEntries) {
+        Result<RenderTransferFunction> made = RenderTransferFunction::create(*renderer, functionOf(entries, 0));
+        VOXTACT_TRY(made);
+        tables.push_back(std::move(*made));
+        points.push_back({.entries = entries});
+    }
     Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);
     VOXTACT_TRY(submission);
     std::vector<Timed> things;
-    for (SizedTable& table : *tables) {
-        things.push_back({.take = [&](const Turn& turn) { return makeTable(*submission, turn.round, table); }});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        things.push_back({.take = [&, i](const Turn& turn) -> Result<double> {
+            const auto times = submission->run([&](VkCommandBuffer commands) {
+                return tables[i].cmdUpdate(commands,
+                                           functionOf(kEntries.at(i), turn.round % 2)); // one that has changed
+            });
+            VOXTACT_TRY(times);
+            if (turn.round > 0) {
+                points[i].wall.push_back(times->wallMilliseconds);
+                keep(times->gpuMilliseconds, points[i].gpu);
+            }
+            return times->wallMilliseconds;
+        }});
     }
     VOXTACT_TRY(takeRounds(things, {.repeats = repetitions, .warmUp = true, .step = step}));
-    std::vector<IntegrationPoint> points;
-    for (SizedTable& table : *tables) {
-        points.push_back(std::move(table.point));
-    }
     return points;
 }
 

@@ -54,35 +54,31 @@ Result<void> timeAll(const device::Session& session, const PaperSettings& paper,
     steps.doing(nameOf(Sweep::Batch));
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
     VOXTACT_TRY(engines);
-    const Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(v1s1));
-    VOXTACT_TRY(counts);
-    result.verdicts = judgeCounts(*counts, v1s1.poseNumbers);
-    steps.step();
+    const CompareRun run{session, settings, v1s1, *engines, result, steps.step};
+    VOXTACT_TRY(checkCounts(run));
     for (const Sweep sweep : {Sweep::Batch, Sweep::Triangles, Sweep::Fragments}) {
-        if (result.firstFailure() != nullptr) {
+        if (run.ended()) {
             return {};
         }
         steps.doing(nameOf(sweep));
-        VOXTACT_TRY(timeSweep(sweep, session, settings, v1s1, *engines, result, steps.step));
+        VOXTACT_TRY(timeSweep(run, sweep));
     }
-    if (result.firstFailure() != nullptr) {
+    if (run.ended()) {
         return {};
     }
     steps.doing(nameOf(Sweep::Voxels));
     const Result<Scene> head = headOf(paper, v1s1);
     VOXTACT_TRY(head);
-    return timeSweep(Sweep::Voxels, session, settings, *head, *engines, result, steps.step);
+    return timeSweep({session, settings, *head, *engines, result, steps.step}, Sweep::Voxels);
 }
 
 Result<void> sweep(const device::Session& session, const PaperSettings& paper, const CompareSettings& settings,
                    const Scene& v1s1, PaperResult& result, const Steps& steps) {
-    VOXTACT_TRY(makeReady(session, {}, *v1s1.volume));
-    VOXTACT_TRY(makeReady(&session, *v1s1.mesh));
+    VOXTACT_TRY(makeReady(session, v1s1));
     CompareResult compared;
     VOXTACT_TRY(timeAll(session, paper, settings, v1s1, compared, steps));
     if (const Verdict* failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
-        result.disagreement = failure->rule + ": disagreement on pose " + std::to_string(failure->first->pose) + ": " +
-                              failure->first->text;
+        result.disagreement = disagreementOf(*failure);
     }
     result.series = std::move(compared.series);
     result.notes.insert(result.notes.end(), compared.notes.begin(), compared.notes.end());
@@ -99,7 +95,7 @@ Result<void> findPolygons(const device::Session& session, const CompareSettings&
         result.disagreement = disagreementOf(found);
     }
     result.polygons = std::move(found.ways);
-    result.polygonTriangles = found.triangles;
+    result.polygonTriangles = v1s1.mesh->triangles();
     result.polygonPoses = static_cast<std::uint32_t>(found.poseNumbers.size());
     result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
     return {};

@@ -22,9 +22,9 @@ constexpr std::array<FramePart, 2> kFrameParts{FramePart::Detection, FramePart::
 /// A scene on the device and the host, with what was verified of it.
 struct PaperWork {
     const PaperInput& input;
-    std::vector<CountingMethod> methods{};
-    std::vector<NamedCounts> counts{}; ///< by method, in their order
-    std::size_t firstRow = 0;          ///< theirs follow each other
+    std::vector<NamedCounts> counts;     ///< by method
+    std::vector<CountingMethod> methods; ///< theirs
+    std::size_t firstRow;                ///< theirs follow each other
 };
 
 void addNote(std::string note, PaperResult& result) {
@@ -34,55 +34,46 @@ void addNote(std::string note, PaperResult& result) {
 }
 
 /// Counts every pose by every method. The first broken rule is the result's.
-Result<void> verify(const device::Session& session, PaperWork& work, PaperResult& result) {
-    EngineList list;
-    for (const CountingMethod method : work.methods) {
-        list.add(makeMethodEngine(session, method));
-    }
-    const Result<Engines> engines = list.take();
+Result<std::vector<NamedCounts>> verify(const device::Session& session, const PaperInput& input, PaperResult& result,
+                                        const std::function<void()>& step) {
+    CompareResult compared;
+    const CompareSettings settings;
+    const Result<Engines> engines = makeMethodEngines(session, settings, compared);
     VOXTACT_TRY(engines);
-    const Scene& scene = work.input.scene;
-    Result<std::vector<NamedCounts>> counts = countAll(*engines, Work(scene));
-    VOXTACT_TRY(counts);
-    work.counts = std::move(*counts);
-    for (const Verdict& verdict : judgeCounts(work.counts, scene.poseNumbers)) {
-        if (verdict.failed() && result.disagreement.empty()) {
-            result.disagreement = work.input.facts.name + ", " + verdict.rule + ": pose " +
-                                  std::to_string(verdict.first->pose) + ": " + verdict.first->text;
-        }
+    VOXTACT_TRY(checkCounts({session, settings, input.scene, *engines, compared, step}));
+    for (std::string& note : compared.notes) {
+        addNote(std::move(note), result);
     }
-    return {};
+    if (const Verdict* const failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
+        result.disagreement = input.facts.name + ", " + failure->rule + ": pose " +
+                              std::to_string(failure->first->pose) + ": " + failure->first->text;
+    }
+    return std::move(compared.counts);
 }
 
-void addRows(PaperWork& work, PaperResult& result) {
-    work.firstRow = result.rows.size();
-    for (const NamedCounts& counts : work.counts) {
-        const auto sum = static_cast<double>(std::accumulate(counts.counts.begin(), counts.counts.end(), 0ULL));
-        const auto hits = std::ranges::count_if(counts.counts, [](std::uint64_t count) { return count > 0; });
+PaperWork addRows(const PaperInput& input, std::vector<NamedCounts> counts, PaperResult& result) {
+    PaperWork work{input, std::move(counts), {}, result.rows.size()};
+    for (const NamedCounts& by : work.counts) {
+        work.methods.push_back(*countingMethodFromName(by.method));
+        const auto sum = static_cast<double>(std::accumulate(by.counts.begin(), by.counts.end(), 0ULL));
+        const auto hits = std::ranges::count_if(by.counts, [](std::uint64_t count) { return count > 0; });
         result.rows.push_back({.scene = result.scenes.size(),
-                               .method = counts.method,
-                               .survivors = sum / static_cast<double>(counts.counts.size()),
+                               .method = by.method,
+                               .survivors = sum / static_cast<double>(by.counts.size()),
                                .hits = static_cast<std::uint32_t>(hits)});
     }
-    result.scenes.push_back(work.input.facts);
+    result.scenes.push_back(input.facts);
+    return work;
 }
 
 void keepFrame(FramePart part, const FrameSample& sample, PaperRow& row) {
-    switch (part) {
-    case FramePart::Rendering:
+    constexpr std::array kColumns{&PaperColumns::rendering, &PaperColumns::collision, &PaperColumns::total};
+    const auto column = kColumns.at(static_cast<std::size_t>(part));
+    keep(sample.gpu, row.gpu.*column);
+    (row.wall.*column).push_back(sample.wall);
+    if (part == FramePart::Rendering) {
         keep(sample.mesh, row.gpu.mesh);
         keep(sample.volume, row.gpu.volume);
-        keep(sample.all, row.gpu.rendering);
-        row.wall.rendering.push_back(sample.wall);
-        return;
-    case FramePart::Detection:
-        keep(sample.detection, row.gpu.collision);
-        row.wall.collision.push_back(sample.wall);
-        return;
-    case FramePart::Both:
-        keep(sample.all, row.gpu.total);
-        row.wall.total.push_back(sample.wall);
-        return;
     }
 }
 
@@ -169,20 +160,10 @@ Result<void> timeFrames(const device::Session& session, const PaperSettings& set
 
 Result<void> measurePaperScene(const device::Session& session, const PaperSettings& settings, double seconds,
                                const PaperInput& input, PaperResult& result, const std::function<void()>& step) {
-    VOXTACT_TRY(makeReady(session, {.bricks = true}, *input.scene.volume));
-    VOXTACT_TRY(makeReady(&session, *input.scene.mesh));
-    PaperWork work{.input = input};
-    for (const CountingMethod method : countingMethods()) {
-        if (const std::string why = whyNot(session, method); why.empty()) {
-            work.methods.push_back(method);
-        } else {
-            addNote(std::string("no ") + toString(method) + " on this device: " + why, result);
-        }
-    }
-    VOXTACT_TRY(verify(session, work, result));
-    step();
-    addRows(work, result);
-    return timeFrames(session, settings, seconds, work, result, step);
+    VOXTACT_TRY(makeReady(session, input.scene, {.bricks = true}));
+    Result<std::vector<NamedCounts>> counts = verify(session, input, result, step);
+    VOXTACT_TRY(counts);
+    return timeFrames(session, settings, seconds, addRows(input, std::move(*counts), result), result, step);
 }
 
 std::uint64_t paperSceneSteps(const PaperSettings& settings) {
