@@ -6,6 +6,8 @@
 #ifndef VOXTACT_CERTIFIED_CLEARANCE_GLSL
 #define VOXTACT_CERTIFIED_CLEARANCE_GLSL
 
+#include "certified_closest.glsl"
+
 // Others better these words while they are read.
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) volatile buffer Live { uint live[]; };
 
@@ -57,11 +59,6 @@ bool clearanceIsDone(uint pair) {
            clearanceSpace(pair).margin <= uintBitsToFloat(live[word + VOXTACT_CLEARANCE_LO]);
 }
 
-/// Something opaque is at least as near.
-void foundAt(uint pair, float distance) {
-    atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_HI], floatBitsToUint(distance));
-}
-
 /// Something is left undecided, and may be as near.
 void leaveOpen(uint pair, float distance) {
     const uint least = distance > 0.0 ? floatBitsToUint(distance) : VOXTACT_CLEARANCE_UNKNOWN;
@@ -87,12 +84,46 @@ float clearanceAbove(MarginSpace by, float slack, VoxelPoint near, VoxelPoint at
 
 /// What a lane finds of a pair.
 struct ClearanceFound {
-    float hi;   // something opaque is as near
-    float open; // what is left undecided is not nearer
+    float hi;           // something opaque is as near
+    float open;         // what is left undecided is not nearer
+    ClosestPlace place; // of what is as near as `hi`, unless that was known before
 };
 
 ClearanceFound nothingFound() {
-    return ClearanceFound(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR);
+    return ClearanceFound(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR, closestNowhere());
+}
+
+/// Turns at which a lane asks whether no other one writes: more than it takes, and no deadlock where it is not enough.
+const uint kMostTurns = 1024;
+
+/// Something opaque is as near to a triangle, or nearer. Who betters the distance writes what proves it, too, and one
+/// lane a pair does so at a time: so what is kept always proves the distance that is. All that it touches is atomic, and
+/// what ends its turn needs what came before; so that is seen in order without a memory barrier, which lavapipe takes
+/// for one of the work group. What could not be told is left open: the next step finds it again.
+void foundAt(uint pair, uint triangle, float distance, ClosestPlace place) {
+    const uint hi = clearanceWord(pair) + VOXTACT_CLEARANCE_HI;
+    if (!kClosest) {
+        atomicMin(queues[hi], floatBitsToUint(distance));
+        return;
+    }
+    const uint word = closestWord(pair);
+    bool told = false;
+    for (uint turn = 0; turn < kMostTurns && !told; ++turn) {
+        if (distance >= clearanceHi(pair)) {
+            told = true;
+        } else if (atomicCompSwap(queues[word + VOXTACT_CLOSEST_TAKEN], 0u, 1u) == 0u) {
+            uint before = atomicMin(queues[hi], floatBitsToUint(distance));
+            if (before > floatBitsToUint(distance)) {
+                before |= writeClosest(word, triangle, place);
+            }
+            const uint none = uint(constants.item.tableSize) >> 30; // 0, which compilers cannot know
+            atomicExchange(queues[word + VOXTACT_CLOSEST_TAKEN], before & none);
+            told = true;
+        }
+    }
+    if (!told) {
+        leaveOpen(pair, 0.0);
+    }
 }
 
 #endif

@@ -10,10 +10,11 @@ float boxBelow(MarginSpace by, MarginTriangle about, MarginNear near, VoxelPoint
 }
 
 /// A cell of a triangle as a whole: what it is no nearer than, and, where it `has` something opaque (marginCellHas()),
-/// what that is no farther than.
+/// what that is no farther than, and where it is.
 struct CellClearance {
     float below;
     float above;
+    ClosestPlace place;
 };
 
 CellClearance cellClearance(MarginSpace by, CertifiedTriangle triangle, int has, ivec3 cell) {
@@ -24,6 +25,7 @@ CellClearance cellClearance(MarginSpace by, CertifiedTriangle triangle, int has,
     CellClearance found;
     found.below = boxBelow(by, about, near, voxelPoint(0.5, 0.5, 0.5));
     found.above = VOXTACT_CLEARANCE_FAR;
+    found.place = closestIn(VOXTACT_CLOSEST_IN_CELL, cell);
     if (has != 0) {
         found.above = clearanceAbove(by, about.slack + marginCellRadius(by), near.at, none);
     }
@@ -31,7 +33,12 @@ CellClearance cellClearance(MarginSpace by, CertifiedTriangle triangle, int has,
         const VoxelPoint nearest = voxelPoint(marginInCell(near.at.x, cell.x, constants.item.sizeX),
                                               marginInCell(near.at.y, cell.y, constants.item.sizeY),
                                               marginInCell(near.at.z, cell.z, constants.item.sizeZ));
-        found.above = min(found.above, clearanceAbove(by, about.slack, near.at, nearest));
+        const float above = clearanceAbove(by, about.slack, near.at, nearest);
+        if (above < found.above) {
+            found.above = above;
+            const VoxelPoint at = voxelStep(nearest, voxelPoint(0.5, 0.5, 0.5), 1.0); // about the corner
+            found.place = closestWay(cell, at, at);
+        }
     }
     return found;
 }
@@ -57,30 +64,46 @@ float partBelow(MarginSpace by, CertifiedCell cell, MarginTriangle about) {
 struct ClearanceSamples {
     MarginSamples values;
     float farthest;
+    VoxelPoint atLo; // where the least of them is
+    VoxelPoint atHi;
 };
 
+ClearanceSamples noSamples() {
+    const VoxelPoint none = voxelPoint(0.0, 0.0, 0.0);
+    return ClearanceSamples(marginNoSamples(), 0.0, none, none);
+}
+
 /// Takes a point into account that is so far from the triangle, nearer than `found.hi`: opaque, or opaque between it
-/// and another one, as in marginPointProves().
-void tryPoint(CertifiedCell cell, VoxelPoint at, float distance, inout ClearanceSamples samples,
+/// and another one, as in marginPointProves(). `number`: the cell.
+void tryPoint(CertifiedCell cell, ivec3 number, VoxelPoint at, float distance, inout ClearanceSamples samples,
               inout ClearanceFound found) {
     if (samples.farthest >= found.hi) {
-        samples = ClearanceSamples(marginNoSamples(), 0.0);
+        samples = noSamples();
     }
     MarginSamples alone = marginNoSamples();
     if (marginPointProves(opacities(), cell, at, alone)) {
         found.hi = distance;
+        found.place = closestWay(number, at, at);
         return;
     }
     samples.farthest = max(samples.farthest, distance);
+    if (!samples.values.some || alone.lo < samples.values.lo) {
+        samples.atLo = at;
+    }
+    if (!samples.values.some || alone.hi > samples.values.hi) {
+        samples.atHi = at;
+    }
     if (marginPointProves(opacities(), cell, at, samples.values)) {
         found.hi = samples.farthest;
+        found.place = closestWay(number, samples.atLo, samples.atHi);
     }
 }
 
 /// Looks for the nearest opaque point of a cell, as marginDecide() does: boxes that are nearer than what is known are
 /// halved until what may be opaque in them is not.
-void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, CertifiedCell cell, VoxelPoint corner,
+void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, CertifiedCell cell, ivec3 number,
                   inout ClearanceFound found) {
+    const VoxelPoint corner = voxelPoint(float(number.x), float(number.y), float(number.z));
     const MarginTriangle about = marginTriangle(by, triangle, corner, 1.0);
     const float asked = clearanceAsked(pair);
     const float whole = partBelow(by, cell, about);
@@ -89,7 +112,7 @@ void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, Certifi
         return;
     }
     const MarginValues known = marginCellValues(opacities(), cell, MARGIN_VALUE_STEPS);
-    ClearanceSamples samples = ClearanceSamples(marginNoSamples(), 0.0);
+    ClearanceSamples samples = noSamples();
     MarginBox stack[MARGIN_STACK];
     float below[MARGIN_STACK];
     stack[0] = marginCellBox(cell);
@@ -131,7 +154,7 @@ void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, Certifi
             const VoxelPoint at = marginClamped(box, points[i]);
             const float distance = clearanceAbove(by, about.slack, near.at, at);
             if (distance < found.hi) {
-                tryPoint(cell, at, distance, samples, found);
+                tryPoint(cell, number, at, distance, samples, found);
             }
         }
         if (least >= clearanceLimit(by, asked, found.hi)) {
@@ -161,20 +184,20 @@ float measureCell(uint pair, CertifiedTriangle triangle, ivec3 at, vec4 range, i
     const CertifiedCell cell =
         certifiedCell(constants.item, cornersOf(at, range), at.x, at.y, at.z, triangle.delta);
     if (marginCellMay(opacities(), cell)) {
-        measureBoxes(pair, by, triangle, cell, voxelPoint(float(at.x), float(at.y), float(at.z)), found);
+        measureBoxes(pair, by, triangle, cell, at, found);
     }
     return below;
 }
 
-/// Adds what a lane has found of a pair to what is known. `least`: nothing that it looked at is nearer, whatever became
-/// of its loops.
-void tellFound(uint pair, ClearanceFound found, float least) {
+/// Adds what a lane has found of a pair to what is known, with that triangle. `least`: nothing that it looked at is
+/// nearer, whatever became of its loops.
+void tellFound(uint pair, uint triangle, ClearanceFound found, float least) {
     if (isCut()) {
         leaveOpen(pair, least);
         return;
     }
     if (found.hi < clearanceHi(pair)) {
-        foundAt(pair, found.hi);
+        foundAt(pair, triangle, found.hi, found.place);
     }
     if (found.open < VOXTACT_CLEARANCE_FAR) {
         leaveOpen(pair, found.open);

@@ -29,5 +29,5 @@ void main() {
     ClearanceFound found = nothingFound();
     const float below =
         measureCell(entry.x, triangle, cell, brickAt((cell + 1) >> VOXTACT_BRICK_SHIFT), found);
-    tellFound(entry.x, found, below);
+    tellFound(entry.x, entry.y, found, below);
 }

@@ -57,6 +57,7 @@ void lookAtBrick(inout MarginSpace by, CertifiedReach reach, VoxelPoint vertex, 
     if (above < found.hi && constants.item.storedUnit > 0.0 && // whole numbers: none is NaN
         marginRangeHas(opacities(), constants.item, range.x, range.y)) {
         found.hi = above;
+        found.place = closestIn(VOXTACT_CLOSEST_IN_BRICK, (node.place << VOXTACT_BRICK_SHIFT) - 1);
         by.margin = clearanceLimit(by, by.margin, above);
     }
 }

@@ -86,10 +86,11 @@ bool isNear(Node node) {
         found.open = mayHaveAnything() ? 0.0 : found.open;
     }
     if (isCut()) {
-        found = ClearanceFound(VOXTACT_CLEARANCE_FAR, 0.0);
+        found = nothingFound();
+        found.open = 0.0;
     }
     if (found.hi < clearanceHi(node.pair)) {
-        foundAt(node.pair, found.hi);
+        foundAt(node.pair, triangleAt(node.number * kNodeTriangles), found.hi, found.place);
     }
 #ifdef SCOUT
     if (found.open < VOXTACT_CLEARANCE_FAR) {

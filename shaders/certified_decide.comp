@@ -29,7 +29,7 @@ int decide(uvec4 entry) {
     const int count = certifiedClip(triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)), polygon);
     CertifiedWitness witness;
     const int verdict = certifiedSettle(opacities(), constants.item.resolution, known, polygon, count, witness);
-#ifdef OUTPUTS
+#if defined(OUTPUTS) || defined(TOUCHES)
     if (verdict == CERTIFIED_CERTAIN && !isCut()) {
         emitWitness(entry.x, entry.y, corners, witness, cell);
     }

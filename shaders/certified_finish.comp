@@ -66,7 +66,7 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
     }
     if (verdict == CERTIFIED_CERTAIN && !isCut()) {
         ++survivors;
-#ifdef OUTPUTS
+#if defined(OUTPUTS) || defined(TOUCHES)
         emitWitness(triangle.pair, triangle.number, corners, witness, cell);
 #endif
     }

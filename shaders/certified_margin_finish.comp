@@ -24,9 +24,9 @@ int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
     return CERTIFIED_NONE;
 }
 
-void tell(uint pair, bool undecided, bool found) {
+void tell(uint pair, uint triangle, bool undecided, bool found) {
     nearest.open = undecided ? 0.0 : nearest.open;
-    tellFound(pair, nearest, 0.0);
+    tellFound(pair, triangle, nearest, 0.0);
 }
 #else
 int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
@@ -44,7 +44,7 @@ int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
     return marginDecide(opacities(), by, triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
 }
 
-void tell(uint pair, bool undecided, bool found) {
+void tell(uint pair, uint triangle, bool undecided, bool found) {
     if (isCut()) {
         atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
     } else if (found) {
@@ -105,7 +105,7 @@ void decideShare(Share given) {
     // All lanes look at the same bricks.
     countWork(VOXTACT_WORK_BRICKS_LEFT, bounds.usable && gl_LocalInvocationIndex > 0 ? 0 : bricksSeen);
     countWork(VOXTACT_WORK_CELLS_LEFT, cellsSeen);
-    tell(share.pair, undecided, found);
+    tell(share.pair, share.number, undecided, found);
 }
 
 void main() {

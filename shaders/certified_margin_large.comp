@@ -186,8 +186,9 @@ shared uint nearest; // the bits of what is least of what cells are no nearer th
 void lookAtAll(uvec4 entry, ivec3 corner) {
     const MarginSpace by = MARGIN_SPACE(entry.x);
     const uint count = opaqueCount * nearTriangleCount;
-    CellClearance best = CellClearance(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR);
+    CellClearance best = CellClearance(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR, closestNowhere());
     uint bestPlace = 0;
+    uint bestTriangle = 0; // of `above`
     uint seen = 0;
     for (uint place = gl_LocalInvocationIndex; place < count; place += VOXTACT_MARGIN_GROUP) {
         const uint number = opaqueCells[place % opaqueCount];
@@ -199,7 +200,11 @@ void lookAtAll(uvec4 entry, ivec3 corner) {
         ++seen;
         const CellClearance found = cellClearance(by, triangles[i], int(number >> kHasShift), cell);
 #ifdef PROBE
-        best.above = min(best.above, found.above);
+        if (found.above < best.above) {
+            best.above = found.above;
+            best.place = found.place;
+            bestTriangle = i;
+        }
         if (found.below < best.below) {
             best.below = found.below;
             bestPlace = place;
@@ -213,7 +218,7 @@ void lookAtAll(uvec4 entry, ivec3 corner) {
     countWork(VOXTACT_WORK_CELLS, seen);
 #ifdef PROBE
     if (best.above < clearanceHi(entry.x) && !isCut()) {
-        foundAt(entry.x, best.above);
+        foundAt(entry.x, triangleOfRun(entry, bestTriangle), best.above, best.place);
     }
     atomicMin(nearest, floatBitsToUint(best.below));
     barrier();

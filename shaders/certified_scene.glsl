@@ -40,7 +40,9 @@ const bool kCarry = true;
 #define MARGIN_SPACE(pair) marginOf(constants.item)
 #endif
 #include "mesh.glsl"
-#ifdef OUTPUTS
+#ifdef TOUCHES
+#include "certified_closest.glsl"
+#elif defined(OUTPUTS)
 #include "survives.glsl"
 #include "outputs.glsl"
 #endif
@@ -301,7 +303,11 @@ int fragmentVerdict(CertifiedTriangle triangle, ivec3 cell, vec4 range, bool sin
 
 #include "exact_language.h"
 
-#ifdef OUTPUTS
+#ifdef TOUCHES
+void emitWitness(uint pair, uint number, CertifiedCorners corners, CertifiedWitness witness, ivec3 cell) {
+    keepTouch(pair, number, cell, witness.point);
+}
+#elif defined(OUTPUTS)
 /// `number` is that of the triangle.
 void emitWitness(uint pair, uint number, CertifiedCorners corners, CertifiedWitness witness, ivec3 cell) {
     const CertifiedProof proof =

@@ -94,6 +94,18 @@ struct ClearanceConstants {
     float maximum;   // mm: not more than `most`
 };
 
+/// Push constants of the pass that makes closest points of what proves them: shaders/certified_clearance_points.comp.
+struct ClosestConstants {
+    MeshConstants mesh;
+    float toFlat[6];    // as marginOf() has them: xx, xy, xz, yy, yz, zz
+    float rows[9];      // of the world, mm, from voxel space
+    float origin[3];    // of voxel space, world mm
+    uint clearanceWord; // as in ClearanceConstants
+    uint closestWord;   // where the words of the closest points are
+    uint firstPair;
+    uint pairs;
+};
+
 /// Push constants of the pass that makes pairs of poses: shaders/pair_setup.comp.
 struct PairSetupConstants {
     uint firstPair; // of the dispatch
@@ -177,7 +189,7 @@ struct CertifiedConstants {
                       // the runs, and then the triangles, run by run; VOXTACT_NO_CLUSTERS where the mesh has none there
     uint firstPair;   // of the round
     uint firstCluster;
-    uint endCluster;
+    uint endCluster; // in certified_clearance_place, which has no clusters: pairs of the dispatch
     uint queueWord;  // of the words of the transforms' buffer, where the queues begin
     uint headerWord; // where the round's queue headers are
     uint queueRoom;  // clusters; that of the other queues follows from it
@@ -247,6 +259,22 @@ struct CertifiedConstants {
 // In place of a distance that is left undecided: nothing is known of it; and that for want of room or time.
 #define VOXTACT_CLEARANCE_UNKNOWN 1u
 #define VOXTACT_CLEARANCE_REFUSED 0u
+// Where closest points are wanted, behind the clearances, from a multiple of 256 bytes on: so many words a pair, in the
+// end its ClosestResult. `pairs`: as many as there is room for.
+#define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
+    (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
+#define VOXTACT_CLOSEST_WORDS 12
+// Before that, what proves VOXTACT_CLEARANCE_HI, or the touch: shaders/certified_closest.glsl.
+#define VOXTACT_CLOSEST_TAKEN 0 // not 0: a lane writes, or the pair touches
+#define VOXTACT_CLOSEST_TRIANGLE 1
+#define VOXTACT_CLOSEST_KIND 2
+#define VOXTACT_CLOSEST_CELL 3 // three ints
+#define VOXTACT_CLOSEST_FROM 6 // three floats, about the cell's corner
+#define VOXTACT_CLOSEST_TO 9
+// Kinds.
+#define VOXTACT_CLOSEST_ON_WAY 0u   // something is opaque on the straight way between the two points
+#define VOXTACT_CLOSEST_IN_CELL 1u  // in the cell
+#define VOXTACT_CLOSEST_IN_BRICK 2u // in the brick that has its first cell there
 /// Farther than anything, flat.
 #define VOXTACT_CLEARANCE_FAR 16777216.0f
 /// Of a distance, over the size of MarginSpace: bounds of single precision are no nearer to each other.
@@ -305,7 +333,10 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_DOMINANT_AXIS 4
 #define VOXTACT_CONSTANT_STOP_AT_FIRST 5
 #define VOXTACT_CONSTANT_COUNTERS 6
+#define VOXTACT_CONSTANT_CLOSEST 7
 #define VOXTACT_CONSTANT_OUTPUTS 16
+// In place of outputs: where a pair touches is wanted, for its closest points.
+#define VOXTACT_OUTPUT_TOUCH 0x80000000u
 // Where the push constants of dominant.vert begin: room for those of the fragment program is before them.
 #define VOXTACT_OFFSET_DOMINANT 96
 // Lanes of a work group of the compute path.
@@ -327,6 +358,7 @@ static_assert(sizeof(ComputeConstants) == 80);
 static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
+static_assert(sizeof(ClosestConstants) == 104);
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CERTAIN < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_MARGIN_WORD_LEFT(16) + 4 * VOXTACT_MARGIN_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);

@@ -43,7 +43,8 @@ enum class ClearanceEnd : std::uint32_t {
 [[nodiscard]] VOXTACT_API const char* toString(ClearanceEnd end) noexcept;
 
 /// Two points as far apart as `hi` says, and how the clearance changes with the pose. The same point twice where the
-/// pair touches.
+/// pair touches. Of a device they are no farther apart than that, and where they are is known to some ten-millionths of
+/// the largest coordinate (ClosestResult in device_results.h).
 struct ClosestPoints {
     std::uint32_t triangle = 0; ///< number in the mesh
     Vec3 mesh{};                ///< on that triangle, world mm
@@ -60,12 +61,13 @@ struct ClosestPoints {
 
 /// The clearance of one pair.
 struct PairClearance {
-    std::uint32_t pair = 0;               ///< number of the pair in its batch
-    std::uint32_t item = 0;               ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0;               ///< number of the pose within that item
-    ClearanceBounds bounds;               ///< mm
-    ClearanceEnd end{};                   ///< why they are no nearer to each other
-    std::optional<ClosestPoints> closest; ///< of a cpu::ClearanceMeter, where `hi` is finite
+    std::uint32_t pair = 0; ///< number of the pair in its batch
+    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
+    std::uint32_t pose = 0; ///< number of the pose within that item
+    ClearanceBounds bounds; ///< mm
+    ClearanceEnd end{};     ///< why they are no nearer to each other
+    /// Of a cpu::ClearanceMeter, or of a Detector with DetectorDesc::closest, where `hi` is finite.
+    std::optional<ClosestPoints> closest;
 };
 
 /// The clearance of one pair to what is opaque and has a label, or to what has it.

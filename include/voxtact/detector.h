@@ -49,6 +49,12 @@ struct DetectorDesc {
     /// InvalidArgument for a tolerance that is not a number from 1e-6 mm on, a maximum that is not above 0, other
     /// projections, outputs, and a margin above 0.
     std::optional<ClearanceSearch> clearance = std::nullopt;
+    /// With `clearance`: two points that prove each upper bound, as a cpu::ClearanceMeter has them, for Results that
+    /// were made with ResultsDesc::closest. They are no farther apart than `hi` and no nearer than `lo`, in single
+    /// precision: see ClosestResult. Which of several pairs of points it is may differ from run to run. Costs a look at
+    /// where it touches, of pairs that do, and little of the others; nothing where it is not asked for. InvalidArgument
+    /// without `clearance`.
+    bool closest = false;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -111,6 +117,9 @@ struct ResultsDesc {
     /// For detectors with DetectorDesc::clearance: 16 bytes of device memory a pair, as much of the host's where there
     /// is a copy, and 16 KiB. They take the queues of the projection conservative.
     bool clearances = false;
+    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair, as
+    /// these.
+    bool closest = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
     /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the
@@ -174,6 +183,9 @@ class Results {
     /// their order; ready for readers when pairResults() are. A part of a buffer with the usage STORAGE_BUFFER |
     /// TRANSFER_SRC | TRANSFER_DST; null without ResultsDesc::clearances.
     [[nodiscard]] VOXTACT_API BufferRange clearances() const noexcept;
+    /// The same of a detector with DetectorDesc::closest: a ClosestResult for each pair. Null without
+    /// ResultsDesc::closest.
+    [[nodiscard]] VOXTACT_API BufferRange closest() const noexcept;
 
     /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
     /// render pass.
@@ -189,8 +201,9 @@ class Results {
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
     /// Whether the batch recorded last is of a detector with DetectorDesc::clearance.
     [[nodiscard]] VOXTACT_API bool measured() const noexcept;
-    /// The clearances of the batch recorded last, unpacked. The same is expected as by read(); NotReady where its
-    /// detector was made without DetectorDesc::clearance.
+    /// The clearances of the batch recorded last, unpacked, with the closest points where its detector was made with
+    /// DetectorDesc::closest. The same is expected as by read(); NotReady where its detector was made without
+    /// DetectorDesc::clearance.
     [[nodiscard]] VOXTACT_API Result<std::vector<PairClearance>> readClearances();
     /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;

@@ -62,6 +62,27 @@ struct ClearanceResult {
     VOXTACT_UINT reserved; ///< 0
 };
 
+/// Two points that prove ClearanceResult::hi, of a detector with DetectorDesc::closest; 48 bytes, std430. All in single
+/// precision: `way` is as long as the distance is, to some millionths of itself and of a voxel; where things are in the
+/// world, to some ten-millionths of the largest coordinate. Of a touch the point is as near to its triangle as a
+/// Contact of results.h is. How the distance changes with the pose follows from it: with u = -way / length(way), by u
+/// for each mm that the mesh is moved, and by cross(arm, u) for each radian that it is turned about the object's
+/// origin.
+struct ClosestResult {
+    float x;               ///< the point on the triangle, world mm
+    float y;               ///< the point on the triangle
+    float z;               ///< the point on the triangle
+    VOXTACT_UINT triangle; ///< number in the mesh
+    float wayX;            ///< from that point to the opaque one, world mm; 0 where the pair touches
+    float wayY;            ///< from that point to the opaque one
+    float wayZ;            ///< from that point to the opaque one
+    VOXTACT_UINT some;     ///< 1; where `hi` is infinite 0, and so is all the rest
+    float armX;            ///< from the object's origin to the point on the triangle, world mm
+    float armY;            ///< from the object's origin to the point on the triangle
+    float armZ;            ///< from the object's origin to the point on the triangle
+    VOXTACT_UINT reserved; ///< 0
+};
+
 // ClearanceResult.end, the numbers being those of ClearanceEnd in clearance.h.
 #define VOXTACT_CLEARANCE_CLOSED 0u
 #define VOXTACT_CLEARANCE_BEYOND 1u
@@ -108,6 +129,7 @@ static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countH
               "a 64-bit query result is copied over countLow and countHigh");
 static_assert(sizeof(ContactResult) == 48);
 static_assert(sizeof(ClearanceResult) == 16);
+static_assert(sizeof(ClosestResult) == 48);
 static_assert(sizeof(CertifiedCounters) == 152);
 } // namespace voxtact
 #endif

@@ -32,6 +32,8 @@ typedef struct vxt_detector_desc {
     /// vxt_answer_clearances(); the results need room for it. 0, the default: that is not asked
     double clearance_tolerance;
     double max_clearance; ///< with clearance_tolerance, mm: what is farther is not measured; 0, the default: all is
+    uint32_t closest;     ///< with clearance_tolerance: closest points, too; the results need room for them; default 0
+    uint32_t reserved;    ///< 0
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -141,6 +143,8 @@ typedef struct vxt_results_desc {
     /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the
     /// results: voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
     vxt_buffer_range into;
+    uint32_t closest;  ///< not 0, with clearances: there is room for vxt_detector_desc::closest; default 0
+    uint32_t reserved; ///< 0
 } vxt_results_desc;
 
 /// From the answers of one frame of a ring to those of the next in vxt_results_desc::into: voxtact::resultBytes().
@@ -171,6 +175,7 @@ typedef enum vxt_device_part {
     VXT_DEVICE_BOUNDS = 4,          ///< six uints for each pair
     VXT_DEVICE_LABEL_COUNTS = 5,    ///< a uint for each label of each pair
     VXT_DEVICE_CLEARANCES = 6,      ///< a ClearanceResult, 16 bytes, for each pair
+    VXT_DEVICE_CLOSEST = 7,         ///< a ClosestResult, 48 bytes, for each pair
     VXT_DEVICE_MAX = 0x7fffffff     ///< makes the type 32 bits wide
 } vxt_device_part;
 
@@ -230,8 +235,9 @@ static inline vxt_certified_counters vxt_certified_counters_init(void) {
 /// Of an answer that a detector with vxt_detector_desc::counters gave; NOT_READY of any other.
 VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters);
 
-/// Of an answer of a detector with vxt_detector_desc::clearance_tolerance, in the order of the batch, without closest
-/// points; NOT_READY of any other. The time that `clearances` then have is that of the answer.
+/// Of an answer of a detector with vxt_detector_desc::clearance_tolerance, in the order of the batch, with closest
+/// points where that had vxt_detector_desc::closest; NOT_READY of any other. The time that `clearances` then have is
+/// that of the answer.
 VXT_CHECKED vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances);
 
 /// Results for frames in flight: voxtact::ResultRing.

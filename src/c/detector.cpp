@@ -39,7 +39,8 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .overestimate = desc.overestimate != 0,
             .devicePoses = desc.device_poses != 0,
             .margin = desc.margin,
-            .clearance = searchOf(desc)};
+            .clearance = searchOf(desc),
+            .closest = desc.closest != 0};
 }
 
 } // namespace

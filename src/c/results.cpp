@@ -19,6 +19,7 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
                     .timestamps = desc.timestamps != 0,
                     .queueFamily = desc.queue_family,
                     .clearances = desc.clearances != 0,
+                    .closest = desc.closest != 0,
                     .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
@@ -45,6 +46,8 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
         return results.labelCounts();
     case VXT_DEVICE_CLEARANCES:
         return results.clearances();
+    case VXT_DEVICE_CLOSEST:
+        return results.closest();
     default:
         break;
     }

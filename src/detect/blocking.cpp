@@ -87,6 +87,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
             resultsDesc.clustersAtOnce = 0;
         }
         resultsDesc.clearances = desc.clearance.has_value();
+        resultsDesc.closest = desc.closest;
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }

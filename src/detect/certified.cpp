@@ -13,9 +13,11 @@
 #include "voxtact_shaders/certified_cull_comp.h"
 #include "voxtact_shaders/certified_decide_comp.h"
 #include "voxtact_shaders/certified_decide_outputs_comp.h"
+#include "voxtact_shaders/certified_decide_touches_comp.h"
 #include "voxtact_shaders/certified_expand_comp.h"
 #include "voxtact_shaders/certified_finish_comp.h"
 #include "voxtact_shaders/certified_finish_outputs_comp.h"
+#include "voxtact_shaders/certified_finish_touches_comp.h"
 #include "voxtact_shaders/certified_large_comp.h"
 #include "voxtact_shaders/certified_margin_cull_comp.h"
 #include "voxtact_shaders/certified_margin_decide_comp.h"
@@ -35,37 +37,42 @@ struct PassKind {
     std::span<const std::uint32_t> plain;
     std::span<const std::uint32_t> withOutputs;
     std::span<const std::uint32_t> withMargin;
+    std::span<const std::uint32_t> withTouches; ///< that say where a pair touches
     const char* name;
     std::uint32_t queue;
 };
 
 /// In the order in which they run.
 const PassKind kPasses[] = {
-    {spirv::certified_cull_comp, spirv::certified_cull_comp, spirv::certified_margin_cull_comp, "conservative cull",
-     kNoQueue},
+    {spirv::certified_cull_comp, spirv::certified_cull_comp, spirv::certified_margin_cull_comp,
+     spirv::certified_cull_comp, "conservative cull", kNoQueue},
     {spirv::certified_refine_comp, spirv::certified_refine_comp, spirv::certified_margin_refine_comp,
-     "conservative refine", VOXTACT_QUEUE_CLUSTERS},
+     spirv::certified_refine_comp, "conservative refine", VOXTACT_QUEUE_CLUSTERS},
     {spirv::certified_expand_comp, spirv::certified_expand_comp, spirv::certified_margin_expand_comp,
-     "conservative expand", VOXTACT_QUEUE_RUNS},
-    {spirv::certified_large_comp, spirv::certified_large_comp, spirv::certified_margin_large_comp, "conservative large",
-     VOXTACT_QUEUE_LARGE},
+     spirv::certified_expand_comp, "conservative expand", VOXTACT_QUEUE_RUNS},
+    {spirv::certified_large_comp, spirv::certified_large_comp, spirv::certified_margin_large_comp,
+     spirv::certified_large_comp, "conservative large", VOXTACT_QUEUE_LARGE},
     {spirv::certified_decide_comp, spirv::certified_decide_outputs_comp, spirv::certified_margin_decide_comp,
-     "conservative decide", VOXTACT_QUEUE_CELLS},
+     spirv::certified_decide_touches_comp, "conservative decide", VOXTACT_QUEUE_CELLS},
     {spirv::certified_finish_comp, spirv::certified_finish_outputs_comp, spirv::certified_margin_finish_comp,
-     "conservative finish", VOXTACT_QUEUE_OPEN},
+     spirv::certified_finish_touches_comp, "conservative finish", VOXTACT_QUEUE_OPEN},
 };
 
 std::span<const std::uint32_t> programOf(const PassKind& kind, const DetectorDesc& desc) {
-    return desc.margin > 0 ? kind.withMargin : desc.outputs.any() ? kind.withOutputs : kind.plain;
+    return desc.margin > 0      ? kind.withMargin
+           : desc.outputs.any() ? kind.withOutputs
+           : desc.closest       ? kind.withTouches
+                                : kind.plain;
 }
 
 } // namespace
 
 Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const DetectorDesc& desc) {
     CertifiedPass pass(context, desc);
-    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
-                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
-                                        {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)}};
+    const ShaderConstant constants[] = {
+        {VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
+        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
+        {VOXTACT_CONSTANT_OUTPUTS, desc.closest ? VOXTACT_OUTPUT_TOUCH : outputsConstant(desc.outputs)}};
     static_assert(std::size(kPasses) == kCertifiedPasses);
     const bool outputs = desc.outputs.any();
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {

@@ -31,13 +31,18 @@ VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VOXTACT_WORD_CLEARANCES(results.queueRoom) * sizeof(std::uint32_t);
 }
 
+VkDeviceSize closestByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) + VOXTACT_WORD_CLOSEST(results.queueRoom, results.maxPairs) * sizeof(std::uint32_t);
+}
+
 std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
     constexpr std::uint32_t kClustersOfPair = 64;
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
     const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, kMostQueueRoom / kClustersOfPair));
     std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
     const auto needed = [&] {
-        return first + queueBytes(room) + (desc.clearances ? clearanceBytes(room, desc.maxPairs) : 0);
+        return first + queueBytes(room) + (desc.clearances ? clearanceBytes(room, desc.maxPairs) : 0) +
+               (desc.closest ? closestBytes(desc.maxPairs) : 0);
     };
     while (room >= kLeastQueueRoom && needed() > bytes) {
         room /= 2;
@@ -60,6 +65,11 @@ void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffe
     }
     cmdUpdateBuffer(context, commandBuffer, results.transforms.get(), firstQueueByte(results),
                     std::as_bytes(std::span(words)));
+}
+
+void recordNoClosest(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
+    context.vk.CmdFillBuffer(commandBuffer, results.transforms.get(), closestByte(results),
+                             VkDeviceSize{results.pairs} * sizeof(ClosestResult), 0);
 }
 
 void recordNoCounters(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {

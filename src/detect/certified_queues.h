@@ -43,11 +43,22 @@ static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::u
 /// Where they are in that buffer.
 [[nodiscard]] VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept;
 
+/// Bytes behind these for the closest points of so many pairs.
+[[nodiscard]] constexpr VkDeviceSize closestBytes(std::uint32_t pairs) noexcept {
+    return VkDeviceSize{VOXTACT_WORD_CLOSEST(0, pairs) - VOXTACT_WORD_CLEARANCES(0)} * sizeof(std::uint32_t) -
+           VkDeviceSize{pairs} * sizeof(ClearanceResult) + VkDeviceSize{pairs} * sizeof(ClosestResult);
+}
+static_assert(sizeof(ClosestResult) == VOXTACT_CLOSEST_WORDS * sizeof(std::uint32_t));
+/// Where they are in that buffer.
+[[nodiscard]] VkDeviceSize closestByte(const ResultsImpl& results) noexcept;
+
 /// The room for Results, in a buffer of at most `bytes`, of which the queues begin at `first`; 0 where it has none.
 [[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept;
 
 /// Records the headers of VOXTACT_HEADERS rounds: commands of no work groups, empty queues.
 void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
+/// Records closest points that no pair has yet.
+void recordNoClosest(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
 /// Records counters of zero.
 void recordNoCounters(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
 

@@ -101,13 +101,19 @@ Result<ClearancePass> ClearancePass::create(ContextImpl& context, const Detector
         {spirv::certified_clearance_finish_comp, "clearance finish"},
         {spirv::certified_clearance_search_comp, "clearance search"},
     };
-    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U}};
+    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_CLOSEST, desc.closest ? 1U : 0U}};
     ClearancePass pass(context, *desc.clearance);
     for (std::size_t i = 0; i < Count; ++i) {
         Result<Owned<VkPipeline>> made =
             makeComputePipeline(context, programs[i].spirv, constants, context.computeLayout, programs[i].name);
         VOXTACT_TRY(made);
         pass.pipelines_[i] = std::move(*made);
+    }
+    if (desc.closest) {
+        Result<ClosestPass> made = ClosestPass::create(context);
+        VOXTACT_TRY(made);
+        pass.closest_ = std::move(*made);
     }
     return pass;
 }
@@ -171,6 +177,9 @@ void ClearancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, con
         recordStep(recorder, layout, item, of, search.step == 1);
         queuesBarrier(*context_, recorder.commandBuffer());
         recordSearch(recorder, layout, search);
+    }
+    if (closest_) {
+        closest_->record(recorder, layout, item, of);
     }
 }
 

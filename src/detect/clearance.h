@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "detect/closest.h"
 #include "detect/round_recorder.h"
 #include "gpu/pipeline.h"
 #include "voxtact/detector.h"
 
 #include <array>
+#include <optional>
 
 namespace voxtact {
 
@@ -35,6 +37,7 @@ class ClearancePass {
     ContextImpl* context_;
     ClearanceSearch desc_;
     std::array<Owned<VkPipeline>, Count> pipelines_;
+    std::optional<ClosestPass> closest_; ///< with DetectorDesc::closest
 };
 
 } // namespace voxtact

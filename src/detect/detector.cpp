@@ -137,7 +137,8 @@ Result<void> checkMargin(const DetectorDesc& desc) {
 
 Result<void> checkClearance(const DetectorDesc& desc) {
     if (!desc.clearance) {
-        return {};
+        return desc.closest ? refuse("closest points are of clearances, and DetectorDesc::clearance is not given")
+                            : Result<void>();
     }
     VOXTACT_TRY(checkTolerance(desc.clearance->tolerance));
     VOXTACT_TRY(checkMaximum(desc.clearance->maximum));
@@ -238,6 +239,9 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (live(impl_).desc.clearance && !slot.clearances) {
             return refuse("the Results have no room for clearances: ResultsDesc::clearances is false");
         }
+        if (live(impl_).desc.closest && !slot.closest) {
+            return refuse("the Results have no room for closest points: ResultsDesc::closest is false");
+        }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));
         slot.pairs = *pairs;
@@ -245,6 +249,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         slot.readBackRecorded = false;
         slot.counted = live(impl_).desc.counters;
         slot.maximum = maximumOf(live(impl_).desc);
+        slot.pointed = live(impl_).desc.closest;
         if (slot.outputs) {
             slot.outputs->recorded = live(impl_).desc.outputs;
         }

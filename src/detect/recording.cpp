@@ -130,6 +130,9 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
         if (desc.counters) {
             recordNoCounters(context, commandBuffer, results);
         }
+        if (desc.closest) {
+            recordNoClosest(context, commandBuffer, results);
+        }
     } else {
         recordTransforms(context, commandBuffer, batch, results, desc.projection);
     }

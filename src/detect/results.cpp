@@ -3,6 +3,7 @@
 #include "core/base/live.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "core/geometry/closest_gradient.h"
 #include "detect/certified_queues.h"
 #include "detect/pair_setup.h"
 #include "detect/recording.h"
@@ -82,6 +83,9 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
                          " bytes, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
+    if (desc.closest && !desc.clearances) {
+        return refuse("ResultsDesc::closest is about clearances, and ResultsDesc::clearances is false");
+    }
     VOXTACT_TRY(checkInto(context, desc));
     if (desc.timestamps) {
         constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
@@ -97,7 +101,8 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
 VkDeviceSize transformBytes(const ResultsImpl& results) {
     const std::uint32_t room = results.queueRoom;
     return firstQueueByte(results) + (room == 0 ? 0 : queueBytes(room)) +
-           (results.clearances ? clearanceBytes(room, results.maxPairs) : 0);
+           (results.clearances ? clearanceBytes(room, results.maxPairs) : 0) +
+           (results.closest ? closestBytes(results.maxPairs) : 0);
 }
 
 /// The buffers of a Results, each with what it is for.
@@ -186,6 +191,25 @@ PairClearance unpack(const PairResult& pair, const ClearanceResult& found, doubl
     return out;
 }
 
+ClosestPoints unpack(const ClosestResult& found) {
+    const Vec3 way{static_cast<double>(found.wayX), static_cast<double>(found.wayY), static_cast<double>(found.wayZ)};
+    const Vec3 arm{static_cast<double>(found.armX), static_cast<double>(found.armY), static_cast<double>(found.armZ)};
+    ClosestPoints out;
+    out.triangle = found.triangle;
+    out.mesh = {static_cast<double>(found.x), static_cast<double>(found.y), static_cast<double>(found.z)};
+    out.volume = step(out.mesh, way, 1);
+    setGradient(out, way, arm);
+    return out;
+}
+
+/// Element `i` of what is behind so many bytes of the host's copy.
+template <class Element> Element copied(const ResultsImpl& results, VkDeviceSize first, std::uint32_t i) {
+    Element element{};
+    std::memcpy(&element, static_cast<const std::byte*>(results.readBack.mapped) + first + i * sizeof element,
+                sizeof element);
+    return element;
+}
+
 Result<void> checkReadable(const ResultsImpl& results) {
     VOXTACT_TRY(results.context.alive());
     if (!results.readBackRecorded) {
@@ -220,6 +244,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         impl->maxTransforms = transformsFor(c, desc.maxPairs);
         impl->queueRoom = queueRoomFor(desc, bytesFor(c), firstQueueByte(*impl));
         impl->clearances = desc.clearances && impl->queueRoom > 0;
+        impl->closest = desc.closest && impl->clearances;
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         VOXTACT_TRY(makeBuffers(*impl, desc));
         for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
@@ -259,6 +284,14 @@ BufferRange Results::clearances() const noexcept {
     return {r.transforms.get(), clearancesByte(r), VkDeviceSize{r.maxPairs} * sizeof(ClearanceResult)};
 }
 
+BufferRange Results::closest() const noexcept {
+    const ResultsImpl& r = live(impl_);
+    if (!r.closest) {
+        return {};
+    }
+    return {r.transforms.get(), closestByte(r), VkDeviceSize{r.maxPairs} * sizeof(ClosestResult)};
+}
+
 Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
         ResultsImpl& r = live(impl_);
@@ -288,6 +321,11 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
             const VkBufferCopy clearances{clearancesByte(r), r.clearancesOnHost(),
                                           VkDeviceSize{r.pairs} * sizeof(ClearanceResult)};
             r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &clearances);
+        }
+        if (r.pointed) {
+            const VkBufferCopy closest{closestByte(r), r.closestOnHost(),
+                                       VkDeviceSize{r.pairs} * sizeof(ClosestResult)};
+            r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &closest);
         }
         if (r.outputs) {
             copyOutputs(r.context, commandBuffer, *r.outputs);
@@ -339,11 +377,13 @@ Result<std::vector<PairClearance>> Results::readClearances() {
         std::vector<PairClearance> out;
         out.reserve(r.pairs);
         for (std::uint32_t i = 0; i < r.pairs; ++i) {
-            ClearanceResult found{};
-            std::memcpy(&found,
-                        static_cast<const std::byte*>(r.readBack.mapped) + r.clearancesOnHost() + i * sizeof found,
-                        sizeof found);
-            out.push_back(unpack(pairs[i], found, *r.maximum));
+            out.push_back(unpack(pairs[i], copied<ClearanceResult>(r, r.clearancesOnHost(), i), *r.maximum));
+            if (!r.pointed) {
+                continue;
+            }
+            if (const auto closest = copied<ClosestResult>(r, r.closestOnHost(), i); closest.some != 0) {
+                out.back().closest = unpack(closest);
+            }
         }
         return out;
     });

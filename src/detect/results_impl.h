@@ -17,6 +17,8 @@ struct ResultsImpl {
     bool readBackRecorded = false;   ///< cmdReadBack() came after the last cmdDetect()
     bool counted = false;            ///< the batch recorded last has CertifiedCounters
     bool clearances = false;         ///< there is room for those of maxPairs, behind the queues
+    bool closest = false;            ///< there is room for ClosestResults, too, behind these
+    bool pointed = false;            ///< the batch recorded last has them
     std::optional<double> maximum{}; ///< of the batch recorded last, where it has clearances: ClearanceSearch
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
@@ -24,8 +26,8 @@ struct ResultsImpl {
     Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
     BufferRange results{};           ///< maxPairs PairResults, of `ownResults` or of the caller's buffer
     Buffer ownResults{};             ///< empty with ResultsDesc::into
-    Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults; empty when not asked
-                       ///< for
+    Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults, ClosestResults;
+                       ///< empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
@@ -38,8 +40,11 @@ struct ResultsImpl {
         return countersOnHost() + sizeof(CertifiedCounters);
     }
     [[nodiscard]] VkDeviceSize clearancesOnHost() const noexcept { return copyNumberOnHost() + sizeof copies; }
-    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+    [[nodiscard]] VkDeviceSize closestOnHost() const noexcept {
         return clearancesOnHost() + (clearances ? VkDeviceSize{maxPairs} * sizeof(ClearanceResult) : 0);
+    }
+    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+        return closestOnHost() + (closest ? VkDeviceSize{maxPairs} * sizeof(ClosestResult) : 0);
     }
 };
 

@@ -234,7 +234,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                               .queueFamily = device.queueAccess().family,
                               .room = how.room,
                               .clustersAtOnce = certified ? std::nullopt : std::optional(0U),
-                              .clearances = detector.desc().clearance.has_value()};
+                              .clearances = detector.desc().clearance.has_value(),
+                              .closest = detector.desc().closest};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));

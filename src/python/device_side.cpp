@@ -42,6 +42,7 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.counters = question.counters;
     desc.margin = question.margin;
     desc.clearance = question.clearance;
+    desc.closest = question.clearance.has_value();
     return desc;
 }
 

@@ -272,9 +272,44 @@ TEST_F(ClearanceDeviceTest, AClearanceIsTheDevicesToo) {
         more.insert(more.end(), {"--clearance", "--count", "compute"});
         return refused(2, detect(more));
     };
-    EXPECT_THAT(line({"--closest", "c.csv"}),
-                HasSubstr("--closest is answered by the host; leave out --count compute"));
+    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    EXPECT_THAT(line({"--labels", path("labels.nii.gz"), "--label-clearance", "l.csv"}),
+                HasSubstr("--label-clearance is answered by the host; leave out --count compute"));
     EXPECT_THAT(line({"--triangles", "t.csv"}), HasSubstr("--triangles: with --clearance --count compute"));
+}
+
+/// The host's columns, and points that are as near.
+TEST_F(ClearanceDeviceTest, TheClosestPointsAreTheDevicesToo) {
+    const auto closest = [&](const Arguments& more) {
+        Arguments asked{"--clearance", "--tolerance", "0.3", "--max-clearance", "100", "--closest", path("c.csv")};
+        asked.insert(asked.end(), more.begin(), more.end());
+        output(detect(asked));
+        return readText(path("c.csv"));
+    };
+    const std::string host = closest({});
+    const std::string device = closest({"--count", "compute"});
+    EXPECT_EQ(linesOf(device).at(0), linesOf(host).at(0));
+    const auto onHost = rowsOf(host);
+    const auto onDevice = rowsOf(device);
+    ASSERT_EQ(onDevice.size(), 2U); // the third pose is beyond the maximum
+    ASSERT_EQ(onHost.size(), 2U);
+    const auto number = [](const auto& row, const char* name) { return std::stod(row.at(name)); };
+    const auto apart = [&](const auto& row) {
+        return std::hypot(number(row, "mesh_x") - number(row, "volume_x"),
+                          number(row, "mesh_y") - number(row, "volume_y"),
+                          number(row, "mesh_z") - number(row, "volume_z"));
+    };
+    EXPECT_EQ(onDevice[0].at("pose"), "0");
+    EXPECT_EQ(apart(onDevice[0]), 0);
+    EXPECT_EQ(onDevice[0].at("per_z"), "0");
+    EXPECT_EQ(onDevice[1].at("pose"), "1");
+    EXPECT_EQ(onDevice[1].at("mesh"), onHost[1].at("mesh"));
+    EXPECT_NEAR(apart(onDevice[1]), apart(onHost[1]), 0.61); // two tolerances
+    EXPECT_NEAR(number(onDevice[1], "mesh_z"), 120, 0.3);
+    EXPECT_GT(number(onDevice[1], "per_z"), 0.9);
+    output(detect({"--clearance", "--tolerance", "0.3", "--max-clearance", "100", "--closest", path("c.ply"), "--count",
+                   "compute"}));
+    EXPECT_THAT(linesOf(readText(path("c.ply"))), testing::Contains("element edge 2"));
 }
 
 } // namespace

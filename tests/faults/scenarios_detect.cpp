@@ -165,6 +165,13 @@ std::vector<Scenario> detectScenarios() {
                                                .stopAtFirst = true,
                                                .clearance = ClearanceSearch{.maximum = 1}});
                    }});
+    out.push_back({"compute conservative closest points", [](Play& play) {
+                       return askThrice(play, {.method = CountingMethod::Compute,
+                                               .projection = Projection::Conservative,
+                                               .stopAtFirst = true,
+                                               .clearance = ClearanceSearch{.maximum = 1},
+                                               .closest = true});
+                   }});
     for (DetectorDesc desc : allWays()) {
         // All at once where a method or projection is first seen, one at a time by the rasteriser and certified.
         for (const Outputs& outputs : allOutputs()) {

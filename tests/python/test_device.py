@@ -79,7 +79,14 @@ def test_a_clearance_is_measured_by_the_device_that_is_asked(device, head, knife
         assert (found.hi[closed] - found.lo[closed] <= 0.1).all() and closed.mean() > 0.3
         beyond = found.end == "beyond"
         assert (found.lo[beyond] == maximum).all() and beyond.any() == np.isfinite(maximum)
-        assert (found.closest["triangle"] == -1).all()
+        finite = np.isfinite(found.hi)
+        np.testing.assert_array_equal(found.closest["triangle"] >= 0, finite)
+        apart = np.linalg.norm(found.closest["mesh"] - found.closest["volume"], axis=1)
+        assert (apart[finite] <= found.hi[finite] * (1 + 1e-6)).all() and (apart[finite] >= found.lo[finite] - 1e-4).all()
+        free = finite & (found.hi > 0)
+        away = (found.closest["mesh"] - found.closest["volume"])[free] / apart[free, None]
+        np.testing.assert_allclose(found.closest["per_translation"][free], away, atol=1e-9)
+        assert free.any() and (found.hi == 0).any()
     with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
         host.clearance(knife, poses, method="compute")
     with pytest.raises(vx.InvalidArgumentError, match="method is 'query'; a clearance is measured by"):

@@ -145,6 +145,7 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.margin = options.distance.margin.value_or(0);
     if (options.distance.clearance) {
         desc.clearance = options.distance.search();
+        desc.closest = !options.distance.closest.empty();
     }
     return desc;
 }

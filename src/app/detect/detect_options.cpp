@@ -65,19 +65,15 @@ bool isDistanceOnDevice(const DetectOptions& options) {
            distance.margin.has_value() != distance.clearance;
 }
 
-/// A device says how near, not where, and not to which label.
+/// A device says how near and where, but not to which label.
 Result<void> checkDeviceDistance(const DetectOptions& options) {
     const DistanceOptions& distance = options.distance;
     if (distance.margin) {
         const Result<void> margin = checkMargin(*distance.margin);
         return margin.ok() ? margin : badArgument("--margin: " + margin.error().text);
     }
-    for (const auto& [option, given] : {std::pair("--closest", !distance.closest.empty()),
-                                        std::pair("--label-clearance", !distance.labels.empty())}) {
-        if (given) {
-            return badArgument(option + std::string(" is answered by the host; leave out --count compute, or give "
-                                                    "--count cpu"));
-        }
+    if (!distance.labels.empty()) {
+        return badArgument("--label-clearance is answered by the host; leave out --count compute, or give --count cpu");
     }
     if (options.extra.outputs().any()) {
         return badArgument(

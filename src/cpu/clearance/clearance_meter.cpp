@@ -4,14 +4,13 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/geometry/closest_gradient.h"
 #include "core/geometry/glm_bridge.h"
 #include "core/method/certified_constants.h"
 #include "cpu/batch_check.h"
 #include "cpu/clearance/label_fingerprint.h"
 #include "cpu/clearance/label_part.h"
 #include "cpu/clearance/workers.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,13 +59,7 @@ ClosestPoints closestOf(const Found& found, const MeshPlace& mesh, const VolumeS
     out.triangle = mesh.mesh().numbers[found.triangle];
     out.mesh = fromGlm(found.onMesh + space.middle);
     out.volume = fromGlm(found.inVolume + space.middle);
-    const dvec3 off = found.inVolume - found.onMesh;
-    const double distance = glm::length(off);
-    if (distance > 0) {
-        const dvec3 towards = off / distance;
-        out.perTranslation = fromGlm(-towards);
-        out.perRotation = fromGlm(-glm::cross(found.onMesh - mesh.origin(), towards));
-    }
+    setGradient(out, fromGlm(found.inVolume - found.onMesh), fromGlm(found.onMesh - mesh.origin()));
     return out;
 }
 

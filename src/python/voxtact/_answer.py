@@ -242,9 +242,10 @@ class Clearance:
 
     @property
     def closest(self) -> npt.NDArray[np.void]:
-        """(N,): two points as far apart as `hi`, LPS, mm: `triangle` (-1: there is none, the rest is NaN), `mesh` (3) on it and
-        `volume` (3), opaque; and how the distance changes with the pose: `per_translation` (3), mm per mm along the
-        world's axes, and `per_rotation` (3), mm per radian about the parallels of these through the object's origin.
+        """(N,): two points as far apart as `hi`, by a device no farther, LPS, mm: `triangle` (-1: there is none, the rest
+        is NaN), `mesh` (3) on it and `volume` (3), opaque; and how the distance changes with the pose:
+        `per_translation` (3), mm per mm along the world's axes, and `per_rotation` (3), mm per radian about the parallels
+        of these through the object's origin.
         """
         if self.lo.ndim == 2:
             raise NotReadyError("clearances to labels have no closest points")

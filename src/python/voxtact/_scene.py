@@ -278,8 +278,8 @@ class Scene:
         most_steps
             a pose that takes more is left with the bounds that it has
         method
-            "cpu": the host engine measures, also for scenes on a device; "compute": that device does, in single precision and without closest
-            points, labels and `most_steps`
+            "cpu": the host engine measures, also for scenes on a device; "compute": that device does, in single precision and without
+            labels and `most_steps`; its closest points are no farther apart than `hi`
         """
         _check_method(method, "a clearance is measured")
         by_device = method == "compute"

@@ -215,8 +215,24 @@ TEST_F(CGpuTest, MeasuresHowNear) {
     EXPECT_EQ(view.pairs[2].lo, 0.3); // 0.4 away
     EXPECT_EQ(view.pairs[2].end, VXT_CLEARANCE_BEYOND);
     EXPECT_EQ(view.pairs[2].pose, 2U);
+    desc.closest = 1;
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    need(vxt_answer_clearances(answer.get(), clearances.get()));
+    need(vxt_clearances_get(clearances.get(), &view));
+    EXPECT_EQ(view.pairs[0].has_closest, 1U); // it touches
+    EXPECT_EQ(view.pairs[0].mesh[0], view.pairs[0].volume[0]);
+    ASSERT_EQ(view.pairs[1].has_closest, 1U);
+    EXPECT_NEAR(view.pairs[1].mesh[0] - view.pairs[1].volume[0], 0.2, 0.003);
+    EXPECT_NEAR(view.pairs[1].volume[0], 0.5, 0.003);
+    EXPECT_GT(view.pairs[1].per_translation[0], 0.98);
+    EXPECT_EQ(view.pairs[2].has_closest, 0U);
     desc.clearance_tolerance = 0;
+    desc.max_clearance = 0;
     vxt_detector* none = nullptr;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT)
+        << "closest points of none";
+    desc.closest = 0;
+    desc.max_clearance = 0.3;
     EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(none, nullptr);
 
@@ -228,6 +244,10 @@ TEST_F(CGpuTest, MeasuresHowNear) {
         vxt_buffer_range range{};
         need(vxt_results_on_device(results.get(), VXT_DEVICE_CLEARANCES, &range));
         EXPECT_EQ(range.size, wanted * 48U);
+        room.closest = wanted;
+        const Owned<vxt_results> both = newResults(room);
+        need(vxt_results_on_device(both.get(), VXT_DEVICE_CLOSEST, &range));
+        EXPECT_EQ(range.size, wanted * 3 * 48U);
     }
 }
 

@@ -34,8 +34,10 @@ class CertifiedTest : public RawGpuTest {
     }
     Answered detect(const Detector& detector, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
         const DetectorDesc& desc = detector.desc();
-        Results results = take(Results::create(
-            context(), {.maxPairs = pairs, .clustersAtOnce = clusters, .clearances = desc.clearance.has_value()}));
+        Results results = take(Results::create(context(), {.maxPairs = pairs,
+                                                           .clustersAtOnce = clusters,
+                                                           .clearances = desc.clearance.has_value(),
+                                                           .closest = desc.closest}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));
