@@ -29,6 +29,10 @@ float clearanceHi(uint pair) {
     return uintBitsToFloat(live[clearanceWord(pair) + VOXTACT_CLEARANCE_HI]);
 }
 
+float clearanceLo(uint pair) {
+    return uintBitsToFloat(live[clearanceWord(pair) + VOXTACT_CLEARANCE_LO]);
+}
+
 float clearanceAsked(uint pair) {
 #ifdef PROBE
     return VOXTACT_CLEARANCE_FAR; // what bounds the distance above may be farther
@@ -56,7 +60,7 @@ MarginSpace clearanceSpace(uint pair) {
 bool clearanceIsDone(uint pair) {
     const uint word = clearanceWord(pair);
     return live[word + VOXTACT_CLEARANCE_ASKED] < VOXTACT_CLEARANCE_ENDS ||
-           clearanceSpace(pair).margin <= uintBitsToFloat(live[word + VOXTACT_CLEARANCE_LO]);
+           clearanceSpace(pair).margin <= clearanceLo(pair);
 }
 
 /// Something is left undecided, and may be as near.

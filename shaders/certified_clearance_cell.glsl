@@ -99,6 +99,29 @@ void tryPoint(CertifiedCell cell, ivec3 number, VoxelPoint at, float distance, i
     }
 }
 
+/// Halvings that suffice for a point that is opaque, most likely.
+const int kPointSteps = 10;
+
+/// One look at a cell, `number`, about whose corner the triangle is: returns what it is no nearer than, what may be opaque
+/// in it, and tries one point.
+float firstLook(MarginSpace by, CertifiedCell cell, ivec3 number, MarginTriangle about, inout ClearanceFound found) {
+    const MarginBox box = marginCellBox(cell);
+    const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5);
+    const VoxelPoint radius = voxelPoint((box.hi.x - box.lo.x) * 0.5, (box.hi.y - box.lo.y) * 0.5,
+                                         (box.hi.z - box.lo.z) * 0.5);
+    const MarginNear near = marginNear(by, about, middle);
+    const MarginValues values = marginCellValues(opacities(), cell, kPointSteps);
+    const MarginLinear linear = marginLinear(cell, box);
+    const VoxelPoint at = marginClamped(box, marginFoot(by, cell, values, linear, middle, radius, near.at));
+    const float distance = clearanceAbove(by, about.slack, near.at, at);
+    if (distance < found.hi) {
+        ClearanceSamples samples = noSamples();
+        tryPoint(cell, number, at, distance, samples, found);
+    }
+    return clearanceBelow(marginPartGap(by, cell, values, near, linear, radius), voxelDot(near.along, near.along),
+                          about.slack);
+}
+
 /// Looks for the nearest opaque point of a cell, as marginDecide() does: boxes that are nearer than what is known are
 /// halved until what may be opaque in them is not.
 void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, CertifiedCell cell, ivec3 number,

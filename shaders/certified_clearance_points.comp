@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#include "shared.h"
+#include "clearance_words.h"
 #include "voxtact/device_results.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;

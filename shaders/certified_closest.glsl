@@ -5,6 +5,8 @@
 #ifndef VOXTACT_CERTIFIED_CLOSEST_GLSL
 #define VOXTACT_CERTIFIED_CLOSEST_GLSL
 
+#include "clearance_words.h"
+
 layout(constant_id = VOXTACT_CONSTANT_CLOSEST) const bool kClosest = false;
 
 /// Something opaque: on the straight way between two points about the cell's corner (VOXTACT_CLOSEST_ON_WAY), or

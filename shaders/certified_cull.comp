@@ -57,13 +57,11 @@ Node nodeOfLane() {
 }
 
 CertifiedBox boxOf(uint number) {
-    uint at = constants.clusterWord + 6 * number;
 #ifdef RUNS
-    at += 6 * ((constants.triangleCount + VOXTACT_CLUSTER_TRIANGLES - 1) / VOXTACT_CLUSTER_TRIANGLES);
+    return boxOfRun(number);
+#else
+    return boxOfCluster(number);
 #endif
-    return CertifiedBox(uintBitsToFloat(indices[at]), uintBitsToFloat(indices[at + 1]), uintBitsToFloat(indices[at + 2]),
-                        uintBitsToFloat(indices[at + 3]), uintBitsToFloat(indices[at + 4]),
-                        uintBitsToFloat(indices[at + 5]));
 }
 
 #ifdef CLEARANCE

@@ -13,6 +13,9 @@
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
+#ifdef CLEARANCE
+#include "certified_clearance_bits.glsl"
+#endif
 
 #ifdef CLEARANCE
 /// Bricks that a run looks at, and a triangle by itself.
@@ -30,9 +33,6 @@ shared uint full;         // the queue is
 // Of the lane's triangle, where the run is to look at it.
 shared CertifiedReach reaches[VOXTACT_COMPUTE_GROUP];
 shared float ownCells[VOXTACT_COMPUTE_GROUP]; // of its box; 0: the run is not to
-#ifdef CLEARANCE
-shared CertifiedTriangle triangles[VOXTACT_COMPUTE_GROUP];
-#endif
 
 /// Bricks that are too many for a lane; also where their number overflows.
 bool areMoreThan(int most, CellBox bricks) {
@@ -47,7 +47,12 @@ float cellsIn(CellBox cells) {
 }
 
 void putLarge(uint pair, uint number, uint brick, uint which) {
+#ifdef CLEARANCE
+    const uint entry = reserve(VOXTACT_QUEUE_LARGE, 1, LARGE_ROOM, VOXTACT_COMPUTE_GROUP);
+    brick = which == VOXTACT_MARGIN_ALL ? brick : wantBits(brick);
+#else
     const uint entry = reserve(VOXTACT_QUEUE_LARGE, 1, LARGE_ROOM, 1);
+#endif
     if (entry < LARGE_ROOM) {
         quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), entry)] = uvec4(pair, number, brick, which);
     } else {
@@ -67,30 +72,9 @@ void putBricksOfTriangle(TriangleLane own, CertifiedTriangle triangle, CellBox n
     }
 }
 
-#ifdef CLEARANCE
-/// Which of a run's triangles are near a brick.
-uint nearOf(MarginSpace by, uint which, vec3 middle) {
-    const uint first = gl_LocalInvocationIndex / VOXTACT_RUN_TRIANGLES * VOXTACT_RUN_TRIANGLES;
-    uint near = 0;
-    for (uint i = 0; i < VOXTACT_RUN_TRIANGLES; ++i) {
-        if ((which >> i & 1u) != 0 &&
-            !marginCubeBeyond(by, triangles[first + i], voxelPoint(middle.x, middle.y, middle.z),
-                              float(kBrickSide / 2))) {
-            near |= 1u << i;
-        }
-    }
-    return near;
-}
-#endif
-
 /// The lane's share of the bricks near its run.
 void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint which) {
     const MarginSpace by = MARGIN_SPACE(own.pair);
-#ifdef CLEARANCE
-    // A box may be as near as the step looks, and its triangles farther: what is found of these is of use all the same.
-    MarginSpace known = by;
-    known.margin = clearanceLimit(by, VOXTACT_CLEARANCE_FAR, clearanceHi(own.pair));
-#endif
     const int count = volumeOf(near);
     uint seen = 0;
     for (int i = int(gl_LocalInvocationIndex % VOXTACT_RUN_TRIANGLES); i < count; i += VOXTACT_RUN_TRIANGLES) {
@@ -101,14 +85,8 @@ void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint w
         if (brickMayBeOpaque(brickAt(brick)) &&
             !marginReachFarther(by, reach, voxelPoint(middle.x, middle.y, middle.z),
                                 voxelPoint(radius, radius, radius))) {
-#ifdef CLEARANCE
-            const uint listed = nearOf(known, which, middle);
-#else
-            const uint listed = which; // a work group of certified_margin_large tells which are near
-#endif
-            if (listed != 0) {
-                putLarge(own.pair, own.run, uint(numberOf(brick)), listed);
-            }
+            // What is next tells which are near.
+            putLarge(own.pair, own.run, uint(numberOf(brick)), which);
         }
     }
     countWork(VOXTACT_WORK_BRICKS, seen);
@@ -170,9 +148,6 @@ void main() {
             } else {
                 reaches[lane] = certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]);
                 ownCells[lane] = cellsIn(cells);
-#ifdef CLEARANCE
-                triangles[lane] = triangleOf(at, bounds.delta);
-#endif
             }
         }
     }

@@ -17,11 +17,15 @@ layout(local_size_x = VOXTACT_MARGIN_GROUP) in;
 #ifdef CLEARANCE
 #include "certified_clearance_cell.glsl"
 #include "certified_clearance_along.glsl"
+#include "certified_clearance_bits.glsl"
 #define ALONG(direction) , AlongBrick direction
 #define WITH_ALONG(direction) , direction
+#define HAS(cell)
 #else
 #define ALONG(direction)
 #define WITH_ALONG(direction)
+/// Above the number of a cell in its brick: what it has.
+#define HAS(cell) | uint(marginCellHas(opacities(), cell)) << kHasShift
 #endif
 
 const int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
@@ -100,7 +104,24 @@ void findTriangles(uvec4 entry) {
     }
 }
 
-void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
+#ifdef CLEARANCE
+/// Of the cells that may have something opaque.
+void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner, AlongBrick direction) {
+    const MarginSpace by = clearanceSpace(entry.x);
+    uint seen = 0;
+    for (uint word = 0; word < kCellWords; ++word) {
+        if ((mayBits(entry.z, word) >> gl_LocalInvocationIndex & 1u) != 0) {
+            const uint number = 32 * word + gl_LocalInvocationIndex;
+            ++seen;
+            if (cellAlong(direction, vec3(cellOf(corner, number)) + 0.5 - brickCentre(brick)) < by.margin) {
+                nearCells[atomicAdd(nearCount, 1u)] = number;
+            }
+        }
+    }
+    countWork(VOXTACT_WORK_CELLS, seen);
+}
+#else
+void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner) {
     const MarginSpace by = MARGIN_SPACE(entry.x);
     const CertifiedReach reach = reachOfAll();
     const CellBox inside = within(cellsOf(marginBounds(constants.item, by, reach)), brick);
@@ -109,16 +130,12 @@ void findNearCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
     for (int i = int(gl_LocalInvocationIndex); i < cells; i += VOXTACT_MARGIN_GROUP) {
         const ivec3 cell = placeIn(inside, i);
         const vec3 middle = vec3(cell) + 0.5;
-#ifdef CLEARANCE
-        if (cellAlong(direction, middle - brickCentre(brick)) >= by.margin) {
-            continue;
-        }
-#endif
         if (!marginReachFarther(by, reach, voxelPoint(middle.x, middle.y, middle.z), voxelPoint(0.5, 0.5, 0.5))) {
             nearCells[atomicAdd(nearCount, 1u)] = numberIn(corner, cell);
         }
     }
 }
+#endif
 
 void findOpaqueCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
     const vec4 range = brickAt(brick);
@@ -136,8 +153,7 @@ void findOpaqueCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
                 continue;
             }
 #endif
-            opaqueCells[atomicAdd(opaqueCount, 1u)] =
-                nearCells[i] | uint(marginCellHas(opacities(), known)) << kHasShift;
+            opaqueCells[atomicAdd(opaqueCount, 1u)] = nearCells[i] HAS(known);
             atomicMin(opaqueLo.x, cell.x);
             atomicMin(opaqueLo.y, cell.y);
             atomicMin(opaqueLo.z, cell.z);
@@ -177,18 +193,10 @@ void putCell(uvec4 entry, uint i, ivec3 cell) {
 }
 
 #ifdef CLEARANCE
-#ifdef PROBE
-shared uint nearest; // the bits of what is least of what cells are no nearer than
-#endif
-
-/// Looks at each cell of each near triangle. With PROBE at what bounds the distance above, and the cell that may be
-/// nearest goes on; else all go on that may be nearer than what is known.
+/// Looks at each cell of each near triangle: those go on that may be nearer than what is known.
 void lookAtAll(uvec4 entry, ivec3 corner) {
     const MarginSpace by = MARGIN_SPACE(entry.x);
     const uint count = opaqueCount * nearTriangleCount;
-    CellClearance best = CellClearance(VOXTACT_CLEARANCE_FAR, VOXTACT_CLEARANCE_FAR, closestNowhere());
-    uint bestPlace = 0;
-    uint bestTriangle = 0; // of `above`
     uint seen = 0;
     for (uint place = gl_LocalInvocationIndex; place < count; place += VOXTACT_MARGIN_GROUP) {
         const uint number = opaqueCells[place % opaqueCount];
@@ -198,35 +206,11 @@ void lookAtAll(uvec4 entry, ivec3 corner) {
             continue;
         }
         ++seen;
-        const CellClearance found = cellClearance(by, triangles[i], int(number >> kHasShift), cell);
-#ifdef PROBE
-        if (found.above < best.above) {
-            best.above = found.above;
-            best.place = found.place;
-            bestTriangle = i;
-        }
-        if (found.below < best.below) {
-            best.below = found.below;
-            bestPlace = place;
-        }
-#else
-        if (found.below < clearanceLimit(by, by.margin, clearanceHi(entry.x))) {
+        if (cellClearance(by, triangles[i], 0, cell).below < clearanceLimit(by, by.margin, clearanceHi(entry.x))) {
             putCell(entry, i, cell);
         }
-#endif
     }
     countWork(VOXTACT_WORK_CELLS, seen);
-#ifdef PROBE
-    if (best.above < clearanceHi(entry.x) && !isCut()) {
-        foundAt(entry.x, triangleOfRun(entry, bestTriangle), best.above, best.place);
-    }
-    atomicMin(nearest, floatBitsToUint(best.below));
-    barrier();
-    if (floatBitsToUint(best.below) == nearest &&
-        best.below < clearanceLimit(by, by.margin, clearanceHi(entry.x))) {
-        putCell(entry, nearTriangles[bestPlace / opaqueCount], cellOf(corner, opaqueCells[bestPlace % opaqueCount]));
-    }
-#endif
 }
 #else
 void lookAtAll(uvec4 entry, ivec3 corner) {
@@ -253,29 +237,25 @@ void lookAtAll(uvec4 entry, ivec3 corner) {
 }
 #endif
 
+/// Leaves the work group's entry, of that number, to certified_margin_finish.
+void leaveOrRefuse(uint number, uint pair, uint brick, uint groups) {
 #ifdef CLEARANCE
-/// Of the triangles' common box: more may be known than when the entry was made.
-bool isBrickFarther(uint pair, ivec3 brick) {
-    const vec3 middle = brickCentre(brick);
-    return marginReachFarther(MARGIN_SPACE(pair), reachOfAll(), voxelPoint(middle.x, middle.y, middle.z),
-                              voxelPoint(MARGIN_BRICK_RADIUS, MARGIN_BRICK_RADIUS, MARGIN_BRICK_RADIUS));
-}
-#endif
-
-/// Leaves the work group's entry to certified_margin_finish.
-void leaveOrRefuse(uint pair, uint brick, uint groups) {
-#ifdef CLEARANCE
-    if (!leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, brick, groups)) {
+    if (!leave(VOXTACT_LEFT_LARGE, number, brick, groups)) {
         refuse(pair);
     }
 #else
-    leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, brick, groups);
+    leave(VOXTACT_LEFT_LARGE, number, brick, groups);
 #endif
 }
 
 void main() {
     const uint lane = gl_LocalInvocationIndex;
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), gl_WorkGroupID.x)];
+#ifdef CLEARANCE
+    const uint number = queues[constants.queueWord + VOXTACT_WORD_NEAREST(constants.queueRoom) + gl_WorkGroupID.x];
+#else
+    const uint number = gl_WorkGroupID.x;
+#endif
+    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
     if (lane == 0) {
         passedOver = isDone(entry.x) ? 1 : 0;
         full = 0;
@@ -283,9 +263,6 @@ void main() {
         nearCount = 0;
         opaqueCount = 0;
         nearTriangleCount = 0;
-#ifdef PROBE
-        nearest = floatBitsToUint(VOXTACT_CLEARANCE_FAR);
-#endif
         opaqueLo = ivec3(0x7fffffff);
         opaqueHi = ivec3(-0x7fffffff);
     }
@@ -293,30 +270,26 @@ void main() {
     if (passedOver != 0) {
         return;
     }
-    if (entry.w == VOXTACT_MARGIN_ALL) {
-#ifndef PROBE
+    if ((entry.w & VOXTACT_MARGIN_ALL) != 0) {
         if (lane == 0) {
             const CertifiedPair transform = transforms[entry.x];
             const CertifiedBounds bounds = boundsOf(entry.x, verticesOf(transform, entry.y));
-            leaveOrRefuse(entry.x, 0, groupsOfTriangle(transform, bounds, cellsOf(bounds)));
+            leaveOrRefuse(number, entry.x, 0, groupsOfTriangle(transform, bounds, cellsOf(bounds)));
         }
-#endif
         return;
     }
-    const ivec3 brick = brickOf(int(entry.z));
+#ifdef CLEARANCE
+    const uint brickNumber = brickOfEntry(entry.z);
+#else
+    const uint brickNumber = entry.z;
+#endif
+    const ivec3 brick = brickOf(int(brickNumber));
     const ivec3 corner = (brick << VOXTACT_BRICK_SHIFT) - 1;
     findTriangles(entry);
     barrier();
     findReach(entry);
     barrier();
 #ifdef CLEARANCE
-    if (lane == 0 && isBrickFarther(entry.x, brick)) {
-        passedOver = 1;
-    }
-    barrier();
-    if (passedOver != 0) {
-        return;
-    }
     const bool some = lane < VOXTACT_RUN_TRIANGLES && isOfEntry(entry, lane);
     const AlongBrick direction =
         findAlong(MARGIN_SPACE(entry.x), some, triangles[some ? lane : 0], reachOfAll(), brickCentre(brick));
@@ -328,14 +301,12 @@ void main() {
     findNearTriangles(entry);
     barrier();
     lookAtAll(entry, corner);
-#ifndef PROBE
     if (isCut()) {
         atomicOr(cut, 1u);
     }
     barrier();
     // What is decided twice does no harm.
     if (lane == 0 && (full != 0 || cut != 0)) {
-        leaveOrRefuse(entry.x, entry.z, VOXTACT_RUN_TRIANGLES);
+        leaveOrRefuse(number, entry.x, brickNumber, VOXTACT_RUN_TRIANGLES);
     }
-#endif
 }

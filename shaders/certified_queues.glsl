@@ -5,6 +5,10 @@
 #ifndef VOXTACT_CERTIFIED_QUEUES_GLSL
 #define VOXTACT_CERTIFIED_QUEUES_GLSL
 
+#ifdef CLEARANCE
+#include "clearance_words.h"
+#endif
+
 // Behind the transforms, in the same buffer.
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Queues { uint queues[]; };
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Quads { uvec4 quads[]; };

@@ -248,6 +248,21 @@ uint triangleAt(uint place) {
     return indices[constants.clusterWord + 6 * (clusters + runs) + place];
 }
 
+CertifiedBox boxAt(uint word) {
+    return CertifiedBox(uintBitsToFloat(indices[word]), uintBitsToFloat(indices[word + 1]),
+                        uintBitsToFloat(indices[word + 2]), uintBitsToFloat(indices[word + 3]),
+                        uintBitsToFloat(indices[word + 4]), uintBitsToFloat(indices[word + 5]));
+}
+
+/// Of a mesh with clusters.
+CertifiedBox boxOfCluster(uint number) {
+    return boxAt(constants.clusterWord + 6 * number);
+}
+
+CertifiedBox boxOfRun(uint number) {
+    return boxOfCluster((constants.triangleCount + VOXTACT_CLUSTER_TRIANGLES - 1) / VOXTACT_CLUSTER_TRIANGLES + number);
+}
+
 /// A lane of the passes that have a lane for each triangle: of the work group `group`, four entries of the queue of
 /// runs. Also of pairs that are done.
 struct TriangleLane {

@@ -93,7 +93,7 @@ Share shareOfGroup(uint group) {
     }
     const uvec4 part = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
 #ifdef MARGIN
-    if (part.w != VOXTACT_MARGIN_ALL) { // one brick of a run: a triangle of it
+    if ((part.w & VOXTACT_MARGIN_ALL) == 0) { // one brick of a run: a triangle of it
         if ((part.w >> turn & 1u) == 0) {
             return kNoShare;
         }

@@ -210,18 +210,24 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUE_CELLS 3    // pair, triangle, place: for certified_decide
 #define VOXTACT_QUEUE_OPEN 4     // numbers of cells: for certified_finish
 #define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_* and number, brick, work groups, the first of these: the same
-#define VOXTACT_QUEUES 6
-#define VOXTACT_HEADER_WORDS 32 // of a round
+// Those of the search for clearances, shaders/clearance_words.h: slots of bricks, for certified_clearance_bits; and
+// entries of the queue of large triangles that are near, for certified_clearance_sift, _probe and certified_margin_large.
+#define VOXTACT_QUEUE_BITS 6
+#define VOXTACT_QUEUE_NEAR 7
+#define VOXTACT_QUEUE_PROBES 8
+#define VOXTACT_QUEUE_NEAREST 9
+#define VOXTACT_QUEUES 10
+#define VOXTACT_HEADER_WORDS 48 // of a round
 #define VOXTACT_HEADERS 64
 // Behind the queues of a header, what is counted where counters are asked for (CertifiedCounters).
-#define VOXTACT_WORK_CLUSTERS 24    // looked at
-#define VOXTACT_WORK_BRICKS 25      // of large triangles, looked at
-#define VOXTACT_WORK_CELLS 26       // looked at
-#define VOXTACT_WORK_DECIDED 27     // lanes in use
-#define VOXTACT_WORK_BRICKS_LEFT 28 // looked at by certified_finish, where a queue had no room
-#define VOXTACT_WORK_CELLS_LEFT 29  // the same
-#define VOXTACT_GROUPS_LEFT 30      // work groups of certified_finish that the entries of VOXTACT_QUEUE_LEFT ask for
-#define VOXTACT_WORK_CERTAIN 31     // cells that count without a decision
+#define VOXTACT_WORK_CLUSTERS 40    // looked at
+#define VOXTACT_WORK_BRICKS 41      // of large triangles, looked at
+#define VOXTACT_WORK_CELLS 42       // looked at
+#define VOXTACT_WORK_DECIDED 43     // lanes in use
+#define VOXTACT_WORK_BRICKS_LEFT 44 // looked at by certified_finish, where a queue had no room
+#define VOXTACT_WORK_CELLS_LEFT 45  // the same
+#define VOXTACT_GROUPS_LEFT 46      // work groups of certified_finish that the entries of VOXTACT_QUEUE_LEFT ask for
+#define VOXTACT_WORK_CERTAIN 47     // cells that count without a decision
 // The CertifiedCounters of a batch, behind the headers.
 #define VOXTACT_WORD_COUNTERS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
 #define VOXTACT_COUNTER_WORDS 38
@@ -246,9 +252,6 @@ struct CertifiedConstants {
 // or pair, triangle, 0, and this: all bricks of one triangle.
 #define VOXTACT_MARGIN_ALL (1u << VOXTACT_RUN_TRIANGLES)
 #define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
-// Where clearances are measured, behind the queues, from a multiple of 256 bytes on: four words a pair, in the end its
-// ClearanceResult.
-#define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_QUEUE_WORDS(room) + 63) / 64 * 64)
 // Of a pair that is being measured; lengths are flat, as in certified_margin.h.
 #define VOXTACT_CLEARANCE_LO 0    // nothing opaque is nearer
 #define VOXTACT_CLEARANCE_HI 1    // something is as near
@@ -259,22 +262,6 @@ struct CertifiedConstants {
 // In place of a distance that is left undecided: nothing is known of it; and that for want of room or time.
 #define VOXTACT_CLEARANCE_UNKNOWN 1u
 #define VOXTACT_CLEARANCE_REFUSED 0u
-// Where closest points are wanted, behind the clearances, from a multiple of 256 bytes on: so many words a pair, in the
-// end its ClosestResult. `pairs`: as many as there is room for.
-#define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
-    (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
-#define VOXTACT_CLOSEST_WORDS 12
-// Before that, what proves VOXTACT_CLEARANCE_HI, or the touch: shaders/certified_closest.glsl.
-#define VOXTACT_CLOSEST_TAKEN 0 // not 0: a lane writes, or the pair touches
-#define VOXTACT_CLOSEST_TRIANGLE 1
-#define VOXTACT_CLOSEST_KIND 2
-#define VOXTACT_CLOSEST_CELL 3 // three ints
-#define VOXTACT_CLOSEST_FROM 6 // three floats, about the cell's corner
-#define VOXTACT_CLOSEST_TO 9
-// Kinds.
-#define VOXTACT_CLOSEST_ON_WAY 0u   // something is opaque on the straight way between the two points
-#define VOXTACT_CLOSEST_IN_CELL 1u  // in the cell
-#define VOXTACT_CLOSEST_IN_BRICK 2u // in the brick that has its first cell there
 /// Farther than anything, flat.
 #define VOXTACT_CLEARANCE_FAR 16777216.0f
 /// Of a distance, over the size of MarginSpace: bounds of single precision are no nearer to each other.

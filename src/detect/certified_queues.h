@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "clearance_words.h"
 #include "detect/results_impl.h"
-#include "shared.h"
 
 namespace voxtact {
 
@@ -40,7 +40,9 @@ static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::u
            VkDeviceSize{pairs} * sizeof(ClearanceResult);
 }
 static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::uint32_t));
-/// Where they are in that buffer.
+/// Where the slots of bricks that have bits are in that buffer.
+[[nodiscard]] VkDeviceSize bitsByte(const ResultsImpl& results) noexcept;
+/// Where the clearances are.
 [[nodiscard]] VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept;
 
 /// Bytes behind these for the closest points of so many pairs.

@@ -5,17 +5,25 @@
 #include "detect/batch.h"
 #include "detect/certified_queues.h"
 #include "detect/certified_rounds.h"
+#include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
+#include "voxtact_shaders/certified_clearance_again_comp.h"
+#include "voxtact_shaders/certified_clearance_bits_comp.h"
 #include "voxtact_shaders/certified_clearance_cull_comp.h"
 #include "voxtact_shaders/certified_clearance_decide_comp.h"
 #include "voxtact_shaders/certified_clearance_expand_comp.h"
 #include "voxtact_shaders/certified_clearance_finish_comp.h"
 #include "voxtact_shaders/certified_clearance_large_comp.h"
+#include "voxtact_shaders/certified_clearance_narrow_comp.h"
+#include "voxtact_shaders/certified_clearance_near_comp.h"
+#include "voxtact_shaders/certified_clearance_nearest_comp.h"
 #include "voxtact_shaders/certified_clearance_probe_comp.h"
+#include "voxtact_shaders/certified_clearance_probes_comp.h"
 #include "voxtact_shaders/certified_clearance_refine_comp.h"
 #include "voxtact_shaders/certified_clearance_scout_comp.h"
 #include "voxtact_shaders/certified_clearance_search_comp.h"
+#include "voxtact_shaders/certified_clearance_sift_comp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +42,9 @@ static_assert(VOXTACT_EXACTNESS_REFUSED == static_cast<std::uint32_t>(Exactness:
 
 /// Flat: how far the first step looks beyond where boxes say that something may be.
 constexpr float kFirst = 2;
+/// Of a step but the first, how much of the room a cluster has: far away it is near many times the bricks that it
+/// touches.
+constexpr std::uint32_t kRoomOfCluster = 16;
 /// Steps that look again at what was left undecided, or at less where it was too much.
 constexpr std::uint32_t kStepsAgain = 6;
 
@@ -95,8 +106,15 @@ Result<ClearancePass> ClearancePass::create(ContextImpl& context, const Detector
         {spirv::certified_clearance_scout_comp, "clearance scout"},
         {spirv::certified_clearance_refine_comp, "clearance refine"},
         {spirv::certified_clearance_expand_comp, "clearance expand"},
+        {spirv::certified_clearance_bits_comp, "clearance bits"},
+        {spirv::certified_clearance_near_comp, "clearance near"},
+        {spirv::certified_clearance_sift_comp, "clearance sift"},
+        {spirv::certified_clearance_probes_comp, "clearance probes"},
         {spirv::certified_clearance_probe_comp, "clearance probe"},
+        {spirv::certified_clearance_nearest_comp, "clearance nearest"},
         {spirv::certified_clearance_large_comp, "clearance large"},
+        {spirv::certified_clearance_narrow_comp, "clearance narrow"},
+        {spirv::certified_clearance_again_comp, "clearance again"},
         {spirv::certified_clearance_decide_comp, "clearance decide"},
         {spirv::certified_clearance_finish_comp, "clearance finish"},
         {spirv::certified_clearance_search_comp, "clearance search"},
@@ -134,6 +152,18 @@ void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layou
     }
 }
 
+void ClearancePass::recordNoBits(RoundRecorder& recorder) const {
+    const ResultsImpl& results = recorder.results();
+    const VkCommandBuffer commandBuffer = recorder.commandBuffer();
+    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    context_->vk.CmdFillBuffer(commandBuffer, results.transforms.get(), bitsByte(results),
+                               VkDeviceSize{VOXTACT_ROOM_BITS(results.queueRoom)} * sizeof(std::uint32_t), 0);
+    barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
 void ClearancePass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
                                const shader::CertifiedConstants& given, bool boxesOnly) const {
     const auto pass = [&](Pipeline pipeline, std::uint32_t queue) {
@@ -143,14 +173,20 @@ void ClearancePass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout,
     const RoundPass all[] = {pass(Cull, kNoQueue),
                              pass(Refine, VOXTACT_QUEUE_CLUSTERS),
                              pass(Expand, VOXTACT_QUEUE_RUNS),
-                             pass(Probe, VOXTACT_QUEUE_LARGE),
-                             pass(Decide, VOXTACT_QUEUE_CELLS),
-                             pass(Large, VOXTACT_QUEUE_LARGE),
-                             pass(Decide, VOXTACT_QUEUE_CELLS),
+                             pass(Bits, VOXTACT_QUEUE_BITS),
+                             pass(Near, VOXTACT_QUEUE_LARGE),
+                             pass(Sift, VOXTACT_QUEUE_NEAR),
+                             pass(Probes, VOXTACT_QUEUE_NEAR),
+                             pass(Probe, VOXTACT_QUEUE_PROBES),
+                             pass(Nearest, VOXTACT_QUEUE_NEAR),
+                             pass(Large, VOXTACT_QUEUE_NEAREST),
+                             pass(Narrow, VOXTACT_QUEUE_CELLS),
+                             pass(Again, VOXTACT_QUEUE_CELLS),
+                             pass(Decide, VOXTACT_QUEUE_OPEN),
                              pass(Finish, VOXTACT_QUEUE_LEFT)};
     // What a round looks at is bounded on the device: the host does not know how far a pair will look.
     const MeshLooks mesh{.pairs = static_cast<std::uint32_t>(item.pairs()), .clusters = groupsOf(*item.mesh)};
-    const RoundLimits limits{.clusters = clustersOfRound(given.queueRoom, boxesOnly),
+    const RoundLimits limits{.clusters = boxesOnly ? given.queueRoom : given.queueRoom / kRoomOfCluster,
                              .pairs = context_->limits.maxComputeWorkGroupCount[1],
                              .looks = 0};
     eachRound(mesh, limits, [&](const Round& round) {
@@ -171,6 +207,7 @@ void ClearancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, con
     shader::CertifiedConstants of = constants;
     of.item = withClearance(of.item, item.volume->impl().grid, desc_.tolerance);
     shader::ClearanceConstants search = searchOf(of, item, desc_);
+    recordNoBits(recorder);
     queuesBarrier(*context_, recorder.commandBuffer());
     recordSearch(recorder, layout, search);
     for (search.step = 1; search.step <= search.steps; ++search.step) {

@@ -25,10 +25,30 @@ class ClearancePass {
                 const shader::CertifiedConstants& constants) const;
 
   private:
-    enum Pipeline : std::size_t { Cull, Scout, Refine, Expand, Probe, Large, Decide, Finish, Search, Count };
+    enum Pipeline : std::size_t {
+        Cull,
+        Scout,
+        Refine,
+        Expand,
+        Bits,
+        Near,
+        Sift,
+        Probes,
+        Probe,
+        Nearest,
+        Large,
+        Narrow,
+        Again,
+        Decide,
+        Finish,
+        Search,
+        Count
+    };
 
     ClearancePass(ContextImpl& context, const ClearanceSearch& desc) noexcept : context_(&context), desc_(desc) {}
 
+    /// What was known of cells is not known of the next item's.
+    void recordNoBits(RoundRecorder& recorder) const;
     void recordSearch(RoundRecorder& recorder, VkPipelineLayout layout,
                       const shader::ClearanceConstants& constants) const;
     void recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,

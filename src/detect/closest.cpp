@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/closest.h"
+#include "clearance_words.h"
 #include "core/base/try.h"
 #include "detect/batch.h"
 #include "gpu/scene_impl.h"
