@@ -88,10 +88,10 @@ std::string localize(Play& play) {
     for (const double x : {0.0, 0.1}) {
         const std::vector<Mat4> poses = somePoses(1, x);
         const BatchItem item = setting.item(poses);
-        const LocalizedTriangles found = play.ask("Localizer::triangles", [&] {
+        const lab::Pass found = play.ask("Localizer::triangles", [&] {
             return localizer.triangles({{&item, 1}, someView(), kThreshold}, Localization::Polygon);
         });
-        out << found.queries << ' ' << (found.gpuMilliseconds > 0);
+        out << *found.queries << ' ' << (found.gpuMilliseconds > 0);
         for (const TouchedTriangle& triangle : found.triangles) {
             out << ' ' << triangle.triangle << ':' << triangle.count;
         }

@@ -33,25 +33,25 @@ LocalizeResult twoPoses(std::vector<TouchedTriangle> secondOfLeaf) {
 TEST(LocalizeJudgeTest, MissedAndWrongAreAgainstTheCertifiedSet) {
     LocalizeResult result = twoPoses({{0, 3, 1}});
     judgeLocalize(result);
-    EXPECT_FALSE(result.failedPose);
+    EXPECT_FALSE(result.verdict.failed());
     EXPECT_EQ(result.ways[0].missed, 2U) << "triangle 2 of the first pose, 8 of the second";
     EXPECT_EQ(result.ways[0].wrong, 1U) << "triangle 7";
     EXPECT_EQ(result.ways[3].missed, 0U);
     EXPECT_EQ(result.ways[3].wrong, 0U);
-    EXPECT_EQ(disagreementOf(result), "");
 }
 
 TEST(LocalizeJudgeTest, AnotherTriangleOrCountIsADisagreement) {
     LocalizeResult lost = twoPoses({});
     judgeLocalize(lost);
-    EXPECT_EQ(lost.failedPose, 9U);
-    EXPECT_EQ(lost.failure, "triangle 3: polygon 1, leaf 0 fragments");
-    EXPECT_EQ(disagreementOf(lost), "polygon = leaf = leaf-bricks = fragments: disagreement on pose 9: triangle 3: "
-                                    "polygon 1, leaf 0 fragments");
+    ASSERT_TRUE(lost.verdict.failed());
+    EXPECT_EQ(disagreementOf(lost.verdict),
+              "polygon = leaf = leaf-bricks = fragments: disagreement on pose 9: triangle 3: "
+              "polygon 1, leaf 0 fragments");
     LocalizeResult other = twoPoses({{0, 3, 2}});
     judgeLocalize(other);
-    EXPECT_EQ(other.failedPose, 9U);
-    EXPECT_EQ(other.failure, "triangle 3: polygon 1, leaf 2 fragments");
+    ASSERT_TRUE(other.verdict.failed());
+    EXPECT_EQ(other.verdict.first->pose, 9U);
+    EXPECT_EQ(other.verdict.first->text, "triangle 3: polygon 1, leaf 2 fragments");
 }
 
 PairAnswer answer(bool hit, bool possible, std::uint64_t count) {

@@ -27,12 +27,12 @@ CompareOptions withDefaults(const CompareOptions& given, const CLI::App& parser)
 }
 
 Outcome outcomeOf(const LocalizeResult& result, const CLI::App& parser) {
-    if (!result.failedPose) {
+    if (!result.verdict.failed()) {
         return {};
     }
-    return {kExitVerify, disagreementOf(result) + "; again with: " +
+    return {kExitVerify, disagreementOf(result.verdict) + "; again with: " +
                              commandLine(parser, {"--output", "--format", "--only-pose", "--progress"}) +
-                             " --only-pose " + std::to_string(*result.failedPose)};
+                             " --only-pose " + std::to_string(result.verdict.first->pose)};
 }
 
 } // namespace

@@ -12,7 +12,7 @@ namespace {
 
 /// One size, by every engine that is still `alive`; those for which the next would take longer than `longest` ms end,
 /// and all where the host would take longer than `mostLearning` ms to say what must be answered.
-Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<Engine*>& alive, std::uint32_t batch,
+Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<const Engine*>& alive, std::uint32_t batch,
                          double longest, double mostLearning) {
     if (alive.empty()) {
         return {};
@@ -21,7 +21,7 @@ Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<Eng
     std::vector<BenchRow>& rows = run.result.rows;
     const std::size_t firstRow = rows.size();
     std::vector<Timed> things;
-    for (Engine* const engine : alive) {
+    for (const Engine* const engine : alive) {
         const std::size_t row = run.addRow(*engine, "", batch);
         things.push_back(
             {.take = [&, engine, row](const Turn& turn) { return poses.take(*engine, 0, turn.round > 0, rows[row]); }});
@@ -51,13 +51,13 @@ Result<void> benchBatches(const BenchRun& run) {
     KnownPoses poses(
         run,
         randomPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number, run.settings.seed),
-        *run.engines[0], *run.engines[1]);
+        run.engines[0], run.engines[1]);
     // The largest batch, its warm-up and what is smaller: a ninth more.
     const double mostLearning = run.limit / 4;
     const double longest =
         (run.limit - mostLearning) / (1.2 * (run.settings.repetitions + 1) * static_cast<double>(run.engines.size()));
-    std::vector<Engine*> alive;
-    std::ranges::transform(run.engines, std::back_inserter(alive), &std::unique_ptr<Engine>::get);
+    std::vector<const Engine*> alive;
+    std::ranges::transform(run.engines, std::back_inserter(alive), [](const Engine& engine) { return &engine; });
     for (const std::uint32_t batch : batchSizes(run.settings.number)) {
         if (run.result.disagreement.empty()) {
             VOXTACT_TRY(measureSize(run, poses, alive, batch, longest, mostLearning));

@@ -32,6 +32,7 @@ struct ModeRow {
     std::uint64_t (*steps)(const BenchSettings& settings); ///< that `run` takes
 };
 
+/// In the order of BenchMode.
 const ModeRow& rowOf(BenchMode mode) {
     static const std::array<ModeRow, 4> kRows{{
         {{.meshes = {"builtin:scalpel:3068", "builtin:ellipsoid:49998"}},
@@ -64,7 +65,7 @@ std::size_t BenchRun::addRow(const Engine& engine, const char* poses, std::size_
     result.rows.push_back({.mesh = work.mesh->name,
                            .triangles = work.mesh->triangles(),
                            .poses = poses,
-                           .engine = engine.facts(),
+                           .engine = engine.facts,
                            .pairs = pairs});
     return result.rows.size() - 1;
 }
@@ -75,7 +76,7 @@ Result<void> BenchRun::time(std::vector<Timed>& things, Rounds rounds) const {
     return taken.ok() ? Result<void>() : taken.error();
 }
 
-std::function<Result<bool>(const Mat4& pose)> touchesBy(Engine& engine, const Work& work) {
+std::function<Result<bool>(const Mat4& pose)> touchesBy(const Engine& engine, const Work& work) {
     return [&engine, work](const Mat4& pose) -> Result<bool> {
         const Result<Pass> pass = engine.run(work.at({&pose, 1}), {});
         return pass.ok() ? Result<bool>(pass->pairs.front().hit) : Result<bool>(pass.error());

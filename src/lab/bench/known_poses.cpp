@@ -71,7 +71,7 @@ Result<void> KnownPoses::learn(std::size_t end) {
     return {};
 }
 
-Result<double> KnownPoses::take(Engine& engine, std::size_t first, bool kept, BenchRow& row) {
+Result<double> KnownPoses::take(const Engine& engine, std::size_t first, bool kept, BenchRow& row) {
     const Result<Pass> pass = engine.run(at(first, row.pairs), {});
     VOXTACT_TRY(pass);
     for (std::size_t i = 0; i < pass->pairs.size(); ++i) {

@@ -64,6 +64,7 @@ struct ModeOutput {
     const char* about;                  ///< behind the name of the volume
 };
 
+/// In the order of BenchMode.
 const ModeOutput& outputOf(BenchMode mode) {
     static const std::vector<const char*> kNotOfRates{
         "triangles",           "pairs",      "samples",        "pairs_per_cpu_s_min",

@@ -46,7 +46,7 @@ void addLatency(const BenchParts& parts, EngineList& engines);
 void addBatches(const BenchParts& parts, EngineList& engines);
 
 /// Whether the mesh touches at a pose, by an engine.
-[[nodiscard]] std::function<Result<bool>(const Mat4& pose)> touchesBy(Engine& engine, const Work& work);
+[[nodiscard]] std::function<Result<bool>(const Mat4& pose)> touchesBy(const Engine& engine, const Work& work);
 
 /// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.
 [[nodiscard]] std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const PairAnswer> answers,
@@ -71,7 +71,7 @@ inline constexpr std::uint64_t kRoundedFragments = 64;
 class KnownPoses {
   public:
     /// What must be answered is what `certified` and `view` say, two engines of the host.
-    KnownPoses(const BenchRun& run, std::vector<Mat4> poses, Engine& certified, Engine& view)
+    KnownPoses(const BenchRun& run, std::vector<Mat4> poses, const Engine& certified, const Engine& view)
         : run_(run), poses_(std::move(poses)), certified_(certified), view_(view) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return poses_.size(); }
@@ -82,7 +82,7 @@ class KnownPoses {
     /// One sample of an engine: as many pairs as its row has, from pose `first` on. Its answers are held against what
     /// must be answered, and what is wrong is the result's disagreement. Returns the sample's ms; its times and what it
     /// found are in the row if it is `kept`.
-    [[nodiscard]] Result<double> take(Engine& engine, std::size_t first, bool kept, BenchRow& row);
+    [[nodiscard]] Result<double> take(const Engine& engine, std::size_t first, bool kept, BenchRow& row);
 
   private:
     [[nodiscard]] Work at(std::size_t first, std::size_t count) const {
@@ -92,8 +92,8 @@ class KnownPoses {
     const BenchRun& run_;
     std::vector<Mat4> poses_;
     std::vector<PoseTruth> truths_; ///< of the first poses
-    Engine& certified_;
-    Engine& view_;
+    const Engine& certified_;
+    const Engine& view_;
     double learning_ = 0;
 };
 

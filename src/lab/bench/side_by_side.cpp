@@ -20,25 +20,30 @@ constexpr std::size_t kFewestPoses = 8;
 
 /// What an engine does for a sample.
 struct Sample {
-    Engine& engine;
+    const Engine& engine;
     Work work; ///< as many of the poses as fit
     std::size_t passes = 1;
     std::size_t row = 0;
     std::size_t besideRow = 0; ///< that of the engine which it is held against
 };
 
-/// Seconds.
-struct Times {
-    double wall = 0;
-    double cpu = 0;
+/// Passes of an engine, one after the other.
+struct Taken {
+    Pass last;
+    double wall = 0; ///< seconds of all of them
+    double cpu = 0;  ///< the same, of the whole process
 };
 
-template <class Job> Result<Times> timed(Job&& job) {
+Result<Taken> takePasses(const Engine& engine, const Work& work, std::size_t passes) {
     const std::clock_t cpu = std::clock();
     const Stopwatch wall;
-    VOXTACT_TRY(job());
+    Result<Pass> last = engine.run(work, {});
+    for (std::size_t pass = 1; pass < passes && last.ok(); ++pass) {
+        last = engine.run(work, {});
+    }
+    VOXTACT_TRY(last);
     // A tick at least, so that no rate is infinite.
-    return Times{std::max(wall.milliseconds() / 1000, 1e-9),
+    return Taken{std::move(*last), std::max(wall.milliseconds() / 1000, 1e-9),
                  static_cast<double>(std::max<std::clock_t>(std::clock() - cpu, 1)) / CLOCKS_PER_SEC};
 }
 
@@ -56,20 +61,16 @@ std::string compareCounts(std::span<const PairAnswer> bare, std::span<const Pair
 
 /// Runs every engine once: its answers are judged, and say how long a sample is.
 Result<std::vector<Sample>> verify(const BenchRun& run, const Work& work, const char* kind) {
-    const Result<Pass> certified = run.engines[kCounting]->run(work, {});
+    const Result<Pass> certified = run.engines[kCounting].run(work, {});
     VOXTACT_TRY(certified);
     const std::size_t firstRow = run.result.rows.size();
     std::vector<Sample> samples;
     std::vector<Pass> passes;
-    for (const std::unique_ptr<Engine>& engine : run.engines) {
-        const Result<Times> took = timed([&]() -> Result<void> {
-            Result<Pass> pass = engine->run(work, {});
-            VOXTACT_TRY(pass);
-            passes.push_back(std::move(*pass));
-            return {};
-        });
+    for (const Engine& engine : run.engines) {
+        Result<Taken> took = takePasses(engine, work, 1);
         VOXTACT_TRY(took);
-        const std::size_t number = run.addRow(*engine, kind, work.poses.size());
+        passes.push_back(std::move(took->last));
+        const std::size_t number = run.addRow(engine, kind, work.poses.size());
         BenchRow& row = run.result.rows[number];
         std::string wrong = judgeEngine(certified->pairs, passes.back().pairs, row);
         if (wrong.empty() && row.engine.sameCounts) {
@@ -81,7 +82,7 @@ Result<std::vector<Sample>> verify(const BenchRun& run, const Work& work, const 
         const auto fitting =
             static_cast<std::size_t>(static_cast<double>(work.poses.size()) * std::min(1.0, kLongest / took->wall));
         samples.push_back(
-            {.engine = *engine,
+            {.engine = engine,
              .work = work.at(work.poses.first(std::min(work.poses.size(), std::max(kFewestPoses, fitting)))),
              .passes = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(kShortest / took->wall))),
              .row = number,
@@ -92,12 +93,7 @@ Result<std::vector<Sample>> verify(const BenchRun& run, const Work& work, const 
 
 /// A sample of an engine, and its ratio to that of the same round which it is held against.
 Result<double> take(const Sample& sample, std::vector<BenchRow>& rows) {
-    const Result<Times> took = timed([&]() -> Result<void> {
-        for (std::size_t pass = 0; pass < sample.passes; ++pass) {
-            VOXTACT_TRY(sample.engine.run(sample.work, {}));
-        }
-        return {};
-    });
+    const Result<Taken> took = takePasses(sample.engine, sample.work, sample.passes);
     VOXTACT_TRY(took);
     BenchRow& row = rows[sample.row];
     const BenchRow& beside = rows[sample.besideRow];
@@ -152,7 +148,7 @@ Result<void> benchPoses(const BenchRun& run) {
     if (run.settings.mode == BenchMode::Outputs) {
         return {}; // around the onset of contact there are hardly any survivors to have outputs of
     }
-    const auto touches = touchesBy(*run.engines.front(), run.work);
+    const auto touches = touchesBy(run.engines.front(), run.work);
     return benchKind(run, "onset", onsetPoses(grid, mesh, number, run.settings.seed, touches));
 }
 

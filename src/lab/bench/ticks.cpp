@@ -15,7 +15,7 @@ constexpr std::uint32_t kFewest = 10; ///< of a block that is cut because it tak
 constexpr std::uint32_t kWarmUp = 50; ///< ticks of the warm-up
 
 /// The ticks of a turn; fewer where the engine has used up its time.
-Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, Engine& engine, const Turn& turn, double limit,
+Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, const Engine& engine, const Turn& turn, double limit,
                          BenchRow& row) {
     const std::size_t begin = turn.round == 0 ? 0 : (turn.round - 1) * kBlock;
     const std::size_t end = std::min<std::size_t>(begin + kLeadIn + (turn.round == 0 ? kWarmUp : kBlock), poses.size());
@@ -35,7 +35,7 @@ Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, Engine& engine,
 }
 
 /// As floats, so that an engine whose pose is on the device is asked the same.
-Result<std::vector<Mat4>> makePoses(const BenchRun& run, Engine& host) {
+Result<std::vector<Mat4>> makePoses(const BenchRun& run, const Engine& host) {
     Result<std::vector<Mat4>> poses =
         movingPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number + kLeadIn,
                     run.settings.seed, touchesBy(host, run.work));
@@ -57,15 +57,15 @@ Result<void> benchTicks(const BenchRun& run) {
     VOXTACT_TRY(certified);
     const MadeEngine view = makeHostEngine();
     VOXTACT_TRY(view);
-    Result<std::vector<Mat4>> all = makePoses(run, **certified);
+    Result<std::vector<Mat4>> all = makePoses(run, *certified);
     VOXTACT_TRY(all);
-    KnownPoses poses(run, std::move(*all), **certified, **view);
+    KnownPoses poses(run, std::move(*all), *certified, *view);
     const double share = run.limit / static_cast<double>(run.engines.size());
     std::vector<Timed> things;
-    for (const std::unique_ptr<Engine>& engine : run.engines) {
-        const std::size_t row = run.addRow(*engine, "", 1);
+    for (const Engine& engine : run.engines) {
+        const std::size_t row = run.addRow(engine, "", 1);
         const auto take = [&, row](const Turn& turn) {
-            return takeBlock(run, poses, *engine, turn, share, run.result.rows[row]);
+            return takeBlock(run, poses, engine, turn, share, run.result.rows[row]);
         };
         things.push_back({.take = take, .limit = share});
     }

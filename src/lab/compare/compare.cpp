@@ -108,10 +108,10 @@ Result<Engines> makeMethodEngines(const device::Session& session, const CompareS
 Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work) {
     std::vector<NamedCounts> all;
     const auto batch = static_cast<std::uint32_t>(std::min(kCountBatch, work.poses.size()));
-    for (const std::unique_ptr<Engine>& engine : engines) {
-        const Result<Pass> pass = engine->run(work, {batch, 1});
+    for (const Engine& engine : engines) {
+        const Result<Pass> pass = engine.run(work, {batch, 1});
         VOXTACT_TRY(pass);
-        all.push_back({engine->name(), pass->counts()});
+        all.push_back({engine.facts.name, pass->counts()});
     }
     return all;
 }

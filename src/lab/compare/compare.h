@@ -89,7 +89,7 @@ struct CompareResult {
 /// Counts every pose by every method.
 [[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work);
 
-/// A comparison under way: of what, by whom, and where it goes what is found.
+/// A comparison under way: of what, by whom, and where goes what is found.
 struct CompareRun {
     const device::Session& session;
     const CompareSettings& settings;
@@ -98,7 +98,7 @@ struct CompareRun {
     CompareResult& result;
     const std::function<void()>& step;
 
-    /// A verdict failed, and that ends it.
+    /// Whether a verdict has failed, which ends it.
     [[nodiscard]] bool ended() const { return result.firstFailure() != nullptr && !settings.keepGoing; }
 };
 

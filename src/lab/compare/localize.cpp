@@ -16,15 +16,15 @@ bool before(const TouchedTriangle& a, const TouchedTriangle& b) {
     return a.triangle < b.triangle;
 }
 
-/// The ways, as many as there are in LocalizeResult::ways; null where one cannot be had. The last is certified.
+/// The ways, as many as there are in LocalizeResult::ways; one that cannot be had does not run. The last is certified.
 Result<Engines> makeWays(const device::Session& session, const Scene& scene, LocalizeResult& result) {
     Result<Engines> ways = makePolygonEngines(session, *scene.volume, *scene.mesh, result.machine.filterError);
     MadeEngine certified = makeHostEngine({.projection = Projection::Conservative, .outputs = {.triangles = true}});
     if (!ways.ok() || !certified.ok()) {
         return ways.ok() ? certified.error() : ways.error();
     }
-    for (const std::unique_ptr<Engine>& way : *ways) {
-        result.ways.push_back({.name = way->name()});
+    for (const Engine& way : *ways) {
+        result.ways.push_back({.name = way.facts.name});
     }
     LocalizeWay fragments{.name = "fragments"};
     MadeEngine traced = makeFragmentEngine(session);
@@ -37,13 +37,13 @@ Result<Engines> makeWays(const device::Session& session, const Scene& scene, Loc
     }
     result.ways.push_back(std::move(fragments));
     result.ways.push_back({.name = "certified", .byView = false});
-    ways->push_back(traced.ok() ? std::move(*traced) : nullptr);
+    ways->push_back(traced.ok() ? std::move(*traced) : Engine());
     ways->push_back(std::move(*certified));
     return ways;
 }
 
 /// What the bounds say of one triangle alone.
-Result<std::string> certifiedOf(Engine& certified, const Work& work, std::uint32_t triangle) {
+Result<std::string> certifiedOf(const Engine& certified, const Work& work, std::uint32_t triangle) {
     const MeshData& whole = work.mesh->data;
     MeshPart alone;
     alone.data.indices = {0, 1, 2};
@@ -66,7 +66,7 @@ void addTo(std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>
 }
 
 /// One way on one pose. What it found is kept once.
-Result<void> findOne(Engine& engine, const Work& work, bool keepsFound, LocalizeWay& way) {
+Result<void> findOne(const Engine& engine, const Work& work, bool keepsFound, LocalizeWay& way) {
     Result<Pass> pass = engine.run(work, {});
     VOXTACT_TRY(pass);
     way.wall.push_back(pass->wallMilliseconds);
@@ -86,8 +86,8 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
     const Work work(scene);
     const auto byAll = [&](std::size_t pose, bool keepsFound, std::vector<LocalizeWay>& ways) -> Result<void> {
         for (std::size_t i = 0; i < engines.size(); ++i) {
-            if (engines[i] != nullptr) {
-                VOXTACT_TRY(findOne(*engines[i], work.at(work.poses.subspan(pose, 1)), keepsFound, ways[i]));
+            if (engines[i].run) {
+                VOXTACT_TRY(findOne(engines[i], work.at(work.poses.subspan(pose, 1)), keepsFound, ways[i]));
             }
         }
         return {};
@@ -112,7 +112,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
 }
 
 /// What the way of most queries found that is not certified: the other ones are the same, or the run fails.
-Result<void> listWrong(Engine& certified, const Scene& scene, LocalizeResult& result) {
+Result<void> listWrong(const Engine& certified, const Scene& scene, LocalizeResult& result) {
     const Work work(scene);
     for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
         std::vector<TouchedTriangle> extra;
@@ -163,10 +163,10 @@ void findDisagreement(LocalizeResult& result) {
                 continue;
             }
             const std::uint32_t triangle = apart.front().triangle;
-            result.failedPose = result.poseNumbers[pose];
-            result.failure = "triangle " + std::to_string(triangle) + ": " + first.name + " " +
-                             textOf(first.found[pose], triangle) + ", " + way.name + " " +
-                             textOf(way.found[pose], triangle) + " fragments";
+            result.verdict.first = {result.poseNumbers[pose],
+                                    "triangle " + std::to_string(triangle) + ": " + first.name + " " +
+                                        textOf(first.found[pose], triangle) + ", " + way.name + " " +
+                                        textOf(way.found[pose], triangle) + " fragments"};
             return;
         }
     }
@@ -179,12 +179,6 @@ void judgeLocalize(LocalizeResult& result) {
     findDisagreement(result);
 }
 
-std::string disagreementOf(const LocalizeResult& result) {
-    return result.failedPose ? "polygon = leaf = leaf-bricks = fragments: disagreement on pose " +
-                                   std::to_string(*result.failedPose) + ": " + result.failure
-                             : std::string();
-}
-
 Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
                       LocalizeResult& result, const std::function<void()>& step) {
     result.poseNumbers = scene.poseNumbers;
@@ -193,7 +187,7 @@ Result<void> localize(const device::Session& session, const CompareSettings& set
     VOXTACT_TRY(engines);
     VOXTACT_TRY(findAll(*engines, settings, scene, result, step));
     judgeLocalize(result);
-    return listWrong(*engines->back(), scene, result);
+    return listWrong(engines->back(), scene, result);
 }
 
 } // namespace voxtact::lab

@@ -36,8 +36,7 @@ struct LocalizeResult {
     std::vector<std::uint32_t> poseNumbers;
     std::vector<LocalizeWay> ways; ///< the last is `certified`
     std::vector<WrongTriangle> wrong;
-    std::optional<std::uint32_t> failedPose; ///< the first on which the ways of the view disagree
-    std::string failure;
+    Verdict verdict{.rule = "polygon = leaf = leaf-bricks = fragments"}; ///< of the ways of the view
     std::vector<std::string> notes;
 };
 
@@ -48,8 +47,6 @@ struct LocalizeResult {
 
 /// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
 void judgeLocalize(LocalizeResult& result);
-/// On which pose and how the ways of the view disagree; empty where they agree.
-[[nodiscard]] std::string disagreementOf(const LocalizeResult& result);
 
 void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result);
 

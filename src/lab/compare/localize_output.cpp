@@ -36,10 +36,10 @@ io::Table waysTable(const LocalizeResult& result) {
 
 std::vector<std::string> sentences(const LocalizeResult& result) {
     std::vector<std::string> out;
-    out.push_back(result.failedPose ? "polygon = leaf = leaf-bricks = fragments: NO, on pose " +
-                                          std::to_string(*result.failedPose) + ": " + result.failure
-                                    : "polygon = leaf = leaf-bricks = fragments: the same triangles with the same "
-                                      "counts on every pose");
+    const Verdict& verdict = result.verdict;
+    out.push_back(verdict.rule + (verdict.failed() ? ": NO, on pose " + std::to_string(verdict.first->pose) + ": " +
+                                                         verdict.first->text
+                                                   : ": the same triangles with the same counts on every pose"));
     std::ostringstream missed;
     missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles, "
            << grouped(result.ways.back().triangles) << " certainly touch: " << std::fixed << std::setprecision(1)
@@ -64,7 +64,7 @@ void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, con
     Json& json = output.members;
     json["scene"] = sceneJson(scene);
     json["summary"] = output.sentences;
-    json["agrees"] = !result.failedPose.has_value();
+    json["agrees"] = !result.verdict.failed();
     json["poses"] = result.poseNumbers;
     json["ways"] = io::rowsJson(output.table);
     json["not_certified"] = arrayOf(result.wrong, [](const WrongTriangle& wrong) {

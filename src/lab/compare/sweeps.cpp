@@ -29,17 +29,17 @@ constexpr double kLongestSample = 0.25;
 
 /// A measurement that is repeated: what, by whom, and where its samples go.
 struct Point {
-    Engine* engine = nullptr;
+    const Engine* engine = nullptr;
     Work work;
     Feeding feeding{};
     Series series{};
 };
 
-Point makePoint(Sweep sweep, Engine& engine, const Work& work, Mode mode, std::uint32_t batch) {
+Point makePoint(Sweep sweep, const Engine& engine, const Work& work, Mode mode, std::uint32_t batch) {
     return {.engine = &engine,
             .work = work,
             .feeding = mode == Mode::Sync ? Feeding{1, 1} : Feeding{batch, kFramesInFlight},
-            .series = seriesOf(sweep, engine.name(), work, mode, batch)};
+            .series = seriesOf(sweep, engine.facts.name, work, mode, batch)};
 }
 
 Result<double> takeSample(Point& point) {
@@ -161,12 +161,12 @@ Result<void> timeBatches(const CompareRun& run) {
         const std::size_t batch = kBatches[i];
         const std::size_t batches = (std::max(work.poses.size(), batch) + batch - 1) / batch;
         poses[i] = cycled(work.poses, batches * batch);
-        for (const std::unique_ptr<Engine>& engine : run.engines) {
-            points.push_back(makePoint(Sweep::Batch, *engine, work.at(poses[i]), Mode::Pipelined, kBatches[i]));
+        for (const Engine& engine : run.engines) {
+            points.push_back(makePoint(Sweep::Batch, engine, work.at(poses[i]), Mode::Pipelined, kBatches[i]));
         }
     }
-    for (const std::unique_ptr<Engine>& engine : run.engines) {
-        points.push_back(makePoint(Sweep::Batch, *engine, work.at(one), Mode::Sync, 1));
+    for (const Engine& engine : run.engines) {
+        points.push_back(makePoint(Sweep::Batch, engine, work.at(one), Mode::Sync, 1));
     }
     VOXTACT_TRY(measure(run, points));
     for (std::size_t i = points.size() - run.engines.size(), end = points.size(); i < end; ++i) {
@@ -309,8 +309,8 @@ Result<void> timeSwept(const CompareRun& run, Sweep sweep, const std::vector<Swe
     for (const Swept& one : swept) {
         const Work work{*one.volume, *one.mesh, some.poses, one.view};
         VOXTACT_TRY(verify(run, sweep, work, some.poseNumbers, one.where));
-        for (const std::unique_ptr<Engine>& engine : run.engines) {
-            points.push_back(makePoint(sweep, *engine, work, Mode::Pipelined, pairs));
+        for (const Engine& engine : run.engines) {
+            points.push_back(makePoint(sweep, engine, work, Mode::Pipelined, pairs));
         }
     }
     if (points.empty() || run.ended()) {

@@ -20,17 +20,13 @@ std::vector<std::uint64_t> Pass::counts() const {
     return counts;
 }
 
-void Engine::holdAgainst(std::size_t engine, bool sameCounts) {
-    facts_.ratioTo = engine;
-    facts_.sameCounts = sameCounts;
-}
-
 void EngineList::add(MadeEngine engine, std::size_t ratioTo, bool sameCounts) {
     if (!engine.ok()) {
         error_ = error_.value_or(engine.error());
         return;
     }
-    (*engine)->holdAgainst(ratioTo, sameCounts);
+    engine->facts.ratioTo = ratioTo;
+    engine->facts.sameCounts = sameCounts;
     engines_.push_back(std::move(*engine));
 }
 

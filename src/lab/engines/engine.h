@@ -56,38 +56,21 @@ struct Pass {
     [[nodiscard]] std::vector<std::uint64_t> counts() const;
 };
 
-/// One way to answer.
+/// One way to answer. Copies share what answers.
 /// Thread-safety: none; one thread at a time.
-class Engine {
-  public:
-    explicit Engine(EngineFacts facts) : facts_(std::move(facts)) {}
-    Engine(const Engine&) = delete;
-    Engine& operator=(const Engine&) = delete;
-    virtual ~Engine() = default;
-
-    [[nodiscard]] const EngineFacts& facts() const noexcept { return facts_; }
-    [[nodiscard]] const std::string& name() const noexcept { return facts_.name; }
-    void holdAgainst(std::size_t engine, bool sameCounts);
-    [[nodiscard]] virtual Result<Pass> run(const Work& work, const Feeding& feeding) = 0;
-
-  private:
-    EngineFacts facts_;
+struct Engine {
+    EngineFacts facts{};
+    std::function<Result<Pass>(const Work& work, const Feeding& feeding)> run{};
 };
 
-using Engines = std::vector<std::unique_ptr<Engine>>;
-using MadeEngine = Result<std::unique_ptr<Engine>>;
+using Engines = std::vector<Engine>;
+using MadeEngine = Result<Engine>;
 
-/// An engine that is a function of the work and its feeding, with what it has captured.
-template <class Run> class FunctionEngine final : public Engine {
-  public:
-    FunctionEngine(EngineFacts facts, Run function) : Engine(std::move(facts)), function_(std::move(function)) {}
-    Result<Pass> run(const Work& work, const Feeding& feeding) override { return function_(work, feeding); }
-
-  private:
-    Run function_;
-};
-template <class Run> std::unique_ptr<Engine> engineOf(EngineFacts facts, Run function) {
-    return std::make_unique<FunctionEngine<Run>>(std::move(facts), std::move(function));
+/// An engine of something that answers: `run(state, work, feeding)`.
+template <class State, class Run> [[nodiscard]] Engine engineOf(EngineFacts facts, State state, Run run) {
+    const auto shared = std::make_shared<State>(std::move(state)); // most cannot be copied
+    return {std::move(facts),
+            [shared, run](const Work& work, const Feeding& feeding) { return run(*shared, work, feeding); }};
 }
 
 /// Engines that are made one after the other.
@@ -139,7 +122,7 @@ enum class Awaiting {
 /// A counting method by its own filter, on the device or, for cpu, the host.
 [[nodiscard]] MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method);
 /// FCL, for this mesh against the octree of this volume, which must be there.
-[[nodiscard]] std::unique_ptr<Engine> makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar);
+[[nodiscard]] Engine makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar);
 /// The octree, or nothing and a note that says why there is none. In both cases
 /// the note is what to tell of FCL.
 [[nodiscard]] std::string makeOctree(VolumePart& volume);

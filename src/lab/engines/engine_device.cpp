@@ -10,38 +10,29 @@ namespace voxtact::lab {
 
 namespace {
 
-class DeviceEngine final : public Engine {
-  public:
-    DeviceEngine(const device::Session& session, Detector detector)
-        : Engine(factsOf(detector.desc().method, detector.desc(), 0)), session_(session),
-          detector_(std::move(detector)) {}
-
-    Result<Pass> run(const Work& work, const Feeding& feeding) override;
-
-  private:
-    /// Made once: a pass pays for no allocation.
-    Result<device::PairPipeline*> pipeline(std::uint32_t batch, std::uint32_t frames);
-
-    const device::Session& session_;
-    Detector detector_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, device::PairPipeline> pipelines_;
+struct DevicePairs {
+    const device::Session& session;
+    Detector detector;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, device::PairPipeline> pipelines{};
 };
 
-Result<device::PairPipeline*> DeviceEngine::pipeline(std::uint32_t batch, std::uint32_t frames) {
+/// Made once: a pass pays for no allocation.
+Result<device::PairPipeline*> pipelineFor(DevicePairs& pairs, std::uint32_t batch, std::uint32_t frames) {
     const std::pair key{batch, frames};
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+    if (const auto found = pairs.pipelines.find(key); found != pairs.pipelines.end()) {
         return &found->second;
     }
     Result<device::PairPipeline> made =
-        device::PairPipeline::create(session_.device, session_.context, detector_,
+        device::PairPipeline::create(pairs.session.device, pairs.session.context, pairs.detector,
                                      {.frames = frames, .pairsPerSubmission = batch, .timestamps = true});
     VOXTACT_TRY(made);
-    return &pipelines_.emplace(key, std::move(*made)).first->second;
+    return &pairs.pipelines.emplace(key, std::move(*made)).first->second;
 }
 
-Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
+Result<Pass> runOnDevice(DevicePairs& pairs, const Work& work, const Feeding& feeding) {
     const auto all = static_cast<std::uint32_t>(work.poses.size());
-    const Result<device::PairPipeline*> pipe = pipeline(feeding.batch == 0 ? all : feeding.batch, feeding.frames);
+    const Result<device::PairPipeline*> pipe =
+        pipelineFor(pairs, feeding.batch == 0 ? all : feeding.batch, feeding.frames);
     VOXTACT_TRY(pipe);
     const BatchItem item = work.onDevice();
     Pass pass;
@@ -63,26 +54,28 @@ Result<Pass> DeviceEngine::run(const Work& work, const Feeding& feeding) {
     return pass;
 }
 
+Result<Pass> runBlocking(BlockingDetector& detector, const Work& work, const Feeding& /*feeding*/) {
+    const BatchItem item = work.onDevice();
+    Result<BatchAnswer> answer = detector.detect({{&item, 1}, work.view, work.volume->threshold});
+    VOXTACT_TRY(answer);
+    return Pass{.wallMilliseconds = answer->wallMilliseconds,
+                .pairs = std::move(answer->pairs),
+                .triangles = std::move(answer->triangles)};
+}
+
 } // namespace
 
 MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<Detector> detector = Detector::create(session.context, desc);
     VOXTACT_TRY(detector);
-    return MadeEngine(std::make_unique<DeviceEngine>(session, std::move(*detector)));
+    EngineFacts facts = factsOf(detector->desc().method, detector->desc(), 0);
+    return engineOf(std::move(facts), DevicePairs{session, std::move(*detector)}, runOnDevice);
 }
 
 MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     VOXTACT_TRY(detector);
-    return engineOf(factsOf(desc.method, desc, 0),
-                    [detector = std::move(*detector)](const Work& work, const Feeding&) mutable -> Result<Pass> {
-                        const BatchItem item = work.onDevice();
-                        Result<BatchAnswer> answer = detector.detect({{&item, 1}, work.view, work.volume->threshold});
-                        VOXTACT_TRY(answer);
-                        return Pass{.wallMilliseconds = answer->wallMilliseconds,
-                                    .pairs = std::move(answer->pairs),
-                                    .triangles = std::move(answer->triangles)};
-                    });
+    return engineOf(factsOf(desc.method, desc, 0), std::move(*detector), runBlocking);
 }
 
 } // namespace voxtact::lab

@@ -5,23 +5,27 @@
 
 namespace voxtact::lab {
 
-std::unique_ptr<Engine> makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar) {
-    EngineFacts facts{.name = scalar == FclScalar::Float ? "fcl-float" : "fcl-double",
-                      .projection = "octree",
-                      .question = questionOf(true, {})};
-    return engineOf(std::move(facts),
-                    [peer = makeFclPeer(*volume.fcl, mesh.data.positions, mesh.data.indices, scalar)](
-                        const Work& work, const Feeding&) -> Result<Pass> {
-                        Pass pass;
-                        pass.pairs.reserve(work.poses.size());
-                        const Stopwatch watch;
-                        for (const Mat4& pose : work.poses) {
-                            const bool hit = peer(pose);
-                            pass.pairs.push_back({.hit = hit, .count = hit ? 1U : 0U});
-                        }
-                        pass.wallMilliseconds = watch.milliseconds();
-                        return pass;
-                    });
+namespace {
+
+Result<Pass> askFcl(const FclPeer& peer, const Work& work, const Feeding& /*feeding*/) {
+    Pass pass;
+    pass.pairs.reserve(work.poses.size());
+    const Stopwatch watch;
+    for (const Mat4& pose : work.poses) {
+        const bool hit = peer(pose);
+        pass.pairs.push_back({.hit = hit, .count = hit ? 1U : 0U});
+    }
+    pass.wallMilliseconds = watch.milliseconds();
+    return pass;
+}
+
+} // namespace
+
+Engine makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar) {
+    return engineOf({.name = scalar == FclScalar::Float ? "fcl-float" : "fcl-double",
+                     .projection = "octree",
+                     .question = questionOf(true, {})},
+                    makeFclPeer(*volume.fcl, mesh.data.positions, mesh.data.indices, scalar), askFcl);
 }
 
 std::string makeOctree(VolumePart& volume) {

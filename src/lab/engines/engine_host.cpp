@@ -34,10 +34,7 @@ MadeEngine makeHostEngine(const cpu::DetectorDesc& desc) {
     Result<cpu::Detector> detector = cpu::Detector::create(desc);
     VOXTACT_TRY(detector);
     EngineFacts facts = factsOf(CountingMethod::Cpu, desc, detector->threads());
-    return engineOf(std::move(facts),
-                    [detector = std::move(*detector)](const Work& work, const Feeding& feeding) mutable {
-                        return runOnHost(detector, work, feeding);
-                    });
+    return engineOf(std::move(facts), std::move(*detector), runOnHost);
 }
 
 } // namespace voxtact::lab

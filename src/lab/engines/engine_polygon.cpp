@@ -17,27 +17,15 @@ struct PolygonParts {
     Localizer localizer;
     ObbTree tree;
     cpu::BrickOccupancy bricks;
-    bool timed = false;
 };
 
 Result<Pass> findPolygons(PolygonParts& parts, Localization way, const Work& work) {
     const BatchItem item = work.onDevice();
     const LocalizeAids aids{&parts.tree, [&parts](const Box& box) { return parts.bricks.mayBeOpaque(box); }};
-    Result<LocalizedTriangles> answer =
-        parts.localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way, aids);
-    VOXTACT_TRY(answer);
-    Pass pass{.wallMilliseconds = answer->wallMilliseconds, .triangles = std::move(answer->triangles)};
-    pass.queries = answer->queries;
-    if (way != Localization::Polygon) {
-        pass.boxes = answer->boxes;
-    }
-    if (parts.timed) {
-        pass.gpuMilliseconds = answer->gpuMilliseconds;
-    }
-    return pass;
+    return parts.localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way, aids);
 }
 
-Result<Pass> listFragments(FragmentTrace& trace, const Work& work) {
+Result<Pass> listFragments(FragmentTrace& trace, const Work& work, const Feeding& /*feeding*/) {
     const Stopwatch watch;
     const BatchItem item = work.onDevice();
     const Result<std::vector<shader::TracedFragment>> fragments =
@@ -66,13 +54,11 @@ Result<Engines> makePolygonEngines(const device::Session& session, const VolumeP
     VOXTACT_TRY(localizer);
     const auto parts = std::make_shared<PolygonParts>(
         PolygonParts{std::move(*localizer), makeObbTree(mesh.data.view()),
-                     cpu::BrickOccupancy(*volume.host, *volume.hostFunction, volume.threshold, tolerance),
-                     session.device.hasTimestamps()});
+                     cpu::BrickOccupancy(*volume.host, *volume.hostFunction, volume.threshold, tolerance)});
     Engines engines;
     for (const Localization way : {Localization::Polygon, Localization::Leaf, Localization::LeafBricks}) {
-        engines.push_back(engineOf(factsOfView(toString(way)), [parts, way](const Work& work, const Feeding&) {
-            return findPolygons(*parts, way, work);
-        }));
+        engines.push_back({factsOfView(toString(way)),
+                           [parts, way](const Work& work, const Feeding&) { return findPolygons(*parts, way, work); }});
     }
     return engines;
 }
@@ -81,9 +67,7 @@ MadeEngine makeFragmentEngine(const device::Session& session) {
     Result<FragmentTrace> trace =
         FragmentTrace::create(session.context, Filter::Hardware, session.device.queueAccess());
     VOXTACT_TRY(trace);
-    return engineOf(factsOfView("fragments"), [trace = std::move(*trace)](const Work& work, const Feeding&) mutable {
-        return listFragments(trace, work);
-    });
+    return engineOf(factsOfView("fragments"), std::move(*trace), listFragments);
 }
 
 } // namespace voxtact::lab

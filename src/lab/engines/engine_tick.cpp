@@ -68,59 +68,49 @@ EngineFacts tickFacts(const std::optional<DetectorDesc>& desc, Awaiting awaiting
     return facts;
 }
 
-class TickEngine final : public Engine {
-  public:
-    TickEngine(EngineFacts facts, std::optional<Asking> asking, device::TimedCommands commands, Awaiting awaiting)
-        : Engine(std::move(facts)), asking_(std::move(asking)), commands_(std::move(commands)), awaiting_(awaiting) {}
-
-    Result<Pass> run(const Work& work, const Feeding& feeding) override;
-
-  private:
-    Result<void> record(const Work& work, const BatchItem& item, Use use);
-    /// From a pose to its answer.
-    Result<void> tick(const Work& work, const BatchItem& item, Pass& pass);
-    /// Nothing is in flight afterwards, not after an error either.
-    Result<void> submitAndAwait();
-
-    std::optional<Asking> asking_;   // none: an empty submission
-    device::TimedCommands commands_; // last: it waits for what uses the others
-    Awaiting awaiting_;
-    bool recorded_ = false;
+/// A loop that asks about one pose after the other.
+struct Ticking {
+    std::optional<Asking> asking; ///< none: an empty submission
+    Awaiting awaiting;
+    device::TimedCommands commands; ///< last: it waits for what uses the others
+    bool recorded = false;
 };
 
-Result<void> TickEngine::record(const Work& work, const BatchItem& item, Use use) {
-    const Result<VkCommandBuffer> begun = commands_.begin(use);
+Result<void> record(Ticking& loop, const Work& work, const BatchItem& item, Use use) {
+    const Result<VkCommandBuffer> begun = loop.commands.begin(use);
     VOXTACT_TRY(begun);
-    if (asking_) {
-        VOXTACT_TRY(
-            asking_->detector.cmdDetect(*begun, {{&item, 1}, work.view, work.volume->threshold}, asking_->results));
-        VOXTACT_TRY(asking_->results.cmdReadBack(*begun));
+    if (loop.asking) {
+        Asking& asking = *loop.asking;
+        VOXTACT_TRY(asking.detector.cmdDetect(*begun, {{&item, 1}, work.view, work.volume->threshold}, asking.results));
+        VOXTACT_TRY(asking.results.cmdReadBack(*begun));
     }
-    return commands_.end();
+    return loop.commands.end();
 }
 
-Result<void> TickEngine::submitAndAwait() {
-    Result<void> done = commands_.submit();
+/// Nothing is in flight afterwards, not after an error either.
+Result<void> submitAndAwait(Ticking& loop) {
+    Result<void> done = loop.commands.submit();
     if (done.ok()) {
-        done = awaiting_ == Awaiting::Poll ? commands_.poll() : commands_.wait();
+        done = loop.awaiting == Awaiting::Poll ? loop.commands.poll() : loop.commands.wait();
     }
     if (!done.ok()) {
-        commands_.waitForAll();
+        loop.commands.waitForAll();
     }
     return done;
 }
 
-Result<void> TickEngine::tick(const Work& work, const BatchItem& item, Pass& pass) {
+/// From a pose to its answer.
+Result<void> tick(Ticking& loop, const Work& work, const BatchItem& item, Pass& pass) {
     const Stopwatch watch;
     if (pass.recordMilliseconds) {
-        VOXTACT_TRY(record(work, item, Use::Once));
+        VOXTACT_TRY(record(loop, work, item, Use::Once));
         *pass.recordMilliseconds += watch.milliseconds();
-    } else if (asking_) {
-        VOXTACT_TRY(asking_->pose->write(item.world_from_object.front()));
+    } else if (loop.asking) {
+        VOXTACT_TRY(loop.asking->pose->write(item.world_from_object.front()));
     }
-    VOXTACT_TRY(submitAndAwait());
-    if (asking_) {
-        const Result<std::span<const PairResult>> read = asking_->results.read();
+    VOXTACT_TRY(submitAndAwait(loop));
+    if (loop.asking) {
+        const Result<std::span<const PairResult>> read = loop.asking->results.read();
         VOXTACT_TRY(read);
         pass.pairs.push_back(unpack(read->front()));
     }
@@ -128,22 +118,22 @@ Result<void> TickEngine::tick(const Work& work, const BatchItem& item, Pass& pas
     return {};
 }
 
-Result<Pass> TickEngine::run(const Work& work, const Feeding& /*feeding*/) {
+Result<Pass> runTicks(Ticking& loop, const Work& work, const Feeding& /*feeding*/) {
     Pass pass;
     pass.pairs.reserve(work.poses.size());
     BatchItem item = work.onDevice();
-    const bool once = !asking_ || asking_->pose;
+    const bool once = !loop.asking || loop.asking->pose;
     if (!once) {
         pass.recordMilliseconds = 0;
-    } else if (!recorded_) {
+    } else if (!loop.recorded) {
         item.world_from_object = {};
-        item.poses = asking_ ? &asking_->pose->poses : nullptr;
-        VOXTACT_TRY(record(work, item, Use::Again));
-        recorded_ = true;
+        item.poses = loop.asking ? &loop.asking->pose->poses : nullptr;
+        VOXTACT_TRY(record(loop, work, item, Use::Again));
+        loop.recorded = true;
     }
     for (const Mat4& pose : work.poses) {
         item.world_from_object = {&pose, 1};
-        VOXTACT_TRY(tick(work, item, pass));
+        VOXTACT_TRY(tick(loop, work, item, pass));
     }
     return pass;
 }
@@ -159,8 +149,7 @@ MadeEngine makeTickEngine(const device::Session& session, const std::optional<De
     }
     Result<device::TimedCommands> commands = device::TimedCommands::create(session, 0);
     VOXTACT_TRY(commands);
-    return MadeEngine(
-        std::make_unique<TickEngine>(tickFacts(desc, awaiting), std::move(asking), std::move(*commands), awaiting));
+    return engineOf(tickFacts(desc, awaiting), Ticking{std::move(asking), awaiting, std::move(*commands)}, runTicks);
 }
 
 } // namespace voxtact::lab

@@ -53,55 +53,39 @@ Result<Owned<VkQueryPool>> makeQueries(ContextImpl& context) {
     });
 }
 
-/// The tests of nodes in one pair's texture space.
-class NodeTest {
-  public:
-    NodeTest(const BatchItem& item, Localization way, const LocalizeAids& aids)
-        : aids_(aids), bricks_(way == Localization::LeafBricks),
-          texture_from_object_(multiply(item.volume->impl().texture_from_world, item.world_from_object.front())) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            voxel_[axis] = kVoxels / item.volume->grid().size[axis];
-        }
+/// Whether a node of the tree may touch, by the margins around its bounds in texture space.
+bool mayTouch(const ObbNode& node, const Mat4& texture_from_object, const Grid& grid, const LocalizeAids& aids,
+              bool bricks) {
+    // But for rounding, which is far below the margin.
+    const Box box = transformBox(multiply(texture_from_object, frameOf(node)), {{-1, -1, -1}, {1, 1, 1}});
+    Box within;
+    Box grown;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double size = std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis]));
+        const double margin = kVoxels / grid.size[axis] + kFloatError * size;
+        grown.lo[axis] = -margin;
+        grown.hi[axis] = 1 + margin;
+        within.lo[axis] = std::clamp(box.lo[axis] - margin, 0.0, 1.0);
+        within.hi[axis] = std::clamp(box.hi[axis] + margin, 0.0, 1.0);
     }
-
-    [[nodiscard]] bool operator()(const ObbNode& node) {
-        ++tested_;
-        // But for rounding, which is far below the margin.
-        const Box box = transformBox(multiply(texture_from_object_, frameOf(node)), {{-1, -1, -1}, {1, 1, 1}});
-        Box within;
-        Box grown;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double size = std::max(std::abs(box.lo[axis]), std::abs(box.hi[axis]));
-            const double margin = voxel_[axis] + kFloatError * size;
-            grown.lo[axis] = -margin;
-            grown.hi[axis] = 1 + margin;
-            within.lo[axis] = std::clamp(box.lo[axis] - margin, 0.0, 1.0);
-            within.hi[axis] = std::clamp(box.hi[axis] + margin, 0.0, 1.0);
-        }
-        return obbMeetsBox(node, texture_from_object_, grown) && (!bricks_ || aids_.mayBeOpaque(within));
-    }
-
-    [[nodiscard]] std::uint64_t tested() const noexcept { return tested_; }
-
-  private:
-    const LocalizeAids& aids_;
-    bool bricks_;
-    Mat4 texture_from_object_;
-    Vec3 voxel_{}; ///< the part of the margin that is the same for all nodes
-    std::uint64_t tested_ = 0;
-};
+    return obbMeetsBox(node, texture_from_object, grown) && (!bricks || aids.mayBeOpaque(within));
+}
 
 /// The triangles that get a query, by number.
 std::vector<std::uint32_t> candidates(const BatchItem& item, Localization way, const LocalizeAids& aids,
-                                      LocalizedTriangles& out) {
+                                      lab::Pass& out) {
     if (way == Localization::Polygon) {
         std::vector<std::uint32_t> all(item.mesh->triangles());
         std::iota(all.begin(), all.end(), 0U);
         return all;
     }
-    NodeTest test(item, way, aids);
-    std::vector<std::uint32_t> found = touchingTriangles(*aids.tree, test);
-    out.boxes = test.tested();
+    const Mat4 texture_from_object = multiply(item.volume->impl().texture_from_world, item.world_from_object.front());
+    std::uint64_t boxes = 0;
+    std::vector<std::uint32_t> found = touchingTriangles(*aids.tree, [&](const ObbNode& node) {
+        ++boxes;
+        return mayTouch(node, texture_from_object, item.volume->grid(), aids, way == Localization::LeafBricks);
+    });
+    out.boxes = boxes;
     std::ranges::sort(found);
     return found;
 }
@@ -123,7 +107,8 @@ Result<void> checkAids(const BatchItem& item, Localization way, const LocalizeAi
 
 /// One submission: the survivors of at most kQueries triangles.
 Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batch& batch,
-                                         std::span<const std::uint32_t> triangles, double& gpuMilliseconds) {
+                                         std::span<const std::uint32_t> triangles,
+                                         std::optional<double>& gpuMilliseconds) {
     ContextImpl& context = localizer.context;
     const Result<VkCommandBuffer> commandBuffer = localizer.submitter.begin();
     VOXTACT_TRY(commandBuffer);
@@ -149,15 +134,16 @@ Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batc
     if (results.timestamps) {
         const Result<double> time = localizer.results.gpuMilliseconds();
         VOXTACT_TRY(time);
-        gpuMilliseconds += *time;
+        *gpuMilliseconds += *time;
     }
     return counts;
 }
 
-Result<LocalizedTriangles> localize(Localizer::State& localizer, const Batch& batch, const BatchItem& item,
-                                    Localization way, const LocalizeAids& aids) {
+Result<lab::Pass> localize(Localizer::State& localizer, const Batch& batch, const BatchItem& item, Localization way,
+                           const LocalizeAids& aids) {
     const lab::Stopwatch watch;
-    LocalizedTriangles out;
+    lab::Pass out;
+    out.gpuMilliseconds = localizer.results.impl().timestamps ? std::optional(0.0) : std::nullopt;
     const std::vector<std::uint32_t> all = candidates(item, way, aids, out);
     out.queries = all.size();
     for (std::size_t first = 0; first < all.size(); first += kQueries) {
@@ -207,8 +193,8 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
     });
 }
 
-Result<LocalizedTriangles> Localizer::triangles(const Batch& batch, Localization way, const LocalizeAids& aids) {
-    return guard([&]() -> Result<LocalizedTriangles> {
+Result<lab::Pass> Localizer::triangles(const Batch& batch, Localization way, const LocalizeAids& aids) {
+    return guard([&]() -> Result<lab::Pass> {
         const Result<std::uint32_t> pairs = checkBatch(state_->context, kDesc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs != 1) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lab/engines/engine.h"
 #include "lab/engines/obb_tree.h"
-#include "voxtact/detector.h"
 
 #include <functional>
 #include <memory>
@@ -27,14 +27,6 @@ struct LocalizeAids {
     std::function<bool(const Box& texture)> mayBeOpaque;
 };
 
-struct LocalizedTriangles {
-    std::vector<TouchedTriangle> triangles; ///< by triangle; pair 0
-    std::uint64_t queries = 0;
-    std::uint64_t boxes = 0;     ///< nodes of the tree that were tested
-    double wallMilliseconds = 0; ///< from the tree's root to the results in host memory
-    double gpuMilliseconds = 0;  ///< of that, device time; 0 where the queue has no timestamps
-};
-
 /// Finds the triangles of a pair that have survivors by the projection `view`, one query a triangle. What the finer
 /// ways to localise are compared with. Blocks. Needs occlusionQueryPrecise.
 ///
@@ -47,9 +39,10 @@ class Localizer {
   public:
     [[nodiscard]] static Result<Localizer> create(const Context& context, Filter filter, const QueueAccess& queue);
 
-    /// Of a batch of one pair. InvalidArgument where an aid is missing, or the tree is of another number of triangles.
-    [[nodiscard]] Result<LocalizedTriangles> triangles(const Batch& batch, Localization way,
-                                                       const LocalizeAids& aids = {});
+    /// Of a batch of one pair: its triangles, by number, the queries, the nodes that were tested, and the times, from
+    /// the tree's root to the results in host memory. InvalidArgument where an aid is missing, or the tree is of
+    /// another number of triangles.
+    [[nodiscard]] Result<lab::Pass> triangles(const Batch& batch, Localization way, const LocalizeAids& aids = {});
 
     struct State;
 

@@ -64,6 +64,11 @@ Row& Row::add(const Names& names, const std::vector<double>& samples, std::initi
     return names.member.empty() ? *this : member(names.member.c_str(), spreadJson(samples));
 }
 
+Row& Row::columns(const Row& others) {
+    cells_.insert(cells_.end(), others.cells_.begin(), others.cells_.end());
+    return *this;
+}
+
 Row& Row::member(const char* name, Json value) {
     json_[name] = std::move(value);
     return *this;

@@ -57,6 +57,8 @@ class Row {
     Row& add(const Names& names, const std::vector<double>& samples, std::initializer_list<const char*> parts);
     /// In columns alone.
     template <class Value> Row& column(const char* name, const Value& value) { return add({name, ""}, value); }
+    /// Those of another row, in columns alone.
+    Row& columns(const Row& others);
     /// In JSON alone.
     Row& member(const char* name, Json value);
 

@@ -13,7 +13,7 @@ namespace voxtact::lab {
 namespace {
 
 /// Seconds for all poses, median.
-Result<double> medianSeconds(Engine& host, const MeasureScene& scene, std::uint32_t repetitions) {
+Result<double> medianSeconds(const Engine& host, const MeasureScene& scene, std::uint32_t repetitions) {
     VolumePart volume{.name = {}, .data = scene.volume, .points = scene.points, .domain = scene.domain};
     volume.threshold = scene.threshold;
     MeshPart mesh{.name = {}, .data = scene.mesh};
@@ -35,12 +35,12 @@ Result<double> medianSeconds(Engine& host, const MeasureScene& scene, std::uint3
 MethodSpeed measureHost(const MeasureScene& scene, std::uint32_t repetitions) {
     MethodSpeed speed{{CountingMethod::Cpu, true, false, {}}};
     const MadeEngine host = makeHostEngine();
-    const Result<double> seconds = host.ok() ? medianSeconds(**host, scene, repetitions) : host.error();
+    const Result<double> seconds = host.ok() ? medianSeconds(*host, scene, repetitions) : host.error();
     if (!seconds.ok()) {
         speed.verdict.text = seconds.error().text;
         return speed;
     }
-    const std::uint32_t threads = (*host)->facts().threads;
+    const std::uint32_t threads = host->facts.threads;
     speed.verdict.trusted = true;
     speed.verdict.text = "the host, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
     speed.pairsPerSecond = static_cast<double>(scene.world_from_object.size()) / *seconds;

@@ -65,13 +65,6 @@ Result<PictureParts> makePicture(const device::Session& session, const Scene& sc
                         std::move(*normals),  std::move(*targets),  std::move(*image)};
 }
 
-Result<Results> makeResults(const device::Session& session) {
-    return Results::create(session.context, {.maxPairs = 1,
-                                             .readBack = true,
-                                             .timestamps = session.device.hasTimestamps(),
-                                             .queueFamily = session.device.queueAccess().family});
-}
-
 } // namespace
 
 struct FrameLoop::State {
@@ -80,7 +73,7 @@ struct FrameLoop::State {
     PictureParts picture;
     Results results;
     std::map<CountingMethod, Detector> detectors{};
-    std::unique_ptr<Engine> host{};
+    Engine host{};
     device::TimedCommands commands; ///< ends first, and waits then
 
     Result<void> record(FramePart part, CountingMethod method, const Mat4& pose);
@@ -157,7 +150,10 @@ Result<FrameLoop> FrameLoop::create(const device::Session& session, const Scene&
                                     const std::vector<ColourPoint>& colours) {
     Result<PictureParts> picture = makePicture(session, scene, colours);
     VOXTACT_TRY(picture);
-    Result<Results> results = makeResults(session);
+    Result<Results> results = Results::create(session.context, {.maxPairs = 1,
+                                                                .readBack = true,
+                                                                .timestamps = session.device.hasTimestamps(),
+                                                                .queueFamily = session.device.queueAccess().family});
     VOXTACT_TRY(results);
     Result<device::TimedCommands> commands = device::TimedCommands::create(session, kFrameStamps);
     VOXTACT_TRY(commands);
@@ -195,7 +191,7 @@ Result<FrameSample> FrameLoop::run(FramePart part, CountingMethod method, const 
         VOXTACT_TRY(state_->commands.submit());
     }
     if (onHost) {
-        const Result<Pass> pass = state_->host->run(Work(state_->scene).at({&world_from_object, 1}), {});
+        const Result<Pass> pass = state_->host.run(Work(state_->scene).at({&world_from_object, 1}), {});
         VOXTACT_TRY(pass);
         sample.count = pass->pairs.front().count;
     }

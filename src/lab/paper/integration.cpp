@@ -29,9 +29,8 @@ RenderTransferFunctionDesc functionOf(std::uint32_t entries, std::size_t number)
 
 } // namespace
 
-Result<std::vector<IntegrationPoint>> timeIntegration(const device::Session& session, std::uint32_t repetitions,
-                                                      const std::function<void()>& step) {
-    const Result<Renderer> renderer = Renderer::create(session.context);
+Result<std::vector<IntegrationPoint>> timeIntegration(const PaperRun& run) {
+    const Result<Renderer> renderer = Renderer::create(run.session.context);
     VOXTACT_TRY(renderer);
     std::vector<RenderTransferFunction> tables;
     std::vector<IntegrationPoint> points;
@@ -41,7 +40,7 @@ Result<std::vector<IntegrationPoint>> timeIntegration(const device::Session& ses
         tables.push_back(std::move(*made));
         points.push_back({.entries = entries});
     }
-    Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);
+    Result<device::TimedSubmission> submission = device::TimedSubmission::create(run.session);
     VOXTACT_TRY(submission);
     std::vector<Timed> things;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -58,7 +57,7 @@ Result<std::vector<IntegrationPoint>> timeIntegration(const device::Session& ses
             return times->wallMilliseconds;
         }});
     }
-    VOXTACT_TRY(takeRounds(things, {.repeats = repetitions, .warmUp = true, .step = step}));
+    VOXTACT_TRY(takeRounds(things, {.repeats = run.settings.repetitions, .warmUp = true, .step = run.steps.step}));
     return points;
 }
 

@@ -9,16 +9,23 @@ namespace voxtact::lab {
 
 namespace {
 
-/// A spread with the interval of its median.
-Json percentJson(const std::vector<double>& percents, const std::optional<MedianInterval>& interval) {
+/// The interval of the median of percents.
+Row intervalOf(const std::vector<double>& percents) {
+    const std::optional<MedianInterval> interval = medianInterval(percents, kConfidence);
     const auto known = [&](double MedianInterval::*part) {
-        return interval ? Json(rounded((*interval).*part)) : Json();
+        return interval ? std::optional((*interval).*part) : std::nullopt;
     };
+    return Row()
+        .add({"overhead_low", "low"}, known(&MedianInterval::low))
+        .add({"overhead_high", "high"}, known(&MedianInterval::high))
+        .add("confidence", known(&MedianInterval::confidence));
+}
+
+/// Their spread, with that interval.
+Json percentJson(const std::vector<double>& percents) {
     Json json = spreadJson(percents);
     if (!json.is_null()) {
-        json["low"] = known(&MedianInterval::low);
-        json["high"] = known(&MedianInterval::high);
-        json["confidence"] = known(&MedianInterval::confidence);
+        json.update(intervalOf(percents).json());
     }
     return json;
 }
@@ -29,10 +36,6 @@ Row rowOf(const PaperRow& row, const PaperClock& clock, const PaperResult& resul
     const PaperColumns& columns = row.*clock.columns;
     const std::vector<double> collision = collisionPercent(columns);
     const std::vector<double> overhead = overheadPercent(columns);
-    const std::optional<MedianInterval> interval = medianInterval(overhead, kConfidence);
-    const auto known = [&](double MedianInterval::*part) {
-        return interval ? std::optional((*interval).*part) : std::nullopt;
-    };
     return Row()
         .column("scene", scene.name)
         .column("method", row.method)
@@ -51,11 +54,9 @@ Row rowOf(const PaperRow& row, const PaperClock& clock, const PaperResult& resul
         .add("total_ms", columns.total, {"", "_p10", "_p90"})
         .add({"collision_percent", ""}, collision, {""})
         .add({"overhead_percent", ""}, overhead, {""})
-        .column("overhead_low", known(&MedianInterval::low))
-        .column("overhead_high", known(&MedianInterval::high))
-        .column("confidence", known(&MedianInterval::confidence))
-        .member("collision_percent", percentJson(collision, medianInterval(collision, kConfidence)))
-        .member("overhead_percent", percentJson(overhead, interval));
+        .columns(intervalOf(overhead))
+        .member("collision_percent", percentJson(collision))
+        .member("overhead_percent", percentJson(overhead));
 }
 
 std::optional<std::string> alone(const std::vector<double>& samples) {

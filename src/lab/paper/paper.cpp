@@ -50,6 +50,12 @@ std::vector<double> paired(const std::vector<double>& rendering, const std::vect
 
 } // namespace
 
+void PaperRun::note(const std::string& text) const {
+    if (std::ranges::find(result.notes, text) == result.notes.end()) {
+        result.notes.push_back(text);
+    }
+}
+
 std::vector<double> collisionPercent(const PaperColumns& columns) {
     return paired(columns.rendering, columns.collision,
                   [](double rendering, double collision) { return 100 * collision / rendering; });
@@ -72,17 +78,16 @@ Result<void> measurePaper(const PaperSettings& settings, const device::Session& 
     const auto scenes = static_cast<double>(inputs->size());
     const double frames = settings.noSweeps ? 1 : kFramesShare;
     steps.begin(inputs->size() * paperSceneSteps(settings) + (settings.noSweeps ? 0 : paperSweepSteps(settings)));
+    const PaperRun run{session, settings, steps, result};
     for (const PaperInput& input : *inputs) {
         steps.doing("frames of " + input.facts.name);
-        Result<void> measured =
-            measurePaperScene(session, settings, settings.timeLimit * frames / scenes, input, result, steps.step);
-        if (!measured.ok() || !result.disagreement.empty()) {
+        Result<void> measured = measurePaperScene(run, settings.timeLimit * frames / scenes, input);
+        if (!measured.ok() || !run.agrees()) {
             return measured;
         }
     }
     return settings.noSweeps ? Result<void>()
-                             : runPaperSweeps(session, settings, settings.timeLimit * (1 - kFramesShare),
-                                              inputs->front().scene, result, steps);
+                             : runPaperSweeps(run, settings.timeLimit * (1 - kFramesShare), inputs->front().scene);
 }
 
 } // namespace voxtact::lab

@@ -6,6 +6,20 @@
 /// The parts of a run of measurePaper().
 namespace voxtact::lab {
 
+/// A measurement under way.
+struct PaperRun {
+    const device::Session& session;
+    const PaperSettings& settings;
+    const Steps& steps;
+    PaperResult& result;
+
+    /// The first is the result's.
+    void disagree(const std::string& how) const { result.disagreement = agrees() ? how : result.disagreement; }
+    [[nodiscard]] bool agrees() const { return result.disagreement.empty(); }
+    /// Once.
+    void note(const std::string& text) const;
+};
+
 /// One of the paper's scenes, in host memory.
 struct PaperInput {
     PaperScene facts;
@@ -27,22 +41,18 @@ struct PaperInput {
 /// A round takes of each method the detection alone and a frame with it, next to each other, and in their middle one
 /// frame without; the next round takes them the other way round. There are `settings.repetitions` rounds, fewer where
 /// they do not fit in `seconds`, at least one; the notes say so.
-[[nodiscard]] Result<void> measurePaperScene(const device::Session& session, const PaperSettings& settings,
-                                             double seconds, const PaperInput& input, PaperResult& result,
-                                             const std::function<void()>& step);
+[[nodiscard]] Result<void> measurePaperScene(const PaperRun& run, double seconds, const PaperInput& input);
 [[nodiscard]] std::uint64_t paperSceneSteps(const PaperSettings& settings);
 
 /// What grows from point to point, which triangles touch, and the making of the pre-integrated table. `v1s1` is the
 /// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
 /// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
 /// fills `disagreement`, unless there is one already, and goes no further. The samples are cut to fit in `seconds`.
-[[nodiscard]] Result<void> runPaperSweeps(const device::Session& session, const PaperSettings& settings, double seconds,
-                                          const Scene& v1s1, PaperResult& result, const Steps& steps);
+[[nodiscard]] Result<void> runPaperSweeps(const PaperRun& run, double seconds, const Scene& v1s1);
 [[nodiscard]] std::uint64_t paperSweepSteps(const PaperSettings& settings);
 
 /// The making of the pre-integrated table, in several sizes: a warm-up, then rounds that make each size once, every
 /// time of a function that has changed. `step` is called once for the warm-up and once a round.
-[[nodiscard]] Result<std::vector<IntegrationPoint>>
-timeIntegration(const device::Session& session, std::uint32_t repetitions, const std::function<void()>& step);
+[[nodiscard]] Result<std::vector<IntegrationPoint>> timeIntegration(const PaperRun& run);
 
 } // namespace voxtact::lab

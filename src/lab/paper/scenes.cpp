@@ -179,11 +179,11 @@ Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const Mes
 }
 
 std::string opacityText(const std::vector<ControlPoint>& points) {
-    std::string text;
+    std::vector<std::string> texts;
     for (const ControlPoint& point : points) {
-        text += (text.empty() ? "" : ",") + number(point.value) + ":" + number(point.opacity);
+        texts.push_back(number(point.value) + ":" + number(point.opacity));
     }
-    return text;
+    return joined(texts, ",");
 }
 
 Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, const LoadedVolume& volume,
@@ -230,7 +230,7 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
         const std::vector<Mat4> all =
             randomPoses(scene.volume->data.grid, scene.mesh->data.view(), static_cast<std::uint32_t>(end), seed);
         const std::span<const Mat4> fresh = std::span(all).subspan(tried);
-        const Result<Pass> pass = (*yesNo)->run(Work(scene).at(fresh), {});
+        const Result<Pass> pass = yesNo->run(Work(scene).at(fresh), {});
         VOXTACT_TRY(pass);
         for (std::size_t i = 0; i < fresh.size() && scene.poses.size() < count; ++i) {
             if (pass->pairs[i].hit) {

@@ -49,55 +49,52 @@ std::string nameOf(Sweep sweep) {
 }
 
 /// Counts every pose, and where the methods agree times them; as `voxtact compare` does.
-Result<void> timeAll(const device::Session& session, const PaperSettings& paper, const CompareSettings& settings,
-                     const Scene& v1s1, CompareResult& result, const Steps& steps) {
-    steps.doing(nameOf(Sweep::Batch));
-    const Result<Engines> engines = makeMethodEngines(session, settings, result);
+Result<void> timeAll(const PaperRun& run, const CompareSettings& how, const Scene& v1s1, CompareResult& compared) {
+    run.steps.doing(nameOf(Sweep::Batch));
+    const Result<Engines> engines = makeMethodEngines(run.session, how, compared);
     VOXTACT_TRY(engines);
-    const CompareRun run{session, settings, v1s1, *engines, result, steps.step};
-    VOXTACT_TRY(checkCounts(run));
+    const CompareRun comparing{run.session, how, v1s1, *engines, compared, run.steps.step};
+    VOXTACT_TRY(checkCounts(comparing));
     for (const Sweep sweep : {Sweep::Batch, Sweep::Triangles, Sweep::Fragments}) {
-        if (run.ended()) {
+        if (comparing.ended()) {
             return {};
         }
-        steps.doing(nameOf(sweep));
-        VOXTACT_TRY(timeSweep(run, sweep));
+        run.steps.doing(nameOf(sweep));
+        VOXTACT_TRY(timeSweep(comparing, sweep));
     }
-    if (run.ended()) {
+    if (comparing.ended()) {
         return {};
     }
-    steps.doing(nameOf(Sweep::Voxels));
-    const Result<Scene> head = headOf(paper, v1s1);
+    run.steps.doing(nameOf(Sweep::Voxels));
+    const Result<Scene> head = headOf(run.settings, v1s1);
     VOXTACT_TRY(head);
-    return timeSweep({session, settings, *head, *engines, result, steps.step}, Sweep::Voxels);
+    return timeSweep({run.session, how, *head, *engines, compared, run.steps.step}, Sweep::Voxels);
 }
 
-Result<void> sweep(const device::Session& session, const PaperSettings& paper, const CompareSettings& settings,
-                   const Scene& v1s1, PaperResult& result, const Steps& steps) {
-    VOXTACT_TRY(makeReady(session, v1s1));
+Result<void> sweep(const PaperRun& run, const CompareSettings& how, const Scene& v1s1) {
+    VOXTACT_TRY(makeReady(run.session, v1s1));
     CompareResult compared;
-    VOXTACT_TRY(timeAll(session, paper, settings, v1s1, compared, steps));
-    if (const Verdict* failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
-        result.disagreement = disagreementOf(*failure);
+    VOXTACT_TRY(timeAll(run, how, v1s1, compared));
+    if (const Verdict* const failure = compared.firstFailure(); failure != nullptr) {
+        run.disagree(disagreementOf(*failure));
     }
-    result.series = std::move(compared.series);
-    result.notes.insert(result.notes.end(), compared.notes.begin(), compared.notes.end());
+    run.result.series = std::move(compared.series);
+    run.result.notes.insert(run.result.notes.end(), compared.notes.begin(), compared.notes.end());
     return {};
 }
 
 /// Which triangles touch, on a few poses.
-Result<void> findPolygons(const device::Session& session, const CompareSettings& settings, const Scene& v1s1,
-                          PaperResult& result, const std::function<void()>& step) {
+Result<void> findPolygons(const PaperRun& run, const CompareSettings& how, const Scene& v1s1) {
     LocalizeResult found;
-    found.machine = result.machine;
-    VOXTACT_TRY(localize(session, settings, v1s1.withPoses(kPolygonPoses), found, step));
-    if (result.disagreement.empty()) {
-        result.disagreement = disagreementOf(found);
+    found.machine = run.result.machine;
+    VOXTACT_TRY(localize(run.session, how, v1s1.withPoses(kPolygonPoses), found, run.steps.step));
+    if (found.verdict.failed()) {
+        run.disagree(disagreementOf(found.verdict));
     }
-    result.polygons = std::move(found.ways);
-    result.polygonTriangles = v1s1.mesh->triangles();
-    result.polygonPoses = static_cast<std::uint32_t>(found.poseNumbers.size());
-    result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+    run.result.polygons = std::move(found.ways);
+    run.result.polygonTriangles = v1s1.mesh->triangles();
+    run.result.polygonPoses = static_cast<std::uint32_t>(found.poseNumbers.size());
+    run.result.notes.insert(run.result.notes.end(), found.notes.begin(), found.notes.end());
     return {};
 }
 
@@ -112,22 +109,21 @@ std::uint64_t paperSweepSteps(const PaperSettings& settings) {
     return steps + poses * settings.repetitions + settings.repetitions + 1;
 }
 
-Result<void> runPaperSweeps(const device::Session& session, const PaperSettings& settings, double seconds,
-                            const Scene& v1s1, PaperResult& result, const Steps& steps) {
-    const CompareSettings how = settingsFor(settings, seconds);
-    if (Result<void> done = sweep(session, settings, how, v1s1, result, steps);
-        !done.ok() || !result.disagreement.empty()) {
-        return done;
+Result<void> runPaperSweeps(const PaperRun& run, double seconds, const Scene& v1s1) {
+    const CompareSettings how = settingsFor(run.settings, seconds);
+    VOXTACT_TRY(sweep(run, how, v1s1));
+    if (!run.agrees()) {
+        return {};
     }
-    steps.doing("which triangles touch");
-    if (Result<void> done = findPolygons(session, how, v1s1, result, steps.step);
-        !done.ok() || !result.disagreement.empty()) {
-        return done;
+    run.steps.doing("which triangles touch");
+    VOXTACT_TRY(findPolygons(run, how, v1s1));
+    if (!run.agrees()) {
+        return {};
     }
-    steps.doing("the pre-integrated table");
-    Result<std::vector<IntegrationPoint>> integration = timeIntegration(session, settings.repetitions, steps.step);
+    run.steps.doing("the pre-integrated table");
+    Result<std::vector<IntegrationPoint>> integration = timeIntegration(run);
     VOXTACT_TRY(integration);
-    result.integration = std::move(*integration);
+    run.result.integration = std::move(*integration);
     return {};
 }
 

@@ -27,26 +27,19 @@ struct PaperWork {
     std::size_t firstRow;                ///< theirs follow each other
 };
 
-void addNote(std::string note, PaperResult& result) {
-    if (std::ranges::find(result.notes, note) == result.notes.end()) {
-        result.notes.push_back(std::move(note));
-    }
-}
-
 /// Counts every pose by every method. The first broken rule is the result's.
-Result<std::vector<NamedCounts>> verify(const device::Session& session, const PaperInput& input, PaperResult& result,
-                                        const std::function<void()>& step) {
+Result<std::vector<NamedCounts>> verify(const PaperRun& run, const PaperInput& input) {
     CompareResult compared;
     const CompareSettings settings;
-    const Result<Engines> engines = makeMethodEngines(session, settings, compared);
+    const Result<Engines> engines = makeMethodEngines(run.session, settings, compared);
     VOXTACT_TRY(engines);
-    VOXTACT_TRY(checkCounts({session, settings, input.scene, *engines, compared, step}));
-    for (std::string& note : compared.notes) {
-        addNote(std::move(note), result);
+    VOXTACT_TRY(checkCounts({run.session, settings, input.scene, *engines, compared, run.steps.step}));
+    for (const std::string& note : compared.notes) {
+        run.note(note);
     }
-    if (const Verdict* const failure = compared.firstFailure(); failure != nullptr && result.disagreement.empty()) {
-        result.disagreement = input.facts.name + ", " + failure->rule + ": pose " +
-                              std::to_string(failure->first->pose) + ": " + failure->first->text;
+    if (const Verdict* const failure = compared.firstFailure(); failure != nullptr) {
+        run.disagree(input.facts.name + ", " + failure->rule + ": pose " + std::to_string(failure->first->pose) + ": " +
+                     failure->first->text);
     }
     return std::move(compared.counts);
 }
@@ -67,6 +60,7 @@ PaperWork addRows(const PaperInput& input, std::vector<NamedCounts> counts, Pape
 }
 
 void keepFrame(FramePart part, const FrameSample& sample, PaperRow& row) {
+    // In the order of FramePart.
     constexpr std::array kColumns{&PaperColumns::rendering, &PaperColumns::collision, &PaperColumns::total};
     const auto column = kColumns.at(static_cast<std::size_t>(part));
     keep(sample.gpu, row.gpu.*column);
@@ -81,7 +75,7 @@ void keepFrame(FramePart part, const FrameSample& sample, PaperRow& row) {
 struct PaperFrames {
     FrameLoop loop;
     const PaperWork& work;
-    PaperResult& result;
+    const PaperRun& run;
 
     [[nodiscard]] std::size_t poseOf(std::uint64_t round) const {
         const std::size_t poses = work.input.scene.poses.size();
@@ -97,7 +91,7 @@ Result<double> PaperFrames::render(const Turn& turn) {
         loop.run(FramePart::Rendering, work.methods.front(), work.input.scene.poses[poseOf(turn.round)]);
     VOXTACT_TRY(sample);
     for (std::size_t method = 0; turn.round > 0 && method < work.methods.size(); ++method) {
-        keepFrame(FramePart::Rendering, *sample, result.rows[work.firstRow + method]);
+        keepFrame(FramePart::Rendering, *sample, run.result.rows[work.firstRow + method]);
     }
     return sample->wall;
 }
@@ -111,14 +105,13 @@ Result<double> PaperFrames::detect(std::size_t method, const Turn& turn) {
         const FramePart part = kFrameParts.at(turn.backwards ? kFrameParts.size() - 1 - i : i);
         const Result<FrameSample> sample = loop.run(part, work.methods[method], work.input.scene.poses[pose]);
         VOXTACT_TRY(sample);
-        if (sample->count.value_or(verified) != verified && result.disagreement.empty()) {
-            result.disagreement = work.input.facts.name + ", pose " + std::to_string(pose) + ": " +
-                                  work.counts[method].method + (part == FramePart::Both ? " in a frame" : " alone") +
-                                  " counts " + std::to_string(*sample->count) + ", before it was " +
-                                  std::to_string(verified);
+        if (sample->count.value_or(verified) != verified) {
+            run.disagree(work.input.facts.name + ", pose " + std::to_string(pose) + ": " + work.counts[method].method +
+                         (part == FramePart::Both ? " in a frame" : " alone") + " counts " +
+                         std::to_string(*sample->count) + ", before it was " + std::to_string(verified));
         }
         if (turn.round > 0) {
-            keepFrame(part, *sample, result.rows[work.firstRow + method]);
+            keepFrame(part, *sample, run.result.rows[work.firstRow + method]);
         }
         wall += sample->wall;
     }
@@ -126,12 +119,11 @@ Result<double> PaperFrames::detect(std::size_t method, const Turn& turn) {
 }
 
 /// Every method in turn, and in their middle the frame that they are held against.
-Result<void> timeFrames(const device::Session& session, const PaperSettings& settings, double seconds,
-                        const PaperWork& work, PaperResult& result, const std::function<void()>& step) {
+Result<void> timeFrames(const PaperRun& run, double seconds, const PaperWork& work) {
     const Stopwatch watch;
-    Result<FrameLoop> loop = FrameLoop::create(session, work.input.scene, plainColours());
+    Result<FrameLoop> loop = FrameLoop::create(run.session, work.input.scene, plainColours());
     VOXTACT_TRY(loop);
-    PaperFrames frames{std::move(*loop), work, result};
+    PaperFrames frames{std::move(*loop), work, run};
     std::vector<Timed> things;
     for (std::size_t method = 0; method < work.methods.size(); ++method) {
         VOXTACT_TRY(frames.loop.add(work.methods[method]));
@@ -140,30 +132,27 @@ Result<void> timeFrames(const device::Session& session, const PaperSettings& set
         }
         things.push_back({.take = [&frames, method](const Turn& turn) { return frames.detect(method, turn); }});
     }
-    const auto disagree = [&result] { return !result.disagreement.empty(); };
-    const Result<std::uint64_t> taken = takeRounds(things, {.repeats = settings.repetitions,
+    const Result<std::uint64_t> taken = takeRounds(things, {.repeats = run.settings.repetitions,
                                                             .warmUp = true,
                                                             .limit = seconds * 1000 - watch.milliseconds(),
                                                             .cycle = work.input.scene.poses.size(),
-                                                            .step = step,
-                                                            .stop = disagree});
+                                                            .step = run.steps.step,
+                                                            .stop = [&run] { return !run.agrees(); }});
     VOXTACT_TRY(taken);
-    if (*taken < settings.repetitions && !disagree()) {
-        addNote(work.input.facts.name + ": " + std::to_string(*taken) + " of " + std::to_string(settings.repetitions) +
-                    " repetitions fit in --time-limit",
-                result);
+    if (*taken < run.settings.repetitions && run.agrees()) {
+        run.note(work.input.facts.name + ": " + std::to_string(*taken) + " of " +
+                 std::to_string(run.settings.repetitions) + " repetitions fit in --time-limit");
     }
     return {};
 }
 
 } // namespace
 
-Result<void> measurePaperScene(const device::Session& session, const PaperSettings& settings, double seconds,
-                               const PaperInput& input, PaperResult& result, const std::function<void()>& step) {
-    VOXTACT_TRY(makeReady(session, input.scene, {.bricks = true}));
-    Result<std::vector<NamedCounts>> counts = verify(session, input, result, step);
+Result<void> measurePaperScene(const PaperRun& run, double seconds, const PaperInput& input) {
+    VOXTACT_TRY(makeReady(run.session, input.scene, {.bricks = true}));
+    Result<std::vector<NamedCounts>> counts = verify(run, input);
     VOXTACT_TRY(counts);
-    return timeFrames(session, settings, seconds, addRows(input, std::move(*counts), result), result, step);
+    return timeFrames(run, seconds, addRows(input, std::move(*counts), run.result));
 }
 
 std::uint64_t paperSceneSteps(const PaperSettings& settings) {

@@ -20,7 +20,7 @@ namespace {
 
 using Counts = std::map<std::uint32_t, std::uint64_t>;
 
-Counts countsOf(const LocalizedTriangles& found) {
+Counts countsOf(const lab::Pass& found) {
     Counts counts;
     for (const TouchedTriangle& triangle : found.triangles) {
         counts[triangle.triangle] += triangle.count;
@@ -37,8 +37,8 @@ class LocalizeTest : public GpuTest {
         }
     }
 
-    [[nodiscard]] LocalizedTriangles find(const Batch& batch, Localization way, const LocalizeAids& aids = {}) {
-        LocalizedTriangles found = take(localizer_->triangles(batch, way, aids));
+    [[nodiscard]] lab::Pass find(const Batch& batch, Localization way, const LocalizeAids& aids = {}) {
+        lab::Pass found = take(localizer_->triangles(batch, way, aids));
         EXPECT_TRUE(std::ranges::is_sorted(found.triangles, {}, &TouchedTriangle::triangle));
         EXPECT_GT(found.wallMilliseconds, 0);
         return found;
@@ -64,12 +64,12 @@ class LocalizeTest : public GpuTest {
             }
             std::uint64_t before = mesh.triangles();
             for (const Localization way : {Localization::Polygon, Localization::Leaf, Localization::LeafBricks}) {
-                const LocalizedTriangles found = find(batch, way, aids);
+                const lab::Pass found = find(batch, way, aids);
                 EXPECT_EQ(countsOf(found), fragments)
-                    << which << ", pose " << pose << ", " << toString(way) << ", " << found.queries << " queries";
-                EXPECT_LE(found.queries, before) << which << ", pose " << pose << ", " << toString(way);
-                before = found.queries;
-                queries_[way] += found.queries;
+                    << which << ", pose " << pose << ", " << toString(way) << ", " << *found.queries << " queries";
+                EXPECT_LE(*found.queries, before) << which << ", pose " << pose << ", " << toString(way);
+                before = *found.queries;
+                queries_[way] += *found.queries;
             }
             triangles_ += fragments.size();
         }
@@ -129,8 +129,7 @@ TEST_F(LocalizeTest, ATransparentVolumeNeedsNoQuery) {
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
     const ObbTree tree = makeObbTree(data.view());
     const LocalizeAids aids{&tree, [](const Box&) { return false; }};
-    const LocalizedTriangles found =
-        find({std::span(&item, 1), flatView(0, 1, 32, 32), 0.5}, Localization::LeafBricks, aids);
+    const lab::Pass found = find({std::span(&item, 1), flatView(0, 1, 32, 32), 0.5}, Localization::LeafBricks, aids);
     EXPECT_EQ(found.queries, 0U);
     EXPECT_EQ(found.boxes, 1U);
     EXPECT_TRUE(found.triangles.empty());
@@ -145,7 +144,7 @@ TEST_F(LocalizeTest, WithoutItsAidsAWayIsRefused) {
     BatchItem item{&mesh, &volume, &function, std::span(poses).first(1)};
     const Batch batch{std::span(&item, 1), flatView(0, 1, 32, 32), 0.5};
     const auto refusal = [&](Localization way, const LocalizeAids& aids) {
-        const Result<LocalizedTriangles> found = localizer_->triangles(batch, way, aids);
+        const Result<lab::Pass> found = localizer_->triangles(batch, way, aids);
         EXPECT_FALSE(found.ok());
         return found.ok() ? std::string() : found.error().text;
     };
