@@ -176,6 +176,24 @@ bool vertexProves(CertifiedPair transform, uint number, float delta) {
     return placeProves(at, at, delta);
 #endif
 }
+
+#ifdef TOUCHES
+/// Keeps where the first vertex of a node touches.
+void keepVertex(Node node) {
+    const uint triangle = triangleAt(node.number * kNodeTriangles);
+    const vec3 position = positionOf(constants.mesh, 3 * triangle);
+    const VoxelPoint at = certifiedVertex(transforms[node.pair], position.x, position.y, position.z).point;
+    const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
+    const ivec3 cell = min(ivec3(floor(vec3(at.x, at.y, at.z))), last);
+    keepTouch(node.pair, triangle, cell, voxelDifference(at, voxelPoint(float(cell.x), float(cell.y), float(cell.z))));
+}
+
+const bool kVertexSays = true;
+#else
+void keepVertex(Node node) {}
+
+const bool kVertexSays = kOutputsWanted == 0; // outputs want to know more than that
+#endif
 #endif
 
 void main() {
@@ -208,9 +226,9 @@ void main() {
         const CertifiedBounds bounds = certifiedBoxBounds(constants.item, transform, boxOf(node.number));
 #endif
         keep = mayTouch(cellsOf(bounds));
-        // Outputs want to know more than that.
-        if (kStopAtFirst && kOutputsWanted == 0 && keep && bounds.usable &&
+        if (kStopAtFirst && kVertexSays && keep && bounds.usable &&
             vertexProves(transform, node.number, bounds.delta)) {
+            keepVertex(node);
             atomicOr(results[node.pair].countLow, 1u);
             atomicOr(proven, 1u);
             keep = false;

@@ -11,6 +11,7 @@
 #include "gpu/mesh_layout.h"
 
 #include "voxtact_shaders/certified_cull_comp.h"
+#include "voxtact_shaders/certified_cull_touches_comp.h"
 #include "voxtact_shaders/certified_decide_comp.h"
 #include "voxtact_shaders/certified_decide_outputs_comp.h"
 #include "voxtact_shaders/certified_decide_touches_comp.h"
@@ -26,6 +27,7 @@
 #include "voxtact_shaders/certified_margin_large_comp.h"
 #include "voxtact_shaders/certified_margin_refine_comp.h"
 #include "voxtact_shaders/certified_refine_comp.h"
+#include "voxtact_shaders/certified_refine_touches_comp.h"
 #include "voxtact_shaders/certified_tally_comp.h"
 
 namespace voxtact {
@@ -45,9 +47,9 @@ struct PassKind {
 /// In the order in which they run.
 const PassKind kPasses[] = {
     {spirv::certified_cull_comp, spirv::certified_cull_comp, spirv::certified_margin_cull_comp,
-     spirv::certified_cull_comp, "conservative cull", kNoQueue},
+     spirv::certified_cull_touches_comp, "conservative cull", kNoQueue},
     {spirv::certified_refine_comp, spirv::certified_refine_comp, spirv::certified_margin_refine_comp,
-     spirv::certified_refine_comp, "conservative refine", VOXTACT_QUEUE_CLUSTERS},
+     spirv::certified_refine_touches_comp, "conservative refine", VOXTACT_QUEUE_CLUSTERS},
     {spirv::certified_expand_comp, spirv::certified_expand_comp, spirv::certified_margin_expand_comp,
      spirv::certified_expand_comp, "conservative expand", VOXTACT_QUEUE_RUNS},
     {spirv::certified_large_comp, spirv::certified_large_comp, spirv::certified_margin_large_comp,

@@ -251,6 +251,32 @@ TEST_F(ClosestTest, OfABall) {
     }
 }
 
+/// Opaque is the value of one entry of the table alone, which no computed value is sure to be: two points on either
+/// side prove it, and the point is found on the way from one to the other.
+TEST_F(ClosestTest, OfASheetWithoutThickness) {
+    constexpr double kOpaque = 40.5;
+    constexpr double kRise = 16; // for each voxel along x
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    BlockingDetector device = detector(withClosest());
+    Grid grid;
+    grid.size = {8, 8, 8};
+    const VolumeData image = makeBytes(grid, [](auto x, auto, auto) { return kRise * static_cast<double>(x); });
+    const std::array points{ControlPoint{kOpaque - 1, 0}, ControlPoint{kOpaque, 1}, ControlPoint{kOpaque + 1, 0}};
+    for (int round = 0; round < 24; ++round) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
+        // The first corner is the closest.
+        const double x = uniform(random, 4, 7);
+        MeshData mesh;
+        addTriangle(mesh, {x, uniform(random, 1, 6), uniform(random, 1, 6)}, {x + 1, 0, 3}, {x + 2, 6, 5});
+        const PairClearance found =
+            ask(device, {mesh.view(), image.view(), {points, {0, 256}, 256}, {}, identity(), 1}, round % 2 == 0);
+        ASSERT_TRUE(found.closest);
+        EXPECT_NEAR(found.closest->volume[0], kOpaque / kRise, 1e-5);
+        EXPECT_NEAR(found.closest->mesh[0], x, kDefaultTolerance);
+    }
+}
+
 /// With a coarse tolerance what is known of a brick, or of a cell, is the end.
 TEST_F(ClosestTest, OnRandomCases) {
     constexpr std::uint64_t kTypes = 4;
