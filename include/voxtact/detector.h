@@ -109,7 +109,7 @@ struct ResultsDesc {
     /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// For detectors with DetectorDesc::clearance: 16 bytes of device memory a pair, as much of the host's where there
-    /// is a copy, and 16 KiB. They take the queues of the projection conservative.
+    /// is a copy, and 288 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
