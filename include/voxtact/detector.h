@@ -115,7 +115,7 @@ struct ResultsDesc {
     /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// For detectors with DetectorDesc::clearance: 16 bytes of device memory a pair, as much of the host's where there
-    /// is a copy, and 16 KiB. They take the queues of the projection conservative.
+    /// is a copy, and 288 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
     /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair, as
     /// these.

@@ -44,8 +44,8 @@ Grid randomGrid(std::mt19937_64& random) {
 }
 
 /// 0..1: blobs, blocks, noise, constants, and single voxels.
-std::function<double(std::uint32_t, std::uint32_t, std::uint32_t)> randomVoxels(std::mt19937_64& random,
-                                                                                 const Grid& grid) {
+std::function<double(std::uint32_t, std::uint32_t, std::uint32_t)> randomPatternOf(std::mt19937_64& random,
+                                                                                   const Grid& grid) {
     const std::size_t kind = below(random, 6);
     const double scale = uniform(random, 0.1, 0.8);
     const double offset = uniform(random, 0, 6);
@@ -170,7 +170,7 @@ std::array<std::uint32_t, 2> randomViewport(std::mt19937_64& random) {
 
 VolumeData randomVolume(std::mt19937_64& random) {
     const Grid grid = randomGrid(random);
-    const auto pattern = randomVoxels(random, grid);
+    const auto pattern = randomPatternOf(random, grid);
     const auto stretched = [&](double lo, double hi) {
         return [&pattern, lo, hi](auto x, auto y, auto z) { return lo + (hi - lo) * pattern(x, y, z); };
     };
