@@ -124,7 +124,7 @@ Verdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<co
     Verdict verdict{.rule = any.method + " hits where " + exact.method + " does", .hits = true};
     const auto hits = [](const NamedCounts& by, std::size_t i) { return by.counts[i] != 0; };
     comparePoses(
-        poses, verdict, [&](std::size_t i) { return hits(any, i) == hits(exact, i) ? 0 : 1; },
+        poses, verdict, [&](std::size_t i) { return std::uint64_t{hits(any, i) == hits(exact, i) ? 0U : 1U}; },
         [&](std::size_t i) { return any.method + (hits(any, i) ? " hits, " : " misses, ") + countText(exact, i); });
     verdict.largest = 0; // no difference of counts
     return verdict;
