@@ -20,12 +20,9 @@ layout(local_size_x = VOXTACT_MARGIN_GROUP) in;
 #include "certified_clearance_bits.glsl"
 #define ALONG(direction) , AlongBrick direction
 #define WITH_ALONG(direction) , direction
-#define HAS(cell)
 #else
 #define ALONG(direction)
 #define WITH_ALONG(direction)
-/// Above the number of a cell in its brick: what it has.
-#define HAS(cell) | uint(marginCellHas(opacities(), cell)) << kHasShift
 #endif
 
 const int kBrickCells = kBrickSide * kBrickSide * kBrickSide;
@@ -147,13 +144,16 @@ void findOpaqueCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
         const CertifiedCell known =
             certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, 0.0);
         if (marginCellMay(opacities(), known)) {
+            uint listed = nearCells[i];
 #ifdef CLEARANCE
             // Once for all triangles: what is opaque of most cells is farther than the cell.
             if (partAlong(by, direction, known, vec3(cell) - brickCentre(brick)) >= by.margin) {
                 continue;
             }
+#else
+            listed |= uint(marginCellHas(opacities(), known)) << kHasShift;
 #endif
-            opaqueCells[atomicAdd(opaqueCount, 1u)] = nearCells[i] HAS(known);
+            opaqueCells[atomicAdd(opaqueCount, 1u)] = listed;
             atomicMin(opaqueLo.x, cell.x);
             atomicMin(opaqueLo.y, cell.y);
             atomicMin(opaqueLo.z, cell.z);
