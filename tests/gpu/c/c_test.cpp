@@ -373,7 +373,7 @@ TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
     std::uint32_t ofTriangles[2] = {};
     std::memcpy(ofTriangles, counts.data() + range.offset, sizeof ofTriangles);
     EXPECT_EQ(ofTriangles[0] + ofTriangles[1], 128U);
-    EXPECT_EQ(vxt_results_on_device(results.get(), static_cast<vxt_device_part>(7), &range),
+    EXPECT_EQ(vxt_results_on_device(results.get(), static_cast<vxt_device_part>(VXT_DEVICE_CLOSEST + 1), &range),
               VXT_ERROR_INVALID_ARGUMENT);
 }
 

@@ -4,6 +4,7 @@
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/one_voxel.h"
+#include "core/geometry/clusters.h"
 #include "cpu/scenes/margin_cases.h"
 #include "voxtact/cpu.h"
 
@@ -155,6 +156,36 @@ TEST_F(ClearanceTest, OfASingleVoxel) {
                 EXPECT_GE(found.bounds.hi, distance - 0.002);
             }
         }
+    }
+}
+
+/// All in one run, so that they are looked at together: whichever of them is nearest counts.
+TEST_F(ClearanceTest, OfTheNearestOfARun) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    BlockingDetector device = detector(howNear());
+    const OneVoxel one;
+    for (std::size_t round = 0; round < 12 && !HasFailure(); ++round) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
+        const std::size_t axis = round % 3;
+        const double side = round % 2 == 0 ? 1 : -1;
+        const double distance = uniform(random, 0.3, 4);
+        const std::size_t nearest = random() % kRunTriangles;
+        MeshData mesh;
+        for (std::size_t i = 0; i < kRunTriangles; ++i) {
+            const MeshData alone = one.meshAt(axis, side, i == nearest ? distance : distance + uniform(random, 1, 4));
+            const auto corner = [&](std::size_t c) {
+                const float* at = &alone.positions[3 * std::size_t{alone.indices[c]}];
+                return Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+            };
+            addTriangle(mesh, corner(0), corner(1), corner(2));
+        }
+        const PairClearance found =
+            ask(device, {mesh.view(), one.image.view(), {one.points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
+                true);
+        EXPECT_EQ(found.end, ClearanceEnd::Closed);
+        EXPECT_LE(found.bounds.lo, distance + 0.002);
+        EXPECT_GE(found.bounds.hi, distance - 0.002);
     }
 }
 
