@@ -211,7 +211,7 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUE_OPEN 4     // numbers of cells: for certified_finish
 #define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_* and number, brick, work groups, the first of these: the same
 // Those of the search for clearances, shaders/clearance_words.h: slots of bricks, for certified_clearance_bits; and
-// entries of the queue of large triangles that are near, for certified_clearance_sift, _probe and
+// entries of the queue of large triangles that are near, for certified_clearance_sift, _decide and
 // certified_margin_large.
 #define VOXTACT_QUEUE_BITS 6
 #define VOXTACT_QUEUE_NEAR 7
