@@ -66,7 +66,7 @@ endfunction()
 # voxtact_together(TARGET [APART FILE...]): its files are compiled some at a time, because most of their time goes into
 # headers that all of them include. Names of unnamed namespaces are then distinct within the target; files that cannot
 # keep to that, or that take long by themselves, stay APART. `./run lint --deep` reads each file by itself, so that
-# each still includes what it uses. Off where voxtact is a part of another project.
+# each still includes what it uses.
 function(voxtact_together target)
   cmake_parse_arguments(together "" "" APART ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${VOXTACT_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)

@@ -22,9 +22,8 @@ if(options MATCHES "VOXTACT_BUILD_(APP|TESTS|C):BOOL=ON")
   message(FATAL_ERROR "the program, the tests or the C interface are on by default in a subdirectory: ${options}")
 endif()
 
-# The consumer's -Werror is not for voxtact, which has its own here: the same commands as in the build that tests, so that
-# most objects are in ccache. And a shared voxtact may leave no symbol open. The install rules and the other libraries are
-# for the tests that come after.
+# The consumer's -Werror is not for voxtact, which has its own here. And a shared voxtact may leave no symbol open. The
+# install rules and the other libraries are for the tests that come after.
 step(${configure} "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" -DVOXTACT_WARNINGS_AS_ERRORS=ON -DVOXTACT_INSTALL=ON
      -DVOXTACT_BUILD_CPU=ON -DVOXTACT_BUILD_RENDER=ON -DVOXTACT_BUILD_SAMPLES=ON -DVOXTACT_BUILD_C=ON
      -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)

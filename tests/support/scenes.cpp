@@ -154,8 +154,12 @@ std::uint64_t testSeed() {
     return seed;
 }
 
+bool longTests() {
+    return std::getenv("VOXTACT_TEST_LONG") != nullptr;
+}
+
 std::size_t randomCases(std::size_t whole, std::size_t part) {
-    return std::getenv("VOXTACT_TEST_LONG") != nullptr ? whole : whole / part;
+    return longTests() ? whole : whole / part;
 }
 
 std::span<const ControlPoint> byteRamp() {

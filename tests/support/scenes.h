@@ -62,8 +62,9 @@ inline float drawn(std::mt19937_64& random, double lo, double hi) {
 }
 /// Random poses whose object origin is within `grow` times the box of the volume.
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random);
-/// How many random cases a test takes: `whole` in the long form (VOXTACT_TEST_LONG is set; ./run test --long),
-/// otherwise a `part`-th of it.
+/// Whether tests run in the long form: VOXTACT_TEST_LONG is set; ./run test --long.
+bool longTests();
+/// How many random cases a test takes: `whole` in the long form, otherwise a `part`-th of it.
 std::size_t randomCases(std::size_t whole, std::size_t part);
 /// The seed of this run: printed, and taken from VOXTACT_TEST_SEED where that is set.
 std::uint64_t testSeed();

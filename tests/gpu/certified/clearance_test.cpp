@@ -3,7 +3,8 @@
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
-#include "certified/one_voxel.h"
+#include "certified/known_pairs.h"
+#include "certified/sides.h"
 #include "core/geometry/clusters.h"
 #include "cpu/scenes/margin_cases.h"
 #include "voxtact/cpu.h"
@@ -44,11 +45,7 @@ class ClearanceTest : public CertifiedTest {
   protected:
     /// One pair, whose answer must not contradict itself.
     PairClearance ask(BlockingDetector& device, const oracle::OraclePair& pair, bool clusters) const {
-        const Volume volume = take(Volume::upload(context(), queue(), pair.volume, {.bricks = true}));
-        const TransferFunction function = take(TransferFunction::upload(context(), queue(), pair.transferFunction));
-        const Mesh mesh = take(Mesh::upload(context(), queue(), pair.mesh, {.clusters = clusters}));
-        const BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-        const BatchAnswer answer = take(device.detect({{&item, 1}, {}, pair.threshold}));
+        const BatchAnswer answer = askPair(device, context(), queue(), pair, clusters);
         EXPECT_EQ(answer.clearances.size(), 1U);
         const PairClearance found = answer.clearances.at(0);
         EXPECT_EQ(answer.pairs.at(0).hit, isTouch(found.bounds));
@@ -61,7 +58,8 @@ class ClearanceTest : public CertifiedTest {
         EXPECT_FALSE(found.closest.has_value());
         return found;
     }
-    std::vector<PairClearance> onHost(const Head& scene, const cpu::ClearanceDesc& desc = {.threads = 1}) const {
+    std::vector<PairClearance> hostClearances(const Head& scene,
+                                              const cpu::ClearanceDesc& desc = {.threads = 1}) const {
         cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create(desc));
         const cpu::BatchItem item = scene.hostItem();
         return take(meter.measure({{&item, 1}, {}, kDefaultThreshold})).pairs;
@@ -77,14 +75,7 @@ TEST_F(ClearanceTest, OfKnownDistances) {
         const double relative = known.slack / known.distance;
         for (const double distance : {0.3, 2.0, 7.0}) {
             scaleTo(known, distance);
-            const PairClearance found = ask(device,
-                                            {known.mesh.view(),
-                                             known.volume.view(),
-                                             {known.points, known.domain, kDefaultTableSize},
-                                             {},
-                                             identity(),
-                                             known.threshold},
-                                            round % 2 == 0);
+            const PairClearance found = ask(device, pairOf(known), round % 2 == 0);
             EXPECT_LE(found.bounds.lo, distance * (1 + relative));
             EXPECT_GE(found.bounds.hi, distance * (1 - relative));
             // Grown to 7 mm, a thousandth of a voxel may be more than the tolerance.
@@ -97,28 +88,16 @@ TEST_F(ClearanceTest, OfKnownDistances) {
 }
 
 TEST_F(ClearanceTest, IsNeverBesideTheHostsOnRandomCases) {
-    constexpr std::uint64_t kTypes = 4;
-    const std::uint64_t ofEach = randomCases(75, 3);
     const std::uint64_t seed = testSeed();
     BlockingDetector device = detector(howNear());
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-    FewKindsOfImage few(ofEach);
     std::map<ClearanceEnd, std::size_t> ends;
     std::size_t apart = 0;
-    std::uint64_t cases = 0;
-    for (std::uint64_t number = 0; cases < kTypes * ofEach && !HasFailure(); ++number) {
-        const CertifiedCase c = makeClearanceCase(seed, number);
-        if (!few.take(c.scene.volume.view())) {
-            continue;
-        }
-        ++cases;
-        SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(number));
+    const auto make = [&](std::uint64_t number) { return makeClearanceCase(seed, number); };
+    const std::uint64_t cases = forFewKinds(randomCases(75, 3), seed, make, [&](const CertifiedCase& c, auto) {
         const oracle::OraclePair pair = c.scene.pair();
-        const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
-        const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
-        const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
-        const cpu::BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-        const PairClearance host = take(meter.measure({{&item, 1}, {}, pair.threshold})).pairs.at(0);
+        const PairClearance host =
+            onHost(pair, [&](const cpu::Batch& batch) { return take(meter.measure(batch)).pairs.at(0); });
         for (const bool clusters : {false, true}) {
             const PairClearance found = ask(device, pair, clusters);
             expectOverlap(found.bounds, host.bounds);
@@ -129,7 +108,7 @@ TEST_F(ClearanceTest, IsNeverBesideTheHostsOnRandomCases) {
             ++ends[found.end];
             apart += found.end == ClearanceEnd::Closed && found.bounds.lo > 0 && found.bounds.hi < kInfinity ? 1U : 0U;
         }
-    }
+    });
     std::cout << "  " << cases << " cases twice:";
     for (const auto& [end, count] : ends) {
         std::cout << " " << count << " " << toString(end);
@@ -147,10 +126,7 @@ TEST_F(ClearanceTest, OfASingleVoxel) {
             for (const double distance : {0.05, 3.0, 50.0}) {
                 const MeshData mesh = one.meshAt(axis, side, distance);
                 SCOPED_TRACE("axis " + std::to_string(axis) + ", " + std::to_string(side * distance));
-                const PairClearance found =
-                    ask(device,
-                        {mesh.view(), one.image.view(), {one.points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
-                        axis == 1);
+                const PairClearance found = ask(device, pairOf(one, mesh), axis == 1);
                 EXPECT_EQ(found.end, ClearanceEnd::Closed);
                 EXPECT_LE(found.bounds.lo, distance + 0.002); // an entry of the table is a part of a voxel
                 EXPECT_GE(found.bounds.hi, distance - 0.002);
@@ -180,9 +156,7 @@ TEST_F(ClearanceTest, OfTheNearestOfARun) {
             };
             addTriangle(mesh, corner(0), corner(1), corner(2));
         }
-        const PairClearance found =
-            ask(device, {mesh.view(), one.image.view(), {one.points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
-                true);
+        const PairClearance found = ask(device, pairOf(one, mesh), true);
         EXPECT_EQ(found.end, ClearanceEnd::Closed);
         EXPECT_LE(found.bounds.lo, distance + 0.002);
         EXPECT_GE(found.bounds.hi, distance - 0.002);
@@ -196,7 +170,7 @@ TEST_F(ClearanceTest, OfAToolAndAHead) {
     for (std::size_t i = 0; i < kPoses; i += 4) { // some of them far away
         scene.poses[i] = multiply(translation({80, 4.0 * static_cast<double>(i), 0}), scene.poses[i]);
     }
-    const std::vector<PairClearance> host = onHost(scene);
+    const std::vector<PairClearance> host = hostClearances(scene);
     DetectorDesc desc = howNear({.tolerance = 0.02});
     desc.counters = true;
     const Detector device = take(Detector::create(context(), desc));
@@ -235,7 +209,7 @@ TEST_F(ClearanceTest, IsMeasuredBesideACount) {
     const Answered found = detect(desc, scene.batch(), kPoses, 2048);
     desc.clearance.reset();
     const Answered counted = detect(desc, scene.batch(), kPoses, 2048);
-    const std::vector<PairClearance> host = onHost(scene);
+    const std::vector<PairClearance> host = hostClearances(scene);
     for (std::size_t i = 0; i < kPoses; ++i) {
         EXPECT_EQ(found.pairs[i].count, counted.pairs[i].count);
         EXPECT_EQ(found.pairs[i].possible, counted.pairs[i].possible);
@@ -247,7 +221,7 @@ TEST_F(ClearanceTest, BeyondTheMaximumNothingIsMeasured) {
     const std::uint64_t seed = testSeed();
     constexpr std::uint32_t kPoses = 24;
     const Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, seed);
-    const std::vector<PairClearance> all = onHost(scene);
+    const std::vector<PairClearance> all = hostClearances(scene);
     for (const double maximum : {0.3, 4.0, 30.0}) {
         const Answered found = detect(howNear({.maximum = maximum}), scene.batch(), kPoses, 2048);
         for (std::size_t i = 0; i < kPoses; ++i) {
@@ -317,23 +291,13 @@ TEST_F(ClearanceTest, OfSeveralItems) {
 TEST_F(ClearanceTest, OfPosesOnTheDevice) {
     constexpr std::uint32_t kPoses = 10;
     Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, testSeed());
-    std::vector<float> floats;
-    for (Mat4& pose : scene.poses) {
-        for (double& element : pose) {
-            floats.push_back(static_cast<float>(element));
-            element = static_cast<double>(floats.back());
-        }
-    }
-    const std::vector<PairClearance> host = onHost(scene);
-    floats[16 * 3] = std::numeric_limits<float>::quiet_NaN();
-    const RawVulkan::HostBuffer buffer =
-        raw().makeBuffer(std::span<const float>(floats), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const PoseBuffer poses =
-        take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .stride = 64, .count = kPoses}));
+    PosesOnDevice poses(raw(), context(), scene.poses);
+    const std::vector<PairClearance> host = hostClearances(scene);
+    poses.spoil(3);
     DetectorDesc desc = howNear();
     desc.devicePoses = true;
     scene.item.world_from_object = {};
-    scene.item.poses = &poses;
+    scene.item.poses = &poses.buffer();
     const Answered found = detect(desc, scene.batch(), kPoses, 2048);
     for (std::size_t i = 0; i < kPoses; ++i) {
         const PairClearance& pair = found.clearances.at(i);

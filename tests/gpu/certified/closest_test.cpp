@@ -4,7 +4,8 @@
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
-#include "certified/one_voxel.h"
+#include "certified/known_pairs.h"
+#include "certified/sides.h"
 #include "cpu/clearance/closest_point.h"
 #include "cpu/scenes/margin_cases.h"
 #include "oracle/certified_sample.h"
@@ -153,20 +154,11 @@ class ClosestTest : public CertifiedTest {
   protected:
     /// One pair, whose points are checked.
     PairClearance ask(BlockingDetector& device, const oracle::OraclePair& pair, bool clusters) const {
-        const Volume volume = take(Volume::upload(context(), queue(), pair.volume, {.bricks = true}));
-        const TransferFunction function = take(TransferFunction::upload(context(), queue(), pair.transferFunction));
-        const Mesh mesh = take(Mesh::upload(context(), queue(), pair.mesh, {.clusters = clusters}));
-        const BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-        const PairClearance found = take(device.detect({{&item, 1}, {}, pair.threshold})).clearances.at(0);
+        const PairClearance found = askPair(device, context(), queue(), pair, clusters).clearances.at(0);
         checkClosest(pair, found);
         return found;
     }
 };
-
-oracle::OraclePair pairOf(const KnownPlane& known) {
-    return {known.mesh.view(), known.volume.view(), {known.points, known.domain, kDefaultTableSize}, {},
-            identity(),        known.threshold};
-}
 
 TEST_F(ClosestTest, OfAPlane) {
     const std::uint64_t seed = testSeed();
@@ -195,10 +187,7 @@ TEST_F(ClosestTest, OfASingleVoxel) {
             for (const double distance : {0.05, 3.0, 50.0}) {
                 const MeshData mesh = one.meshAt(axis, side, distance);
                 SCOPED_TRACE("axis " + std::to_string(axis) + ", " + std::to_string(side * distance));
-                const PairClearance found =
-                    ask(device,
-                        {mesh.view(), one.image.view(), {one.points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
-                        axis == 1);
+                const PairClearance found = ask(device, pairOf(one, mesh), axis == 1);
                 ASSERT_TRUE(found.closest);
                 Vec3 nearest{6, 10, 8.8};
                 nearest[axis] += side * one.grid.spacing[axis] / 2;
@@ -279,31 +268,20 @@ TEST_F(ClosestTest, OfASheetWithoutThickness) {
 
 /// With a coarse tolerance what is known of a brick, or of a cell, is the end.
 TEST_F(ClosestTest, OnRandomCases) {
-    constexpr std::uint64_t kTypes = 4;
     const std::uint64_t ofEach = randomCases(60, 10);
     const std::uint64_t seed = testSeed();
     std::size_t apart = 0;
     std::size_t touching = 0;
     std::size_t none = 0;
+    const auto make = [&](std::uint64_t number) { return makeClearanceCase(seed, number); };
     for (const double tolerance : {kDefaultTolerance, 0.3, 1e4}) {
+        SCOPED_TRACE("tolerance " + std::to_string(tolerance));
         BlockingDetector device = detector(withClosest({.tolerance = tolerance}));
         cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-        FewKindsOfImage few(ofEach);
-        std::uint64_t cases = 0;
-        for (std::uint64_t number = 0; cases < kTypes * ofEach && !HasFailure(); ++number) {
-            const CertifiedCase c = makeClearanceCase(seed, number);
-            if (!few.take(c.scene.volume.view())) {
-                continue;
-            }
-            ++cases;
-            SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(number) + ", tolerance " +
-                         std::to_string(tolerance));
+        forFewKinds(ofEach, seed, make, [&](const CertifiedCase& c, auto) {
             const oracle::OraclePair pair = c.scene.pair();
-            const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
-            const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
-            const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
-            const cpu::BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-            const ClearanceBounds host = take(meter.measure({{&item, 1}, {}, pair.threshold})).pairs.at(0).bounds;
+            const ClearanceBounds host =
+                onHost(pair, [&](const cpu::Batch& batch) { return take(meter.measure(batch)).pairs.at(0).bounds; });
             for (const bool clusters : {false, true}) {
                 const PairClearance found = ask(device, pair, clusters);
                 EXPECT_LE(found.bounds.lo, host.hi);
@@ -314,7 +292,7 @@ TEST_F(ClosestTest, OnRandomCases) {
                 }
                 ++(!found.closest ? none : found.bounds.hi == 0 ? touching : apart);
             }
-        }
+        });
     }
     std::cout << "  " << apart << " apart, " << touching << " touching, " << none << " with nothing near\n";
     EXPECT_GT(apart, ofEach);
@@ -380,13 +358,7 @@ TEST_F(ClosestTest, BesideACountAndWithAMaximum) {
         EXPECT_EQ(found.pairs[i].count, counted.pairs[i].count);
         EXPECT_EQ(found.pairs[i].possible, counted.pairs[i].possible);
         const PairClearance& pair = found.clearances.at(i);
-        checkClosest({scene.data.view(),
-                      scene.head.view(),
-                      {scene.points, {0, 255}, kDefaultTableSize},
-                      {},
-                      scene.poses[i],
-                      kDefaultThreshold},
-                     pair);
+        checkClosest(scene.pair(i), pair);
         if (pair.end == ClearanceEnd::Beyond) {
             EXPECT_FALSE(pair.closest);
             ++beyond;
@@ -417,22 +389,12 @@ TEST_F(ClosestTest, WhereNothingIsOpaqueThereAreNone) {
 TEST_F(ClosestTest, OfPosesOnTheDevice) {
     constexpr std::uint32_t kPoses = 8;
     Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, testSeed());
-    std::vector<float> floats;
-    for (Mat4& pose : scene.poses) {
-        for (double& element : pose) {
-            floats.push_back(static_cast<float>(element));
-            element = static_cast<double>(floats.back());
-        }
-    }
-    floats[16 * 3] = std::numeric_limits<float>::quiet_NaN();
-    const RawVulkan::HostBuffer buffer =
-        raw().makeBuffer(std::span<const float>(floats), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const PoseBuffer poses =
-        take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .stride = 64, .count = kPoses}));
+    PosesOnDevice poses(raw(), context(), scene.poses);
+    poses.spoil(3);
     DetectorDesc desc = withClosest();
     desc.devicePoses = true;
     scene.item.world_from_object = {};
-    scene.item.poses = &poses;
+    scene.item.poses = &poses.buffer();
     const Answered found = detect(desc, scene.batch(), kPoses, 2048);
     for (std::size_t i = 0; i < kPoses; ++i) {
         SCOPED_TRACE("pair " + std::to_string(i));
@@ -440,13 +402,7 @@ TEST_F(ClosestTest, OfPosesOnTheDevice) {
             EXPECT_FALSE(found.clearances.at(i).closest);
             continue;
         }
-        checkClosest({scene.data.view(),
-                      scene.head.view(),
-                      {scene.points, {0, 255}, kDefaultTableSize},
-                      {},
-                      scene.poses[i],
-                      kDefaultThreshold},
-                     found.clearances.at(i));
+        checkClosest(scene.pair(i), found.clearances.at(i));
     }
 }
 

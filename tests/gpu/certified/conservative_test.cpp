@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative` on the device: the same fragments as on the host, which the certified oracle judges.
 #include "certified/few_kinds.h"
+#include "certified/sides.h"
 #include "gpu_fixture.h"
 
 #include "cpu/scenes/certified_scenes.h"
@@ -21,29 +22,6 @@ using testing::HasSubstr;
 
 constexpr DetectorDesc kDevice{.method = CountingMethod::Compute, .projection = Projection::Conservative};
 
-/// The same scene on the device and on the host.
-struct Sides {
-    Volume volume;
-    TransferFunction function;
-    Mesh mesh;
-    cpu::Volume hostVolume;
-    cpu::TransferFunction hostFunction;
-    cpu::Mesh hostMesh;
-
-    Sides(const Context& context, const QueueAccess& queue, const VolumeView& image, const TransferFunctionDesc& table,
-          const MeshView& triangles, bool clusters)
-        : volume(take(Volume::upload(context, queue, image, {.bricks = true}))),
-          function(take(TransferFunction::upload(context, queue, table))),
-          mesh(take(Mesh::upload(context, queue, triangles, {.clusters = clusters}))),
-          hostVolume(take(cpu::Volume::create(image))), hostFunction(take(cpu::TransferFunction::create(table))),
-          hostMesh(take(cpu::Mesh::create(triangles))) {}
-
-    [[nodiscard]] BatchItem item(std::span<const Mat4> poses) const { return {&mesh, &volume, &function, poses}; }
-    [[nodiscard]] cpu::BatchItem hostItem(std::span<const Mat4> poses) const {
-        return {&hostMesh, &hostVolume, &hostFunction, poses};
-    }
-};
-
 cpu::Detector hostDetector(bool stopAtFirst = false) {
     return take(cpu::Detector::create({.stopAtFirst = stopAtFirst, .projection = Projection::Conservative}));
 }
@@ -59,36 +37,23 @@ void expectSame(const PairAnswer& device, const PairAnswer& host, const std::str
 class ConservativeTest : public GpuTest {};
 
 TEST_F(ConservativeTest, IsTheHostBitForBitOnRandomCases) {
-    constexpr std::uint64_t kTypes = 4;
-    const std::uint64_t ofEach = randomCases(75, 7);
-    const std::uint64_t wanted = kTypes * ofEach;
     const std::uint64_t seed = testSeed();
     BlockingDetector device = detector(kDevice);
     cpu::Detector host = hostDetector();
     std::size_t hits = 0;
     std::size_t possible = 0;
-    std::uint64_t cases = 0;
-    FewKindsOfImage few(ofEach);
-    for (std::uint64_t number = 0; cases < wanted && !HasFailure(); ++number) {
-        const CertifiedCase c = makeCertifiedCase(seed, number);
+    const auto make = [&](std::uint64_t number) { return makeCertifiedCase(seed, number); };
+    const std::uint64_t cases = forFewKinds(randomCases(75, 7), seed, make, [&](const CertifiedCase& c, auto number) {
         const oracle::OraclePair pair = c.scene.pair();
-        if (!few.take(pair.volume)) {
-            continue;
-        }
-        ++cases;
-        const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, number % 2 == 0);
-        const std::span poses(&c.scene.world_from_object, 1);
-        const BatchItem item = sides.item(poses);
-        const cpu::BatchItem hostItem = sides.hostItem(poses);
-        const BatchAnswer onDevice = take(device.detect({{&item, 1}, {}, c.scene.threshold}));
-        const BatchAnswer onHost = take(host.detect({{&hostItem, 1}, {}, c.scene.threshold}));
-        expectSame(onDevice.pairs[0], onHost.pairs[0],
-                   "seed " + std::to_string(seed) + ", case " + std::to_string(number) + ", " + toString(c.kind));
-        hits += onHost.pairs[0].hit ? 1U : 0U;
-        possible += onHost.pairs[0].possible ? 1U : 0U;
-    }
-    std::cout << "  " << wanted << " cases: " << hits << " hits, " << possible << " possible\n";
-    EXPECT_GT(hits, wanted / 20);
+        const PairAnswer onDevice = askPair(device, context(), queue(), pair, number % 2 == 0).pairs.at(0);
+        const PairAnswer wanted =
+            onHost(pair, [&](const cpu::Batch& batch) { return take(host.detect(batch)).pairs.at(0); });
+        expectSame(onDevice, wanted, toString(c.kind));
+        hits += wanted.hit ? 1U : 0U;
+        possible += wanted.possible ? 1U : 0U;
+    });
+    std::cout << "  " << cases << " cases: " << hits << " hits, " << possible << " possible\n";
+    EXPECT_GT(hits, cases / 20);
 }
 
 TEST_F(ConservativeTest, IsTheHostBitForBitOnAHead) {

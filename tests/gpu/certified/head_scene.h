@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "support/take.h"
 #include "voxtact/cpu.h"
@@ -38,6 +39,9 @@ struct Head {
     }
     [[nodiscard]] Batch batch() const { return {{&item, 1}, {}, kDefaultThreshold}; }
     [[nodiscard]] cpu::BatchItem hostItem() const { return {&hostMesh, &hostVolume, &hostFunction, poses}; }
+    [[nodiscard]] oracle::OraclePair pair(std::size_t pose) const {
+        return {data.view(), head.view(), {points, {0, 255}, kDefaultTableSize}, {}, poses[pose], kDefaultThreshold};
+    }
 };
 
 } // namespace voxtact::test

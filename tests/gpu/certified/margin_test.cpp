@@ -4,7 +4,8 @@
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
-#include "certified/one_voxel.h"
+#include "certified/known_pairs.h"
+#include "certified/sides.h"
 
 #include "certified.h"
 #include "cpu/scenes/margin_cases.h"
@@ -50,48 +51,34 @@ class MarginTest : public CertifiedTest {
   protected:
     /// One pair.
     PairAnswer ask(BlockingDetector& device, const oracle::OraclePair& pair, bool clusters) const {
-        const Volume volume = take(Volume::upload(context(), queue(), pair.volume, {.bricks = true}));
-        const TransferFunction function = take(TransferFunction::upload(context(), queue(), pair.transferFunction));
-        const Mesh mesh = take(Mesh::upload(context(), queue(), pair.mesh, {.clusters = clusters}));
-        const BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-        return take(device.detect({{&item, 1}, {}, pair.threshold})).pairs.at(0);
+        return askPair(device, context(), queue(), pair, clusters).pairs.at(0);
     }
 };
 
 TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
-    constexpr std::uint64_t kTypes = 4;
-    const std::uint64_t ofEach = randomCases(75, 7);
     const std::uint64_t seed = testSeed();
     BlockingDetector device = detector(within(kMargin));
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-    FewKindsOfImage few(ofEach);
     std::map<int, std::size_t> said;
-    std::uint64_t cases = 0;
-    for (std::uint64_t number = 0; cases < kTypes * ofEach && !HasFailure(); ++number) {
-        MarginCase c = makeMarginCase(seed, number, meter);
-        if (!few.take(c.scene.volume.view())) {
-            continue;
-        }
-        ++cases;
-        SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(number));
+    const auto make = [&](std::uint64_t number) { return makeMarginCase(seed, number, meter); };
+    const std::uint64_t cases = forFewKinds(randomCases(75, 7), seed, make, [&](MarginCase& c, auto) {
         scaleTo(c, kMargin);
         const oracle::OraclePair pair = c.scene.pair();
-        const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
-        const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
-        const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
-        const cpu::BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-        const PairAnswer onHost = take(meter.within({{&item, 1}, {}, pair.threshold}, kMargin)).pairs.at(0);
+        const HostSide side(pair.volume, pair.transferFunction, pair.mesh);
+        const cpu::BatchItem item = side.item({&pair.world_from_object, 1});
+        const PairAnswer host = take(meter.within({{&item, 1}, {}, pair.threshold}, kMargin)).pairs.at(0);
         const int text =
-            marginVerdict(pair.mesh, volume, function, pair.world_from_object, pair.threshold, kMargin).verdict;
+            marginVerdict(pair.mesh, side.volume, side.function, pair.world_from_object, pair.threshold, kMargin)
+                .verdict;
         const PairAnswer plain = ask(device, pair, false);
         EXPECT_EQ(verdictOf(plain), text);
-        expectNoContradiction(plain, onHost);
+        expectNoContradiction(plain, host);
         // With clusters, a look at a vertex may prove what the text leaves undecided.
         const PairAnswer clusters = ask(device, pair, true);
         EXPECT_TRUE(verdictOf(clusters) == text || (text == CERTIFIED_UNDECIDED && clusters.hit));
-        expectNoContradiction(clusters, onHost);
+        expectNoContradiction(clusters, host);
         ++said[text];
-    }
+    });
     std::cout << "  " << cases << " cases: " << said[CERTIFIED_CERTAIN] << " within, " << said[CERTIFIED_NONE]
               << " not, " << said[CERTIFIED_UNDECIDED] << " undecided\n";
     if (cases >= 200) { // of fewer, any verdict may have hardly any
@@ -107,17 +94,9 @@ TEST_F(MarginTest, TellsKnownDistancesApart) {
         KnownPlane known = makeKnownPlane(random, round);
         SCOPED_TRACE("round " + std::to_string(round));
         const double relative = known.slack / known.distance;
-        const Mat4 pose = identity();
         const auto at = [&](double distance) {
             scaleTo(known, distance);
-            return verdictOf(ask(device,
-                                 {known.mesh.view(),
-                                  known.volume.view(),
-                                  {known.points, known.domain, kDefaultTableSize},
-                                  {},
-                                  pose,
-                                  known.threshold},
-                                 round % 2 == 0));
+            return verdictOf(ask(device, pairOf(known), round % 2 == 0));
         };
         EXPECT_EQ(at(kMargin * (1 + relative)), CERTIFIED_NONE);
         EXPECT_EQ(at(kMargin * (1 - relative)), CERTIFIED_CERTAIN);
@@ -134,12 +113,8 @@ TEST_F(MarginTest, OfASingleVoxel) {
             for (const double beyond : {-0.01, 0.01}) {
                 const MeshData mesh = one.meshAt(axis, side, kMargin + beyond);
                 SCOPED_TRACE("axis " + std::to_string(axis) + ", " + std::to_string(side * beyond));
-                EXPECT_EQ(
-                    verdictOf(ask(
-                        device,
-                        {mesh.view(), one.image.view(), {one.points, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
-                        axis == 1)),
-                    beyond > 0 ? CERTIFIED_NONE : CERTIFIED_CERTAIN);
+                EXPECT_EQ(verdictOf(ask(device, pairOf(one, mesh), axis == 1)),
+                          beyond > 0 ? CERTIFIED_NONE : CERTIFIED_CERTAIN);
             }
         }
     }
@@ -231,22 +206,12 @@ TEST_F(MarginTest, GrowsWithTheMargin) {
 TEST_F(MarginTest, OfPosesOnTheDevice) {
     constexpr std::uint32_t kPoses = 10;
     Head scene(context(), queue(), take(makeBuiltinMesh("scalpel:300")), kPoses, testSeed());
-    std::vector<float> floats;
-    for (Mat4& pose : scene.poses) {
-        for (double& element : pose) {
-            floats.push_back(static_cast<float>(element));
-            element = static_cast<double>(floats.back());
-        }
-    }
-    const RawVulkan::HostBuffer buffer =
-        raw().makeBuffer(std::span<const float>(floats), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    const PoseBuffer poses =
-        take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .stride = 64, .count = kPoses}));
+    const PosesOnDevice poses(raw(), context(), scene.poses);
     DetectorDesc desc = within(kMargin);
     const std::vector<PairAnswer> wanted = detect(desc, scene.batch(), kPoses, 2048).pairs;
     desc.devicePoses = true;
     scene.item.world_from_object = {};
-    scene.item.poses = &poses;
+    scene.item.poses = &poses.buffer();
     expectSame(detect(desc, scene.batch(), kPoses, 2048).pairs, wanted);
 }
 
