@@ -12,7 +12,11 @@
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) volatile buffer Live { uint live[]; };
 
 uint clearanceWord(uint pair) {
+#ifdef OF_LABEL
+    return labelSearch[VOXTACT_LABEL_FIRST] + labelSearch[VOXTACT_LABEL_STRIDE] * pair;
+#else
     return constants.queueWord + VOXTACT_WORD_CLEARANCES(constants.queueRoom) + VOXTACT_CLEARANCE_WORDS * pair;
+#endif
 }
 
 /// What bounds are not brought nearer to each other than: most of the tolerance, or what rounding leaves.

@@ -27,10 +27,18 @@ void main() {
     for (uint i = lane; i < 32 * kCellWords; i += VOXTACT_COMPUTE_GROUP) {
         const ivec3 cell = (brick << VOXTACT_BRICK_SHIFT) - 1 + cellInBrick(i);
         const CertifiedCell known = certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, 0.0);
-        if (all(lessThanEqual(cell, last)) && marginCellMay(opacities(), known)) {
+        bool may = all(lessThanEqual(cell, last)) && marginCellMay(opacities(), known);
+#ifdef OF_LABEL
+        const LabelOctants octants = octantsOf(cell);
+        may = may && octants.own != 0;
+        const bool has = labelledCellHas(octants, marginCellHas(opacities(), known));
+#else
+        const bool has = marginCellHas(opacities(), known) != 0;
+#endif
+        if (may) {
             const uint bit = 1u << (i & 31u);
             atomicOr(bits[i >> 5], bit);
-            if (marginCellHas(opacities(), known) != 0) {
+            if (has) {
                 atomicOr(bits[kCellWords + (i >> 5)], bit);
             }
         }

@@ -44,7 +44,11 @@ CellClearance cellClearance(MarginSpace by, CertifiedTriangle triangle, int has,
 }
 
 /// Boxes of a cell that are looked at: more than a margin needs, as far away all of a cell's surface is about as near.
+#ifdef OF_LABEL
+const int kMostBoxes = 512; // of a part of it, of which there may be eight
+#else
 const int kMostBoxes = 2048;
+#endif
 /// Halvings that suffice to see of most cells that they are too far.
 const int kFewSteps = 5;
 
@@ -206,9 +210,19 @@ float measureCell(uint pair, CertifiedTriangle triangle, ivec3 at, vec4 range, i
     }
     const CertifiedCell cell =
         certifiedCell(constants.item, cornersOf(at, range), at.x, at.y, at.z, triangle.delta);
-    if (marginCellMay(opacities(), cell)) {
-        measureBoxes(pair, by, triangle, cell, at, found);
+    if (!marginCellMay(opacities(), cell)) {
+        return below;
     }
+#ifdef OF_LABEL
+    uint left = octantsOf(at).own;
+    while (left != 0) {
+        const uint part = nextPart(left);
+        left &= ~part;
+        measureBoxes(pair, by, triangle, partOfCell(cell, part), at, found);
+    }
+#else
+    measureBoxes(pair, by, triangle, cell, at, found);
+#endif
     return below;
 }
 

@@ -42,7 +42,18 @@ void main() {
     const VoxelPoint corner = voxelPoint(float(at.x), float(at.y), float(at.z));
     ClearanceFound found = nothingFound();
     found.hi = clearanceHi(entry.x);
-    const float below = firstLook(by, cell, at, marginTriangle(by, triangle, corner, 1.0), found);
+    const MarginTriangle about = marginTriangle(by, triangle, corner, 1.0);
+#ifdef OF_LABEL
+    float below = VOXTACT_CLEARANCE_FAR;
+    uint left = octantsOf(at).own;
+    while (left != 0) {
+        const uint part = nextPart(left);
+        left &= ~part;
+        below = min(below, firstLook(by, partOfCell(cell, part), at, about, found));
+    }
+#else
+    const float below = firstLook(by, cell, at, about, found);
+#endif
     if (isCut()) {
         return; // of which nothing is known
     }

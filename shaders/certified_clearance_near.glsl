@@ -28,9 +28,21 @@ struct LevelNode {
     ivec3 place;
 };
 
-vec4 rangeOf(LevelNode node) {
+int numberOf(LevelNode node) {
     const BrickLevel level = brickLevel(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ, node.level);
-    return bricks[level.first + node.place.x + level.countX * (node.place.y + level.countY * node.place.z)];
+    return level.first + node.place.x + level.countX * (node.place.y + level.countY * node.place.z);
+}
+
+/// Whether a brick of stored values as `range` says certainly has something that is looked for.
+bool brickHas(vec4 range) {
+    if (constants.item.storedUnit == 0.0) { // whole numbers: none is NaN
+        return false;
+    }
+#ifdef OF_LABEL
+    return areLabelNodesCertain() && brickIsAllOpaque(range.x, range.y);
+#else
+    return marginRangeHas(opacities(), constants.item, range.x, range.y);
+#endif
 }
 
 bool isInVolume(LevelNode node) {
@@ -49,13 +61,12 @@ vec3 middleOf(LevelNode node) {
     return vec3(node.place) * (2.0 * radius) + (radius - 1.0);
 }
 
-/// A brick that may have something opaque, no nearer than `below`: takes it into account.
+/// A brick that may have what is looked for, no nearer than `below`: takes it into account.
 void lookAtBrick(inout MarginSpace by, CertifiedReach reach, VoxelPoint vertex, LevelNode node, vec4 range, float below,
                  inout ClearanceFound found) {
     found.open = min(found.open, below);
     const float above = brickAbove(by, vertex, reach.delta, middleOf(node));
-    if (above < found.hi && constants.item.storedUnit > 0.0 && // whole numbers: none is NaN
-        marginRangeHas(opacities(), constants.item, range.x, range.y)) {
+    if (above < found.hi && brickHas(range)) {
         found.hi = above;
         found.place = closestIn(VOXTACT_CLOSEST_IN_BRICK, (node.place << VOXTACT_BRICK_SHIFT) - 1);
         by.margin = clearanceLimit(by, by.margin, above);
@@ -74,20 +85,25 @@ ClearanceFound lookAround(MarginSpace given, CertifiedReach reach, VoxelPoint ve
     const int top = brickLevels(size.x, size.y, size.z) - 1;
     waiting[0] = LevelNode(top, ivec3(0));
     below[0] = 0.0;
-    int count = brickMayBeOpaque(rangeOf(waiting[0])) ? 1 : 0;
+    int count = nodeMay(numberOf(waiting[0])) ? 1 : 0;
     int looks = 0;
     while (count > 0 && looks + 8 <= kMostNodes && !(any && found.open < by.margin)) {
         --count;
         const LevelNode node = waiting[count];
         const float least = below[count];
+#ifdef OF_LABEL
+        // Of most bricks with a label it is not certain that they have something: the nearest is looked for.
+        const bool farther = least >= found.open;
+#else
         // Of floats no brick is certain to have something: there is nothing to look for but the nearest.
         const bool farther = least >= found.open &&
                              (found.hi < VOXTACT_CLEARANCE_FAR || constants.item.storedUnit == 0.0);
+#endif
         if (least >= by.margin || farther) {
             continue;
         }
         if (node.level == 0) {
-            lookAtBrick(by, reach, vertex, node, rangeOf(node), least, found);
+            lookAtBrick(by, reach, vertex, node, bricks[numberOf(node)], least, found);
             continue;
         }
         // Of its eight parts the nearest is the last.
@@ -100,7 +116,7 @@ ClearanceFound lookAround(MarginSpace given, CertifiedReach reach, VoxelPoint ve
                 continue;
             }
             const float own = max(least, cubeBelow(by, reach, middleOf(child), radiusOf(child.level)));
-            if (own < by.margin && brickMayBeOpaque(rangeOf(child))) {
+            if (own < by.margin && nodeMay(numberOf(child))) {
                 waiting[count] = child;
                 below[count++] = own;
             }

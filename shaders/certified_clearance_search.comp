@@ -34,12 +34,30 @@ void write(uint at, float lo, float hi, uint third, uint fourth) {
     words[at + VOXTACT_CLEARANCE_OPEN] = fourth;
 }
 
-void begin(uint at, PairResult touch) {
-    if (touch.countLow != 0 || touch.countHigh != 0) {
+/// Whether what is known of all that is opaque ends the search for a label: nothing is, or nothing near enough.
+bool isKnown(uint at, uint pair) {
+    if (constants.allWord == VOXTACT_NO_WORD) {
+        return false;
+    }
+    const uint of = constants.allWord + VOXTACT_CLEARANCE_WORDS * pair;
+    const bool nothing = words[of + VOXTACT_CLEARANCE_LO] == floatBitsToUint(INFINITE);
+    if (!nothing && words[of + VOXTACT_CLEARANCE_ASKED] != VOXTACT_CLEARANCE_BEYOND) {
+        return false;
+    }
+    for (uint i = 0; i < VOXTACT_CLEARANCE_WORDS; ++i) {
+        words[at + i] = words[of + i];
+    }
+    return true;
+}
+
+void begin(uint at, uint pair, PairResult touch) {
+    if (constants.steps == 0) {
+        write(at, INFINITE, INFINITE, VOXTACT_CLEARANCE_CLOSED, 0);
+    } else if (constants.ofLabel == 0 && (touch.countLow != 0 || touch.countHigh != 0)) {
         write(at, 0.0, 0.0, VOXTACT_CLEARANCE_CLOSED, 0);
     } else if (VOXTACT_HOW_EXACTNESS(touch.how) == VOXTACT_EXACTNESS_REFUSED) {
         write(at, 0.0, INFINITE, VOXTACT_CLEARANCE_ROUNDED, 0);
-    } else {
+    } else if (!isKnown(at, pair)) {
         write(at, 0.0, VOXTACT_CLEARANCE_FAR, floatBitsToUint(constants.most),
               floatBitsToUint(VOXTACT_CLEARANCE_FAR));
     }
@@ -99,10 +117,10 @@ void main() {
         return;
     }
     const uint pair = constants.firstPair + i;
-    const uint at = constants.clearanceWord + VOXTACT_CLEARANCE_WORDS * pair;
+    const uint at = constants.clearanceWord + constants.pairWords * pair;
     if (constants.step == 0) {
-        begin(at, results[pair]);
+        begin(at, pair, results[pair]);
     } else if (words[at + VOXTACT_CLEARANCE_ASKED] >= VOXTACT_CLEARANCE_ENDS) {
-        search(at, VOXTACT_HOW_UNDECIDED(results[pair].how) != 0);
+        search(at, constants.ofLabel == 0 && VOXTACT_HOW_UNDECIDED(results[pair].how) != 0);
     }
 }

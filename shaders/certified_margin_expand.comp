@@ -82,7 +82,7 @@ void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint w
         const vec3 middle = brickCentre(brick);
         const float radius = float(kBrickSide / 2);
         ++seen;
-        if (brickMayBeOpaque(brickAt(brick)) &&
+        if (nodeMay(numberOf(brick)) &&
             !marginReachFarther(by, reach, voxelPoint(middle.x, middle.y, middle.z),
                                 voxelPoint(radius, radius, radius))) {
             // What is next tells which are near.

@@ -86,7 +86,7 @@ void decideShare(Share given) {
         i += share.stride + ((i & 63) == 63 ? share.skip : 0);
         ++bricksSeen;
         const vec4 range = brickAt(brick);
-        if (!bounds.usable && brickMayBeOpaque(range)) {
+        if (!bounds.usable && nodeMay(numberOf(brick))) {
             undecided = true;
             break;
         }

@@ -141,8 +141,14 @@ void findOpaqueCells(uvec4 entry, ivec3 brick, ivec3 corner ALONG(direction)) {
 #endif
     for (uint i = gl_LocalInvocationIndex; i < nearCount; i += VOXTACT_MARGIN_GROUP) {
         const ivec3 cell = cellOf(corner, nearCells[i]);
-        const CertifiedCell known =
-            certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, 0.0);
+        CertifiedCell known = certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, 0.0);
+#ifdef OF_LABEL
+        const uint octants = octantsOf(cell).own;
+        if (octants == 0) {
+            continue;
+        }
+        known = partOfCell(known, octants);
+#endif
         if (marginCellMay(opacities(), known)) {
             uint listed = nearCells[i];
 #ifdef CLEARANCE

@@ -35,6 +35,9 @@ const bool kCarry = true;
 #include "certified_queues.glsl"
 #ifdef CLEARANCE
 #include "brick_levels.h"
+#ifdef OF_LABEL
+#include "certified_label.glsl"
+#endif
 #include "certified_clearance.glsl"
 #elif defined(MARGIN)
 #define MARGIN_SPACE(pair) marginOf(constants.item)
@@ -108,6 +111,18 @@ vec4 brickAt(ivec3 brick) {
 bool brickMayBeOpaque(vec4 range) {
     return certifiedRangeMayBeOpaque(opacities(), constants.item, range.x, range.y);
 }
+
+#ifdef MARGIN
+/// Whether a brick, or a node of a level above (brick_levels.h), may have something that is looked for.
+bool nodeMay(int node) {
+#ifdef OF_LABEL
+    if (!nodeMayHaveLabel(node)) {
+        return false;
+    }
+#endif
+    return brickMayBeOpaque(bricks[node]);
+}
+#endif
 
 float storedAt(ivec3 voxel) {
     const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
@@ -209,11 +224,10 @@ bool isDone(uint pair) {
     return clearanceIsDone(pair);
 }
 
-/// Whether the volume may have anything opaque.
+/// Whether the volume may have anything that is looked for.
 bool mayHaveAnything() {
     const int top = brickLevels(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
-    return brickMayBeOpaque(
-        bricks[brickLevel(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ, top).first]);
+    return nodeMay(brickLevel(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ, top).first);
 }
 #else
 /// Where stopAtFirst is wanted, what is found of a pair that has a survivor is of no use.
@@ -232,7 +246,7 @@ void markWithin(uint pair) {
 
 bool marginBrickMay(uint pair, CertifiedTriangle triangle, ivec3 brick) {
     const vec3 middle = brickCentre(brick);
-    return brickMayBeOpaque(brickAt(brick)) &&
+    return nodeMay(numberOf(brick)) &&
            !marginCubeBeyond(MARGIN_SPACE(pair), triangle, voxelPoint(middle.x, middle.y, middle.z),
                              float(kBrickSide / 2));
 }

@@ -19,13 +19,24 @@
 #define VOXTACT_WORD_NEAREST(room) (VOXTACT_WORD_NEAR(room) + VOXTACT_MARGIN_ROOM_LARGE(room))
 // The queue of open cells, whose words others have with a margin: numbers of cells for certified_clearance_decide.
 #define VOXTACT_WORD_CLEARANCE_OPEN(room) (VOXTACT_WORD_NEAREST(room) + VOXTACT_MARGIN_ROOM_LARGE(room))
+// Of the label that a search is about, four words.
+#define VOXTACT_WORD_LABEL(room) (VOXTACT_WORD_CLEARANCE_OPEN(room) + VOXTACT_ROOM_CELLS(room))
+#define VOXTACT_LABEL_FIRST 0   // where the words of the first pair are
+#define VOXTACT_LABEL_STRIDE 1  // from these to those of the next
+#define VOXTACT_LABEL_NUMBER 2  // in the label map
+#define VOXTACT_LABEL_CERTAIN 3 // not 0: the map has no more labels than VOXTACT_LABEL_BITS
+/// Bits of each node of a label map: that of a label's number modulo it is set where a voxel of it is a corner of the
+/// node's cells. 32 for each component of a uvec4.
+#define VOXTACT_LABEL_BITS 128
 // From a multiple of 256 bytes on: four words a pair, in the end its ClearanceResult.
-#define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_WORD_CLEARANCE_OPEN(room) + VOXTACT_ROOM_CELLS(room) + 63) / 64 * 64)
+#define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_WORD_LABEL(room) + 4 + 63) / 64 * 64)
 // Where closest points are wanted, behind the clearances, from a multiple of 256 bytes on: so many words a pair, in the
 // end its ClosestResult. `pairs`: as many as there is room for.
 #define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
     (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
 #define VOXTACT_CLOSEST_WORDS 12
+// Behind all these, from a multiple of 256 bytes on, where clearances to labels are wanted: four words for each label
+// of a pair, label by label, and pair by pair.
 // Before that, what proves VOXTACT_CLEARANCE_HI, or the touch: shaders/certified_closest.glsl.
 #define VOXTACT_CLOSEST_TAKEN 0 // not 0: a lane writes, or the pair touches
 #define VOXTACT_CLOSEST_TRIANGLE 1

@@ -80,11 +80,14 @@ struct TallyConstants {
 /// Push constants of the pass between two steps of a clearance: shaders/certified_clearance_search.comp.
 struct ClearanceConstants {
     uint clearanceWord; // of the words of the transforms' buffer, where those of the pairs are
+    uint pairWords;     // from one to the next
+    uint allWord;       // of a label: where those are of all that is opaque; VOXTACT_NO_WORD: they say nothing of it
+    uint ofLabel;       // not 0: the pair's own touch says nothing of it
     uint firstPair;
     uint pairs;
     uint step;       // that was done; 0: none, the search begins; 1: the one that looks at boxes only
     uint lastStep;   // looks as far as there is to look; what comes after that looks again at what was left undecided
-    uint steps;      // after so many the search ends
+    uint steps;      // after so many the search ends; 0: there is nothing to look for
     float first;     // flat: how much farther the first step after the boxes looks than they do; each next one twice
     float most;      // flat: no step looks farther; VOXTACT_CLEARANCE_FAR: all of it
     float tolerance; // flat
@@ -93,6 +96,8 @@ struct ClearanceConstants {
     float closed;    // mm: bounds that are so near to each other are within the tolerance
     float maximum;   // mm: not more than `most`
 };
+
+#define VOXTACT_NO_WORD 0xffffffffu
 
 /// Push constants of the pass that makes closest points of what proves them: shaders/certified_clearance_points.comp.
 struct ClosestConstants {
@@ -284,7 +289,9 @@ struct CertifiedConstants {
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
 #define VOXTACT_SET_PAIRS 2
 #define VOXTACT_SET_MESH 3
-#define VOXTACT_SET_LABELS 4 // with outputs beside the counts
+#define VOXTACT_SET_LABELS 4 // with outputs beside the counts, and for clearances to labels
+// Bindings of VOXTACT_SET_LABELS for clearances to labels, beside the image at 0: core/volume/label_nodes.h.
+#define VOXTACT_BINDING_LABEL_NODES 1
 // Bindings of VOXTACT_SET_VOLUME, beside the image at 0.
 #define VOXTACT_BINDING_BRICKS 1
 // Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/transfer/table_extremes.h.

@@ -80,6 +80,9 @@ struct LabelClearance {
     ClearanceEnd end{};     ///< why they are no nearer to each other
 };
 
+/// Labels that one batch is measured to, at most.
+inline constexpr std::uint32_t kMostMeasuredLabels = 4096;
+
 /// What a batch gave for some labels.
 struct LabelClearanceAnswer {
     std::vector<LabelClearance> labels; ///< by pair, then in the order that the labels were asked for

@@ -175,8 +175,7 @@ struct ClearanceDesc {
     bool labelsAtAnyOpacity = false;     ///< measureLabels(): to all of a label, be it opaque or not
 };
 
-/// Labels that one call measures, at most.
-inline constexpr std::uint32_t kMostMeasuredLabels = 4096;
+using voxtact::kMostMeasuredLabels;
 
 /// Measures how near meshes are to what is opaque. What it answers depends on nothing but the pair and its desc: not on
 /// the threads, and not on what else is in a batch. Keeps its threads from call to call, and what it makes of the last

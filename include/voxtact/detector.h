@@ -55,6 +55,18 @@ struct DetectorDesc {
     /// where it touches, of pairs that do, and little of the others; nothing where it is not asked for. InvalidArgument
     /// without `clearance`.
     bool closest = false;
+    /// With `clearance`: the same bounds to each label of Batch::labels as well, as a cpu::ClearanceMeter has them by
+    /// measureLabels(), for Results that were made with ResultsDesc::labelClearances. Of what is opaque and has the
+    /// label, which fills the closed boxes around its voxels' centres: a face between two labels belongs to both. What
+    /// is said of `clearance` holds of these bounds; of a label that is touched `lo` is 0 and `hi` as little as single
+    /// precision can tell, some ten-thousandths of a voxel, more where triangles are long. Each label is a search of
+    /// its own, recorded behind the others; its passes are programs of their own. InvalidArgument without `clearance`;
+    /// Unsupported on a device without room for the descriptors (maxBoundDescriptorSets 5,
+    /// maxPerStageDescriptorStorageBuffers 7).
+    bool labelClearances = false;
+    /// With `labelClearances`: of all that has the label, be it opaque or not; but of what is no number, nothing.
+    /// InvalidArgument without it.
+    bool labelsAtAnyOpacity = false;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -63,7 +75,8 @@ struct BatchItem {
     const Volume* volume = nullptr; ///< what is touched
     const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
     std::span<const Mat4> world_from_object{};          ///< a pose a pair; affine. Read while recording only
-    const LabelMap* labels = nullptr;                   ///< for the outputs contacts (optional) and labels
+    /// For the outputs contacts (optional) and labels, and for clearances to labels, on the grid of the volume.
+    const LabelMap* labels = nullptr;
     /// Poses on the device, in place of world_from_object, which is then empty; for detectors with devicePoses. A pose
     /// that is not finite, or whose last row is not 0 0 0 1, is not looked at: its count is 0, its exactness Refused,
     /// and by the projection `conservative` it is *possible*.
@@ -79,6 +92,9 @@ struct Batch {
     std::span<const BatchItem> items{};   ///< any number; results are in their order
     View view{};                          ///< not looked at by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
+    /// With DetectorDesc::labelClearances: which labels, at most kMostMeasuredLabels, in any order. One that an item's
+    /// label map does not have is infinitely far from it. Read while recording only.
+    std::span<const std::int32_t> labels{};
 };
 
 /// Contacts that a list has room for, where nothing else is asked for.
@@ -120,6 +136,9 @@ struct ResultsDesc {
     /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair, as
     /// these.
     bool closest = false;
+    /// For detectors with DetectorDesc::labelClearances, beside `clearances`, without which it is refused: how many
+    /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, as these.
+    std::uint32_t labelClearances = 0;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
     /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the
@@ -186,6 +205,10 @@ class Results {
     /// The same of a detector with DetectorDesc::closest: a ClosestResult for each pair. Null without
     /// ResultsDesc::closest.
     [[nodiscard]] VOXTACT_API BufferRange closest() const noexcept;
+    /// The same of a detector with DetectorDesc::labelClearances: a ClearanceResult for each label of each pair, pair
+    /// by pair, in the order of Batch::labels; those of a pair begin after as many as the pairs before it have. Null
+    /// without ResultsDesc::labelClearances.
+    [[nodiscard]] VOXTACT_API BufferRange labelClearances() const noexcept;
 
     /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
     /// render pass.
@@ -205,6 +228,11 @@ class Results {
     /// DetectorDesc::closest. The same is expected as by read(); NotReady where its detector was made without
     /// DetectorDesc::clearance.
     [[nodiscard]] VOXTACT_API Result<std::vector<PairClearance>> readClearances();
+    /// Whether the batch recorded last is of a detector with DetectorDesc::labelClearances.
+    [[nodiscard]] VOXTACT_API bool measuredLabels() const noexcept;
+    /// The clearances to labels of the batch recorded last, unpacked: by pair, then in the order of Batch::labels. The
+    /// same is expected as by read(); NotReady where its detector was made without DetectorDesc::labelClearances.
+    [[nodiscard]] VOXTACT_API Result<std::vector<LabelClearance>> readLabelClearances();
     /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
     /// What the passes did, of a detector with DetectorDesc::counters. The same is expected as by read(); NotReady
@@ -286,10 +314,12 @@ class Detector {
     ///   0..2 of the graphics bind point (dominant-axis: 0..3; with
     ///                    outputs: 0..4), push constants, vertex binding 0, index buffer, dynamic viewport and scissor;
     ///                    for the method compute instead, and with devicePoses as well: compute pipeline, descriptor
-    ///                    sets 0..3 of the compute bind point (0..4 with outputs), push constants
+    ///                    sets 0..3 of the compute bind point (0..4 with outputs or labelClearances), push constants
     ///
     /// With outputs, batches are refused that the Results have no room for (the list of contacts is cut instead), and
-    /// with the output labels, items without a label map. The Results keep what readOutputs() needs of the batch.
+    /// with the output labels, items without a label map. With labelClearances these are refused, too, label maps that
+    /// are not on the grid of the volume (Unsupported), and more than kMostMeasuredLabels labels (LimitExceeded). The
+    /// Results keep what readOutputs() and readLabelClearances() need of the batch.
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;

@@ -88,6 +88,7 @@ struct BatchAnswer {
     std::vector<std::optional<Box>> bounds;      ///< world, of each pair; nothing where it has no survivor
     std::vector<LabelCount> labels;              ///< by pair, then by label
     std::vector<PairClearance> clearances;       ///< with DetectorDesc::clearance, in the order of the batch
+    std::vector<LabelClearance> labelClearances; ///< with DetectorDesc::labelClearances: by pair, then as Batch::labels
     std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
     double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where the queue has no timestamps
     double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory

@@ -342,7 +342,8 @@ class PoseBuffer {
     std::unique_ptr<PoseBufferImpl> impl_;
 };
 
-/// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels.
+/// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels. And, for clearances
+/// to labels, where the device has room for it, which of them each 8^3 voxels have: some 18 bytes for each of these.
 class LabelMap {
   public:
     /// Refuses what checkGrid() refuses, a wrong number of indices, indices and values that makeLabels() would not

@@ -33,7 +33,11 @@ typedef struct vxt_detector_desc {
     double clearance_tolerance;
     double max_clearance; ///< with clearance_tolerance, mm: what is farther is not measured; 0, the default: all is
     uint32_t closest;     ///< with clearance_tolerance: closest points, too; the results need room for them; default 0
-    uint32_t reserved;    ///< 0
+    /// With clearance_tolerance: clearances to each label of vxt_batch::labels, too; the results need room for them,
+    /// and each item a label map on the volume's grid. Default 0
+    uint32_t label_clearances;
+    uint32_t labels_at_any_opacity; ///< with these: to all of a label, be it opaque or not; default 0
+    uint32_t reserved;              ///< 0
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -98,6 +102,8 @@ typedef struct vxt_batch {
     size_t item_count;     ///< of `items`
     const vxt_view* view;  ///< may be null for projections without a camera
     double threshold;      ///< 0..1: opacity from which a sample is opaque; default 0.1
+    const int32_t* labels; ///< with vxt_detector_desc::label_clearances: to which, at most 4096; default none
+    size_t label_count;    ///< of `labels`
 } vxt_batch;
 
 /// Nothing is given.
@@ -143,8 +149,8 @@ typedef struct vxt_results_desc {
     /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the
     /// results: voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
     vxt_buffer_range into;
-    uint32_t closest;  ///< not 0, with clearances: there is room for vxt_detector_desc::closest; default 0
-    uint32_t reserved; ///< 0
+    uint32_t closest;          ///< not 0, with clearances: there is room for vxt_detector_desc::closest; default 0
+    uint32_t label_clearances; ///< with clearances: labels that there is room for with each of max_pairs; default 0
 } vxt_results_desc;
 
 /// From the answers of one frame of a ring to those of the next in vxt_results_desc::into: voxtact::resultBytes().
@@ -168,15 +174,16 @@ static inline vxt_results_desc vxt_results_desc_init(void) {
 
 /// The answers of a batch on the device, for the next pass; as voxtact::Results has them, and device_results.h.
 typedef enum vxt_device_part {
-    VXT_DEVICE_PAIRS = 0,           ///< a PairResult for each pair
-    VXT_DEVICE_TRIANGLE_COUNTS = 1, ///< a uint for each triangle of each pair
-    VXT_DEVICE_TRIANGLE_MASK = 2,   ///< a bit for each triangle of each pair; each pair begins with a uint of its own
-    VXT_DEVICE_CONTACTS = 3,        ///< four uints: found, low and high word; the room; 0. Then the ContactResults
-    VXT_DEVICE_BOUNDS = 4,          ///< six uints for each pair
-    VXT_DEVICE_LABEL_COUNTS = 5,    ///< a uint for each label of each pair
-    VXT_DEVICE_CLEARANCES = 6,      ///< a ClearanceResult, 16 bytes, for each pair
-    VXT_DEVICE_CLOSEST = 7,         ///< a ClosestResult, 48 bytes, for each pair
-    VXT_DEVICE_MAX = 0x7fffffff     ///< makes the type 32 bits wide
+    VXT_DEVICE_PAIRS = 0,            ///< a PairResult for each pair
+    VXT_DEVICE_TRIANGLE_COUNTS = 1,  ///< a uint for each triangle of each pair
+    VXT_DEVICE_TRIANGLE_MASK = 2,    ///< a bit for each triangle of each pair; each pair begins with a uint of its own
+    VXT_DEVICE_CONTACTS = 3,         ///< four uints: found, low and high word; the room; 0. Then the ContactResults
+    VXT_DEVICE_BOUNDS = 4,           ///< six uints for each pair
+    VXT_DEVICE_LABEL_COUNTS = 5,     ///< a uint for each label of each pair
+    VXT_DEVICE_CLEARANCES = 6,       ///< a ClearanceResult, 16 bytes, for each pair
+    VXT_DEVICE_CLOSEST = 7,          ///< a ClosestResult, 48 bytes, for each pair
+    VXT_DEVICE_LABEL_CLEARANCES = 8, ///< a ClearanceResult, 16 bytes, for each label of each pair
+    VXT_DEVICE_MAX = 0x7fffffff      ///< makes the type 32 bits wide
 } vxt_device_part;
 
 /// Where the answers of one batch in flight go: voxtact::Results.
@@ -236,8 +243,9 @@ static inline vxt_certified_counters vxt_certified_counters_init(void) {
 VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters);
 
 /// Of an answer of a detector with vxt_detector_desc::clearance_tolerance, in the order of the batch, with closest
-/// points where that had vxt_detector_desc::closest; NOT_READY of any other. The time that `clearances` then have is
-/// that of the answer.
+/// points where that had vxt_detector_desc::closest, and with those to labels where that had
+/// vxt_detector_desc::label_clearances; NOT_READY of any other. The time that `clearances` then have is that of the
+/// answer.
 VXT_CHECKED vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances);
 
 /// Results for frames in flight: voxtact::ResultRing.

@@ -71,6 +71,7 @@ vxt_answer toAnswer(const BatchAnswer& answer) {
     if (answer.clearances.size() == answer.pairs.size()) { // of none there may be none
         out.clearances = answer.clearances;
     }
+    out.labelClearances = answer.labelClearances;
     out.gpuMilliseconds = answer.gpuMilliseconds;
     out.wallMilliseconds = answer.wallMilliseconds;
     return out;

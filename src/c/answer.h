@@ -17,6 +17,7 @@ struct vxt_answer {
     std::uint64_t contactsFound = 0;
     std::optional<voxtact::CertifiedCounters> counters;
     std::optional<std::vector<voxtact::PairClearance>> clearances; ///< where they were measured
+    std::vector<voxtact::LabelClearance> labelClearances;
     double gpuMilliseconds = 0;
     double wallMilliseconds = 0;
 };

@@ -19,6 +19,9 @@ template <class Batch, class Item> class BatchOf {
         if constexpr (kCanBeCancelled) {
             cancel_ = objectOf(batch.cancel);
         }
+        if constexpr (kHasLabels) {
+            labels_ = toSpan(batch.labels, batch.label_count, "batch: labels");
+        }
     }
 
     /// Valid as long as this is.
@@ -29,6 +32,9 @@ template <class Batch, class Item> class BatchOf {
         batch.threshold = threshold_;
         if constexpr (kCanBeCancelled) {
             batch.cancel = cancel_;
+        }
+        if constexpr (kHasLabels) {
+            batch.labels = labels_;
         }
         return batch;
     }
@@ -55,11 +61,13 @@ template <class Batch, class Item> class BatchOf {
 
   private:
     static constexpr bool kCanBeCancelled = requires(Batch batch) { batch.cancel; };
+    static constexpr bool kHasLabels = requires(Batch batch) { batch.labels; };
 
     std::vector<Item> items_;
     View view_;
     double threshold_ = 0;
     const std::atomic<bool>* cancel_ = nullptr;
+    std::span<const std::int32_t> labels_;
 };
 
 using HostBatchOf = BatchOf<cpu::Batch, cpu::BatchItem>;

@@ -29,7 +29,9 @@ cpu::ClearanceDesc toDesc(const vxt_host_clearance_desc* given) {
             .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0};
 }
 
-vxt_label_clearance toLabel(const LabelClearance& label) noexcept {
+} // namespace
+
+vxt_label_clearance voxtact::c::toLabelClearance(const LabelClearance& label) noexcept {
     return {label.bounds.lo,
             label.bounds.hi,
             label.pair,
@@ -39,8 +41,6 @@ vxt_label_clearance toLabel(const LabelClearance& label) noexcept {
             number<vxt_clearance_end>(label.end),
             0};
 }
-
-} // namespace
 
 vxt_pair_clearance voxtact::c::toClearance(const PairClearance& pair) noexcept {
     vxt_pair_clearance out{};
@@ -112,7 +112,7 @@ vxt_result vxt_host_clearance_meter_measure_labels(vxt_host_clearance_meter* met
         const LabelClearanceAnswer answer = take(by.measureLabels(of.batch(), toSpan(labels, label_count, "labels")));
         vxt_clearances out;
         out.wallMilliseconds = answer.wallMilliseconds;
-        std::ranges::transform(answer.labels, std::back_inserter(out.labels), toLabel);
+        std::ranges::transform(answer.labels, std::back_inserter(out.labels), toLabelClearance);
         to = std::move(out);
     });
 }

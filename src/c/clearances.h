@@ -16,5 +16,6 @@ namespace voxtact::c {
 
 /// The C interface's form of a clearance.
 [[nodiscard]] vxt_pair_clearance toClearance(const PairClearance& pair) noexcept;
+[[nodiscard]] vxt_label_clearance toLabelClearance(const LabelClearance& label) noexcept;
 
 } // namespace voxtact::c

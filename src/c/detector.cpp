@@ -40,7 +40,9 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .devicePoses = desc.device_poses != 0,
             .margin = desc.margin,
             .clearance = searchOf(desc),
-            .closest = desc.closest != 0};
+            .closest = desc.closest != 0,
+            .labelClearances = desc.label_clearances != 0,
+            .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0};
 }
 
 } // namespace

@@ -20,6 +20,7 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
                     .queueFamily = desc.queue_family,
                     .clearances = desc.clearances != 0,
                     .closest = desc.closest != 0,
+                    .labelClearances = desc.label_clearances,
                     .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
@@ -48,6 +49,8 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
         return results.clearances();
     case VXT_DEVICE_CLOSEST:
         return results.closest();
+    case VXT_DEVICE_LABEL_CLEARANCES:
+        return results.labelClearances();
     default:
         break;
     }
@@ -94,6 +97,9 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
     take(results.readOutputs(answer));
     if (results.measured()) {
         answer.clearances = take(results.readClearances());
+    }
+    if (results.measuredLabels()) {
+        answer.labelClearances = take(results.readLabelClearances());
     }
     if (results.counted()) {
         answer.counters = take(results.counters());
@@ -152,6 +158,7 @@ vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clear
         vxt_clearances out;
         out.wallMilliseconds = from.wallMilliseconds;
         std::ranges::transform(*from.clearances, std::back_inserter(out.pairs), toClearance);
+        std::ranges::transform(from.labelClearances, std::back_inserter(out.labels), toLabelClearance);
         to = std::move(out);
     });
 }

@@ -38,18 +38,26 @@ std::uint64_t pairsOf(const Batch& batch) {
     return pairs;
 }
 
+/// Labels that clearances are measured to; more are refused when they are recorded.
+std::uint32_t measuredLabels(const DetectorDesc& desc, const Batch& batch) {
+    return desc.labelClearances
+               ? static_cast<std::uint32_t>(std::min<std::size_t>(batch.labels.size(), kMostMeasuredLabels))
+               : 0;
+}
+
 /// What to make the Results with where those at hand have no room for a batch. What was large enough stays so.
-std::optional<ResultsDesc> largerFor(const Batch& batch, const ResultsDesc& desc,
-                                     const std::optional<Results>& results) {
+std::optional<ResultsDesc> largerFor(const Batch& batch, const ResultsDesc& desc, const std::optional<Results>& results,
+                                     std::uint32_t labels) {
     const std::uint64_t pairs = pairsOf(batch);
     const OutputRoom needed = desc.room ? roomFor(batch) : OutputRoom{};
-    if (results && results->maxPairs() >= pairs &&
+    if (results && results->maxPairs() >= pairs && desc.labelClearances >= labels &&
         (!desc.room || (desc.room->triangles >= needed.triangles && desc.room->labels >= needed.labels))) {
         return std::nullopt;
     }
     ResultsDesc wanted = desc;
     wanted.maxPairs = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(pairs, results ? results->maxPairs() : kFewestPairs, UINT32_MAX));
+    wanted.labelClearances = std::max(desc.labelClearances, labels);
     if (wanted.room) {
         wanted.room->triangles = std::max(wanted.room->triangles, needed.triangles);
         wanted.room->labels = std::max(wanted.room->labels, needed.labels);
@@ -103,7 +111,8 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         // First of all: a submission whose wait failed may still be using the Results.
         const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
         VOXTACT_TRY(commandBuffer);
-        if (const std::optional<ResultsDesc> wanted = largerFor(batch, s.resultsDesc, s.results)) {
+        if (const std::optional<ResultsDesc> wanted =
+                largerFor(batch, s.resultsDesc, s.results, measuredLabels(s.detector.desc(), batch))) {
             Result<Results> larger = Results::create(s.context, *wanted);
             VOXTACT_TRY(larger);
             s.results = std::move(*larger);
@@ -121,6 +130,11 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
             Result<std::vector<PairClearance>> clearances = s.results->readClearances();
             VOXTACT_TRY(clearances);
             answer.clearances = std::move(*clearances);
+        }
+        if (s.detector.desc().labelClearances) {
+            Result<std::vector<LabelClearance>> labels = s.results->readLabelClearances();
+            VOXTACT_TRY(labels);
+            answer.labelClearances = std::move(*labels);
         }
         if (s.results->counted()) {
             const Result<CertifiedCounters> counters = s.results->counters();

@@ -161,7 +161,7 @@ void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, co
         });
         if (clearance_) {
             constants.firstPair = firstPair;
-            clearance_->record(recorder, layout, item, constants);
+            clearance_->record(recorder, layout, item, constants, batch.labels);
         }
         firstPair += static_cast<std::uint32_t>(item.pairs());
     }

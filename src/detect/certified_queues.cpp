@@ -10,9 +10,7 @@
 namespace voxtact {
 
 VkDeviceSize setupByte(const ResultsImpl& results) noexcept {
-    constexpr VkDeviceSize kAlignment = 256;
-    const VkDeviceSize transforms = VkDeviceSize{results.maxTransforms} * sizeof(shader::PairTransform);
-    return (transforms + kAlignment - 1) / kAlignment * kAlignment;
+    return atPart(VkDeviceSize{results.maxTransforms} * sizeof(shader::PairTransform));
 }
 
 VkDeviceSize firstQueueByte(const ResultsImpl& results) noexcept {
@@ -31,12 +29,21 @@ VkDeviceSize bitsByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VkDeviceSize{VOXTACT_WORD_BITS(results.queueRoom)} * sizeof(std::uint32_t);
 }
 
+VkDeviceSize labelByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) + VkDeviceSize{VOXTACT_WORD_LABEL(results.queueRoom)} * sizeof(std::uint32_t);
+}
+
 VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VOXTACT_WORD_CLEARANCES(results.queueRoom) * sizeof(std::uint32_t);
 }
 
 VkDeviceSize closestByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VOXTACT_WORD_CLOSEST(results.queueRoom, results.maxPairs) * sizeof(std::uint32_t);
+}
+
+VkDeviceSize labelClearancesByte(const ResultsImpl& results) noexcept {
+    return atPart(results.closest ? closestByte(results) + VkDeviceSize{results.maxPairs} * sizeof(ClosestResult)
+                                  : clearancesByte(results) + VkDeviceSize{results.maxPairs} * sizeof(ClearanceResult));
 }
 
 std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
@@ -46,7 +53,7 @@ std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDevice
     std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
     const auto needed = [&] {
         return first + queueBytes(room) + (desc.clearances ? clearanceBytes(room, desc.maxPairs) : 0) +
-               (desc.closest ? closestBytes(desc.maxPairs) : 0);
+               (desc.closest ? closestBytes(desc.maxPairs) : 0) + labelBytes(desc.maxPairs, desc.labelClearances);
     };
     while (room >= kLeastQueueRoom && needed() > bytes) {
         room /= 2;

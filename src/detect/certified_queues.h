@@ -42,6 +42,8 @@ static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::u
 static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::uint32_t));
 /// Where the slots of bricks that have bits are in that buffer.
 [[nodiscard]] VkDeviceSize bitsByte(const ResultsImpl& results) noexcept;
+/// Where VOXTACT_LABEL_* are.
+[[nodiscard]] VkDeviceSize labelByte(const ResultsImpl& results) noexcept;
 /// Where the clearances are.
 [[nodiscard]] VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept;
 
@@ -53,6 +55,18 @@ static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::u
 static_assert(sizeof(ClosestResult) == VOXTACT_CLOSEST_WORDS * sizeof(std::uint32_t));
 /// Where they are in that buffer.
 [[nodiscard]] VkDeviceSize closestByte(const ResultsImpl& results) noexcept;
+
+/// What a part of that buffer begins at a multiple of.
+[[nodiscard]] constexpr VkDeviceSize atPart(VkDeviceSize bytes) noexcept {
+    constexpr VkDeviceSize kAlignment = 256;
+    return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+}
+/// Bytes behind all these for the clearances to so many labels of so many pairs, the first of them of no use.
+[[nodiscard]] constexpr VkDeviceSize labelBytes(std::uint32_t pairs, std::uint32_t labels) noexcept {
+    return labels == 0 ? 0 : atPart(1) + VkDeviceSize{pairs} * labels * sizeof(ClearanceResult);
+}
+/// Where they are.
+[[nodiscard]] VkDeviceSize labelClearancesByte(const ResultsImpl& results) noexcept;
 
 /// The room for Results, in a buffer of at most `bytes`, of which the queues begin at `first`; 0 where it has none.
 [[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept;

@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "detect/clearance.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
+#include "core/volume/label_grid.h"
 #include "detect/batch.h"
 #include "detect/certified_queues.h"
 #include "detect/certified_rounds.h"
+#include "detect/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
-#include "voxtact_shaders/certified_clearance_again_comp.h"
-#include "voxtact_shaders/certified_clearance_bits_comp.h"
-#include "voxtact_shaders/certified_clearance_cull_comp.h"
-#include "voxtact_shaders/certified_clearance_decide_comp.h"
-#include "voxtact_shaders/certified_clearance_expand_comp.h"
-#include "voxtact_shaders/certified_clearance_finish_comp.h"
-#include "voxtact_shaders/certified_clearance_large_comp.h"
-#include "voxtact_shaders/certified_clearance_narrow_comp.h"
-#include "voxtact_shaders/certified_clearance_near_comp.h"
-#include "voxtact_shaders/certified_clearance_nearest_comp.h"
-#include "voxtact_shaders/certified_clearance_probe_comp.h"
-#include "voxtact_shaders/certified_clearance_probes_comp.h"
-#include "voxtact_shaders/certified_clearance_refine_comp.h"
-#include "voxtact_shaders/certified_clearance_scout_comp.h"
 #include "voxtact_shaders/certified_clearance_search_comp.h"
-#include "voxtact_shaders/certified_clearance_sift_comp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +66,8 @@ shader::ClearanceConstants searchOf(const shader::CertifiedConstants& of, const 
     const double size = std::hypot(flat(0) + flat(1) + flat(2), flat(3) + flat(4), flat(5));
     shader::ClearanceConstants search{};
     search.clearanceWord = of.queueWord + VOXTACT_WORD_CLEARANCES(of.queueRoom);
+    search.pairWords = VOXTACT_CLEARANCE_WORDS;
+    search.allWord = VOXTACT_NO_WORD;
     search.firstPair = of.firstPair;
     search.pairs = static_cast<std::uint32_t>(item.pairs());
     search.first = kFirst;
@@ -97,36 +87,21 @@ shader::ClearanceConstants searchOf(const shader::CertifiedConstants& of, const 
 } // namespace
 
 Result<ClearancePass> ClearancePass::create(ContextImpl& context, const DetectorDesc& desc) {
-    struct Program {
-        std::span<const std::uint32_t> spirv;
-        const char* name;
-    };
-    const Program programs[Count] = {
-        {spirv::certified_clearance_cull_comp, "clearance cull"},
-        {spirv::certified_clearance_scout_comp, "clearance scout"},
-        {spirv::certified_clearance_refine_comp, "clearance refine"},
-        {spirv::certified_clearance_expand_comp, "clearance expand"},
-        {spirv::certified_clearance_bits_comp, "clearance bits"},
-        {spirv::certified_clearance_near_comp, "clearance near"},
-        {spirv::certified_clearance_sift_comp, "clearance sift"},
-        {spirv::certified_clearance_probes_comp, "clearance probes"},
-        {spirv::certified_clearance_probe_comp, "clearance probe"},
-        {spirv::certified_clearance_nearest_comp, "clearance nearest"},
-        {spirv::certified_clearance_large_comp, "clearance large"},
-        {spirv::certified_clearance_narrow_comp, "clearance narrow"},
-        {spirv::certified_clearance_again_comp, "clearance again"},
-        {spirv::certified_clearance_decide_comp, "clearance decide"},
-        {spirv::certified_clearance_finish_comp, "clearance finish"},
-        {spirv::certified_clearance_search_comp, "clearance search"},
-    };
-    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
-                                        {VOXTACT_CONSTANT_CLOSEST, desc.closest ? 1U : 0U}};
-    ClearancePass pass(context, *desc.clearance);
-    for (std::size_t i = 0; i < Count; ++i) {
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, programs[i].spirv, constants, context.computeLayout, programs[i].name);
+    ClearancePass pass(context, desc);
+    Result<ClearancePipelines> pipelines = makeClearancePipelines(context, desc.counters, desc.closest);
+    VOXTACT_TRY(pipelines);
+    pass.pipelines_ = std::move(*pipelines);
+    Result<Owned<VkPipeline>> search = makeComputePipeline(context, spirv::certified_clearance_search_comp, {},
+                                                           context.computeLayout, "clearance search");
+    VOXTACT_TRY(search);
+    pass.search_ = std::move(*search);
+    if (desc.labelClearances) {
+        const Result<VkPipelineLayout> layout = labelSearchLayout(context);
+        VOXTACT_TRY(layout);
+        Result<ClearancePipelines> made = makeLabelPipelines(context, desc.counters, *layout);
         VOXTACT_TRY(made);
-        pass.pipelines_[i] = std::move(*made);
+        pass.labelLayout_ = *layout;
+        pass.ofLabels_ = std::move(*made);
     }
     if (desc.closest) {
         Result<ClosestPass> made = ClosestPass::create(context);
@@ -140,7 +115,7 @@ void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layou
                                  const shader::ClearanceConstants& constants) const {
     const DeviceFunctions& vk = context_->vk;
     const VkCommandBuffer commandBuffer = recorder.commandBuffer();
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[Search].get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, search_.get());
     const std::uint32_t most = context_->limits.maxComputeWorkGroupCount[0];
     shader::ClearanceConstants part = constants;
     for (std::uint32_t done = 0; done < constants.pairs; done += part.pairs) {
@@ -152,22 +127,27 @@ void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layou
     }
 }
 
-void ClearancePass::recordNoBits(RoundRecorder& recorder) const {
+void ClearancePass::recordBegin(RoundRecorder& recorder,
+                                const std::optional<std::array<std::uint32_t, 4>>& label) const {
     const ResultsImpl& results = recorder.results();
     const VkCommandBuffer commandBuffer = recorder.commandBuffer();
     barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
             VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     context_->vk.CmdFillBuffer(commandBuffer, results.transforms.get(), bitsByte(results),
                                VkDeviceSize{VOXTACT_ROOM_BITS(results.queueRoom)} * sizeof(std::uint32_t), 0);
+    if (label) {
+        cmdUpdateBuffer(*context_, commandBuffer, results.transforms.get(), labelByte(results),
+                        std::as_bytes(std::span(*label)));
+    }
     barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void ClearancePass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                               const shader::CertifiedConstants& given, bool boxesOnly) const {
-    const auto pass = [&](Pipeline pipeline, std::uint32_t queue) {
-        return RoundPass{pipelines_[pipeline].get(), queue};
+void ClearancePass::recordStep(RoundRecorder& recorder, const Search& of, bool boxesOnly) const {
+    using enum ClearanceProgram;
+    const auto pass = [&](ClearanceProgram program, std::uint32_t queue) {
+        return RoundPass{of.pipelines[static_cast<std::size_t>(program)].get(), queue};
     };
     const RoundPass boxes[] = {pass(Cull, kNoQueue), pass(Scout, VOXTACT_QUEUE_CLUSTERS)};
     const RoundPass all[] = {pass(Cull, kNoQueue),
@@ -185,39 +165,101 @@ void ClearancePass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout,
                              pass(Decide, VOXTACT_QUEUE_OPEN),
                              pass(Finish, VOXTACT_QUEUE_LEFT)};
     // What a round looks at is bounded on the device: the host does not know how far a pair will look.
-    const MeshLooks mesh{.pairs = static_cast<std::uint32_t>(item.pairs()), .clusters = groupsOf(*item.mesh)};
-    const RoundLimits limits{.clusters = boxesOnly ? given.queueRoom : given.queueRoom / kRoomOfCluster,
+    const MeshLooks mesh{.pairs = of.search.pairs, .clusters = groupsOf(*of.item.mesh)};
+    const std::uint32_t room = of.constants.queueRoom;
+    const RoundLimits limits{.clusters = boxesOnly ? room : room / kRoomOfCluster,
                              .pairs = context_->limits.maxComputeWorkGroupCount[1],
                              .looks = 0};
     eachRound(mesh, limits, [&](const Round& round) {
-        shader::CertifiedConstants constants = given;
+        shader::CertifiedConstants constants = of.constants;
         constants.firstPair += round.firstPair;
         constants.firstCluster = round.firstCluster;
         constants.endCluster = round.endCluster;
-        recorder.record(boxesOnly ? std::span<const RoundPass>(boxes) : std::span<const RoundPass>(all), layout,
+        recorder.record(boxesOnly ? std::span<const RoundPass>(boxes) : std::span<const RoundPass>(all), of.layout,
                         constants, round.pairs);
     });
 }
 
+void ClearancePass::recordAll(RoundRecorder& recorder, const Search& of) const {
+    shader::ClearanceConstants search = of.search;
+    queuesBarrier(*context_, recorder.commandBuffer());
+    recordSearch(recorder, of.layout, search);
+    for (search.step = 1; search.step <= search.steps; ++search.step) {
+        recordStep(recorder, of, search.step == 1);
+        queuesBarrier(*context_, recorder.commandBuffer());
+        recordSearch(recorder, of.layout, search);
+    }
+}
+
+void ClearancePass::recordLabels(RoundRecorder& recorder, const Search& all,
+                                 std::span<const std::int32_t> labels) const {
+    const LabelMapImpl& map = all.item.labels->impl();
+    const std::vector<std::int32_t>& values = *map.values;
+    context_->vk.CmdBindDescriptorSets(recorder.commandBuffer(), VK_PIPELINE_BIND_POINT_COMPUTE, labelLayout_,
+                                       VOXTACT_SET_LABELS, 1, &map.searched.set, 0, nullptr);
+    Search of{*ofLabels_, labelLayout_, all.item, all.constants, all.search};
+    of.constants.item = anyOpacity_ ? withAnyOpacity(of.constants.item) : of.constants.item;
+    of.search.ofLabel = 1;
+    of.search.allWord = anyOpacity_ ? VOXTACT_NO_WORD : all.search.clearanceWord;
+    of.search.pairWords = VOXTACT_CLEARANCE_WORDS * static_cast<std::uint32_t>(labels.size());
+    const auto first = static_cast<std::uint32_t>(labelClearancesByte(recorder.results()) / sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto found = std::lower_bound(values.begin(), values.end(), labels[i]);
+        const bool has = found != values.end() && *found == labels[i];
+        of.search.clearanceWord = first + VOXTACT_CLEARANCE_WORDS * static_cast<std::uint32_t>(i);
+        of.search.steps = has ? all.search.steps : 0;
+        std::array<std::uint32_t, 4> label{};
+        label[VOXTACT_LABEL_FIRST] = of.search.clearanceWord;
+        label[VOXTACT_LABEL_STRIDE] = of.search.pairWords;
+        label[VOXTACT_LABEL_NUMBER] = static_cast<std::uint32_t>(found - values.begin());
+        label[VOXTACT_LABEL_CERTAIN] = values.size() <= VOXTACT_LABEL_BITS ? 1 : 0;
+        recordBegin(recorder, label);
+        recordAll(recorder, of);
+    }
+}
+
 void ClearancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                           const shader::CertifiedConstants& constants) const {
+                           const shader::CertifiedConstants& constants, std::span<const std::int32_t> labels) const {
     if (item.pairs() == 0) {
         return;
     }
-    shader::CertifiedConstants of = constants;
-    of.item = withClearance(of.item, item.volume->impl().grid, desc_.tolerance);
-    shader::ClearanceConstants search = searchOf(of, item, desc_);
-    recordNoBits(recorder);
-    queuesBarrier(*context_, recorder.commandBuffer());
-    recordSearch(recorder, layout, search);
-    for (search.step = 1; search.step <= search.steps; ++search.step) {
-        recordStep(recorder, layout, item, of, search.step == 1);
-        queuesBarrier(*context_, recorder.commandBuffer());
-        recordSearch(recorder, layout, search);
-    }
+    Search all{pipelines_, layout, item, constants, {}};
+    all.constants.item = withClearance(all.constants.item, item.volume->impl().grid, desc_.tolerance);
+    all.search = searchOf(all.constants, item, desc_);
+    recordBegin(recorder, std::nullopt);
+    recordAll(recorder, all);
     if (closest_) {
-        closest_->record(recorder, layout, item, of);
+        closest_->record(recorder, layout, item, all.constants);
     }
+    if (ofLabels_) {
+        recordLabels(recorder, all, labels);
+    }
+}
+
+Result<void> checkLabelClearances(const ContextImpl& context, const Batch& batch, const ResultsImpl& results) {
+    VOXTACT_TRY(checkMeasuredLabels(batch.labels));
+    if (batch.labels.size() > results.labelRoom) {
+        return refuse("the batch has " + std::to_string(batch.labels.size()) +
+                      " labels, the Results have room for the clearances to " + std::to_string(results.labelRoom) +
+                      " (ResultsDesc::labelClearances)");
+    }
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        const BatchItem& item = batch.items[i];
+        const std::string which = "batch item " + std::to_string(i);
+        if (item.labels == nullptr) {
+            return noLabelsToMeasure(which);
+        }
+        VOXTACT_TRY(checkLabelMap(context, *item.labels, which));
+        VOXTACT_TRY(checkLabelGrid(item.labels->grid(), item.volume->grid(), which));
+        if (!item.labels->impl().nodes.buffer) {
+            return Error{ErrorCode::LimitExceeded, 0,
+                         which +
+                             ": the label map is too large for clearances: what is known of its bricks is beyond "
+                             "the device's maxStorageBufferRange, " +
+                             std::to_string(context.limits.maxStorageBufferRange)};
+        }
+    }
+    return {};
 }
 
 } // namespace voxtact

@@ -136,9 +136,14 @@ Result<void> checkMargin(const DetectorDesc& desc) {
 }
 
 Result<void> checkClearance(const DetectorDesc& desc) {
+    if (desc.labelsAtAnyOpacity && !desc.labelClearances) {
+        return refuse("labelsAtAnyOpacity is about clearances to labels, and DetectorDesc::labelClearances is false");
+    }
     if (!desc.clearance) {
         return desc.closest ? refuse("closest points are of clearances, and DetectorDesc::clearance is not given")
-                            : Result<void>();
+               : desc.labelClearances
+                   ? refuse("clearances to labels are clearances, and DetectorDesc::clearance is not given")
+                   : Result<void>();
     }
     VOXTACT_TRY(checkTolerance(desc.clearance->tolerance));
     VOXTACT_TRY(checkMaximum(desc.clearance->maximum));
@@ -242,6 +247,9 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (live(impl_).desc.closest && !slot.closest) {
             return refuse("the Results have no room for closest points: ResultsDesc::closest is false");
         }
+        if (live(impl_).desc.labelClearances) {
+            VOXTACT_TRY(checkLabelClearances(context, batch, slot));
+        }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));
         slot.pairs = *pairs;
@@ -250,6 +258,10 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         slot.counted = live(impl_).desc.counters;
         slot.maximum = maximumOf(live(impl_).desc);
         slot.pointed = live(impl_).desc.closest;
+        slot.labels.reset();
+        if (live(impl_).desc.labelClearances) {
+            slot.labels.emplace(batch.labels.begin(), batch.labels.end());
+        }
         if (slot.outputs) {
             slot.outputs->recorded = live(impl_).desc.outputs;
         }

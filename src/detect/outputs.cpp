@@ -21,11 +21,8 @@ Result<void> checkLabelMaps(const ContextImpl& context, const Batch& batch, cons
         if (labels == nullptr && outputs.labels) {
             return refuse("batch item " + std::to_string(i) + " has no label map, which the output labels needs");
         }
-        if (labels != nullptr && &labels->impl().context != &context) {
-            return refuse("batch item " + std::to_string(i) + ": the label map belongs to another Context");
-        }
-        if (labels != nullptr && !labels->impl().uploaded) {
-            return neverUploaded("batch item " + std::to_string(i) + ": the label map");
+        if (labels != nullptr) {
+            VOXTACT_TRY(checkLabelMap(context, *labels, "batch item " + std::to_string(i)));
         }
     }
     return {};
@@ -52,6 +49,13 @@ VkPipelineLayout bindForCompute(const ContextImpl& context, VkCommandBuffer comm
     context.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, any ? 5 : 4, sets, 0,
                                      nullptr);
     return layout;
+}
+
+Result<void> checkLabelMap(const ContextImpl& context, const LabelMap& labels, const std::string& which) {
+    if (&labels.impl().context != &context) {
+        return refuse(which + ": the label map belongs to another Context");
+    }
+    return labels.impl().uploaded ? Result<void>() : neverUploaded(which + ": the label map");
 }
 
 Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc) {

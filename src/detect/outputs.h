@@ -10,6 +10,9 @@ namespace voxtact {
 VkPipelineLayout bindForCompute(const ContextImpl& context, VkCommandBuffer commandBuffer, const BatchItem& item,
                                 const ResultsImpl& results, const Outputs& outputs);
 
+/// Refuses a label map of another Context, and one that was never uploaded. `which` begins the text.
+[[nodiscard]] Result<void> checkLabelMap(const ContextImpl& context, const LabelMap& labels, const std::string& which);
+
 /// Refuses outputs that the device cannot do with the method, and a maximal depth that is not a positive number.
 [[nodiscard]] Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc);
 

@@ -67,6 +67,29 @@ Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
     return {};
 }
 
+Result<void> checkLabelRoom(const ContextImpl& context, const ResultsDesc& desc) {
+    if (desc.labelClearances == 0) {
+        return {};
+    }
+    if (!desc.clearances) {
+        return refuse("ResultsDesc::labelClearances is about clearances, and ResultsDesc::clearances is false");
+    }
+    if (desc.labelClearances > kMostMeasuredLabels) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "ResultsDesc::labelClearances is " + std::to_string(desc.labelClearances) +
+                         ", one batch measures at most " + std::to_string(kMostMeasuredLabels) + " labels"};
+    }
+    if (const VkDeviceSize bytes = labelBytes(desc.maxPairs, desc.labelClearances);
+        bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the clearances of " + std::to_string(desc.maxPairs) + " pairs to " +
+                         std::to_string(desc.labelClearances) + " labels need " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    return {};
+}
+
 Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.maxPairs == 0) {
         return refuse("ResultsDesc::maxPairs is 0");
@@ -86,6 +109,7 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.closest && !desc.clearances) {
         return refuse("ResultsDesc::closest is about clearances, and ResultsDesc::clearances is false");
     }
+    VOXTACT_TRY(checkLabelRoom(context, desc));
     VOXTACT_TRY(checkInto(context, desc));
     if (desc.timestamps) {
         constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
@@ -102,7 +126,7 @@ VkDeviceSize transformBytes(const ResultsImpl& results) {
     const std::uint32_t room = results.queueRoom;
     return firstQueueByte(results) + (room == 0 ? 0 : queueBytes(room)) +
            (results.clearances ? clearanceBytes(room, results.maxPairs) : 0) +
-           (results.closest ? closestBytes(results.maxPairs) : 0);
+           (results.closest ? closestBytes(results.maxPairs) : 0) + labelBytes(results.maxPairs, results.labelRoom);
 }
 
 /// The buffers of a Results, each with what it is for.
@@ -178,8 +202,9 @@ Error notReady(const char* text) {
     return {ErrorCode::NotReady, 0, text};
 }
 
-PairClearance unpack(const PairResult& pair, const ClearanceResult& found, double maximum) {
-    PairClearance out;
+/// A PairClearance or a LabelClearance.
+template <class Clearance> Clearance unpack(const PairResult& pair, const ClearanceResult& found, double maximum) {
+    Clearance out;
     out.pair = pair.pair;
     out.item = pair.item;
     out.pose = pair.pose;
@@ -245,6 +270,7 @@ Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
         impl->queueRoom = queueRoomFor(desc, bytesFor(c), firstQueueByte(*impl));
         impl->clearances = desc.clearances && impl->queueRoom > 0;
         impl->closest = desc.closest && impl->clearances;
+        impl->labelRoom = impl->clearances ? desc.labelClearances : 0;
         impl->timestampBits = desc.timestamps ? c.timestampBits(desc.queueFamily) : 0;
         VOXTACT_TRY(makeBuffers(*impl, desc));
         for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
@@ -292,6 +318,15 @@ BufferRange Results::closest() const noexcept {
     return {r.transforms.get(), closestByte(r), VkDeviceSize{r.maxPairs} * sizeof(ClosestResult)};
 }
 
+BufferRange Results::labelClearances() const noexcept {
+    const ResultsImpl& r = live(impl_);
+    if (r.labelRoom == 0) {
+        return {};
+    }
+    return {r.transforms.get(), labelClearancesByte(r),
+            VkDeviceSize{r.maxPairs} * r.labelRoom * sizeof(ClearanceResult)};
+}
+
 Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
     return guard([&]() -> Result<void> {
         ResultsImpl& r = live(impl_);
@@ -326,6 +361,11 @@ Result<void> Results::cmdReadBack(VkCommandBuffer commandBuffer) {
             const VkBufferCopy closest{closestByte(r), r.closestOnHost(),
                                        VkDeviceSize{r.pairs} * sizeof(ClosestResult)};
             r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &closest);
+        }
+        if (r.labels && !r.labels->empty()) {
+            const VkBufferCopy labels{labelClearancesByte(r), r.labelsOnHost(),
+                                      VkDeviceSize{r.pairs} * r.labels->size() * sizeof(ClearanceResult)};
+            r.context.vk.CmdCopyBuffer(commandBuffer, r.transforms.get(), r.readBack.get(), 1, &labels);
         }
         if (r.outputs) {
             copyOutputs(r.context, commandBuffer, *r.outputs);
@@ -377,12 +417,39 @@ Result<std::vector<PairClearance>> Results::readClearances() {
         std::vector<PairClearance> out;
         out.reserve(r.pairs);
         for (std::uint32_t i = 0; i < r.pairs; ++i) {
-            out.push_back(unpack(pairs[i], copied<ClearanceResult>(r, r.clearancesOnHost(), i), *r.maximum));
+            out.push_back(
+                unpack<PairClearance>(pairs[i], copied<ClearanceResult>(r, r.clearancesOnHost(), i), *r.maximum));
             if (!r.pointed) {
                 continue;
             }
             if (const auto closest = copied<ClosestResult>(r, r.closestOnHost(), i); closest.some != 0) {
                 out.back().closest = unpack(closest);
+            }
+        }
+        return out;
+    });
+}
+
+bool Results::measuredLabels() const noexcept {
+    return live(impl_).labels.has_value();
+}
+
+Result<std::vector<LabelClearance>> Results::readLabelClearances() {
+    return guard([&]() -> Result<std::vector<LabelClearance>> {
+        const ResultsImpl& r = live(impl_);
+        VOXTACT_TRY(checkReadable(r));
+        if (!r.labels) {
+            return notReady("the last cmdDetect() was of a detector without DetectorDesc::labelClearances");
+        }
+        const auto* pairs = static_cast<const PairResult*>(r.readBack.mapped);
+        std::vector<LabelClearance> out;
+        out.reserve(r.pairs * r.labels->size());
+        for (std::uint32_t i = 0; i < r.pairs; ++i) {
+            for (const std::int32_t label : *r.labels) {
+                const auto number = static_cast<std::uint32_t>(out.size());
+                out.push_back(
+                    unpack<LabelClearance>(pairs[i], copied<ClearanceResult>(r, r.labelsOnHost(), number), *r.maximum));
+                out.back().label = label;
             }
         }
         return out;

@@ -19,6 +19,9 @@ struct ResultsImpl {
     bool clearances = false;         ///< there is room for those of maxPairs, behind the queues
     bool closest = false;            ///< there is room for ClosestResults, too, behind these
     bool pointed = false;            ///< the batch recorded last has them
+    std::uint32_t labelRoom = 0;     ///< labels of each of maxPairs that there is room for, behind all these
+    /// Of the batch recorded last, where clearances to them were measured: Batch::labels.
+    std::optional<std::vector<std::int32_t>> labels{};
     std::optional<double> maximum{}; ///< of the batch recorded last, where it has clearances: ClearanceSearch
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
@@ -26,8 +29,8 @@ struct ResultsImpl {
     Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
     BufferRange results{};           ///< maxPairs PairResults, of `ownResults` or of the caller's buffer
     Buffer ownResults{};             ///< empty with ResultsDesc::into
-    Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults, ClosestResults;
-                       ///< empty when not asked for
+    Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults, ClosestResults,
+                       ///< ClearanceResults of labels; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
@@ -43,8 +46,11 @@ struct ResultsImpl {
     [[nodiscard]] VkDeviceSize closestOnHost() const noexcept {
         return clearancesOnHost() + (clearances ? VkDeviceSize{maxPairs} * sizeof(ClearanceResult) : 0);
     }
-    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+    [[nodiscard]] VkDeviceSize labelsOnHost() const noexcept {
         return closestOnHost() + (closest ? VkDeviceSize{maxPairs} * sizeof(ClosestResult) : 0);
+    }
+    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+        return labelsOnHost() + VkDeviceSize{maxPairs} * labelRoom * sizeof(ClearanceResult);
     }
 };
 

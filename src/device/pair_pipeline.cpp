@@ -162,6 +162,11 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
         VOXTACT_TRY(clearances);
         answer.clearances = std::move(*clearances);
     }
+    if (flight.results->measuredLabels()) {
+        Result<std::vector<LabelClearance>> labels = flight.results->readLabelClearances();
+        VOXTACT_TRY(labels);
+        answer.labelClearances = std::move(*labels);
+    }
     if (flight.results->counted()) {
         const Result<CertifiedCounters> counters = flight.results->counters();
         VOXTACT_TRY(counters);
@@ -195,7 +200,7 @@ Result<void> PairPipeline::State::run(const Batch& batch, const Events& events) 
             continue;
         }
         flight.pieces = pieces;
-        VOXTACT_TRY(launch(flight, {items, batch.view, batch.threshold}));
+        VOXTACT_TRY(launch(flight, {items, batch.view, batch.threshold, batch.labels}));
     }
     return {};
 }
@@ -235,7 +240,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                               .room = how.room,
                               .clustersAtOnce = certified ? std::nullopt : std::optional(0U),
                               .clearances = detector.desc().clearance.has_value(),
-                              .closest = detector.desc().closest};
+                              .closest = detector.desc().closest,
+                              .labelClearances = how.labels};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));

@@ -27,6 +27,7 @@ struct PipelineDesc {
     std::uint32_t pairsPerSubmission = 1;
     bool timestamps = false;
     std::optional<OutputRoom> room = std::nullopt; ///< for a detector with outputs: of a submission
+    std::uint32_t labels = 0; ///< for a detector with DetectorDesc::labelClearances: of a batch, at most
 };
 
 /// Any number of pairs, a bounded number at a time: the next submission is recorded while others are on the device.

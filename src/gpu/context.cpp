@@ -130,9 +130,6 @@ constexpr VkPushConstantRange kRasterConstants[] = {
     {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::RasterConstants)},
     {VK_SHADER_STAGE_VERTEX_BIT, VOXTACT_OFFSET_DOMINANT, sizeof(shader::DominantConstants)},
 };
-constexpr VkPushConstantRange kComputeConstants[] = {
-    {VK_SHADER_STAGE_COMPUTE_BIT, 0, std::max(sizeof(shader::ComputeConstants), sizeof(shader::CertifiedConstants))},
-};
 
 Result<void> makeLayouts(ContextImpl& context) {
     const std::span<const VkDescriptorSetLayout> sets(context.setLayouts);

@@ -59,7 +59,9 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     Owned<VkDescriptorSetLayout> poseSetLayout;  ///< poseSetLayout()
     Owned<VkDescriptorSetLayout> setupSetLayout; ///< VOXTACT_SET_SETUP
     Owned<VkPipelineLayout> setupLayout;
-    std::array<Owned<VkPipeline>, 2> setupPipelines; ///< the second for the projection conservative
+    Owned<VkDescriptorSetLayout> labelSearchSetLayout; ///< labelSearchSetLayout()
+    Owned<VkPipelineLayout> labelSearchLayout;         ///< labelSearchLayout()
+    std::array<Owned<VkPipeline>, 2> setupPipelines;   ///< the second for the projection conservative
     Owned<VkPipelineLayout> editLayout;
     Owned<VkPipeline> editPipeline;
     Owned<VkDescriptorSetLayout> refitSetLayout;

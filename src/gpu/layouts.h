@@ -2,8 +2,16 @@
 #pragma once
 
 #include "gpu/memory.h"
+#include "shared.h"
+
+#include <algorithm>
 
 namespace voxtact {
+
+/// Of all pipelines that compute with the sets of ContextImpl::computeLayout.
+inline constexpr VkPushConstantRange kComputeConstants[] = {
+    {VK_SHADER_STAGE_COMPUTE_BIT, 0, std::max(sizeof(shader::ComputeConstants), sizeof(shader::CertifiedConstants))},
+};
 
 /// Layouts of descriptor sets and of pipelines. A bare handle is the caller's to destroy.
 [[nodiscard]] Result<void> makeSetLayout(ContextImpl& context, VkDescriptorSetLayout& out,

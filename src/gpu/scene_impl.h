@@ -116,9 +116,18 @@ struct LabelMapImpl {
     std::shared_ptr<const std::vector<std::int32_t>> values{}; ///< shared with the Results that are still to be read
     Image image{};
     Buffer staging{};
+    Buffer nodes{};        ///< labelNodes() of core/volume/label_nodes.h; empty where the device has no room for them
+    Buffer nodeStaging{};  ///< the same
     bool uploaded = false; ///< recorded
     DescriptorSet descriptors{};
+    DescriptorSet searched{}; ///< VOXTACT_SET_LABELS of clearances to labels; empty without nodes
 };
+
+/// The layout of LabelMapImpl::searched, made for the first that asks.
+[[nodiscard]] Result<VkDescriptorSetLayout> labelSearchSetLayout(ContextImpl& context);
+/// That of the pipelines that measure clearances to labels: ContextImpl::computeLayout and one set more. Unsupported,
+/// with the limit named, where the device does not allow for it.
+[[nodiscard]] Result<VkPipelineLayout> labelSearchLayout(ContextImpl& context);
 
 /// A set of ContextImpl::labelSetLayout.
 [[nodiscard]] Result<DescriptorSet> makeLabelSet(ContextImpl& context, VkImageView view, const char* name);

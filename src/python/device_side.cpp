@@ -42,7 +42,9 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.counters = question.counters;
     desc.margin = question.margin;
     desc.clearance = question.clearance;
-    desc.closest = question.clearance.has_value();
+    desc.closest = question.clearance.has_value() && !question.toLabels;
+    desc.labelClearances = question.toLabels;
+    desc.labelsAtAnyOpacity = question.labelsAtAnyOpacity;
     return desc;
 }
 
@@ -102,18 +104,19 @@ const Mesh& DeviceSide::onDevice(const std::shared_ptr<const Shape>& shape) {
 }
 
 BatchAnswer DeviceSide::detect(const Request& request, std::size_t first, std::size_t count, const Question& question,
-                               double threshold) {
+                               double threshold, std::span<const std::int32_t> labels) {
     BlockingDetector& detector = detectorFor(question);
     std::vector<BatchItem> items;
     request.forPart(first, count, [&](const Request::Item& item, std::span<const Mat4> poses) {
         items.push_back({&onDevice(item.mesh), &volume_, &function_, poses, labels_ ? &*labels_ : nullptr});
     });
-    return take(detector.detect({items, viewOf(question, volume_.grid()), threshold}));
+    return take(detector.detect({items, viewOf(question, volume_.grid()), threshold, labels}));
 }
 
-std::size_t DeviceSide::mostPairs(const Request& request, const Question& question) noexcept {
+std::size_t DeviceSide::mostPairs(const Request& request, const Question& question, std::size_t labels) noexcept {
     if (!question.outputs.triangles) {
-        return kMostPairs;
+        return labels == 0 ? kMostPairs
+                           : std::clamp<std::size_t>(kOutputBytes / (sizeof(ClearanceResult) * labels), 1, kMostPairs);
     }
     return std::clamp<std::size_t>(kOutputBytes / (sizeof(std::uint32_t) * request.mostTriangles()), 1, kMostPairs);
 }

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 
 namespace voxtact::python {
 
@@ -20,10 +21,13 @@ class DeviceSide {
 
     void setOpacity(const OpacityDesc& opacity);
     void edit(const Edit& edit);
+    /// `labels`: those that clearances are measured to.
     [[nodiscard]] BatchAnswer detect(const Request& request, std::size_t first, std::size_t count,
-                                     const Question& question, double threshold);
-    /// Pairs of one call, at most: their outputs must have room.
-    [[nodiscard]] static std::size_t mostPairs(const Request& request, const Question& question) noexcept;
+                                     const Question& question, double threshold,
+                                     std::span<const std::int32_t> labels = {});
+    /// Pairs of one call, at most: their outputs, and clearances to so many labels, must have room.
+    [[nodiscard]] static std::size_t mostPairs(const Request& request, const Question& question,
+                                               std::size_t labels = 0) noexcept;
     /// `progress` is called after some rows each; it may throw, which ends the picture.
     [[nodiscard]] Picture picture(const PictureWish& wish, const OpacityDesc& opacity);
     [[nodiscard]] const std::shared_ptr<Device>& device() const noexcept { return device_; }

@@ -77,6 +77,8 @@ struct Question {
     bool counters = false;
     double margin = 0;                        ///< mm; on a device
     std::optional<ClearanceSearch> clearance; ///< on a device
+    bool toLabels = false;                    ///< with `clearance`: of these, instead of closest points
+    bool labelsAtAnyOpacity = false;
     std::uint32_t mostContacts = 1U << 20U;
     std::optional<View> view; ///< nothing: the volume from above
 
@@ -85,11 +87,11 @@ struct Question {
         return std::tuple(projection, method, filter, boundary, outputs.triangles, outputs.contacts, outputs.bounds,
                           outputs.labels, inKey(outputs.maxDepth), samplesPerVoxel, inKey(resolution), yesNo,
                           overestimate, counters, inKey(margin), inKey(clearance ? clearance->tolerance : 0),
-                          inKey(clearance ? clearance->maximum : 0), mostContacts);
+                          inKey(clearance ? clearance->maximum : 0), toLabels, labelsAtAnyOpacity, mostContacts);
     }
     using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
                            bool, std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t,
-                           std::uint64_t, std::uint64_t, std::uint32_t>;
+                           std::uint64_t, std::uint64_t, bool, bool, std::uint32_t>;
 };
 
 /// How a clearance is measured.

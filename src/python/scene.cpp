@@ -173,7 +173,9 @@ std::shared_ptr<Clearances> Scene::clearance(std::shared_ptr<const Request> requ
 }
 
 std::shared_ptr<Clearances> Scene::clearanceByDevice(std::shared_ptr<const Request> request,
-                                                     const ClearanceSearch& search, const Progress& progress) {
+                                                     const ClearanceSearch& search,
+                                                     std::optional<std::vector<std::int32_t>> labels,
+                                                     bool labelsAtAnyOpacity, const Progress& progress) {
     const Turns::Turn turn(turns_);
     checkOpen();
     if (desc_.device == nullptr) {
@@ -183,16 +185,22 @@ std::shared_ptr<Clearances> Scene::clearanceByDevice(std::shared_ptr<const Reque
     question.method = CountingMethod::Compute;
     question.yesNo = true;
     question.clearance = search;
+    question.toLabels = labels.has_value();
+    question.labelsAtAnyOpacity = labelsAtAnyOpacity;
     DeviceSide& side = onDevice(desc_.device);
     auto found = std::make_shared<Clearances>();
     found->request = request;
-    inPieces(request->pairs, firstPiece(*request, kClearanceCost, 1), DeviceSide::mostPairs(*request, question),
-             progress, [&](std::size_t first, std::size_t count) {
-                 BatchAnswer answer = side.detect(*request, first, count, question, desc_.threshold);
-                 ClearanceAnswer piece;
-                 piece.pairs = std::move(answer.clearances);
-                 piece.wallMilliseconds = answer.wallMilliseconds;
-                 found->add(piece);
+    found->toLabels = question.toLabels;
+    found->labels = labels ? std::move(*labels) : std::vector<std::int32_t>();
+    inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), 1),
+             DeviceSide::mostPairs(*request, question, found->labels.size()), progress,
+             [&](std::size_t first, std::size_t count) {
+                 BatchAnswer answer = side.detect(*request, first, count, question, desc_.threshold, found->labels);
+                 if (question.toLabels) {
+                     found->add(LabelClearanceAnswer{std::move(answer.labelClearances), answer.wallMilliseconds});
+                 } else {
+                     found->add(ClearanceAnswer{std::move(answer.clearances), answer.wallMilliseconds});
+                 }
              });
     return found;
 }

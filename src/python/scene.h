@@ -48,8 +48,10 @@ class Scene {
     [[nodiscard]] std::shared_ptr<Clearances> clearance(std::shared_ptr<const Request> request,
                                                         const Distance& distance, const Progress& progress);
     /// By the device of a scene that has one.
-    [[nodiscard]] std::shared_ptr<Clearances>
-    clearanceByDevice(std::shared_ptr<const Request> request, const ClearanceSearch& search, const Progress& progress);
+    [[nodiscard]] std::shared_ptr<Clearances> clearanceByDevice(std::shared_ptr<const Request> request,
+                                                                const ClearanceSearch& search,
+                                                                std::optional<std::vector<std::int32_t>> labels,
+                                                                bool labelsAtAnyOpacity, const Progress& progress);
     [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,
                                                              const Distance& distance, std::vector<std::int32_t> labels,
                                                              const Progress& progress);

@@ -127,11 +127,13 @@ std::shared_ptr<Clearances> clearance(Scene& scene, const py::object& meshes, co
 }
 
 std::shared_ptr<Clearances> clearanceByDevice(Scene& scene, const py::object& meshes, const py::object& poses,
-                                              double tolerance, double maximum, const py::object& callback) {
+                                              double tolerance, double maximum,
+                                              std::optional<std::vector<std::int32_t>> labels, bool labelsAtAnyOpacity,
+                                              const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
     const Unlocked unlocked;
-    return scene.clearanceByDevice(request, {tolerance, maximum}, progress);
+    return scene.clearanceByDevice(request, {tolerance, maximum}, std::move(labels), labelsAtAnyOpacity, progress);
 }
 
 std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py::object& poses, double margin,
@@ -212,7 +214,7 @@ void defineScene(py::module_& module) {
         .def("clearance", &clearance, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("maximum"),
              py::arg("most_steps"), py::arg("labels"), py::arg("labels_at_any_opacity"), py::arg("progress"))
         .def("clearance_by_device", &clearanceByDevice, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"),
-             py::arg("maximum"), py::arg("progress"))
+             py::arg("maximum"), py::arg("labels"), py::arg("labels_at_any_opacity"), py::arg("progress"))
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("by_device"),
              py::arg("progress"))
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),

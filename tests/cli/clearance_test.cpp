@@ -3,6 +3,7 @@
 #include "cli_fixture.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 namespace voxtact::test {
@@ -272,10 +273,59 @@ TEST_F(ClearanceDeviceTest, AClearanceIsTheDevicesToo) {
         more.insert(more.end(), {"--clearance", "--count", "compute"});
         return refused(2, detect(more));
     };
-    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
-    EXPECT_THAT(line({"--labels", path("labels.nii.gz"), "--label-clearance", "l.csv"}),
-                HasSubstr("--label-clearance is answered by the host; leave out --count compute"));
     EXPECT_THAT(line({"--triangles", "t.csv"}), HasSubstr("--triangles: with --clearance --count compute"));
+}
+
+/// The host's rows, with bounds that overlap.
+TEST_F(ClearanceDeviceTest, TheClearanceToLabelsIsTheDevicesToo) {
+    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    const auto labelled = [&](const Arguments& more) {
+        Arguments asked{"--clearance",         "--tolerance",       "0.3",        "--labels",
+                        path("labels.nii.gz"), "--label-clearance", path("l.csv")};
+        asked.insert(asked.end(), more.begin(), more.end());
+        output(detect(asked));
+        return rowsOf(readText(path("l.csv")));
+    };
+    std::size_t apart = 0;
+    for (const Arguments& more :
+         {Arguments{"--max-clearance", "5"}, Arguments{"--to", "70,999,0", "--to-any-opacity"},
+          Arguments{"--to", "90,120", "--max-clearance", "30"}, Arguments{"--to", "90", "--batch", "1"}}) {
+        const auto onHost = labelled(more);
+        Arguments asked = more;
+        asked.insert(asked.end(), {"--count", "compute"});
+        auto onDevice = labelled(asked);
+        ASSERT_EQ(onDevice.size(), onHost.size());
+        for (std::size_t i = 0; i < onDevice.size(); ++i) {
+            SCOPED_TRACE(more[0] + " " + more[1] + ", row " + std::to_string(i));
+            const auto number = [i](const auto& rows, const char* name) { return std::stod(rows[i].at(name)); };
+            EXPECT_LE(number(onDevice, "clearance_lo"), number(onHost, "clearance_hi"));
+            EXPECT_GE(number(onDevice, "clearance_hi"), number(onHost, "clearance_lo"));
+            if (std::isfinite(number(onDevice, "clearance_hi"))) {
+                EXPECT_LE(number(onDevice, "clearance_hi") - number(onDevice, "clearance_lo"), 0.3001);
+                apart += number(onDevice, "clearance_lo") > 0 ? 1 : 0;
+            }
+            EXPECT_EQ(std::isinf(number(onDevice, "clearance_lo")), std::isinf(number(onHost, "clearance_lo")));
+            for (const char* bound : {"clearance_lo", "clearance_hi"}) {
+                onDevice[i][bound] = onHost[i].at(bound);
+            }
+            EXPECT_EQ(onDevice[i], onHost[i]);
+        }
+    }
+    EXPECT_GT(apart, 5U);
+    // The map is what clearances are measured to, and nothing is counted by label.
+    const Arguments whole{"--clearance",         "--max-clearance",   "5",          "--labels",
+                          path("labels.nii.gz"), "--label-clearance", path("l.csv")};
+    for (const Arguments& more : {Arguments{"--count", "compute"}, Arguments{"--answer", "yes-no"}}) {
+        Arguments asked = whole;
+        asked.insert(asked.end(), more.begin(), more.end());
+        EXPECT_EQ(rows(asked)[0].count("labels"), 0U);
+    }
+    EXPECT_EQ(rows(whole)[0].count("labels"), 1U);
+    output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
+    EXPECT_THAT(refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance",
+                                   path("other.csv"), "--count", "compute"})),
+                HasSubstr("the label map is not on the grid of the volume"));
+    EXPECT_FALSE(std::filesystem::exists(path("other.csv")));
 }
 
 /// The host's columns, and points that are as near.

@@ -15,6 +15,9 @@ namespace {
 constexpr std::uint32_t kMostContacts = 20;
 
 /// One detector asked several times: an answer that is another's would be seen. The third batch needs larger Results.
+/// Looked at with labelClearances alone.
+constexpr std::int32_t kLabels[] = {1, 12345};
+
 std::string askThrice(Play& play, const DetectorDesc& desc) {
     const Setting setting(play);
     BlockingDetector detector = play.ask("BlockingDetector::create", [&] {
@@ -25,7 +28,7 @@ std::string askThrice(Play& play, const DetectorDesc& desc) {
         const std::vector<Mat4> poses = somePoses(pairs, 0.01 * pairs);
         const BatchItem item = setting.item(poses);
         answers += textOf(play.ask("BlockingDetector::detect", [&] {
-            return detector.detect({{&item, 1}, someView(), kThreshold});
+            return detector.detect({{&item, 1}, someView(), kThreshold, kLabels});
         }));
     }
     return answers;
@@ -171,6 +174,13 @@ std::vector<Scenario> detectScenarios() {
                                                .stopAtFirst = true,
                                                .clearance = ClearanceSearch{.maximum = 1},
                                                .closest = true});
+                   }});
+    out.push_back({"compute conservative clearances to labels", [](Play& play) {
+                       return askThrice(play, {.method = CountingMethod::Compute,
+                                               .projection = Projection::Conservative,
+                                               .stopAtFirst = true,
+                                               .clearance = ClearanceSearch{.maximum = 1},
+                                               .labelClearances = true});
                    }});
     for (DetectorDesc desc : allWays()) {
         // All at once where a method or projection is first seen, one at a time by the rasteriser and certified.

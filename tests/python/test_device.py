@@ -97,6 +97,25 @@ def test_a_clearance_is_measured_by_the_device_that_is_asked(device, head, knife
         there.clearance(knife, poses, most_steps=5, method="compute")
 
 
+def test_clearances_to_labels_are_measured_by_the_device_that_is_asked(device, head, knife):
+    host, there = both(device, head, labels=head)
+    poses = random_poses(8, 36)
+    for asked in (dict(labels=[70, 999, 0]), dict(labels=[90], labels_at_any_opacity=True), dict(labels=[70], maximum=4)):
+        expected = there.clearance([(knife, poses[:3]), (knife, poses[3:])], tolerance=0.1, **asked)
+        found = there.clearance([(knife, poses[:3]), (knife, poses[3:])], tolerance=0.1, method="compute", **asked)
+        assert found.lo.shape == (8, len(asked["labels"])) and (found.labels == asked["labels"]).all()
+        assert (found.lo <= expected.hi).all() and (expected.lo <= found.hi).all()
+        np.testing.assert_array_equal(np.isinf(found.lo), np.isinf(expected.lo))
+        assert (found.item == expected.item).all() and (found.pose == expected.pose).all()
+        with pytest.raises(vx.NotReadyError, match="no closest points"):
+            found.closest
+    assert there.clearance(knife, poses, labels=[], method="compute").lo.shape == (8, 0)
+    with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
+        host.clearance(knife, poses, labels=[70], method="compute")
+    with pytest.raises(vx.LimitExceededError, match="5000 labels are asked for, one call measures at most 4096"):
+        there.clearance(knife, poses, labels=[70] * 5000, method="compute")
+
+
 @pytest.mark.parametrize("method", ["query", "atomic", "subgroup", "compute"])
 def test_methods(device, head, knife, method):
     if device.methods[method] is not None:

@@ -19,6 +19,9 @@ constexpr std::uint32_t kSubmissionsInFlight = 3;
 /// On the device and on the host.
 constexpr std::uint64_t kBytesOfContact = 2 * sizeof(ContactResult);
 
+/// The same, and unpacked.
+constexpr std::uint64_t kBytesOfLabelClearance = 2 * sizeof(ClearanceResult) + sizeof(LabelClearance);
+
 /// Of volumes that are kept for a later job: less than any device has.
 constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{512} << 20U;
 
@@ -118,11 +121,14 @@ Result<void> DeviceEngine::answer(const Window& window, WindowRows& rows, const 
         items.push_back({&scene_.meshes[options_.jobs.jobs[item.job].mesh], &volume_->volume,
                          &volume_->transferFunction, item.selected, scene_.labels ? &*scene_.labels : nullptr});
     }
-    return pipeline_.run({items, volume_->view, options_.transferFunction.threshold},
+    return pipeline_.run({items, volume_->view, options_.transferFunction.threshold, inputs_.measured},
                          {.pair = [&](const device::TimedAnswer& timed) { rows.add(timed); },
                           .submission =
                               [&](const BatchAnswer& answer) {
                                   for (const PairClearance& clearance : answer.clearances) {
+                                      rows.addClearance(clearance);
+                                  }
+                                  for (const LabelClearance& clearance : answer.labelClearances) {
                                       rows.addClearance(clearance);
                                   }
                                   rows.endBatch(answer);
@@ -146,6 +152,8 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     if (options.distance.clearance) {
         desc.clearance = options.distance.search();
         desc.closest = !options.distance.closest.empty();
+        desc.labelClearances = !options.distance.labels.empty();
+        desc.labelsAtAnyOpacity = options.distance.toAnyOpacity;
     }
     return desc;
 }
@@ -161,6 +169,11 @@ device::PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectIn
         pairsPerBatch(options, inputs, desc.frames),
         std::clamp<std::uint64_t>(inputs.pairs(options.jobs).value_or(kDefaultBatch), 1, kWindowPairs)));
     desc.timestamps = options.timing;
+    desc.labels = static_cast<std::uint32_t>(std::min<std::size_t>(inputs.measured.size(), kMostMeasuredLabels));
+    if (desc.labels > 0) {
+        desc.pairsPerSubmission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+            kMostOutputBytes / desc.frames / (desc.labels * kBytesOfLabelClearance), 1, desc.pairsPerSubmission));
+    }
     if (outputs.any()) {
         desc.room = OutputRoom{
             .triangles = outputs.triangles ? desc.pairsPerSubmission * mostTriangles(inputs) : 0,

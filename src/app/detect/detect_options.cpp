@@ -65,15 +65,12 @@ bool isDistanceOnDevice(const DetectOptions& options) {
            distance.margin.has_value() != distance.clearance;
 }
 
-/// A device says how near and where, but not to which label.
+/// A device says how near and where, and to which label; and what touches, but not how.
 Result<void> checkDeviceDistance(const DetectOptions& options) {
     const DistanceOptions& distance = options.distance;
     if (distance.margin) {
         const Result<void> margin = checkMargin(*distance.margin);
         return margin.ok() ? margin : badArgument("--margin: " + margin.error().text);
-    }
-    if (!distance.labels.empty()) {
-        return badArgument("--label-clearance is answered by the host; leave out --count compute, or give --count cpu");
     }
     if (options.extra.outputs().any()) {
         return badArgument(
@@ -115,6 +112,8 @@ Result<void> checkDistance(DetectOptions& options) {
             "--margin: with --pose-tolerance the distance is its first number; leave out one of the two");
     }
     const std::string option = distance.clearance ? "--clearance" : distance.margin ? "--margin" : "--pose-tolerance";
+    options.extra.labelsOnlyMeasured =
+        !distance.labels.empty() && (options.answer == "yes-no" || isDistanceOnDevice(options));
     MethodOptions& method = options.method;
     if (method.count && !rowOf(*method.count).host && !isDistanceOnDevice(options)) {
         return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +

@@ -33,7 +33,8 @@ constexpr std::array kAsking{
     Asking{"--contacts", &Outputs::contacts, [](const ExtraOptions& given) { return !given.contacts.empty(); }},
     Asking{"--triangles", &Outputs::triangles, [](const ExtraOptions& given) { return !given.triangles.empty(); }},
     Asking{"--bounds", &Outputs::bounds, [](const ExtraOptions& given) { return given.asked.bounds; }},
-    Asking{"--labels", &Outputs::labels, [](const ExtraOptions& given) { return !given.labels.empty(); }},
+    Asking{"--labels", &Outputs::labels,
+           [](const ExtraOptions& given) { return !given.labels.empty() && !given.labelsOnlyMeasured; }},
 };
 
 ExtraAnswers& keptOf(Row& row) {

@@ -230,6 +230,13 @@ shader::CertifiedItem withClearance(shader::CertifiedItem item, const Grid& grid
     return item;
 }
 
+shader::CertifiedItem withAnyOpacity(shader::CertifiedItem item) noexcept {
+    item.entryScale = 0; // all values are alike, and certain
+    item.entryBias = 0;
+    item.threshold = -1;
+    return item;
+}
+
 Result<void> checkTolerance(double tolerance) {
     constexpr double kLeastTolerance = 1e-6;
     if (!(tolerance >= kLeastTolerance && tolerance < kInfinity)) {

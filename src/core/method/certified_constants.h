@@ -47,4 +47,7 @@ namespace voxtact {
 [[nodiscard]] shader::CertifiedItem withClearance(shader::CertifiedItem item, const Grid& grid,
                                                   double tolerance) noexcept;
 
+/// An item all of which is opaque, whatever its table says: what is no number is not.
+[[nodiscard]] shader::CertifiedItem withAnyOpacity(shader::CertifiedItem item) noexcept;
+
 } // namespace voxtact

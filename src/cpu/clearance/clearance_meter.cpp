@@ -7,6 +7,7 @@
 #include "core/geometry/closest_gradient.h"
 #include "core/geometry/glm_bridge.h"
 #include "core/method/certified_constants.h"
+#include "core/volume/label_grid.h"
 #include "cpu/batch_check.h"
 #include "cpu/clearance/label_fingerprint.h"
 #include "cpu/clearance/label_part.h"
@@ -175,16 +176,12 @@ LabelSets setsOf(ClearanceMeterImpl& impl, const BatchItem& item, const std::sha
 }
 
 Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_t> labels) {
-    if (labels.size() > kMostMeasuredLabels) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     std::to_string(labels.size()) + " labels are asked for, one call measures at most " +
-                         std::to_string(kMostMeasuredLabels) + "; ask for fewer"};
-    }
+    VOXTACT_TRY(voxtact::checkMeasuredLabels(labels));
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const BatchItem& item = batch.items[i];
         const std::string which = "batch item " + std::to_string(i);
         if (item.labels == nullptr) {
-            return refuse(which + ": labels is null, and clearances to labels are asked for");
+            return noLabelsToMeasure(which);
         }
         VOXTACT_TRY(checkLabelsOnGrid(*item.labels, item.volume->grid(), which));
     }

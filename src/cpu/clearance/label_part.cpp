@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/clearance/label_part.h"
 
-#include "core/base/try.h"
+#include "core/volume/label_grid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace voxtact::cpu {
@@ -142,28 +141,10 @@ LabelSet allLabels(const OpaquePart& part, const VolumeImpl& volume, const Label
 }
 
 Result<void> checkLabelsOnGrid(const LabelData& labels, const Grid& grid, const std::string& which) {
-    constexpr double kApart = 1e-4; // voxels
-    const Grid& own = labels.grid;
-    const Error refused{ErrorCode::Unsupported, 0,
-                        which + ": the label map is not on the grid of the volume; resample it to that"};
-    if (grid.size != own.size || labels.indices.size() != voxelCount(own)) {
-        return refused;
+    if (labels.indices.size() != voxelCount(labels.grid)) {
+        return notOnGrid(which);
     }
-    const Result<Mat4> texture = textureFromWorld(grid);
-    VOXTACT_TRY(texture);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        Vec3 voxel{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            voxel[axis] = (corner >> axis & 1U) != 0 ? own.size[axis] - 1.0 : 0.0;
-        }
-        const Vec3 there = transformPoint(*texture, transformPoint(worldFromIndex(own), voxel));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(there[axis] * grid.size[axis] - 0.5 - voxel[axis]) <= kApart)) {
-                return refused;
-            }
-        }
-    }
-    return {};
+    return checkLabelGrid(labels.grid, grid, which);
 }
 
 } // namespace voxtact::cpu

@@ -81,8 +81,7 @@ class SearchedPart {
     const std::uint8_t* with_ = nullptr;
 };
 
-/// Refuses a label map that is not on a volume's grid. Two files of one grid may differ in its last digits: voxels that
-/// are less than a ten-thousandth of one apart are the same. `which` begins the text of a refusal.
+/// Refuses a label map that is not on a volume's grid, as checkLabelGrid() does. `which` begins the text of a refusal.
 [[nodiscard]] Result<void> checkLabelsOnGrid(const LabelData& labels, const Grid& grid, const std::string& which);
 
 /// Sets of a single label each. `indices`: numbers of labels in LabelData::values. The map is on the volume's grid.

@@ -279,12 +279,10 @@ class Scene:
             a pose that takes more is left with the bounds that it has
         method
             "cpu": the host engine measures, also for scenes on a device; "compute": that device does, in single precision and without
-            labels and `most_steps`; its closest points are no farther apart than `hi`
+            `most_steps`; its closest points are no farther apart than `hi`
         """
         _check_method(method, "a clearance is measured")
         by_device = method == "compute"
-        if by_device and labels is not None:
-            raise InvalidArgumentError("clearances to labels are measured by 'cpu' alone: leave out method='compute'")
         if by_device and most_steps != core.DEFAULT_MOST_STEPS:
             raise InvalidArgumentError("most_steps is about the host's search: leave it out, or method='compute'")
         wanted: Optional[list[int]] = None
@@ -300,7 +298,7 @@ class Scene:
         with told(progress, pairs_in(meshes, matrices)) as tell:
             if by_device:
                 return Clearance(self._core.clearance_by_device(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"),
-                                                                tell))
+                                                                wanted, bool(labels_at_any_opacity), tell))
             return Clearance(self._core.clearance(meshes, matrices, number(tolerance, "tolerance"), number(maximum, "maximum"), steps, wanted,
                                                   bool(labels_at_any_opacity), tell))
 

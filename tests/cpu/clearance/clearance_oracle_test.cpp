@@ -3,6 +3,7 @@
 #include "cpu/scenes/certified_scenes.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/margin_cases.h"
+#include "cpu/scenes/random_labels.h"
 #include "cpu/scenes/random_scene.h"
 #include "oracle/clearance_oracle.h"
 #include "support/scenes.h"
@@ -138,17 +139,6 @@ TEST(ClearanceOracle, PointsOfAThinPartAreAsFarApartAsTheBoundsSay) {
         EXPECT_GT(says.bounds.lo, 1);
         checkClosest(c, says, 1e-12 * largestCoordinate(c.scene));
     }
-}
-
-/// A map of a few labels on the scene's grid.
-LabelData randomLabels(std::mt19937_64& random, const Grid& grid) {
-    const std::uint64_t key = random();
-    const std::size_t size = 1 + below(random, 3);
-    return take(makeLabels(makeBytes(grid, [&](auto x, auto y, auto z) {
-                               std::uint64_t h = key ^ (x / size + 31ULL * (y / size) + 1009ULL * (z / size));
-                               h = (h ^ h >> 31U) * 0x9e3779b97f4a7c15ULL;
-                               return static_cast<double>((h >> 40U) % 4);
-                           }).view()));
 }
 
 TEST(ClearanceOracle, TheTruthOfLabelsIsBetweenTheirBounds) {

@@ -11,6 +11,7 @@
 
 #include <cstring>
 #include <iostream>
+#include <limits>
 
 namespace voxtact::test {
 namespace {
@@ -249,6 +250,62 @@ TEST_F(CGpuTest, MeasuresHowNear) {
         need(vxt_results_on_device(both.get(), VXT_DEVICE_CLOSEST, &range));
         EXPECT_EQ(range.size, wanted * 3 * 48U);
     }
+}
+
+TEST_F(CGpuTest, MeasuresHowNearLabelsAre) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    RandomScene scene = halfOpaque(); // up to x = 0.5; the map has the label 0 up to there, and 3 beyond
+    scene.poses = {translation({0.7, 0, 0})};
+    const CScene sides(context_.get(), queue_, scene,
+                       makeBytes(scene.volume.grid, [](std::uint32_t x, auto, auto) { return x < 2 ? 0.0 : 3.0; }));
+    COneItem item(sides, scene);
+    const std::int32_t labels[] = {3, 0, 5};
+    item.batch.labels = labels;
+    item.batch.label_count = std::size(labels);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    EXPECT_EQ(desc.label_clearances, 0U);
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.stop_at_first = 1;
+    desc.label_clearances = 1;
+    vxt_detector* none = nullptr;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+    desc.clearance_tolerance = 0.002;
+    const Owned<vxt_answer> answer = newAnswer();
+    const auto clearances = made<vxt_clearances>(vxt_clearances_destroy, vxt_clearances_create);
+    vxt_clearance_view view = vxt_clearance_view_init();
+    for (const bool any : {false, true}) {
+        desc.labels_at_any_opacity = any ? 1 : 0;
+        need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+        need(vxt_answer_clearances(answer.get(), clearances.get()));
+        need(vxt_clearances_get(clearances.get(), &view));
+        EXPECT_EQ(view.pair_count, 1U);
+        ASSERT_EQ(view.label_count, 3U);
+        EXPECT_EQ(view.labels[0].label, 3);
+        // What of it is opaque is the border at 0.5; all of it is touched.
+        EXPECT_LE(view.labels[0].lo, any ? 0 : 0.201);
+        EXPECT_LE(view.labels[0].hi, any ? 0.001 : std::numeric_limits<double>::infinity());
+        EXPECT_LE(view.labels[1].lo, 0.201);
+        EXPECT_GE(view.labels[1].hi, 0.199);
+        EXPECT_LE(view.labels[1].hi - view.labels[1].lo, 0.002);
+        EXPECT_EQ(view.labels[1].end, VXT_CLEARANCE_CLOSED);
+        EXPECT_EQ(view.labels[2].label, 5);
+        EXPECT_EQ(view.labels[2].lo, std::numeric_limits<double>::infinity());
+    }
+    item.batch.labels = nullptr;
+    EXPECT_EQ(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()),
+              VXT_ERROR_INVALID_ARGUMENT);
+
+    vxt_results_desc room = vxt_results_desc_init();
+    room.max_pairs = 3;
+    room.clearances = 1;
+    room.label_clearances = 2;
+    vxt_buffer_range range{};
+    need(vxt_results_on_device(newResults(room).get(), VXT_DEVICE_LABEL_CLEARANCES, &range));
+    EXPECT_EQ(range.size, 3U * 2 * 16);
 }
 
 TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {

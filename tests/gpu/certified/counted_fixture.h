@@ -14,6 +14,7 @@ namespace voxtact::test {
 struct Answered {
     std::vector<PairAnswer> pairs;
     std::vector<PairClearance> clearances;
+    std::vector<LabelClearance> labels;
     CertifiedCounters counters{};
 };
 
@@ -37,7 +38,8 @@ class CertifiedTest : public RawGpuTest {
         Results results = take(Results::create(context(), {.maxPairs = pairs,
                                                            .clustersAtOnce = clusters,
                                                            .clearances = desc.clearance.has_value(),
-                                                           .closest = desc.closest}));
+                                                           .closest = desc.closest,
+                                                           .labelClearances = labelRoom(desc, batch)}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));
@@ -49,11 +51,20 @@ class CertifiedTest : public RawGpuTest {
         if (desc.clearance) {
             out.clearances = take(results.readClearances());
         }
+        EXPECT_EQ(results.measuredLabels(), desc.labelClearances);
+        if (desc.labelClearances) {
+            out.labels = take(results.readLabelClearances());
+        }
         EXPECT_EQ(results.counted(), desc.counters);
         if (desc.counters) {
             out.counters = take(results.counters());
         }
         return out;
+    }
+
+  private:
+    static std::uint32_t labelRoom(const DetectorDesc& desc, const Batch& batch) {
+        return desc.labelClearances ? static_cast<std::uint32_t>(batch.labels.size()) : 0;
     }
 };
 
