@@ -34,6 +34,11 @@ typedef struct vxt_detector_desc {
     double max_clearance; ///< with clearance_tolerance, mm: what is farther is not measured; 0, the default: all is
     uint32_t closest;     ///< with clearance_tolerance: closest points, too; the results need room for them; default 0
     uint32_t reserved;    ///< 0
+    /// CONSERVATIVE with stop_at_first, without outputs and a margin: whether anything touches at some pose that is
+    /// turned by no more than so many degrees, 0 to 180, about any axis through its object's origin, and then moved by
+    /// no more than so many mm, 0 to 1e6. 0 and 0, the default: the pose itself
+    double pose_angle;
+    double pose_distance; ///< with pose_angle
 } vxt_detector_desc;
 
 /// A view by precise queries.
