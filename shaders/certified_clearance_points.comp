@@ -55,7 +55,7 @@ VoxelPoint closestOf(CertifiedPair transform, uint triangle, VoxelPoint cell, Vo
         // Less the whole numbers first.
         corners[i] = voxelDifference(voxelDifference(vertexAt(transform, 3 * triangle + i), cell), at);
     }
-    const MarginTriangle about = MarginTriangle(corners[0], corners[1], corners[2], 0.0);
+    const MarginTriangle about = MarginTriangle(corners[0], corners[1], corners[2], voxelPoint(0.0, 0.0, 0.0), 0.0);
     return marginNear(space(), about, voxelPoint(0.0, 0.0, 0.0)).at;
 }
 

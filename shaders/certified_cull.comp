@@ -2,9 +2,9 @@
 // The projection `conservative`, what of a mesh may touch: a lane a cluster of a pair, or, with RUNS, a run of a cluster
 // that was kept. Those whose boxes meet a brick that may be opaque go on to the next pass. Where stopAtFirst is wanted,
 // a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its pair. With
-// MARGIN the boxes are grown by it, and what is as far from the vertex along the grid's axes is looked at as well. With
-// CLEARANCE those go on that may be nearer to something opaque than what is known of their pair; SCOUT is the first step,
-// which ends here.
+// MARGIN the boxes are grown by it, with TURN by how far a turn brings them, too, and what is as far from the vertex
+// along the grid's axes is looked at as well. With CLEARANCE those go on that may be nearer to something opaque than what
+// is known of their pair; SCOUT is the first step, which ends here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -117,7 +117,7 @@ bool mayTouch(CellBox cells) {
 
 /// Whether the place `at` is opaque, and so proves a touch: it is the vertex, or, with a margin, within that of it.
 /// `delta`: by what the vertex may be off.
-bool placeProves(VoxelPoint vertex, VoxelPoint at, float delta) {
+bool placeProves(uint pair, VoxelPoint vertex, VoxelPoint at, float delta) {
     const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
     const vec3 place = vec3(at.x, at.y, at.z);
     if (!(all(greaterThanEqual(place, vec3(-0.5))) && all(lessThanEqual(place, vec3(last) + 0.5)))) {
@@ -133,7 +133,7 @@ bool placeProves(VoxelPoint vertex, VoxelPoint at, float delta) {
         return false;
     }
 #ifdef MARGIN
-    return marginProbeProves(opacities(), marginOf(constants.item), known, vertex, at,
+    return marginProbeProves(opacities(), MARGIN_SPACE(pair), known, vertex, at,
                              voxelPoint(float(cell.x), float(cell.y), float(cell.z)), delta);
 #else
     CertifiedWitness witness;
@@ -143,12 +143,17 @@ bool placeProves(VoxelPoint vertex, VoxelPoint at, float delta) {
 
 #ifdef MARGIN
 /// Whether a brick that is within the margin of a vertex, all of it, has something opaque.
-bool bricksProve(VoxelPoint vertex, float delta) {
-    const MarginSpace by = marginOf(constants.item);
+bool bricksProve(uint pair, VoxelPoint vertex, float delta) {
+    const MarginSpace by = MARGIN_SPACE(pair);
     const CellBox box = bricksOf(cellsOf(marginBounds(constants.item, by, CertifiedReach(vertex, vertex, delta))));
+    const float least = min(by.grow.x, min(by.grow.y, by.grow.z));
+#ifdef TURN
+    const bool wide = least * by.margin >= MARGIN_BRICK_RADIUS;
+#else
+    const bool wide = least >= MARGIN_BRICK_RADIUS;
+#endif
     const bool sensible = constants.item.storedUnit > 0.0 && // whole numbers: none is NaN
-                          min(by.grow.x, min(by.grow.y, by.grow.z)) >= MARGIN_BRICK_RADIUS && !isEmpty(box) &&
-                          all(lessThan(box.hi - box.lo, ivec3(kMostBricksOfABox)));
+                          wide && !isEmpty(box) && all(lessThan(box.hi - box.lo, ivec3(kMostBricksOfABox)));
     const int count = sensible ? volumeOf(box) : 0;
     bool found = false;
     for (int i = 0; i < min(count, kMostBricksOfABox) && !found; ++i) {
@@ -163,17 +168,17 @@ bool bricksProve(VoxelPoint vertex, float delta) {
 #endif
 
 /// Whether the first vertex of a node proves a touch; `delta` is no less than that of the node's triangles.
-bool vertexProves(CertifiedPair transform, uint number, float delta) {
-    const vec3 position = positionOf(constants.mesh, 3 * triangleAt(number * kNodeTriangles));
-    const VoxelPoint at = certifiedVertex(transform, position.x, position.y, position.z).point;
+bool vertexProves(Node node, float delta) {
+    const vec3 position = positionOf(constants.mesh, 3 * triangleAt(node.number * kNodeTriangles));
+    const VoxelPoint at = certifiedVertex(transforms[node.pair], position.x, position.y, position.z).point;
 #ifdef MARGIN
-    bool found = bricksProve(at, delta);
+    bool found = bricksProve(node.pair, at, delta);
     for (int probe = 0; probe < MARGIN_PROBES && !found; ++probe) {
-        found = placeProves(at, marginProbe(marginOf(constants.item), at, probe), delta);
+        found = placeProves(node.pair, at, marginProbe(MARGIN_SPACE(node.pair), at, probe), delta);
     }
     return found;
 #else
-    return placeProves(at, at, delta);
+    return placeProves(node.pair, at, at, delta);
 #endif
 }
 
@@ -220,14 +225,13 @@ void main() {
     if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
         const CertifiedPair transform = transforms[node.pair];
 #ifdef MARGIN
-        const CertifiedBounds bounds = marginBounds(constants.item, marginOf(constants.item),
+        const CertifiedBounds bounds = marginBounds(constants.item, MARGIN_SPACE(node.pair),
                                                     certifiedBoxReach(transform, boxOf(node.number)));
 #else
         const CertifiedBounds bounds = certifiedBoxBounds(constants.item, transform, boxOf(node.number));
 #endif
         keep = mayTouch(cellsOf(bounds));
-        if (kStopAtFirst && kVertexSays && keep && bounds.usable &&
-            vertexProves(transform, node.number, bounds.delta)) {
+        if (kStopAtFirst && kVertexSays && keep && bounds.usable && vertexProves(node, bounds.delta)) {
             keepVertex(node);
             atomicOr(results[node.pair].countLow, 1u);
             atomicOr(proven, 1u);

@@ -10,10 +10,14 @@
 // Whatever the direction y, two bodies are as far apart as the gap between their shadows on it, over the length of y:
 // so a direction need not be the best one for what follows from it to be true. Gaps are compared as squares; nothing is
 // divided, and no root taken, in what decides.
+//
+// With TURN the mesh may also be turned, about a point and by no more than an angle: its shadow is longer by what
+// certified_turn.h says, corner by corner, and what it is within the margin of is turned towards it first.
 #ifndef VOXTACT_CERTIFIED_MARGIN_H
 #define VOXTACT_CERTIFIED_MARGIN_H
 
 #include "certified.h"
+#include "certified_turn.h"
 
 /// Of the largest coordinate from where things are measured, in voxels: more than rounding moves a point, a shadow or a
 /// point of a triangle by. The sums have 3 terms and some 16 roundings of 2^-24 one after the other.
@@ -40,6 +44,11 @@ struct MarginSpace {
     VoxelPoint grow;              // voxels along each axis that the margin reaches, rounded up
     float margin;                 // flat
     float size;                   // of the matrix: no vector becomes longer than that times its largest component
+    VoxelPoint pivot;             // with TURN, what it turns about. Then `grow` is that of a margin of 1, flat
+#ifdef TURN
+    float pivotError; // voxels, along each axis
+    TurnLimit turn;
+#endif
 };
 
 EXACT MarginSpace marginOf(CertifiedItem item) {
@@ -56,27 +65,8 @@ EXACT MarginSpace marginOf(CertifiedItem item) {
     PRECISE float yz = certifiedAbs(by.yy) + certifiedAbs(by.yz) + certifiedAbs(by.zz);
     PRECISE float size = x + yz;
     by.size = size;
+    by.pivot = voxelPoint(0.0f, 0.0f, 0.0f);
     return by;
-}
-
-EXACT float voxelDot(VoxelPoint a, VoxelPoint b) {
-    PRECISE float sum = a.x * b.x + a.y * b.y + a.z * b.z;
-    return sum;
-}
-
-/// a + b * weight.
-EXACT VoxelPoint voxelStep(VoxelPoint a, VoxelPoint b, float weight) {
-    PRECISE float x = a.x + b.x * weight;
-    PRECISE float y = a.y + b.y * weight;
-    PRECISE float z = a.z + b.z * weight;
-    return voxelPoint(x, y, z);
-}
-
-EXACT VoxelPoint voxelCross(VoxelPoint a, VoxelPoint b) {
-    PRECISE float x = a.y * b.z - a.z * b.y;
-    PRECISE float y = a.z * b.x - a.x * b.z;
-    PRECISE float z = a.x * b.y - a.y * b.x;
-    return voxelPoint(x, y, z);
 }
 
 /// A vector of voxel space in flat space.
@@ -102,14 +92,63 @@ EXACT float marginSlack(MarginSpace by, float delta, float reach) {
     return slack;
 }
 
+#ifdef TURN
+/// The same, of what turns about `pivot`: by what that is off, a place that is turned is off by no more than twice, and
+/// rounding is of arms from there, too.
+EXACT float marginMovedSlack(MarginSpace by, VoxelPoint pivot, float delta, float reach) {
+    PRECISE float off = delta + by.pivotError * 2.0f;
+    PRECISE float farthest = (voxelLength(pivot) + reach) * 2.0f + reach;
+    return marginSlack(by, off, farthest);
+}
+
+/// No vector of voxel space whose components are no larger is longer, flat.
+EXACT float marginLongest(MarginSpace by, VoxelPoint most) {
+    PRECISE float x = certifiedAbs(by.xx) * most.x + certifiedAbs(by.xy) * most.y + certifiedAbs(by.xz) * most.z;
+    PRECISE float y = certifiedAbs(by.yy) * most.y + certifiedAbs(by.yz) * most.z;
+    PRECISE float z = certifiedAbs(by.zz) * most.z;
+    return turnLength(voxelPoint(x, y, z));
+}
+
+/// Voxels along each axis that the margin and a turn reach from all that is in a box.
+EXACT VoxelPoint marginGrow(MarginSpace by, CertifiedReach reach) {
+    const VoxelPoint arm = voxelPoint(certifiedFarther(reach.lo.x, reach.hi.x, by.pivot.x),
+                                      certifiedFarther(reach.lo.y, reach.hi.y, by.pivot.y),
+                                      certifiedFarther(reach.lo.z, reach.hi.z, by.pivot.z));
+    const float slack = marginMovedSlack(by, by.pivot, reach.delta, voxelLength(arm));
+    PRECISE float most = by.margin + (marginLongest(by, arm) + slack) * by.turn.chord + slack;
+    PRECISE float outward = most * MARGIN_OUTWARD;
+    return voxelStep(voxelPoint(0.0f, 0.0f, 0.0f), by.grow, outward);
+}
+
+/// The way to a point from what is `near` it, which is turned towards it first. Flat.
+EXACT VoxelPoint marginWay(MarginSpace by, VoxelPoint pivot, VoxelPoint near, VoxelPoint at) {
+    const VoxelPoint wanted = marginFlat(by, voxelDifference(at, pivot));
+    const VoxelPoint arm = marginFlat(by, voxelDifference(near, pivot));
+    return voxelDifference(wanted, turnTowards(by.turn, arm, wanted));
+}
+#else
+EXACT float marginMovedSlack(MarginSpace by, VoxelPoint, float delta, float reach) {
+    return marginSlack(by, delta, reach);
+}
+
+EXACT VoxelPoint marginGrow(MarginSpace by, CertifiedReach) {
+    return by.grow;
+}
+
+EXACT VoxelPoint marginWay(MarginSpace by, VoxelPoint, VoxelPoint near, VoxelPoint at) {
+    return marginFlat(by, voxelDifference(at, near));
+}
+#endif
+
 /// The cells within the margin of what `reach` says of a triangle or a box.
 EXACT CertifiedBounds marginBounds(CertifiedItem item, MarginSpace by, CertifiedReach reach) {
     CertifiedBounds bounds;
     bounds.delta = reach.delta;
     bounds.usable = reach.delta <= CERTIFIED_MOST_DELTA;
-    PRECISE float x = reach.delta + by.grow.x;
-    PRECISE float y = reach.delta + by.grow.y;
-    PRECISE float z = reach.delta + by.grow.z;
+    const VoxelPoint grow = marginGrow(by, reach);
+    PRECISE float x = reach.delta + grow.x;
+    PRECISE float y = reach.delta + grow.y;
+    PRECISE float z = reach.delta + grow.z;
     certifiedCells(reach.lo.x, reach.hi.x, x, item.sizeX, bounds.firstX, bounds.lastX);
     certifiedCells(reach.lo.y, reach.hi.y, y, item.sizeY, bounds.firstY, bounds.lastY);
     certifiedCells(reach.lo.z, reach.hi.z, z, item.sizeZ, bounds.firstZ, bounds.lastZ);
@@ -128,7 +167,8 @@ EXACT CertifiedReach marginUnion(CertifiedReach a, CertifiedReach b) {
 /// A triangle about some point: where a box of voxel space is looked at.
 struct MarginTriangle {
     VoxelPoint a, b, c;
-    float slack; // flat: of distances from it to points of the box
+    VoxelPoint pivot; // with TURN
+    float slack;      // flat: of distances from it to points of the box
 };
 
 /// `reach`: of the box's coordinates, about `origin`, the largest.
@@ -139,13 +179,15 @@ EXACT MarginTriangle marginTriangle(MarginSpace by, CertifiedTriangle triangle, 
     about.c = voxelDifference(triangle.corner2, origin);
     PRECISE float farthest =
         certifiedMax(voxelLength(about.a), certifiedMax(voxelLength(about.b), voxelLength(about.c))) + reach;
-    about.slack = marginSlack(by, triangle.delta, farthest);
+    about.pivot = voxelDifference(by.pivot, origin);
+    about.slack = marginMovedSlack(by, about.pivot, triangle.delta, farthest);
     return about;
 }
 
 /// What is nearest to a point in a triangle, or about that.
 struct MarginNear {
     VoxelPoint at;    // a point of the triangle, whatever rounding did
+    VoxelPoint moved; // where it gets: with TURN, turned towards the other; else the same
     VoxelPoint along; // flat: the direction from there, of no particular length
     float shadow;     // of the triangle on it, about the point: the greatest
 };
@@ -155,14 +197,11 @@ EXACT float marginInverse(float value) {
     return value > 1.0e-30f && value < 1.0e30f ? exactReciprocal(value) : 0.0f;
 }
 
-EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
-    const VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
-    VoxelPoint corners[3];
-    for (int i = 0; i < 3; ++i) {
-        corners[i] = marginFlat(by, voxelDifference(voxels[i], from));
-    }
+/// What is nearest to the origin of `corners`, which are flat, in the triangle that has the corners `voxels`; `along`
+/// is not the direction from there, but to there.
+EXACT MarginNear marginNearest(ARRAY(VoxelPoint, voxels, 3), ARRAY(VoxelPoint, corners, 3)) {
     MarginNear near;
-    near.at = triangle.a;
+    near.at = voxels[0];
     near.along = corners[0];
     float least = 3.0e38f;
     for (int i = 0; i < 3; ++i) {
@@ -193,14 +232,76 @@ EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint 
     if (inverse > 0.0f && second >= 0.0f && third >= 0.0f && second + third <= 1.0f) {
         PRECISE float height = voxelDot(normal, corners[0]) * inverse;
         near.along = voxelStep(voxelPoint(0.0f, 0.0f, 0.0f), normal, height);
-        near.at = voxelStep(voxelStep(triangle.a, voxelDifference(triangle.b, triangle.a), second),
-                            voxelDifference(triangle.c, triangle.a), third);
+        near.at = voxelStep(voxelStep(voxels[0], voxelDifference(voxels[1], voxels[0]), second),
+                            voxelDifference(voxels[2], voxels[0]), third);
     }
+    near.moved = near.at;
+    near.shadow = 0.0f;
+    return near;
+}
+
+#ifdef TURN
+/// A vector of flat space in voxel space.
+EXACT VoxelPoint marginUnflat(MarginSpace by, VoxelPoint v) {
+    PRECISE float z = v.z * marginInverse(by.zz);
+    PRECISE float y = (v.y - by.yz * z) * marginInverse(by.yy);
+    PRECISE float x = (v.x - by.xy * y - by.xz * z) * marginInverse(by.xx);
+    return voxelPoint(x, y, z);
+}
+
+/// Of the way from the nearest point to the triangle's middle: where a turn of it would bring that which does not turn
+/// itself.
+#define MARGIN_BEFORE_MIDDLE 0.015625f
+
+/// Turned to where its nearest point gets nearest, another point of the triangle is: it is found by turning the other
+/// one back. From there it is turned once more.
+EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
+    VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
+    VoxelPoint corners[3];
+    VoxelPoint shifted[3];
+    for (int i = 0; i < 3; ++i) {
+        corners[i] = marginFlat(by, voxelDifference(voxels[i], from));
+        shifted[i] = corners[i];
+    }
+    const VoxelPoint wanted = marginFlat(by, voxelDifference(from, triangle.pivot));
+    const VoxelPoint twoCorners = voxelStep(corners[0], corners[1], 1.0f);
+    const VoxelPoint middle = voxelStep(voxelStep(wanted, twoCorners, 0.333333f), corners[2], 0.333333f);
+    MarginNear near;
+    VoxelPoint arm = wanted;
+    for (int turn = 0; turn < 2; ++turn) {
+        near = marginNearest(voxels, shifted);
+        arm = marginFlat(by, voxelDifference(near.at, triangle.pivot));
+        const VoxelPoint before = voxelStep(arm, voxelDifference(middle, arm), MARGIN_BEFORE_MIDDLE);
+        const VoxelPoint less = voxelDifference(turnTowards(by.turn, wanted, before), wanted);
+        for (int i = 0; i < 3; ++i) {
+            shifted[i] = voxelDifference(corners[i], less);
+        }
+    }
+    near.along = voxelDifference(wanted, turnTowards(by.turn, arm, wanted));
+    const VoxelPoint back = marginUnflat(by, near.along);
+    near.moved = voxelDifference(from, back);
+    near.shadow = -3.0e38f;
+    for (int i = 0; i < 3; ++i) {
+        const VoxelPoint own = marginFlat(by, voxelDifference(voxels[i], triangle.pivot));
+        PRECISE float shadow = voxelDot(near.along, corners[i]) + turnSurplus(by.turn, near.along, own);
+        near.shadow = certifiedMax(near.shadow, shadow);
+    }
+    return near;
+}
+#else
+EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
+    VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
+    VoxelPoint corners[3];
+    for (int i = 0; i < 3; ++i) {
+        corners[i] = marginFlat(by, voxelDifference(voxels[i], from));
+    }
+    MarginNear near = marginNearest(voxels, corners);
     near.along = voxelPoint(-near.along.x, -near.along.y, -near.along.z);
     near.shadow = certifiedMax(voxelDot(near.along, corners[0]),
                                certifiedMax(voxelDot(near.along, corners[1]), voxelDot(near.along, corners[2])));
     return near;
 }
+#endif
 
 /// Whether a gap between shadows on a direction whose square is `square` proves that what they are of is farther apart
 /// than the margin.
@@ -211,13 +312,30 @@ EXACT bool marginBeyond(MarginSpace by, float slack, float gap, float square) {
     return square >= MARGIN_LEAST_SQUARE && gap > 0.0f && gapSquare > reached;
 }
 
-/// Whether a point is certainly within the margin of a triangle that has the point `near`.
-EXACT bool marginWithin(MarginSpace by, float slack, VoxelPoint near, VoxelPoint at) {
-    const VoxelPoint way = marginFlat(by, voxelDifference(at, near));
+/// Whether a point is certainly within the margin of a triangle that has the point `near`; with TURN, of that turned
+/// towards it about `pivot`.
+EXACT bool marginWithin(MarginSpace by, VoxelPoint pivot, float slack, VoxelPoint near, VoxelPoint at) {
+    const VoxelPoint way = marginWay(by, pivot, near, at);
     PRECISE float most = by.margin * MARGIN_INWARD - slack;
     PRECISE float square = most * most * MARGIN_INWARD;
     return most > 0.0f && voxelDot(way, way) <= square;
 }
+
+#ifdef TURN
+/// Whether a move within the margin certainly brings what is turned, of `near` about `from`, into a box, although a
+/// distance may be off by `slack`: once for where it is, and once for how far it moves. The margin may be 0.
+EXACT bool marginInto(MarginSpace by, float slack, MarginNear near, VoxelPoint from, VoxelPoint lo, VoxelPoint hi) {
+    const VoxelPoint least = voxelStep(lo, by.grow, slack * 2.0f);
+    const VoxelPoint most = voxelStep(hi, by.grow, -slack * 2.0f);
+    const VoxelPoint place =
+        voxelPoint(certifiedClamp(near.moved.x, least.x, most.x), certifiedClamp(near.moved.y, least.y, most.y),
+                   certifiedClamp(near.moved.z, least.z, most.z));
+    const VoxelPoint way = voxelStep(near.along, marginFlat(by, voxelDifference(place, from)), 1.0f);
+    PRECISE float nearest = by.margin * MARGIN_INWARD;
+    PRECISE float square = nearest * nearest + slack * slack;
+    return least.x < most.x && least.y < most.y && least.z < most.z && voxelDot(way, way) <= square;
+}
+#endif
 
 /// The least that a direction says of a box: `pulled` is the direction, about the box's middle.
 EXACT float marginBoxShadow(VoxelPoint pulled, VoxelPoint radius) {
@@ -261,12 +379,38 @@ struct MarginApart {
     float slack;  // flat
 };
 
+#ifdef TURN
+/// The direction from where the point of a box that is nearest to another gets, to that; without a turn it is `apart`,
+/// flat.
+EXACT VoxelPoint marginAlongTurned(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint apart) {
+    const VoxelPoint near =
+        voxelPoint(certifiedClamp(middle.x, reach.lo.x, reach.hi.x), certifiedClamp(middle.y, reach.lo.y, reach.hi.y),
+                   certifiedClamp(middle.z, reach.lo.z, reach.hi.z));
+    const VoxelPoint arm = marginFlat(by, voxelDifference(near, by.pivot));
+    const VoxelPoint wanted = voxelStep(arm, apart, 1.0f);
+    return voxelDifference(wanted, turnTowards(by.turn, arm, wanted));
+}
+
+/// What a turn adds to the shadow of all that is in a box: to that of its middle, and of what is about this.
+EXACT float marginTurnSurplus(MarginSpace by, CertifiedReach reach, VoxelPoint along) {
+    const VoxelPoint middle = voxelStep(reach.lo, voxelDifference(reach.hi, reach.lo), 0.5f);
+    const VoxelPoint about = voxelDifference(reach.hi, middle);
+    PRECISE float surplus = turnSurplus(by.turn, along, marginFlat(by, voxelDifference(middle, by.pivot))) +
+                            turnLength(along) * marginLongest(by, about) * by.turn.chord * MARGIN_OUTWARD;
+    return surplus;
+}
+#endif
+
 /// Of a box, and of all that `reach` says triangles are in.
 EXACT MarginApart marginReachApart(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint radius) {
     const VoxelPoint apart = voxelPoint(marginApart(reach.lo.x, reach.hi.x, middle.x, radius.x),
                                         marginApart(reach.lo.y, reach.hi.y, middle.y, radius.y),
                                         marginApart(reach.lo.z, reach.hi.z, middle.z, radius.z));
+#ifdef TURN
+    const VoxelPoint along = marginAlongTurned(by, reach, middle, marginFlat(by, apart));
+#else
     const VoxelPoint along = marginFlat(by, apart);
+#endif
     const VoxelPoint pulled = marginPulled(by, along);
     PRECISE float gap = marginGap(pulled.x, reach.lo.x, reach.hi.x, middle.x, radius.x) +
                         marginGap(pulled.y, reach.lo.y, reach.hi.y, middle.y, radius.y) +
@@ -277,7 +421,11 @@ EXACT MarginApart marginReachApart(MarginSpace by, CertifiedReach reach, VoxelPo
     MarginApart found;
     found.gap = gap;
     found.square = voxelDot(along, along);
-    found.slack = marginSlack(by, reach.delta, farthest);
+#ifdef TURN
+    PRECISE float left = gap - marginTurnSurplus(by, reach, along);
+    found.gap = left;
+#endif
+    found.slack = marginMovedSlack(by, voxelDifference(by.pivot, middle), reach.delta, farthest);
     return found;
 }
 

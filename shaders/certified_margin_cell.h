@@ -256,12 +256,24 @@ EXACT VoxelPoint marginFoot(MarginSpace by, CertifiedCell cell, MarginValues val
 /// triangle, and what is nearest to that where the box begins to be opaque.
 EXACT bool marginBoxProves(OpacityTable table, MarginSpace by, CertifiedCell cell, MarginTriangle triangle,
                            MarginValues values, MarginLinear linear, MarginBox box, VoxelPoint middle,
-                           VoxelPoint radius, VoxelPoint near, INOUT(MarginSamples) samples) {
-    const VoxelPoint points[3] = {middle, near, marginFoot(by, cell, values, linear, middle, radius, near)};
+                           VoxelPoint radius, MarginNear near, INOUT(MarginSamples) samples) {
+#ifdef TURN
+    PRECISE float below = linear.lo - cell.pointError;
+    PRECISE float above = linear.hi + cell.pointError;
+    if (certainlyAllOpaque(table, below, above) && marginInto(by, triangle.slack, near, middle, box.lo, box.hi)) {
+        return true;
+    }
+#endif
+    const VoxelPoint foot = marginFoot(by, cell, values, linear, middle, radius, near.moved);
+    const VoxelPoint points[3] = {middle, near.moved, foot};
     bool proven = false;
     for (int i = 0; i < 3 && !proven; ++i) {
         const VoxelPoint at = marginClamped(box, points[i]);
-        proven = marginWithin(by, triangle.slack, near, at) && marginPointProves(table, cell, at, samples);
+#ifdef TURN
+        samples = marginNoSamples(); // what some turn brings within the margin is not convex
+#endif
+        proven = marginWithin(by, triangle.pivot, triangle.slack, near.at, at) &&
+                 marginPointProves(table, cell, at, samples);
     }
     return proven;
 }
@@ -294,7 +306,7 @@ EXACT MarginLook marginLook(OpacityTable table, MarginSpace by, CertifiedCell ce
     if (marginPartBeyond(by, cell, triangle, values, near, linear, radius)) {
         return look;
     }
-    look.verdict = marginBoxProves(table, by, cell, triangle, values, linear, box, middle, radius, near.at, samples)
+    look.verdict = marginBoxProves(table, by, cell, triangle, values, linear, box, middle, radius, near, samples)
                        ? CERTIFIED_CERTAIN
                        : CERTIFIED_UNDECIDED;
     return look;

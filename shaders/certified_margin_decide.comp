@@ -16,7 +16,7 @@ int decide(uvec4 entry) {
     const CertifiedTriangle triangle = triangleOf(at, boundsOf(entry.x, at).delta);
     const CertifiedCorners corners = cornersOf(cell, brickAt((cell + 1) >> VOXTACT_BRICK_SHIFT));
     const CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.delta);
-    return marginDecide(opacities(), marginOf(constants.item), triangle, known,
+    return marginDecide(opacities(), MARGIN_SPACE(entry.x), triangle, known,
                         voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
 }
 

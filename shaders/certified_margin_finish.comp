@@ -30,7 +30,7 @@ void tell(uint pair, uint triangle, bool undecided, bool found) {
 }
 #else
 int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
-    const MarginSpace by = marginOf(constants.item);
+    const MarginSpace by = MARGIN_SPACE(pair);
     const CertifiedCell known =
         certifiedCell(constants.item, cornersOf(cell, range), cell.x, cell.y, cell.z, triangle.delta);
     if (!marginCellMay(opacities(), known)) {

@@ -63,10 +63,19 @@ EXACT bool marginCellProves(MarginSpace by, CertifiedItem item, MarginTriangle a
     }
     PRECISE float wholeSlack = about.slack + marginCellRadius(by);
     const VoxelPoint nearest =
-        voxelPoint(marginInCell(near.at.x, x, item.sizeX), marginInCell(near.at.y, y, item.sizeY),
-                   marginInCell(near.at.z, z, item.sizeZ));
-    return marginWithin(by, wholeSlack, near.at, voxelPoint(0.0f, 0.0f, 0.0f)) ||
-           (has >= MARGIN_HAS_ALL && marginWithin(by, about.slack, near.at, nearest));
+        voxelPoint(marginInCell(near.moved.x, x, item.sizeX), marginInCell(near.moved.y, y, item.sizeY),
+                   marginInCell(near.moved.z, z, item.sizeZ));
+#ifdef TURN
+    const VoxelPoint lo = voxelPoint(marginInCell(-1.0f, x, item.sizeX), marginInCell(-1.0f, y, item.sizeY),
+                                     marginInCell(-1.0f, z, item.sizeZ));
+    const VoxelPoint hi = voxelPoint(marginInCell(1.0f, x, item.sizeX), marginInCell(1.0f, y, item.sizeY),
+                                     marginInCell(1.0f, z, item.sizeZ));
+    if (has >= MARGIN_HAS_ALL && marginInto(by, about.slack, near, voxelPoint(0.0f, 0.0f, 0.0f), lo, hi)) {
+        return true;
+    }
+#endif
+    return marginWithin(by, about.pivot, wholeSlack, near.at, voxelPoint(0.0f, 0.0f, 0.0f)) ||
+           (has >= MARGIN_HAS_ALL && marginWithin(by, about.pivot, about.slack, near.at, nearest));
 }
 
 /// A look at a cell of a triangle, as a whole. `has`: of marginCellHas().
@@ -106,7 +115,8 @@ EXACT bool marginProbeProves(OpacityTable table, MarginSpace by, CertifiedCell c
     const VoxelPoint place = marginClamped(marginCellBox(cell), voxelDifference(at, corner));
     PRECISE float reach = voxelLength(from) + 1.0f;
     MarginSamples samples = marginNoSamples();
-    return marginWithin(by, marginSlack(by, delta, reach), from, place) &&
+    const VoxelPoint pivot = voxelDifference(by.pivot, corner);
+    return marginWithin(by, pivot, marginMovedSlack(by, pivot, delta, reach), from, place) &&
            marginPointProves(table, cell, place, samples);
 }
 
@@ -134,14 +144,21 @@ EXACT bool marginBrickProves(OpacityTable table, CertifiedItem item, MarginSpace
                              VoxelPoint middle, float lo, float hi) {
     const VoxelPoint from = voxelDifference(vertex, middle);
     PRECISE float reach = voxelLength(from) + MARGIN_BRICK_RADIUS;
-    const float slack = marginSlack(by, delta, reach);
+    const VoxelPoint pivot = voxelDifference(by.pivot, middle);
+    const float slack = marginMovedSlack(by, pivot, delta, reach);
+#ifdef TURN
+    // What some turn brings within the margin is not convex: the corners do not say that all of the brick is.
+    PRECISE float wholeSlack = slack + marginCellRadius(by) * (2.0f * MARGIN_BRICK_RADIUS);
+    const bool all = marginWithin(by, pivot, wholeSlack, from, voxelPoint(0.0f, 0.0f, 0.0f));
+#else
     bool all = true;
     for (int i = 0; i < 8; ++i) {
         const VoxelPoint corner = voxelPoint((i & 1) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS,
                                              (i & 2) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS,
                                              (i & 4) == 0 ? -MARGIN_BRICK_RADIUS : MARGIN_BRICK_RADIUS);
-        all = all && marginWithin(by, slack, from, corner);
+        all = all && marginWithin(by, pivot, slack, from, corner);
     }
+#endif
     return all && marginRangeHas(table, item, lo, hi);
 }
 

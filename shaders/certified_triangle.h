@@ -52,6 +52,26 @@ EXACT VoxelPoint voxelDifference(VoxelPoint a, VoxelPoint b) {
     return voxelPoint(x, y, z);
 }
 
+EXACT float voxelDot(VoxelPoint a, VoxelPoint b) {
+    PRECISE float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+    return sum;
+}
+
+/// a + b * weight.
+EXACT VoxelPoint voxelStep(VoxelPoint a, VoxelPoint b, float weight) {
+    PRECISE float x = a.x + b.x * weight;
+    PRECISE float y = a.y + b.y * weight;
+    PRECISE float z = a.z + b.z * weight;
+    return voxelPoint(x, y, z);
+}
+
+EXACT VoxelPoint voxelCross(VoxelPoint a, VoxelPoint b) {
+    PRECISE float x = a.y * b.z - a.z * b.y;
+    PRECISE float y = a.z * b.x - a.x * b.z;
+    PRECISE float z = a.x * b.y - a.y * b.x;
+    return voxelPoint(x, y, z);
+}
+
 EXACT float voxelAlong(VoxelPoint point, int axis) {
     return axis == 0 ? point.x : (axis == 1 ? point.y : point.z);
 }

@@ -330,6 +330,10 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_COUNTERS 6
 #define VOXTACT_CONSTANT_CLOSEST 7
 #define VOXTACT_CONSTANT_OUTPUTS 16
+// Floats: of the angle of a pose tolerance, as TurnLimit of certified_turn.h has them.
+#define VOXTACT_CONSTANT_TURN_COSINE 17
+#define VOXTACT_CONSTANT_TURN_SINE 18
+#define VOXTACT_CONSTANT_TURN_CHORD 19
 // In place of outputs: where a pair touches is wanted, for its closest points.
 #define VOXTACT_OUTPUT_TOUCH 0x80000000u
 // Where the push constants of dominant.vert begin: room for those of the fragment program is before them.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "voxtact/device_results.h"
+#include "voxtact/motion.h"
 #include "voxtact/results.h"
 #include "voxtact/scene.h"
 
@@ -41,13 +42,20 @@ struct DetectorDesc {
     /// within every margin, but a margin of less than about a thousandth of a voxel may leave it *possible*.
     /// InvalidArgument for what is not a number from 0 to 1,000,000, other projections, counts, and outputs.
     double margin = 0;
+    /// conservative with stopAtFirst, without outputs and without a margin: what is asked is whether anything touches
+    /// at some pose within it; world mm and degrees, a distance from 0 to 1,000,000. `hit` and `possible` say what
+    /// cpu::MotionChecker::around() says, where that and this are sure. A *no* of one is never a *yes* of the other.
+    /// This one proves a *yes* by the pose itself, or by a point of the mesh that such a pose brings to something
+    /// opaque, or into it where the distance is less than some thousandths of a voxel. InvalidArgument for a distance
+    /// or an angle out of range, other projections, counts, outputs, and a margin above 0.
+    std::optional<PoseTolerance> poseTolerance = std::nullopt;
     /// conservative without outputs and without a margin: after the touch, how near each pair is, for Results that were
     /// made with ResultsDesc::clearances. The bounds are proven: they always overlap those that cpu::ClearanceMeter has
     /// of the same pair. They are as near to each other as the tolerance asks where single precision can tell: not
     /// nearer than some thousandths of a voxel, and less near where a triangle is many dozens of voxels long or some
     /// hundred voxels away; ClearanceEnd says so. They differ a little from run to run, and still overlap.
     /// InvalidArgument for a tolerance that is not a number from 1e-6 mm on, a maximum that is not above 0, other
-    /// projections, outputs, and a margin above 0.
+    /// projections, outputs, a margin above 0, and a pose tolerance.
     std::optional<ClearanceSearch> clearance = std::nullopt;
     /// With `clearance`: two points that prove each upper bound, as a cpu::ClearanceMeter has them, for Results that
     /// were made with ResultsDesc::closest. They are no farther apart than `hi` and no nearer than `lo`, in single

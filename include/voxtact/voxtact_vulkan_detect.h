@@ -38,6 +38,11 @@ typedef struct vxt_detector_desc {
     uint32_t label_clearances;
     uint32_t labels_at_any_opacity; ///< with these: to all of a label, be it opaque or not; default 0
     uint32_t reserved;              ///< 0
+    /// CONSERVATIVE with stop_at_first, without outputs and a margin: whether anything touches at some pose that is
+    /// turned by no more than so many degrees, 0 to 180, about any axis through its object's origin, and then moved by
+    /// no more than so many mm, 0 to 1e6. 0 and 0, the default: the pose itself
+    double pose_angle;
+    double pose_distance; ///< with pose_angle
 } vxt_detector_desc;
 
 /// A view by precise queries.

@@ -25,6 +25,13 @@ std::optional<ClearanceSearch> searchOf(const vxt_detector_desc& desc) {
     return search;
 }
 
+std::optional<PoseTolerance> toleranceOf(const vxt_detector_desc& desc) {
+    if (desc.pose_distance == 0 && desc.pose_angle == 0) {
+        return std::nullopt;
+    }
+    return PoseTolerance{desc.pose_distance, desc.pose_angle};
+}
+
 DetectorDesc toDesc(const vxt_detector_desc* given) {
     const vxt_detector_desc desc = readOptions(given, vxt_detector_desc_init(), "detector");
     return {.method = number<CountingMethod>(desc.method),
@@ -39,6 +46,7 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .overestimate = desc.overestimate != 0,
             .devicePoses = desc.device_poses != 0,
             .margin = desc.margin,
+            .poseTolerance = toleranceOf(desc),
             .clearance = searchOf(desc),
             .closest = desc.closest != 0,
             .labelClearances = desc.label_clearances != 0,

@@ -71,6 +71,9 @@ std::span<const std::uint32_t> programOf(const PassKind& kind, const DetectorDes
 
 Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const DetectorDesc& desc) {
     CertifiedPass pass(context, desc);
+    if (desc.poseTolerance && !(desc.poseTolerance->angle > 0)) {
+        pass.desc_.margin = desc.poseTolerance->distance; // the same question, and faster
+    }
     const ShaderConstant constants[] = {
         {VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
         {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
@@ -80,7 +83,7 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
         const PassKind& kind = kPasses[i];
         Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, programOf(kind, desc), constants,
+            makeComputePipeline(context, programOf(kind, pass.desc_), constants,
                                 outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
         VOXTACT_TRY(made);
         pass.pipelines_[i] = std::move(*made);
@@ -91,6 +94,11 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
                                 outputs ? context.computeOutputLayout : context.computeLayout, "conservative tally");
         VOXTACT_TRY(made);
         pass.tally_ = std::move(*made);
+    }
+    if (desc.poseTolerance && desc.poseTolerance->angle > 0) {
+        Result<TolerancePass> made = TolerancePass::create(context, desc);
+        VOXTACT_TRY(made);
+        pass.tolerance_ = std::move(*made);
     }
     if (desc.clearance) {
         Result<ClearancePass> made = ClearancePass::create(context, desc);
@@ -159,8 +167,11 @@ void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, co
             constants.endCluster = round.endCluster;
             recorder.record(passes, layout, constants, round.pairs);
         });
+        constants.firstPair = firstPair;
+        if (tolerance_) {
+            tolerance_->record(recorder, layout, item, constants);
+        }
         if (clearance_) {
-            constants.firstPair = firstPair;
             clearance_->record(recorder, layout, item, constants, batch.labels);
         }
         firstPair += static_cast<std::uint32_t>(item.pairs());

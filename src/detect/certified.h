@@ -3,6 +3,7 @@
 
 #include "detect/clearance.h"
 #include "detect/results_impl.h"
+#include "detect/tolerance.h"
 #include "gpu/pipeline.h"
 #include "shared.h"
 #include "voxtact/detector.h"
@@ -44,6 +45,7 @@ class CertifiedPass {
     DetectorDesc desc_;
     std::array<Owned<VkPipeline>, kCertifiedPasses> pipelines_;
     Owned<VkPipeline> tally_;                ///< with DetectorDesc::counters
+    std::optional<TolerancePass> tolerance_; ///< with DetectorDesc::poseTolerance that turns
     std::optional<ClearancePass> clearance_; ///< with DetectorDesc::clearance
 };
 

@@ -135,6 +135,28 @@ Result<void> checkMargin(const DetectorDesc& desc) {
     return {};
 }
 
+Result<void> checkPoseTolerance(const DetectorDesc& desc) {
+    if (!desc.poseTolerance) {
+        return {};
+    }
+    VOXTACT_TRY(checkDeviceTolerance(*desc.poseTolerance));
+    if (!rowOf(desc.projection).certified) {
+        return refuse(std::string("a pose tolerance is for the projection conservative, not for ") +
+                      toString(desc.projection));
+    }
+    if (!desc.stopAtFirst) {
+        return refuse(
+            "a pose tolerance is answered by yes or no: it needs a detector that stops at the first survivor");
+    }
+    if (desc.outputs.any()) {
+        return refuse("a pose tolerance is answered by yes or no, without outputs");
+    }
+    if (desc.margin > 0) {
+        return refuse("a pose tolerance has a distance of its own: leave out the margin");
+    }
+    return {};
+}
+
 Result<void> checkClearance(const DetectorDesc& desc) {
     if (desc.labelsAtAnyOpacity && !desc.labelClearances) {
         return refuse("labelsAtAnyOpacity is about clearances to labels, and DetectorDesc::labelClearances is false");
@@ -153,6 +175,9 @@ Result<void> checkClearance(const DetectorDesc& desc) {
     }
     if (desc.margin > 0) {
         return refuse("a clearance and a margin are two questions: they need a detector each");
+    }
+    if (desc.poseTolerance) {
+        return refuse("a clearance and a pose tolerance are two questions: they need a detector each");
     }
     if (desc.outputs.any()) {
         return refuse("clearances are measured without outputs");
@@ -197,6 +222,7 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         VOXTACT_TRY(checkMethod(context, desc.method));
         VOXTACT_TRY(checkDesc(c, desc));
         VOXTACT_TRY(checkMargin(desc));
+        VOXTACT_TRY(checkPoseTolerance(desc));
         VOXTACT_TRY(checkClearance(desc));
         VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =

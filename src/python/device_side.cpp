@@ -41,6 +41,7 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.overestimate = question.overestimate;
     desc.counters = question.counters;
     desc.margin = question.margin;
+    desc.poseTolerance = question.tolerance;
     desc.clearance = question.clearance;
     desc.closest = question.clearance.has_value() && !question.toLabels;
     desc.labelClearances = question.toLabels;

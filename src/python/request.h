@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image.h"
+#include "voxtact/motion.h"
 #include "voxtact/results.h"
 
 #include <bit>
@@ -76,6 +77,7 @@ struct Question {
     bool overestimate = false;
     bool counters = false;
     double margin = 0;                        ///< mm; on a device
+    std::optional<PoseTolerance> tolerance;   ///< on a device
     std::optional<ClearanceSearch> clearance; ///< on a device
     bool toLabels = false;                    ///< with `clearance`: of these, instead of closest points
     bool labelsAtAnyOpacity = false;
@@ -86,12 +88,13 @@ struct Question {
     [[nodiscard]] auto key() const noexcept {
         return std::tuple(projection, method, filter, boundary, outputs.triangles, outputs.contacts, outputs.bounds,
                           outputs.labels, inKey(outputs.maxDepth), samplesPerVoxel, inKey(resolution), yesNo,
-                          overestimate, counters, inKey(margin), inKey(clearance ? clearance->tolerance : 0),
+                          overestimate, counters, inKey(margin), inKey(tolerance ? tolerance->distance : 0),
+                          inKey(tolerance ? tolerance->angle : 0), inKey(clearance ? clearance->tolerance : 0),
                           inKey(clearance ? clearance->maximum : 0), toLabels, labelsAtAnyOpacity, mostContacts);
     }
     using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
                            bool, std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t,
-                           std::uint64_t, std::uint64_t, bool, bool, std::uint32_t>;
+                           std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, bool, bool, std::uint32_t>;
 };
 
 /// How a clearance is measured.

@@ -253,7 +253,14 @@ std::shared_ptr<Answer> Scene::within(const std::shared_ptr<const Request>& requ
 }
 
 std::shared_ptr<Answer> Scene::around(const std::shared_ptr<const Request>& request, const PoseTolerance& tolerance,
-                                      const Progress& progress) {
+                                      bool byDevice, const Progress& progress) {
+    if (byDevice) {
+        Question question;
+        question.method = CountingMethod::Compute;
+        question.yesNo = true;
+        question.tolerance = tolerance;
+        return detect(request, question, progress);
+    }
     return yesOrNo(request, kClearanceCost, progress,
                    [&](HostSide& side, const Part& part) { return side.around(part, tolerance, desc_.threshold); });
 }

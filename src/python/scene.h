@@ -61,8 +61,10 @@ class Scene {
     /// Of a request that checkWays() accepts; `progress` counts segments.
     [[nodiscard]] std::shared_ptr<Motions> motion(std::shared_ptr<const Request> request, const Way& way,
                                                   const Progress& progress);
+    /// By the host, or by the device of a scene that has one.
     [[nodiscard]] std::shared_ptr<Answer> around(const std::shared_ptr<const Request>& request,
-                                                 const PoseTolerance& tolerance, const Progress& progress);
+                                                 const PoseTolerance& tolerance, bool byDevice,
+                                                 const Progress& progress);
     /// Of a pose that need not be affine: that is looked at.
     [[nodiscard]] TrackedClearance track(cpu::ClearanceTracker& tracker, const Shape& mesh,
                                          const Mat4& world_from_object);

@@ -156,11 +156,11 @@ std::shared_ptr<Motions> motion(Scene& scene, const py::object& meshes, const py
 }
 
 std::shared_ptr<Answer> around(Scene& scene, const py::object& meshes, const py::object& poses, double distance,
-                               double angle, const py::object& callback) {
+                               double angle, bool byDevice, const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
     const Unlocked unlocked;
-    return scene.around(request, {distance, angle}, progress);
+    return scene.around(request, {distance, angle}, byDevice, progress);
 }
 
 std::shared_ptr<Plan> plan(Scene& scene, const Doubles& target, const py::dict& options, std::shared_ptr<Image> avoided,
@@ -220,7 +220,7 @@ void defineScene(py::module_& module) {
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),
              py::arg("most_steps"), py::arg("progress"))
         .def("around", &around, py::arg("meshes"), py::arg("poses"), py::arg("distance"), py::arg("angle"),
-             py::arg("progress"))
+             py::arg("by_device"), py::arg("progress"))
         .def("plan", &plan, py::arg("target"), py::arg("options"), py::arg("avoided"), py::arg("points"),
              py::arg("domain"))
         .def("picture", &picture, py::arg("meshes"), py::arg("poses"), py::arg("options"), py::arg("device"))

@@ -202,6 +202,9 @@ TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(line({"--margin", "1", "--count", "atomic"}), HasSubstr("or give --count cpu or compute"));
     EXPECT_THAT(line({"--margin", "1e7", "--count", "compute"}), HasSubstr("is not a number from 0 to 1000000"));
     EXPECT_THAT(line({"--margin", "1", "--clearance", "--count", "compute"}), HasSubstr("leave out --count compute"));
+    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--clearance", "--count", "compute"}),
+                HasSubstr("leave out --count compute"));
+    EXPECT_THAT(line({"--pose-tolerance", "1e7,2", "--count", "compute"}), HasSubstr("the most on a device"));
     EXPECT_THAT(line({"--margin", "1", "--stats"}), HasSubstr("--stats"));
     EXPECT_THAT(line({"--margin", "1", "--contacts", "c.csv"}), HasSubstr("--margin is answered by yes or no"));
     EXPECT_THAT(line({"--margin", "1", "--answer", "count"}), HasSubstr("--answer count asks for a count"));
@@ -238,6 +241,25 @@ TEST_F(ClearanceDeviceTest, AMarginIsTheDevicesToo) {
         }
     }
     EXPECT_THAT(output(detect({"--margin", "5", "--count", "compute", "--stats"})), HasSubstr("# clusters="));
+}
+
+TEST_F(ClearanceDeviceTest, APoseToleranceIsTheDevicesToo) {
+    std::string hits;
+    for (const char* tolerance : {"5,0", "2,10"}) {
+        auto onHost = rows({"--pose-tolerance", tolerance});
+        auto onDevice = rows({"--pose-tolerance", tolerance, "--count", "compute"});
+        ASSERT_EQ(onDevice.size(), 3U);
+        for (std::size_t i = 0; i < onDevice.size(); ++i) {
+            EXPECT_EQ(onDevice[i].at("method"), "compute");
+            onDevice[i]["method"] = "cpu";
+            EXPECT_EQ(onDevice[i], onHost[i]) << tolerance << ", pose " << i;
+            hits += onDevice[i].at("hit");
+        }
+    }
+    EXPECT_THAT(hits, HasSubstr("0"));
+    EXPECT_THAT(hits, HasSubstr("1"));
+    EXPECT_THAT(output(detect({"--pose-tolerance", "2,10", "--count", "compute", "--stats"})),
+                HasSubstr("# clusters="));
 }
 
 /// Its bounds are others, that overlap.

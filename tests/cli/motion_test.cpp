@@ -147,7 +147,7 @@ TEST_F(MotionTest, APoseMayBeOff) {
     }
     EXPECT_THAT(line({"--pose-tolerance", "1,2", "--margin", "1"}), HasSubstr("--margin"));
     EXPECT_THAT(line({"--pose-tolerance", "1,2", "--contacts", "c.csv"}), HasSubstr("--pose-tolerance is answered"));
-    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--count", "atomic"}), HasSubstr("leave out --count atomic"));
+    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--count", "atomic"}), HasSubstr("or give --count cpu or compute"));
 }
 
 } // namespace

@@ -66,6 +66,29 @@ def test_a_margin_is_decided_by_the_device_that_is_asked(device, head, knife):
         there.within(knife, poses, margin=1, method="compute").contacts
 
 
+def test_a_pose_tolerance_is_decided_by_the_device_that_is_asked(device, head, knife):
+    host, there = both(device, head)
+    poses = random_poses(40, 34)
+    hits = []
+    for distance, angle in ((0, 0), (1, 2), (6, 2)):
+        asked = {"distance": distance, "angle": angle}
+        expected, answer = there.around(knife, poses, **asked), there.around(knife, poses, **asked, method="compute")
+        assert (answer.method, expected.method) == ("compute", "cpu")
+        sure = ~(answer.possible | expected.possible)
+        assert sure.mean() > 0.9
+        np.testing.assert_array_equal(answer.hit[sure], expected.hit[sure])
+        hits.append(int(answer.hit.sum()))
+    assert hits[0] < hits[2]
+    with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
+        host.around(knife, poses, distance=1, angle=2, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="method is 'query'"):
+        there.around(knife, poses, distance=1, angle=2, method="query")
+    with pytest.raises(vx.InvalidArgumentError, match="the most on a device"):
+        there.around(knife, poses, distance=1e7, angle=2, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="outside of 0 to 180"):
+        there.around(knife, poses, distance=1, angle=181, method="compute")
+
+
 def test_a_clearance_is_measured_by_the_device_that_is_asked(device, head, knife):
     host, there = both(device, head)
     poses = random_poses(24, 34)

@@ -149,6 +149,7 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     desc.stopAtFirst = options.yesNo() && rowOf(desc.projection).certified;
     desc.counters = options.stats;
     desc.margin = options.distance.margin.value_or(0);
+    desc.poseTolerance = options.distance.poseTolerance;
     if (options.distance.clearance) {
         desc.clearance = options.distance.search();
         desc.closest = !options.distance.closest.empty();

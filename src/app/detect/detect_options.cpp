@@ -60,9 +60,7 @@ Result<void> checkHost(const DetectOptions& options) {
 
 /// Whether what is near is asked of a device.
 bool isDistanceOnDevice(const DetectOptions& options) {
-    const DistanceOptions& distance = options.distance;
-    return options.method.count == CountingMethod::Compute && !distance.poseTolerance &&
-           distance.margin.has_value() != distance.clearance;
+    return options.method.count == CountingMethod::Compute && options.distance.isOne();
 }
 
 /// A device says how near and where, and to which label; and what touches, but not how.
@@ -71,6 +69,10 @@ Result<void> checkDeviceDistance(const DetectOptions& options) {
     if (distance.margin) {
         const Result<void> margin = checkMargin(*distance.margin);
         return margin.ok() ? margin : badArgument("--margin: " + margin.error().text);
+    }
+    if (distance.poseTolerance) {
+        const Result<void> tolerance = checkDeviceTolerance(*distance.poseTolerance);
+        return tolerance.ok() ? tolerance : badArgument("--pose-tolerance: " + tolerance.error().text);
     }
     if (options.extra.outputs().any()) {
         return badArgument(
@@ -117,8 +119,7 @@ Result<void> checkDistance(DetectOptions& options) {
     MethodOptions& method = options.method;
     if (method.count && !rowOf(*method.count).host && !isDistanceOnDevice(options)) {
         return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +
-                           ", or give --count cpu" +
-                           (distance.margin.has_value() != distance.clearance ? " or compute" : ""));
+                           ", or give --count cpu" + (distance.isOne() ? " or compute" : ""));
     }
     if (method.projection && !rowOf(*method.projection).certified) {
         return badArgument(option + " is certified; leave out --projection " + toString(*method.projection) +

@@ -44,6 +44,12 @@ struct DistanceOptions {
         return asked;
     }
     [[nodiscard]] bool any() const { return clearance || isMargin(); }
+    /// Whether it is one question, such as a device answers.
+    [[nodiscard]] bool isOne() const {
+        return static_cast<int>(clearance) + static_cast<int>(margin.has_value()) +
+                   static_cast<int>(poseTolerance.has_value()) ==
+               1;
+    }
     /// Whether what is asked is not if a pose touches, but if it or something near does.
     [[nodiscard]] bool isMargin() const { return margin.has_value() || poseTolerance.has_value(); }
 };

@@ -3,6 +3,7 @@
 #include "core/base/infinity.h"
 #include "core/base/refuse.h"
 #include "core/base/text.h"
+#include "core/base/try.h"
 #include "core/geometry/vec3.h"
 #include "core/geometry/wide_matrix.h"
 #include "core/transfer/table_extremes.h"
@@ -151,8 +152,13 @@ shader::CertifiedItem certifiedItem(const Grid& grid, double slope, double inter
     return item;
 }
 
+namespace {
+
+constexpr double kMostMargin = 1e6; // mm, on a device
+
+} // namespace
+
 Result<void> checkMargin(double margin) {
-    constexpr double kMostMargin = 1e6;
     if (!(margin >= 0 && margin <= kMostMargin)) {
         return refuse("the margin " + number(margin) + " mm is not a number from 0 to 1000000");
     }
@@ -221,6 +227,13 @@ shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, d
     return item;
 }
 
+shader::CertifiedItem withTolerance(shader::CertifiedItem item, const Grid& grid, double distance) noexcept {
+    const double side = longestSide(grid);
+    item = withMargin(item, grid, side);
+    item.resolution = static_cast<float>(distance / side);
+    return item;
+}
+
 shader::CertifiedItem withClearance(shader::CertifiedItem item, const Grid& grid, double tolerance) noexcept {
     constexpr double kLeft = 0.75;      // the rest is for roundings
     constexpr double kFinest = 0x1p-10; // voxels; single precision tells no less apart
@@ -235,6 +248,25 @@ shader::CertifiedItem withAnyOpacity(shader::CertifiedItem item) noexcept {
     item.entryBias = 0;
     item.threshold = -1;
     return item;
+}
+
+Result<void> checkTolerance(const PoseTolerance& tolerance) {
+    if (!(tolerance.distance >= 0 && std::isfinite(tolerance.distance))) {
+        return refuse("the distance " + number(tolerance.distance) + " mm of the tolerance is not a number from 0 on");
+    }
+    if (!(tolerance.angle >= 0 && tolerance.angle <= 180)) {
+        return refuse("the angle " + number(tolerance.angle) + " degrees of the tolerance is outside of 0 to 180");
+    }
+    return {};
+}
+
+Result<void> checkDeviceTolerance(const PoseTolerance& tolerance) {
+    VOXTACT_TRY(checkTolerance(tolerance));
+    if (tolerance.distance > kMostMargin) {
+        return refuse("the distance " + number(tolerance.distance) + " mm of the tolerance is above " +
+                      number(kMostMargin) + " mm, the most on a device");
+    }
+    return {};
 }
 
 Result<void> checkTolerance(double tolerance) {

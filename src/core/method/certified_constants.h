@@ -4,6 +4,7 @@
 #include "pair_setup.h"
 #include "shared.h"
 #include "voxtact/data.h"
+#include "voxtact/motion.h"
 
 #include <array>
 
@@ -28,6 +29,12 @@ namespace voxtact {
 /// Refuses a margin that is not a number from 0 to 1,000,000 mm.
 [[nodiscard]] Result<void> checkMargin(double margin);
 
+/// Refuses a pose tolerance whose distance is not a number from 0 on, or whose angle is outside of 0 to 180 degrees.
+[[nodiscard]] Result<void> checkTolerance(const PoseTolerance& tolerance);
+
+/// The same on a device, whose distances are no more than 1,000,000 mm.
+[[nodiscard]] Result<void> checkDeviceTolerance(const PoseTolerance& tolerance);
+
 /// Refuses a tolerance of a clearance that is not a number from 1e-6 mm on.
 [[nodiscard]] Result<void> checkTolerance(double tolerance);
 /// Refuses a maximum of a clearance, mm, that is not above 0.
@@ -41,6 +48,11 @@ namespace voxtact {
 
 /// An item that is asked what is within a margin, mm, more than 0: marginOf() of shaders/certified_margin.h reads it.
 [[nodiscard]] shader::CertifiedItem withMargin(shader::CertifiedItem item, const Grid& grid, double margin) noexcept;
+
+/// The same for what may be turned, too (TURN there), 0 among the distances: `grow` is then that of a margin of 1,
+/// flat.
+[[nodiscard]] shader::CertifiedItem withTolerance(shader::CertifiedItem item, const Grid& grid,
+                                                  double distance) noexcept;
 
 /// An item that is asked how near what is opaque is: its `resolution` is then what of the tolerance, mm, the search may
 /// leave, flat, and what marginOf() reads is that of a margin of 1.

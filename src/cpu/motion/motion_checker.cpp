@@ -39,16 +39,6 @@ Result<void> checkDesc(const MotionDesc& desc) {
     return checkResolution(desc.touchResolution);
 }
 
-Result<void> checkTolerance(const PoseTolerance& tolerance) {
-    if (!(tolerance.distance >= 0 && std::isfinite(tolerance.distance))) {
-        return refuse("the distance " + number(tolerance.distance) + " mm of the tolerance is not a number from 0 on");
-    }
-    if (!(tolerance.angle >= 0 && tolerance.angle <= 180)) {
-        return refuse("the angle " + number(tolerance.angle) + " degrees of the tolerance is outside of 0 to 180");
-    }
-    return {};
-}
-
 Result<void> checkMotionBatch(const Batch& batch) {
     DetectorDesc desc;
     desc.projection = Projection::Conservative;

@@ -182,6 +182,40 @@ TEST_F(CGpuTest, DecidesWhatIsWithinAMargin) {
     EXPECT_EQ(none, nullptr);
 }
 
+TEST_F(CGpuTest, DecidesWhatATolerancePermits) {
+    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
+        GTEST_SKIP() << "no conservative by compute on this device";
+    }
+    RandomScene scene = halfOpaque(); // up to x = 0.5, and z = 1
+    scene.poses = {identity(), translation({0.7, 0, 0}), translation({0, 0, 0.9})};
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    vxt_detector_desc desc = vxt_detector_desc_init();
+    EXPECT_EQ(desc.pose_angle, 0);
+    EXPECT_EQ(desc.pose_distance, 0);
+    desc.method = VXT_METHOD_COMPUTE;
+    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.stop_at_first = 1;
+    for (const double angle : {0.0, 0.01}) { // of what is less than 2 away: less than 0.001
+        desc.pose_distance = 0.3;
+        desc.pose_angle = angle;
+        const BatchAnswer answer = ask(*newBlocking(desc), item);
+        ASSERT_EQ(answer.pairs.size(), 3U);
+        EXPECT_TRUE(answer.pairs[0].hit);
+        EXPECT_TRUE(answer.pairs[1].hit);                              // 0.2 away
+        EXPECT_FALSE(answer.pairs[2].hit || answer.pairs[2].possible); // 0.4
+    }
+    desc.pose_distance = 0;
+    desc.pose_angle = 180; // every pose is as near as anything of the mesh can be
+    EXPECT_TRUE(ask(*newBlocking(desc), item).pairs[0].hit);
+    vxt_detector* none = nullptr;
+    desc.pose_angle = 181;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    desc.pose_angle = -1;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+}
+
 TEST_F(CGpuTest, MeasuresHowNear) {
     if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
         GTEST_SKIP() << "no conservative by compute on this device";

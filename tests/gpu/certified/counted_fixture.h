@@ -18,6 +18,12 @@ struct Answered {
     CertifiedCounters counters{};
 };
 
+/// One may say that it is possible.
+inline void expectNoContradiction(const PairAnswer& device, const PairAnswer& host) {
+    EXPECT_FALSE(device.hit && !host.hit && !host.possible);
+    EXPECT_FALSE(!device.hit && !device.possible && host.hit);
+}
+
 /// Tests of the projection `conservative` by compute. Skipped where the device has it not.
 class CertifiedTest : public RawGpuTest {
   protected:

@@ -42,11 +42,6 @@ int verdictOf(const PairAnswer& answer) {
     return answer.hit ? CERTIFIED_CERTAIN : answer.possible ? CERTIFIED_UNDECIDED : CERTIFIED_NONE;
 }
 
-void expectNoContradiction(const PairAnswer& device, const PairAnswer& host) {
-    EXPECT_FALSE(device.hit && !host.hit && !host.possible);
-    EXPECT_FALSE(!device.hit && !device.possible && host.hit);
-}
-
 class MarginTest : public CertifiedTest {
   protected:
     /// One pair.

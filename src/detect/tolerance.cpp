@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "detect/tolerance.h"
+#include "core/base/try.h"
+#include "core/method/certified_constants.h"
+#include "detect/batch.h"
+#include "detect/certified_rounds.h"
+#include "gpu/scene_impl.h"
+
+#include "voxtact_shaders/certified_tolerance_cull_comp.h"
+#include "voxtact_shaders/certified_tolerance_decide_comp.h"
+#include "voxtact_shaders/certified_tolerance_expand_comp.h"
+#include "voxtact_shaders/certified_tolerance_finish_comp.h"
+#include "voxtact_shaders/certified_tolerance_large_comp.h"
+#include "voxtact_shaders/certified_tolerance_refine_comp.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace voxtact {
+
+namespace {
+
+double radians(const PoseTolerance& tolerance) {
+    return tolerance.angle * std::numbers::pi / 180;
+}
+
+/// Of what is turned, over its distance from the origin.
+double chordOf(const PoseTolerance& tolerance) {
+    return 2 * std::sin(radians(tolerance) / 2);
+}
+
+/// No pose makes more mm of a unit of object space.
+double scaleOf(const BatchItem& item) {
+    if (item.poses != nullptr) {
+        return item.poses->impl().mostScale;
+    }
+    double most = 0;
+    for (const Mat4& pose : item.world_from_object) {
+        double squares = 0;
+        for (std::size_t column = 0; column < 3; ++column) {
+            for (std::size_t row = 0; row < 3; ++row) {
+                squares += pose[4 * column + row] * pose[4 * column + row];
+            }
+        }
+        most = std::max(most, squares);
+    }
+    return std::sqrt(most);
+}
+
+/// mm that a point of the mesh may be brought; of a mesh that the host does not know, rounds have no bound by it.
+double reachOf(const BatchItem& item, const PoseTolerance& tolerance) {
+    double squares = 0;
+    if (const std::optional<MeshFacts>& facts = item.mesh->impl().known.facts) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double farthest = std::max(std::abs(facts->bounds.lo[axis]), std::abs(facts->bounds.hi[axis]));
+            squares += farthest * farthest;
+        }
+    }
+    const double reach = tolerance.distance + chordOf(tolerance) * scaleOf(item) * std::sqrt(squares);
+    return std::max(reach, std::numeric_limits<double>::min());
+}
+
+ShaderConstant floatConstant(std::uint32_t id, double value) {
+    return {id, std::bit_cast<std::uint32_t>(static_cast<float>(value))};
+}
+
+} // namespace
+
+Result<TolerancePass> TolerancePass::create(ContextImpl& context, const DetectorDesc& desc) {
+    struct Program {
+        std::span<const std::uint32_t> spirv;
+        const char* name;
+    };
+    const Program programs[Count] = {
+        {spirv::certified_tolerance_cull_comp, "tolerance cull"},
+        {spirv::certified_tolerance_refine_comp, "tolerance refine"},
+        {spirv::certified_tolerance_expand_comp, "tolerance expand"},
+        {spirv::certified_tolerance_large_comp, "tolerance large"},
+        {spirv::certified_tolerance_decide_comp, "tolerance decide"},
+        {spirv::certified_tolerance_finish_comp, "tolerance finish"},
+    };
+    constexpr double kOutward = 1 + 0x1p-22; // more than rounding to float
+    const PoseTolerance& tolerance = *desc.poseTolerance;
+    const double angle = radians(tolerance);
+    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, 1},
+                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
+                                        floatConstant(VOXTACT_CONSTANT_TURN_COSINE, std::cos(angle)),
+                                        floatConstant(VOXTACT_CONSTANT_TURN_SINE, std::sin(angle)),
+                                        floatConstant(VOXTACT_CONSTANT_TURN_CHORD, chordOf(tolerance) * kOutward)};
+    TolerancePass pass(context, tolerance);
+    for (std::size_t i = 0; i < Count; ++i) {
+        Result<Owned<VkPipeline>> made =
+            makeComputePipeline(context, programs[i].spirv, constants, context.computeLayout, programs[i].name);
+        VOXTACT_TRY(made);
+        pass.pipelines_[i] = std::move(*made);
+    }
+    return pass;
+}
+
+void TolerancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
+                           const shader::CertifiedConstants& given) const {
+    const auto pass = [&](Pipeline pipeline, std::uint32_t queue) {
+        return RoundPass{pipelines_[pipeline].get(), queue};
+    };
+    const RoundPass passes[] = {pass(Cull, kNoQueue),
+                                pass(Refine, VOXTACT_QUEUE_CLUSTERS),
+                                pass(Expand, VOXTACT_QUEUE_RUNS),
+                                pass(Large, VOXTACT_QUEUE_LARGE),
+                                pass(Decide, VOXTACT_QUEUE_CELLS),
+                                pass(Finish, VOXTACT_QUEUE_LEFT)};
+    shader::CertifiedConstants constants = given;
+    constants.item = withTolerance(given.item, item.volume->impl().grid, tolerance_.distance);
+    const RoundLimits limits{.clusters = clustersOfRound(given.queueRoom, false),
+                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
+                             .looks = looksOfRound(given.queueRoom)};
+    eachRound(meshLooks(item, reachOf(item, tolerance_)), limits, [&](const Round& round) {
+        constants.firstPair = given.firstPair + round.firstPair;
+        constants.firstCluster = round.firstCluster;
+        constants.endCluster = round.endCluster;
+        recorder.record(passes, layout, constants, round.pairs);
+    });
+}
+
+} // namespace voxtact
