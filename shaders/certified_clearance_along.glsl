@@ -76,9 +76,8 @@ float cellAlong(AlongBrick by, vec3 from) {
 /// The same of what may be opaque in it.
 float partAlong(MarginSpace by, AlongBrick direction, CertifiedCell cell, vec3 corner) {
     const MarginBox box = marginCellBox(cell);
-    const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5);
-    const VoxelPoint radius = voxelPoint((box.hi.x - box.lo.x) * 0.5, (box.hi.y - box.lo.y) * 0.5,
-                                         (box.hi.z - box.lo.z) * 0.5);
+    const VoxelPoint middle = marginMiddle(box);
+    const VoxelPoint radius = marginRadius(box);
     MarginNear near;
     near.at = middle;
     near.along = direction.along;

@@ -55,9 +55,8 @@ const int kFewSteps = 5;
 /// What may be opaque in a cell is no nearer to a triangle, both about the cell's corner.
 float partBelow(MarginSpace by, CertifiedCell cell, MarginTriangle about) {
     const MarginBox box = marginCellBox(cell);
-    const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5);
-    const VoxelPoint radius = voxelPoint((box.hi.x - box.lo.x) * 0.5, (box.hi.y - box.lo.y) * 0.5,
-                                         (box.hi.z - box.lo.z) * 0.5);
+    const VoxelPoint middle = marginMiddle(box);
+    const VoxelPoint radius = marginRadius(box);
     const MarginNear near = marginNear(by, about, middle);
     const MarginValues values = marginCellValues(opacities(), cell, kFewSteps);
     return clearanceBelow(marginPartGap(by, cell, values, near, marginLinear(cell, box), radius),
@@ -110,9 +109,8 @@ const int kPointSteps = 10;
 /// in it, and tries one point.
 float firstLook(MarginSpace by, CertifiedCell cell, ivec3 number, MarginTriangle about, inout ClearanceFound found) {
     const MarginBox box = marginCellBox(cell);
-    const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5);
-    const VoxelPoint radius = voxelPoint((box.hi.x - box.lo.x) * 0.5, (box.hi.y - box.lo.y) * 0.5,
-                                         (box.hi.z - box.lo.z) * 0.5);
+    const VoxelPoint middle = marginMiddle(box);
+    const VoxelPoint radius = marginRadius(box);
     const MarginNear near = marginNear(by, about, middle);
     const MarginValues values = marginCellValues(opacities(), cell, kPointSteps);
     const MarginLinear linear = marginLinear(cell, box);
@@ -159,9 +157,8 @@ void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, Certifi
             continue;
         }
         ++boxes;
-        const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5);
-        const VoxelPoint radius = voxelPoint((box.hi.x - box.lo.x) * 0.5, (box.hi.y - box.lo.y) * 0.5,
-                                             (box.hi.z - box.lo.z) * 0.5);
+        const VoxelPoint middle = marginMiddle(box);
+        const VoxelPoint radius = marginRadius(box);
         const MarginLinear linear = marginLinear(cell, box);
         if (!certifiedMayBeOpaque(opacities(), linear.lo, linear.hi, cell.pointError)) {
             continue;

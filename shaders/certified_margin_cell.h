@@ -35,6 +35,18 @@ struct MarginBox {
     VoxelPoint lo, hi;
 };
 
+EXACT VoxelPoint marginMiddle(MarginBox box) {
+    return voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5f);
+}
+
+/// Half of its sides.
+EXACT VoxelPoint marginRadius(MarginBox box) {
+    PRECISE float x = (box.hi.x - box.lo.x) * 0.5f;
+    PRECISE float y = (box.hi.y - box.lo.y) * 0.5f;
+    PRECISE float z = (box.hi.z - box.lo.z) * 0.5f;
+    return voxelPoint(x, y, z);
+}
+
 /// The entry coordinates of a cell that may be opaque are from `first` to `last`.
 struct MarginValues {
     float first, last;
@@ -286,11 +298,8 @@ struct MarginLook {
 
 EXACT MarginLook marginLook(OpacityTable table, MarginSpace by, CertifiedCell cell, MarginTriangle triangle,
                             MarginValues known, MarginBox box, INOUT(MarginSamples) samples) {
-    const VoxelPoint middle = voxelStep(box.lo, voxelDifference(box.hi, box.lo), 0.5f);
-    PRECISE float halfX = (box.hi.x - box.lo.x) * 0.5f;
-    PRECISE float halfY = (box.hi.y - box.lo.y) * 0.5f;
-    PRECISE float halfZ = (box.hi.z - box.lo.z) * 0.5f;
-    const VoxelPoint radius = voxelPoint(halfX, halfY, halfZ);
+    const VoxelPoint middle = marginMiddle(box);
+    const VoxelPoint radius = marginRadius(box);
     MarginLook look;
     look.verdict = CERTIFIED_NONE;
     look.pulled = middle;
