@@ -192,10 +192,9 @@ class ClearanceMeter {
     [[nodiscard]] VOXTACT_API Result<ClearanceAnswer> measure(const Batch& batch);
     /// The clearance of every pair to each label's part of what is opaque, or to all of the label
     /// (ClearanceDesc::labelsAtAnyOpacity): a label fills the closed boxes of its voxels, so that a face between two
-    /// labels belongs to both. Where it touches, the bounds are 0 and some
-    /// millionths. Every item needs labels, on the grid of its volume; labels that a map does not have are infinitely
-    /// far. Refuses what measure() refuses, other grids (Unsupported), and more than kMostMeasuredLabels labels
-    /// (LimitExceeded).
+    /// labels belongs to both. Where it touches, `lo` is 0 and `hi` within the tolerance, mostly a millionth. Every
+    /// item needs labels, on the grid of its volume; labels that a map does not have are infinitely far. Refuses what
+    /// measure() refuses, other grids (Unsupported), and more than kMostMeasuredLabels labels (LimitExceeded).
     [[nodiscard]] VOXTACT_API Result<LabelClearanceAnswer> measureLabels(const Batch& batch,
                                                                          std::span<const std::int32_t> labels);
     /// Whether something opaque is within `margin` mm of the surface, for every pair: `hit` where it certainly is,

@@ -66,10 +66,10 @@ struct DetectorDesc {
     /// With `clearance`: the same bounds to each label of Batch::labels as well, as a cpu::ClearanceMeter has them by
     /// measureLabels(), for Results that were made with ResultsDesc::labelClearances. Of what is opaque and has the
     /// label, which fills the closed boxes around its voxels' centres: a face between two labels belongs to both. What
-    /// is said of `clearance` holds of these bounds; of a label that is touched `lo` is 0 and `hi` as little as single
-    /// precision can tell, some ten-thousandths of a voxel, more where triangles are long. Each label is a search of
-    /// its own, recorded behind the others; its passes are programs of their own. InvalidArgument without `clearance`;
-    /// Unsupported on a device without room for the descriptors (maxBoundDescriptorSets 5,
+    /// is said of `clearance` holds of these bounds; of a label that is touched `lo` is 0 and `hi` within the
+    /// tolerance, mostly some ten-thousandths of a voxel. Each label is a search of its own, recorded behind the
+    /// others; its passes are programs of their own, and what does not ask for them costs nothing more. InvalidArgument
+    /// without `clearance`; Unsupported on a device without room for the descriptors (maxBoundDescriptorSets 5,
     /// maxPerStageDescriptorStorageBuffers 7).
     bool labelClearances = false;
     /// With `labelClearances`: of all that has the label, be it opaque or not; but of what is no number, nothing.

@@ -54,7 +54,9 @@ struct ContactResult {
     VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
 };
 
-/// How near one pair is, of a detector with DetectorDesc::clearance; 16 bytes, std430. Rounding is counted in.
+/// How near one pair is, of a detector with DetectorDesc::clearance, or one label of it, with
+/// DetectorDesc::labelClearances: what is opaque is then what of it has the label. 16 bytes, std430. Rounding is
+/// counted in.
 struct ClearanceResult {
     float lo;              ///< world mm: nothing opaque is nearer; infinite where nothing is opaque
     float hi;              ///< world mm: something opaque is as near; infinite where that is not known
