@@ -14,10 +14,13 @@
 /// Of a length: nearer to the point, nothing is turned.
 #define TURN_LEAST_SQUARE 1.0e-12f
 
+#ifdef __cplusplus
+#include <cmath>
+#endif
+
 #include "exact_language.h"
 
 #ifdef __cplusplus
-#include <cmath>
 namespace voxtact::shader {
 using std::sqrt;
 #endif

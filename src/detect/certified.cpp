@@ -71,9 +71,6 @@ std::span<const std::uint32_t> programOf(const PassKind& kind, const DetectorDes
 
 Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const DetectorDesc& desc) {
     CertifiedPass pass(context, desc);
-    if (desc.poseTolerance && !(desc.poseTolerance->angle > 0)) {
-        pass.desc_.margin = desc.poseTolerance->distance; // the same question, and faster
-    }
     const ShaderConstant constants[] = {
         {VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
         {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
@@ -83,7 +80,7 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
         const PassKind& kind = kPasses[i];
         Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, programOf(kind, pass.desc_), constants,
+            makeComputePipeline(context, programOf(kind, desc), constants,
                                 outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
         VOXTACT_TRY(made);
         pass.pipelines_[i] = std::move(*made);
@@ -95,7 +92,7 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
         VOXTACT_TRY(made);
         pass.tally_ = std::move(*made);
     }
-    if (desc.poseTolerance && desc.poseTolerance->angle > 0) {
+    if (desc.poseTolerance && (desc.poseTolerance->angle > 0 || desc.poseTolerance->distance > 0)) {
         Result<TolerancePass> made = TolerancePass::create(context, desc);
         VOXTACT_TRY(made);
         pass.tolerance_ = std::move(*made);

@@ -45,7 +45,7 @@ class CertifiedPass {
     DetectorDesc desc_;
     std::array<Owned<VkPipeline>, kCertifiedPasses> pipelines_;
     Owned<VkPipeline> tally_;                ///< with DetectorDesc::counters
-    std::optional<TolerancePass> tolerance_; ///< with DetectorDesc::poseTolerance that turns
+    std::optional<TolerancePass> tolerance_; ///< with a DetectorDesc::poseTolerance that permits anything
     std::optional<ClearancePass> clearance_; ///< with DetectorDesc::clearance
 };
 

@@ -6,6 +6,12 @@
 #include "detect/certified_rounds.h"
 #include "gpu/scene_impl.h"
 
+#include "voxtact_shaders/certified_margin_cull_comp.h"
+#include "voxtact_shaders/certified_margin_decide_comp.h"
+#include "voxtact_shaders/certified_margin_expand_comp.h"
+#include "voxtact_shaders/certified_margin_finish_comp.h"
+#include "voxtact_shaders/certified_margin_large_comp.h"
+#include "voxtact_shaders/certified_margin_refine_comp.h"
 #include "voxtact_shaders/certified_tolerance_cull_comp.h"
 #include "voxtact_shaders/certified_tolerance_decide_comp.h"
 #include "voxtact_shaders/certified_tolerance_expand_comp.h"
@@ -71,16 +77,17 @@ ShaderConstant floatConstant(std::uint32_t id, double value) {
 
 Result<TolerancePass> TolerancePass::create(ContextImpl& context, const DetectorDesc& desc) {
     struct Program {
-        std::span<const std::uint32_t> spirv;
+        std::span<const std::uint32_t> turned;
+        std::span<const std::uint32_t> moved; ///< only
         const char* name;
     };
     const Program programs[Count] = {
-        {spirv::certified_tolerance_cull_comp, "tolerance cull"},
-        {spirv::certified_tolerance_refine_comp, "tolerance refine"},
-        {spirv::certified_tolerance_expand_comp, "tolerance expand"},
-        {spirv::certified_tolerance_large_comp, "tolerance large"},
-        {spirv::certified_tolerance_decide_comp, "tolerance decide"},
-        {spirv::certified_tolerance_finish_comp, "tolerance finish"},
+        {spirv::certified_tolerance_cull_comp, spirv::certified_margin_cull_comp, "tolerance cull"},
+        {spirv::certified_tolerance_refine_comp, spirv::certified_margin_refine_comp, "tolerance refine"},
+        {spirv::certified_tolerance_expand_comp, spirv::certified_margin_expand_comp, "tolerance expand"},
+        {spirv::certified_tolerance_large_comp, spirv::certified_margin_large_comp, "tolerance large"},
+        {spirv::certified_tolerance_decide_comp, spirv::certified_margin_decide_comp, "tolerance decide"},
+        {spirv::certified_tolerance_finish_comp, spirv::certified_margin_finish_comp, "tolerance finish"},
     };
     constexpr double kOutward = 1 + 0x1p-22; // more than rounding to float
     const PoseTolerance& tolerance = *desc.poseTolerance;
@@ -93,7 +100,8 @@ Result<TolerancePass> TolerancePass::create(ContextImpl& context, const Detector
     TolerancePass pass(context, tolerance);
     for (std::size_t i = 0; i < Count; ++i) {
         Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, programs[i].spirv, constants, context.computeLayout, programs[i].name);
+            makeComputePipeline(context, angle > 0 ? programs[i].turned : programs[i].moved, constants,
+                                context.computeLayout, programs[i].name);
         VOXTACT_TRY(made);
         pass.pipelines_[i] = std::move(*made);
     }
@@ -112,7 +120,9 @@ void TolerancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, con
                                 pass(Decide, VOXTACT_QUEUE_CELLS),
                                 pass(Finish, VOXTACT_QUEUE_LEFT)};
     shader::CertifiedConstants constants = given;
-    constants.item = withTolerance(given.item, item.volume->impl().grid, tolerance_.distance);
+    const Grid& grid = item.volume->impl().grid;
+    constants.item = tolerance_.angle > 0 ? withTolerance(given.item, grid, tolerance_.distance)
+                                          : withMargin(given.item, grid, tolerance_.distance);
     const RoundLimits limits{.clusters = clustersOfRound(given.queueRoom, false),
                              .pairs = context_->limits.maxComputeWorkGroupCount[1],
                              .looks = looksOfRound(given.queueRoom)};

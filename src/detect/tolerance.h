@@ -10,10 +10,10 @@
 namespace voxtact {
 
 /// What may touch at some pose within a tolerance, after the touch: the passes with a margin, of a mesh that may also
-/// be turned (shaders/certified_turn.h).
+/// be turned (shaders/certified_turn.h) where there is an angle.
 class TolerancePass {
   public:
-    /// Expects a checked desc with a `poseTolerance` whose angle is above 0.
+    /// Expects a checked desc with a `poseTolerance` that is not 0 and 0.
     [[nodiscard]] static Result<TolerancePass> create(ContextImpl& context, const DetectorDesc& desc);
 
     /// Records the rounds for the pairs of an item, which is bound: from `constants.firstPair` on. Waits for what was
