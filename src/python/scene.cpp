@@ -22,6 +22,14 @@ std::size_t firstPiece(const Request& request, std::size_t cost, std::size_t thr
     return std::max(kFirstTriangles / (request.mostTriangles() * cost), threads);
 }
 
+/// A certified yes or no that a device is asked for.
+Question yesOrNoByDevice() {
+    Question question;
+    question.method = CountingMethod::Compute;
+    question.yesNo = true;
+    return question;
+}
+
 void checkThreshold(double threshold) {
     if (!(threshold >= 0 && threshold <= 1)) {
         refuseArgument("threshold is " + std::to_string(threshold) + "; it must be from 0 to 1");
@@ -242,9 +250,7 @@ std::shared_ptr<Answer> Scene::yesOrNo(const std::shared_ptr<const Request>& req
 std::shared_ptr<Answer> Scene::within(const std::shared_ptr<const Request>& request, double margin, bool byDevice,
                                       const Progress& progress) {
     if (byDevice) {
-        Question question;
-        question.method = CountingMethod::Compute;
-        question.yesNo = true;
+        Question question = yesOrNoByDevice();
         question.margin = margin;
         return detect(request, question, progress);
     }
@@ -255,9 +261,7 @@ std::shared_ptr<Answer> Scene::within(const std::shared_ptr<const Request>& requ
 std::shared_ptr<Answer> Scene::around(const std::shared_ptr<const Request>& request, const PoseTolerance& tolerance,
                                       bool byDevice, const Progress& progress) {
     if (byDevice) {
-        Question question;
-        question.method = CountingMethod::Compute;
-        question.yesNo = true;
+        Question question = yesOrNoByDevice();
         question.tolerance = tolerance;
         return detect(request, question, progress);
     }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Scenes on a Vulkan device: the host's answers; and pictures."""
+import functools
 import os
 import subprocess
 import sys
@@ -44,17 +45,20 @@ def test_the_certified_answer_is_the_hosts(device, head, knife):
     assert repr(there).endswith(f"on {device.info.name!r}>")
 
 
+def hits_of_both(ask):
+    """How many poses hit by a question that `ask` puts: device and host never contradict each other."""
+    expected, answer = ask(), ask(method="compute")
+    assert (answer.method, expected.method) == ("compute", "cpu")
+    sure = ~(answer.possible | expected.possible)
+    assert sure.mean() > 0.9
+    np.testing.assert_array_equal(answer.hit[sure], expected.hit[sure])
+    return int(answer.hit.sum())
+
+
 def test_a_margin_is_decided_by_the_device_that_is_asked(device, head, knife):
     host, there = both(device, head)
     poses = random_poses(40, 33)
-    hits = []
-    for margin in (0, 1.5, 6):
-        expected, answer = there.within(knife, poses, margin=margin), there.within(knife, poses, margin=margin, method="compute")
-        assert (answer.method, expected.method) == ("compute", "cpu")
-        sure = ~(answer.possible | expected.possible)
-        assert sure.mean() > 0.9
-        np.testing.assert_array_equal(answer.hit[sure], expected.hit[sure])
-        hits.append(int(answer.hit.sum()))
+    hits = [hits_of_both(functools.partial(there.within, knife, poses, margin=margin)) for margin in (0, 1.5, 6)]
     assert hits[0] < hits[2]
     with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
         host.within(knife, poses, margin=1, method="compute")
@@ -69,15 +73,8 @@ def test_a_margin_is_decided_by_the_device_that_is_asked(device, head, knife):
 def test_a_pose_tolerance_is_decided_by_the_device_that_is_asked(device, head, knife):
     host, there = both(device, head)
     poses = random_poses(40, 34)
-    hits = []
-    for distance, angle in ((0, 0), (1, 2), (6, 2)):
-        asked = {"distance": distance, "angle": angle}
-        expected, answer = there.around(knife, poses, **asked), there.around(knife, poses, **asked, method="compute")
-        assert (answer.method, expected.method) == ("compute", "cpu")
-        sure = ~(answer.possible | expected.possible)
-        assert sure.mean() > 0.9
-        np.testing.assert_array_equal(answer.hit[sure], expected.hit[sure])
-        hits.append(int(answer.hit.sum()))
+    hits = [hits_of_both(functools.partial(there.around, knife, poses, distance=distance, angle=angle))
+            for distance, angle in ((0, 0), (1, 2), (6, 2))]
     assert hits[0] < hits[2]
     with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
         host.around(knife, poses, distance=1, angle=2, method="compute")
