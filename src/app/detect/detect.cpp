@@ -281,8 +281,7 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
         },
         "hit says whether anything opaque is touched at some pose that is off by no more: turned by up to DEG degrees "
         "about any axis through the object's origin, and moved by up to MM; as certified as a touch; by the host, or "
-        "by "
-        "--count compute",
+        "by --count compute",
         "MM,DEG");
 }
 

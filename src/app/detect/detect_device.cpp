@@ -170,8 +170,8 @@ device::PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectIn
         pairsPerBatch(options, inputs, desc.frames),
         std::clamp<std::uint64_t>(inputs.pairs(options.jobs).value_or(kDefaultBatch), 1, kWindowPairs)));
     desc.timestamps = options.timing;
-    desc.labels = static_cast<std::uint32_t>(std::min<std::size_t>(inputs.measured.size(), kMostMeasuredLabels));
-    if (desc.labels > 0) {
+    if (!options.distance.labels.empty() && !inputs.measured.empty()) {
+        desc.labels = static_cast<std::uint32_t>(std::min<std::size_t>(inputs.measured.size(), kMostMeasuredLabels));
         desc.pairsPerSubmission = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
             kMostOutputBytes / desc.frames / (desc.labels * kBytesOfLabelClearance), 1, desc.pairsPerSubmission));
     }
