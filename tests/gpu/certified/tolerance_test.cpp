@@ -4,6 +4,7 @@
 #include "certified/counted_fixture.h"
 #include "certified/few_kinds.h"
 #include "certified/head_scene.h"
+#include "certified/sides.h"
 #include "cpu/scenes/margin_cases.h"
 #include "voxtact/cpu.h"
 
@@ -59,11 +60,7 @@ class ToleranceTest : public CertifiedTest {
     }
     /// One pair.
     PairAnswer ask(BlockingDetector& device, const oracle::OraclePair& pair, bool clusters) const {
-        const Volume volume = take(Volume::upload(context(), queue(), pair.volume, {.bricks = true}));
-        const TransferFunction function = take(TransferFunction::upload(context(), queue(), pair.transferFunction));
-        const Mesh mesh = take(Mesh::upload(context(), queue(), pair.mesh, {.clusters = clusters}));
-        const BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
-        return take(device.detect({{&item, 1}, {}, pair.threshold})).pairs.at(0);
+        return askPair(device, context(), queue(), pair, clusters).pairs.at(0);
     }
 };
 
@@ -96,34 +93,23 @@ TEST_F(ToleranceTest, SaysNothingAgainstTheHost) {
 
 /// Random volumes, also with axes that are not at right angles, meshes and poses.
 TEST_F(ToleranceTest, SaysNothingAgainstTheHostOnRandomCases) {
-    const std::uint64_t cases = randomCases(200, 24);
     const std::uint64_t seed = testSeed();
     BlockingDetector device = detector(off(kOff));
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-    FewKindsOfImage few(cases / 4 + 1);
     Said said;
     Said ofHost;
-    std::uint64_t done = 0;
-    for (std::uint64_t number = 0; done < cases && !HasFailure(); ++number) {
-        MarginCase c = makeMarginCase(seed, number, meter);
-        if (!few.take(c.scene.volume.view())) {
-            continue;
-        }
-        ++done;
-        SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(number));
+    const auto make = [&](std::uint64_t number) { return makeMarginCase(seed, number, meter); };
+    const std::uint64_t cases = forFewKinds(randomCases(1000, 40), seed, make, [&](MarginCase& c, auto number) {
         scaleTo(c, kOff.distance * std::exp2(static_cast<double>(1 + number % 5))); // a turn adds to the distance
         const oracle::OraclePair pair = c.scene.pair();
-        const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
-        const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
-        const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
-        const PairAnswer host =
-            hostAnswers({&mesh, &volume, &function, {&pair.world_from_object, 1}}, pair.threshold, kOff).at(0);
+        const HostSide side(pair.volume, pair.transferFunction, pair.mesh);
+        const PairAnswer host = hostAnswers(side.item({&pair.world_from_object, 1}), pair.threshold, kOff).at(0);
         const PairAnswer found = ask(device, pair, number % 2 == 0);
         expectNoContradiction(found, host);
         said.add(found);
         ofHost.add(host);
-    }
-    std::cout << "  " << done << " cases: device " << said << "; host " << ofHost << '\n';
+    });
+    std::cout << "  " << cases << " cases: device " << said << "; host " << ofHost << '\n';
 }
 
 /// Opaque where z is below 0: voxels of 1 mm, x and y from -20 to 20.
