@@ -3,8 +3,9 @@
 // that was kept. Those whose boxes meet a brick that may be opaque go on to the next pass. Where stopAtFirst is wanted,
 // a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its pair. With
 // MARGIN the boxes are grown by it, with TURN by how far a turn brings them, too, and what is as far from the vertex
-// along the grid's axes is looked at as well. With CLEARANCE those go on that may be nearer to something opaque than what
-// is known of their pair; SCOUT is the first step, which ends here.
+// along the grid's axes is looked at as well. With MOVE they are grown by how far a piece of the way brings them, and
+// what long pieces bring near something ends the work on its pair: those are halved. With CLEARANCE those go on that may
+// be nearer to something opaque than what is known of their pair; SCOUT is the first step, which ends here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -53,6 +54,9 @@ Node nodeOfLane() {
     node.some = node.number < constants.endCluster;
 #endif
     node.some = node.some && !isDone(node.pair);
+#ifdef MOVE
+    node.some = node.some && motionLook(node.pair) != VOXTACT_MOTION_NONE;
+#endif
     return node;
 }
 
@@ -132,7 +136,7 @@ bool placeProves(uint pair, VoxelPoint vertex, VoxelPoint at, float delta) {
     if (!certifiedCellMayBeOpaque(opacities(), known)) {
         return false;
     }
-#ifdef MARGIN
+#if defined(MARGIN) && !defined(MOVE)
     return marginProbeProves(opacities(), MARGIN_SPACE(pair), known, vertex, at,
                              voxelPoint(float(cell.x), float(cell.y), float(cell.z)), delta);
 #else
@@ -141,7 +145,7 @@ bool placeProves(uint pair, VoxelPoint vertex, VoxelPoint at, float delta) {
 #endif
 }
 
-#ifdef MARGIN
+#if defined(MARGIN) && !defined(MOVE)
 /// Whether a brick that is within the margin of a vertex, all of it, has something opaque.
 bool bricksProve(uint pair, VoxelPoint vertex, float delta) {
     const MarginSpace by = MARGIN_SPACE(pair);
@@ -171,7 +175,12 @@ bool bricksProve(uint pair, VoxelPoint vertex, float delta) {
 bool vertexProves(Node node, float delta) {
     const vec3 position = positionOf(constants.mesh, 3 * triangleAt(node.number * kNodeTriangles));
     const VoxelPoint at = certifiedVertex(transforms[node.pair], position.x, position.y, position.z).point;
-#ifdef MARGIN
+#if defined(MOVE)
+    const MarginSpace by = MARGIN_SPACE(node.pair);
+    const VoxelPoint move = moveOf(by.move, voxelDifference(at, by.pivot));
+    return placeProves(node.pair, at, voxelStep(at, move, 1.0), delta) ||
+           placeProves(node.pair, at, voxelStep(at, move, -1.0), delta);
+#elif defined(MARGIN)
     bool found = bricksProve(node.pair, at, delta);
     for (int probe = 0; probe < MARGIN_PROBES && !found; ++probe) {
         found = placeProves(node.pair, at, marginProbe(MARGIN_SPACE(node.pair), at, probe), delta);
@@ -233,11 +242,21 @@ void main() {
         keep = mayTouch(cellsOf(bounds));
         if (kStopAtFirst && kVertexSays && keep && bounds.usable && vertexProves(node, bounds.delta)) {
             keepVertex(node);
+#ifdef MARGIN
+            markWithin(node.pair);
+#else
             atomicOr(results[node.pair].countLow, 1u);
+#endif
             atomicOr(proven, 1u);
             keep = false;
         }
     }
+#if defined(MOVE) && defined(RUNS)
+    if (keep && motionLook(node.pair) == VOXTACT_MOTION_BOXES) {
+        markWithin(node.pair);
+        keep = false;
+    }
+#endif
 #endif
     uint slot = 0;
     if (keep) {

@@ -12,11 +12,13 @@
 // divided, and no root taken, in what decides.
 //
 // With TURN the mesh may also be turned, about a point and by no more than an angle: its shadow is longer by what
-// certified_turn.h says, corner by corner, and what it is within the margin of is turned towards it first.
+// certified_turn.h says, corner by corner, and what it is within the margin of is turned towards it first. With MOVE it
+// goes a piece of its way, as certified_move.h says: its shadow is longer by that.
 #ifndef VOXTACT_CERTIFIED_MARGIN_H
 #define VOXTACT_CERTIFIED_MARGIN_H
 
 #include "certified.h"
+#include "certified_move.h"
 #include "certified_turn.h"
 
 /// Of the largest coordinate from where things are measured, in voxels: more than rounding moves a point, a shadow or a
@@ -44,10 +46,14 @@ struct MarginSpace {
     VoxelPoint grow;              // voxels along each axis that the margin reaches, rounded up
     float margin;                 // flat
     float size;                   // of the matrix: no vector becomes longer than that times its largest component
-    VoxelPoint pivot;             // with TURN, what it turns about. Then `grow` is that of a margin of 1, flat
+    VoxelPoint pivot;             // with TURN or MOVE, what it turns about. Then `grow` is that of a margin of 1, flat
 #ifdef TURN
     float pivotError; // voxels, along each axis
     TurnLimit turn;
+#endif
+#ifdef MOVE
+    MoveWay move;
+    float leastSide; // flat: a box of a cell is not halved where it is no longer
 #endif
 };
 
@@ -92,21 +98,23 @@ EXACT float marginSlack(MarginSpace by, float delta, float reach) {
     return slack;
 }
 
-#ifdef TURN
-/// The same, of what turns about `pivot`: by what that is off, a place that is turned is off by no more than twice, and
-/// rounding is of arms from there, too.
-EXACT float marginMovedSlack(MarginSpace by, VoxelPoint pivot, float delta, float reach) {
-    PRECISE float off = delta + by.pivotError * 2.0f;
-    PRECISE float farthest = (voxelLength(pivot) + reach) * 2.0f + reach;
-    return marginSlack(by, off, farthest);
-}
-
+#if defined(TURN) || defined(MOVE)
 /// No vector of voxel space whose components are no larger is longer, flat.
 EXACT float marginLongest(MarginSpace by, VoxelPoint most) {
     PRECISE float x = certifiedAbs(by.xx) * most.x + certifiedAbs(by.xy) * most.y + certifiedAbs(by.xz) * most.z;
     PRECISE float y = certifiedAbs(by.yy) * most.y + certifiedAbs(by.yz) * most.z;
     PRECISE float z = certifiedAbs(by.zz) * most.z;
     return turnLength(voxelPoint(x, y, z));
+}
+#endif
+
+#if defined(TURN)
+/// The same, of what turns about `pivot`: by what that is off, a place that is turned is off by no more than twice, and
+/// rounding is of arms from there, too.
+EXACT float marginMovedSlack(MarginSpace by, VoxelPoint pivot, float delta, float reach) {
+    PRECISE float off = delta + by.pivotError * 2.0f;
+    PRECISE float farthest = (voxelLength(pivot) + reach) * 2.0f + reach;
+    return marginSlack(by, off, farthest);
 }
 
 /// Voxels along each axis that the margin and a turn reach from all that is in a box.
@@ -125,6 +133,48 @@ EXACT VoxelPoint marginWay(MarginSpace by, VoxelPoint pivot, VoxelPoint near, Vo
     const VoxelPoint wanted = marginFlat(by, voxelDifference(at, pivot));
     const VoxelPoint arm = marginFlat(by, voxelDifference(near, pivot));
     return voxelDifference(wanted, turnTowards(by.turn, arm, wanted));
+}
+#elif defined(MOVE)
+/// The same, of what goes a piece of its way, `pivot` being the centre: twice what moves are off by, as these bend.
+EXACT float marginMovedSlack(MarginSpace by, VoxelPoint pivot, float delta, float reach) {
+    PRECISE float off = delta + voxelLength(moveSpread(by.move, voxelPoint(delta, delta, delta))) * 2.0f;
+    PRECISE float farthest = reach + moveReach(by.move, voxelLength(pivot) + reach) * 2.0f;
+    return marginSlack(by, off, farthest);
+}
+
+/// The move of what is at a place of voxel space, the greatest components of one in a box about it of such half sides,
+/// and no less than the flat length of what of any such move is of turning.
+struct MarginMove {
+    VoxelPoint move;
+    VoxelPoint most;
+    float turning;
+};
+
+EXACT VoxelPoint marginMost(VoxelPoint middle, VoxelPoint spread) {
+    PRECISE float x = certifiedAbs(middle.x) + spread.x;
+    PRECISE float y = certifiedAbs(middle.y) + spread.y;
+    PRECISE float z = certifiedAbs(middle.z) + spread.z;
+    return voxelPoint(x, y, z);
+}
+
+EXACT MarginMove marginMoveAbout(MarginSpace by, VoxelPoint middle, VoxelPoint radius) {
+    const VoxelPoint spread = moveSpread(by.move, radius);
+    MarginMove found;
+    found.move = moveOf(by.move, voxelDifference(middle, by.pivot));
+    found.most = marginMost(found.move, spread);
+    found.turning = marginLongest(by, marginMost(voxelDifference(found.move, by.move.straight), spread));
+    return found;
+}
+
+/// Voxels along each axis that all that is in a box may get to.
+EXACT VoxelPoint marginGrow(MarginSpace by, CertifiedReach reach) {
+    const VoxelPoint middle = voxelStep(reach.lo, voxelDifference(reach.hi, reach.lo), 0.5f);
+    const VoxelPoint radius = voxelDifference(reach.hi, middle);
+    const MarginMove all = marginMoveAbout(by, middle, radius);
+    const VoxelPoint arm = marginMost(voxelDifference(middle, by.pivot), radius);
+    const float slack = marginMovedSlack(by, by.pivot, reach.delta, voxelLength(arm));
+    PRECISE float most = (all.turning * by.move.bend + by.margin + slack) * MARGIN_OUTWARD;
+    return voxelStep(voxelStep(voxelPoint(0.0f, 0.0f, 0.0f), all.most, MARGIN_OUTWARD), by.grow, most);
 }
 #else
 EXACT float marginMovedSlack(MarginSpace by, VoxelPoint, float delta, float reach) {
@@ -240,7 +290,7 @@ EXACT MarginNear marginNearest(ARRAY(VoxelPoint, voxels, 3), ARRAY(VoxelPoint, c
     return near;
 }
 
-#ifdef TURN
+#if defined(TURN)
 /// A vector of flat space in voxel space.
 EXACT VoxelPoint marginUnflat(MarginSpace by, VoxelPoint v) {
     PRECISE float z = v.z * marginInverse(by.zz);
@@ -288,6 +338,80 @@ EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint 
     }
     return near;
 }
+#elif defined(MOVE)
+/// How far on a move what is to go `way` gets the closest: from -1 to 1.
+EXACT float marginShare(VoxelPoint way, VoxelPoint move) {
+    PRECISE float share = voxelDot(way, move) * marginInverse(voxelDot(move, move));
+    return certifiedClamp(share, -1.0f, 1.0f);
+}
+
+/// What is nearest to the origin where each corner has gone a share of its move.
+EXACT MarginNear marginNearAt(ARRAY(VoxelPoint, voxels, 3), ARRAY(VoxelPoint, corners, 3), ARRAY(VoxelPoint, moves, 3),
+                              float share) {
+    VoxelPoint shifted[3];
+    for (int i = 0; i < 3; ++i) {
+        shifted[i] = voxelStep(corners[i], moves[i], share);
+    }
+    return marginNearest(voxels, shifted);
+}
+
+/// The greatest shadow of the triangle on a direction, wherever on the piece it is.
+EXACT float marginMoveShadow(MarginSpace by, VoxelPoint along, ARRAY(VoxelPoint, corners, 3),
+                             ARRAY(VoxelPoint, moves, 3)) {
+    PRECISE float bend = turnLength(along) * by.move.bend * MARGIN_OUTWARD;
+    const VoxelPoint straight = marginFlat(by, by.move.straight);
+    float most = -3.0e38f;
+    for (int i = 0; i < 3; ++i) {
+        const float way = voxelDot(along, moves[i]);
+        const float turning = turnLength(voxelDifference(moves[i], straight));
+        PRECISE float shadow = voxelDot(along, corners[i]) + certifiedAbs(way) + bend * turning;
+        most = certifiedMax(most, shadow);
+    }
+    return most;
+}
+
+/// Of the corners `voxels` of a triangle, flat: where they are, from `from`, and how far each goes.
+EXACT void marginMoves(MarginSpace by, MarginTriangle triangle, VoxelPoint from, ARRAY(VoxelPoint, voxels, 3),
+                       ARRAY(VoxelPoint, corners, 3), ARRAY(VoxelPoint, moves, 3)) {
+    for (int i = 0; i < 3; ++i) {
+        corners[i] = marginFlat(by, voxelDifference(voxels[i], from));
+        moves[i] = marginFlat(by, moveOf(by.move, voxelDifference(voxels[i], triangle.pivot)));
+    }
+}
+
+/// Where the triangle's nearest point gets nearest, another point of it is nearest: it is looked for twice.
+EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
+    VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
+    VoxelPoint corners[3];
+    VoxelPoint moves[3];
+    marginMoves(by, triangle, from, voxels, corners, moves);
+    const VoxelPoint place = voxelStep(voxelStep(corners[0], corners[1], 1.0f), corners[2], 1.0f);
+    const VoxelPoint sum = voxelStep(voxelStep(moves[0], moves[1], 1.0f), moves[2], 1.0f);
+    const MarginNear first = marginNearAt(voxels, corners, moves, -marginShare(place, sum));
+    const VoxelPoint way = moveOf(by.move, voxelDifference(first.at, triangle.pivot));
+    const float share = -marginShare(marginFlat(by, voxelDifference(first.at, from)), marginFlat(by, way));
+    const MarginNear second = marginNearAt(voxels, corners, moves, share);
+    MarginNear near;
+    near.at = second.at;
+    near.moved = voxelStep(second.at, moveOf(by.move, voxelDifference(second.at, triangle.pivot)), share);
+    near.along = voxelPoint(-second.along.x, -second.along.y, -second.along.z);
+    near.shadow = marginMoveShadow(by, near.along, corners, moves);
+    return near;
+}
+
+/// The same about a direction that is given.
+EXACT MarginNear marginAlong(MarginSpace by, MarginTriangle triangle, VoxelPoint from, VoxelPoint along) {
+    VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
+    VoxelPoint corners[3];
+    VoxelPoint moves[3];
+    marginMoves(by, triangle, from, voxels, corners, moves);
+    MarginNear near;
+    near.at = from;
+    near.moved = from;
+    near.along = along;
+    near.shadow = marginMoveShadow(by, along, corners, moves);
+    return near;
+}
 #else
 EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
     VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
@@ -312,6 +436,7 @@ EXACT bool marginBeyond(MarginSpace by, float slack, float gap, float square) {
     return square >= MARGIN_LEAST_SQUARE && gap > 0.0f && gapSquare > reached;
 }
 
+#ifndef MOVE
 /// Whether a point is certainly within the margin of a triangle that has the point `near`; with TURN, of that turned
 /// towards it about `pivot`.
 EXACT bool marginWithin(MarginSpace by, VoxelPoint pivot, float slack, VoxelPoint near, VoxelPoint at) {
@@ -320,6 +445,7 @@ EXACT bool marginWithin(MarginSpace by, VoxelPoint pivot, float slack, VoxelPoin
     PRECISE float square = most * most * MARGIN_INWARD;
     return most > 0.0f && voxelDot(way, way) <= square;
 }
+#endif
 
 #ifdef TURN
 /// Whether a move within the margin certainly brings what is turned, of `near` about `from`, into a box, although a
@@ -379,10 +505,10 @@ struct MarginApart {
     float slack;  // flat
 };
 
-#ifdef TURN
+#if defined(TURN)
 /// The direction from where the point of a box that is nearest to another gets, to that; without a turn it is `apart`,
 /// flat.
-EXACT VoxelPoint marginAlongTurned(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint apart) {
+EXACT VoxelPoint marginAlongMoved(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint apart) {
     const VoxelPoint near =
         voxelPoint(certifiedClamp(middle.x, reach.lo.x, reach.hi.x), certifiedClamp(middle.y, reach.lo.y, reach.hi.y),
                    certifiedClamp(middle.z, reach.lo.z, reach.hi.z));
@@ -392,11 +518,32 @@ EXACT VoxelPoint marginAlongTurned(MarginSpace by, CertifiedReach reach, VoxelPo
 }
 
 /// What a turn adds to the shadow of all that is in a box: to that of its middle, and of what is about this.
-EXACT float marginTurnSurplus(MarginSpace by, CertifiedReach reach, VoxelPoint along) {
+EXACT float marginSurplus(MarginSpace by, CertifiedReach reach, VoxelPoint along) {
     const VoxelPoint middle = voxelStep(reach.lo, voxelDifference(reach.hi, reach.lo), 0.5f);
     const VoxelPoint about = voxelDifference(reach.hi, middle);
     PRECISE float surplus = turnSurplus(by.turn, along, marginFlat(by, voxelDifference(middle, by.pivot))) +
                             turnLength(along) * marginLongest(by, about) * by.turn.chord * MARGIN_OUTWARD;
+    return surplus;
+}
+#elif defined(MOVE)
+/// The direction from where the middle of a box gets that is nearest to another, to that; at its own pose it is
+/// `apart`, flat.
+EXACT VoxelPoint marginAlongMoved(MarginSpace by, CertifiedReach reach, VoxelPoint middle, VoxelPoint apart) {
+    const VoxelPoint own = voxelStep(reach.lo, voxelDifference(reach.hi, reach.lo), 0.5f);
+    const VoxelPoint move = marginFlat(by, moveOf(by.move, voxelDifference(own, by.pivot)));
+    return voxelStep(apart, move, -marginShare(apart, move));
+}
+
+/// What a piece of the way adds to the shadow of all that is in a box.
+EXACT float marginSurplus(MarginSpace by, CertifiedReach reach, VoxelPoint along) {
+    const VoxelPoint middle = voxelStep(reach.lo, voxelDifference(reach.hi, reach.lo), 0.5f);
+    const VoxelPoint radius = voxelDifference(reach.hi, middle);
+    const MarginMove all = marginMoveAbout(by, middle, radius);
+    const VoxelPoint pulled = marginPulled(by, along);
+    const VoxelPoint spread = moveSpread(by.move, radius);
+    PRECISE float surplus = certifiedAbs(voxelDot(pulled, all.move)) + certifiedAbs(pulled.x) * spread.x +
+                            certifiedAbs(pulled.y) * spread.y + certifiedAbs(pulled.z) * spread.z +
+                            turnLength(along) * all.turning * by.move.bend * MARGIN_OUTWARD;
     return surplus;
 }
 #endif
@@ -406,8 +553,8 @@ EXACT MarginApart marginReachApart(MarginSpace by, CertifiedReach reach, VoxelPo
     const VoxelPoint apart = voxelPoint(marginApart(reach.lo.x, reach.hi.x, middle.x, radius.x),
                                         marginApart(reach.lo.y, reach.hi.y, middle.y, radius.y),
                                         marginApart(reach.lo.z, reach.hi.z, middle.z, radius.z));
-#ifdef TURN
-    const VoxelPoint along = marginAlongTurned(by, reach, middle, marginFlat(by, apart));
+#if defined(TURN) || defined(MOVE)
+    const VoxelPoint along = marginAlongMoved(by, reach, middle, marginFlat(by, apart));
 #else
     const VoxelPoint along = marginFlat(by, apart);
 #endif
@@ -421,8 +568,8 @@ EXACT MarginApart marginReachApart(MarginSpace by, CertifiedReach reach, VoxelPo
     MarginApart found;
     found.gap = gap;
     found.square = voxelDot(along, along);
-#ifdef TURN
-    PRECISE float left = gap - marginTurnSurplus(by, reach, along);
+#if defined(TURN) || defined(MOVE)
+    PRECISE float left = gap - marginSurplus(by, reach, along);
     found.gap = left;
 #endif
     found.slack = marginMovedSlack(by, voxelDifference(by.pivot, middle), reach.delta, farthest);

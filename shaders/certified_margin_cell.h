@@ -14,10 +14,19 @@
 /// Boxes that wait: one for each halving, and two. A side of a cell, no longer than 2 in flat space, is halved until it
 /// is no longer than the least.
 #define MARGIN_STACK 32
+#ifdef MOVE
+#define MARGIN_LEAST_SIDE 0.001953125f // it is asked of pieces that are as short
+#else
 #define MARGIN_LEAST_SIDE 0.0078125f
+#endif
 /// Boxes of a cell that are looked at before it is left undecided, and those of the least size that are left open.
+#ifdef MOVE
+#define MARGIN_MOST_BOXES 2048
+#define MARGIN_MOST_OPEN 1 // it is then known that not all of the way is free
+#else
 #define MARGIN_MOST_BOXES 512
 #define MARGIN_MOST_OPEN 64
+#endif
 /// Halvings of a range of values, to find where it begins to be opaque.
 #define MARGIN_VALUE_STEPS 18
 #define MARGIN_VALUE_STEP 7.62939453125e-6f
@@ -264,6 +273,33 @@ EXACT VoxelPoint marginFoot(MarginSpace by, CertifiedCell cell, MarginValues val
     return voxelStep(from, rise, weight);
 }
 
+#ifdef MOVE
+/// Whether what in a box may be opaque is certainly apart from all of the way, along the direction in which the linear
+/// part rises or falls: where the way runs by at a small distance, the direction to the box's middle says nothing.
+EXACT bool marginRiseBeyond(MarginSpace by, CertifiedCell cell, MarginTriangle triangle, MarginValues values,
+                            MarginLinear linear, VoxelPoint middle, VoxelPoint radius) {
+    PRECISE float gradientX = linear.gradient.x * marginInverse(radius.x);
+    PRECISE float gradientY = linear.gradient.y * marginInverse(radius.y);
+    PRECISE float gradientZ = linear.gradient.z * marginInverse(radius.z);
+    const float side = linear.middle < values.first ? 1.0f : (linear.middle > values.last ? -1.0f : 0.0f);
+    // What is pulled to the gradient: the transposed matrix, from the first axis on.
+    PRECISE float x = gradientX * side * marginInverse(by.xx);
+    PRECISE float y = (gradientY * side - by.xy * x) * marginInverse(by.yy);
+    PRECISE float z = (gradientZ * side - by.xz * x - by.yz * y) * marginInverse(by.zz);
+    const float size = voxelLength(voxelPoint(x, y, z));
+    const VoxelPoint along = voxelStep(voxelPoint(0.0f, 0.0f, 0.0f), voxelPoint(x, y, z), marginInverse(size));
+    return marginPartBeyond(by, cell, triangle, values, marginAlong(by, triangle, middle, along), linear, radius);
+}
+
+/// Whether some of the way meets a box that is opaque all over, as far as rounding lets it.
+EXACT bool marginBoxProves(OpacityTable table, CertifiedCell cell, MarginLinear linear, MarginBox box,
+                           MarginNear near) {
+    PRECISE float below = linear.lo - cell.pointError;
+    PRECISE float above = linear.hi + cell.pointError;
+    const VoxelPoint off = voxelDifference(marginClamped(box, near.moved), near.moved);
+    return !(voxelLength(off) > 0.0f) && certainlyAllOpaque(table, below, above);
+}
+#else
 /// Whether one of three points of a box proves something opaque within the margin: its middle, what is nearest to the
 /// triangle, and what is nearest to that where the box begins to be opaque.
 EXACT bool marginBoxProves(OpacityTable table, MarginSpace by, CertifiedCell cell, MarginTriangle triangle,
@@ -289,6 +325,7 @@ EXACT bool marginBoxProves(OpacityTable table, MarginSpace by, CertifiedCell cel
     }
     return proven;
 }
+#endif
 
 /// What one look at a box says, and which half of it is nearer along each axis.
 struct MarginLook {
@@ -315,9 +352,15 @@ EXACT MarginLook marginLook(OpacityTable table, MarginSpace by, CertifiedCell ce
     if (marginPartBeyond(by, cell, triangle, values, near, linear, radius)) {
         return look;
     }
-    look.verdict = marginBoxProves(table, by, cell, triangle, values, linear, box, middle, radius, near, samples)
-                       ? CERTIFIED_CERTAIN
-                       : CERTIFIED_UNDECIDED;
+#ifdef MOVE
+    if (marginRiseBeyond(by, cell, triangle, values, linear, middle, radius)) {
+        return look;
+    }
+    const bool proven = marginBoxProves(table, cell, linear, box, near);
+#else
+    const bool proven = marginBoxProves(table, by, cell, triangle, values, linear, box, middle, radius, near, samples);
+#endif
+    look.verdict = proven ? CERTIFIED_CERTAIN : CERTIFIED_UNDECIDED;
     return look;
 }
 
@@ -332,7 +375,12 @@ EXACT int marginLongest(MarginSpace by, MarginBox box) {
     const float y = marginSide(by.xy, by.yy, 0.0f, box.lo.y, box.hi.y);
     const float z = marginSide(by.xz, by.yz, by.zz, box.lo.z, box.hi.z);
     const float longest = certifiedMax(x, certifiedMax(y, z));
-    if (!(longest > MARGIN_LEAST_SIDE)) {
+#ifdef MOVE
+    const float least = certifiedMax(by.leastSide, MARGIN_LEAST_SIDE);
+#else
+    const float least = MARGIN_LEAST_SIDE;
+#endif
+    if (!(longest > least)) {
         return -1;
     }
     return x >= longest ? 0 : (y >= longest ? 1 : 2);

@@ -32,7 +32,7 @@ void main() {
     countWork(VOXTACT_WORK_DECIDED, 1);
     const int verdict = decide(entry);
     if (isCut() || verdict == CERTIFIED_UNDECIDED) {
-        atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);
+        markUndecided(entry.x);
     } else if (verdict == CERTIFIED_CERTAIN) {
         markWithin(entry.x);
     }

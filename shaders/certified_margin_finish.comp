@@ -46,11 +46,11 @@ int decideCell(uint pair, CertifiedTriangle triangle, ivec3 cell, vec4 range) {
 
 void tell(uint pair, uint triangle, bool undecided, bool found) {
     if (isCut()) {
-        atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+        markUndecided(pair);
     } else if (found) {
         markWithin(pair);
     } else if (undecided) {
-        atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+        markUndecided(pair);
     }
 }
 #endif

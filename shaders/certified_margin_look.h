@@ -55,6 +55,16 @@ EXACT float marginInCell(float at, int cell, int size) {
     return certifiedClamp(at, cell < 0 ? 0.0f : -0.5f, cell == size - 1 ? 0.0f : 0.5f);
 }
 
+#ifdef MOVE
+/// Whether some of the way meets a cell that is opaque all over, as far as rounding lets it.
+EXACT bool marginCellProves(MarginSpace by, CertifiedItem item, MarginTriangle about, MarginNear near, int has, int x,
+                            int y, int z) {
+    const VoxelPoint nearest =
+        voxelPoint(marginInCell(near.moved.x, x, item.sizeX), marginInCell(near.moved.y, y, item.sizeY),
+                   marginInCell(near.moved.z, z, item.sizeZ));
+    return has >= MARGIN_HAS_ALL && !(voxelLength(voxelDifference(nearest, near.moved)) > 0.0f);
+}
+#else
 /// Whether what a cell `has` proves something opaque within the margin of a triangle; both are about the cell's middle.
 EXACT bool marginCellProves(MarginSpace by, CertifiedItem item, MarginTriangle about, MarginNear near, int has, int x,
                             int y, int z) {
@@ -77,6 +87,7 @@ EXACT bool marginCellProves(MarginSpace by, CertifiedItem item, MarginTriangle a
     return marginWithin(by, about.pivot, wholeSlack, near.at, voxelPoint(0.0f, 0.0f, 0.0f)) ||
            (has >= MARGIN_HAS_ALL && marginWithin(by, about.pivot, about.slack, near.at, nearest));
 }
+#endif
 
 /// A look at a cell of a triangle, as a whole. `has`: of marginCellHas().
 EXACT int marginCellLook(MarginSpace by, CertifiedItem item, CertifiedTriangle triangle, int has, int x, int y, int z) {
@@ -91,6 +102,7 @@ EXACT int marginCellLook(MarginSpace by, CertifiedItem item, CertifiedTriangle t
     return marginCellProves(by, item, about, near, has, x, y, z) ? CERTIFIED_CERTAIN : CERTIFIED_UNDECIDED;
 }
 
+#ifndef MOVE
 /// Places that are looked at first: a vertex, and what is a little nearer to it than the margin along each axis.
 #define MARGIN_PROBES 7
 
@@ -161,6 +173,7 @@ EXACT bool marginBrickProves(OpacityTable table, CertifiedItem item, MarginSpace
 #endif
     return all && marginRangeHas(table, item, lo, hi);
 }
+#endif
 
 #include "exact_language.h"
 

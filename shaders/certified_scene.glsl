@@ -55,6 +55,9 @@ MarginSpace turnSpace(uint pair) {
 }
 
 #define MARGIN_SPACE(pair) turnSpace(pair)
+#elif defined(MOVE)
+#include "certified_motion.glsl"
+#define MARGIN_SPACE(pair) moveSpace(pair)
 #elif defined(MARGIN)
 #define MARGIN_SPACE(pair) marginOf(constants.item)
 #endif
@@ -254,9 +257,22 @@ bool isDone(uint pair) {
 
 #ifdef MARGIN
 #ifndef CLEARANCE
-/// Something is opaque within the margin.
+/// Something is opaque within the margin; with MOVE, it seems so.
 void markWithin(uint pair) {
+#ifdef MOVE
+    atomicOr(results[pair].countLow, VOXTACT_MOTION_MET);
+#else
     atomicOr(results[pair].countLow, 1u);
+#endif
+}
+
+/// It is not known whether something is.
+void markUndecided(uint pair) {
+#ifdef MOVE
+    markWithin(pair); // not all of the way is free
+#else
+    atomicOr(results[pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+#endif
 }
 #endif
 

@@ -35,8 +35,8 @@
 #define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
     (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
 #define VOXTACT_CLOSEST_WORDS 12
-// Behind all these, from a multiple of 256 bytes on, where clearances to labels are wanted: four words for each label
-// of a pair, label by label, and pair by pair.
+// Behind all these, and what motion_words.h has there, from a multiple of 256 bytes on, where clearances to labels are
+// wanted: four words for each label of a pair, label by label, and pair by pair.
 // Before that, what proves VOXTACT_CLEARANCE_HI, or the touch: shaders/certified_closest.glsl.
 #define VOXTACT_CLOSEST_TAKEN 0 // not 0: a lane writes, or the pair touches
 #define VOXTACT_CLOSEST_TRIANGLE 1

@@ -26,19 +26,9 @@ layout(set = VOXTACT_SET_SETUP, binding = VOXTACT_BINDING_SETUP_ITEMS, std430) r
 layout(set = VOXTACT_SET_SETUP_POSES, binding = 0, std430) readonly buffer Poses { uint poses[]; };
 layout(push_constant) uniform Constants { PairSetupConstants constants; };
 
+#include "pair_grid.glsl"
+
 #include "exact_language.h"
-
-Wide wideAt(uint word) {
-    return wideBits(words[word + 1], words[word]);
-}
-
-WideMatrix matrixAt(uint word) {
-    WideMatrix matrix;
-    ROLLED for (int i = 0; i < 16; ++i) {
-        matrix.element[i] = wideAt(word + 2 * i);
-    }
-    return matrix;
-}
 
 /// Whether all of a pose is finite, and its last row that of an affine map.
 bool isUsable(uint at) {
@@ -62,24 +52,6 @@ WideMatrix poseAt(uint at) {
 }
 
 #ifdef CERTIFIED
-PairGrid gridAt(uint word) {
-    PairGrid grid;
-    grid.texture_from_world = matrixAt(word);
-    uint at = word + 32;
-    ROLLED for (int i = 0; i < 3; ++i) {
-        grid.size[i] = wideAt(at + 2 * i);
-        grid.sign[i] = wideAt(at + 6 + 2 * i);
-        grid.lessOrigin[i] = wideAt(at + 12 + 2 * i);
-        grid.halfSpacing[i] = wideAt(at + 18 + 2 * i);
-        grid.axis[i] = words[at + 48 + i];
-    }
-    ROLLED for (int i = 0; i < 12; ++i) {
-        grid.share[i] = wideAt(at + 24 + 2 * i);
-    }
-    grid.aligned = words[at + 51];
-    return grid;
-}
-
 /// A mesh that is far from every cell.
 CertifiedPair nowhere() {
     CertifiedPair pair;

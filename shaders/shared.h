@@ -111,6 +111,20 @@ struct ClosestConstants {
     uint pairs;
 };
 
+/// Push constants of the pass between two looks at motions: shaders/certified_motion_step.comp. Of the words of the
+/// transforms' buffer:
+struct MotionConstants {
+    float rows[9];    // of the world, mm, from voxel space
+    float origin[3];  // of voxel space, world mm
+    uint resultWord;  // where the MotionResults are
+    uint stateWord;   // where the MotionStates are
+    uint closestWord; // where the words of the closest points are
+    uint setupWord;   // where the item's PairGrid is
+    uint firstPair;
+    uint pairs;
+    uint last; // not 0: no look comes after it
+};
+
 /// Push constants of the pass that makes pairs of poses: shaders/pair_setup.comp.
 struct PairSetupConstants {
     uint firstPair; // of the dispatch
@@ -358,6 +372,7 @@ static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
 static_assert(sizeof(ClosestConstants) == 104);
+static_assert(sizeof(MotionConstants) == 76);
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CERTAIN < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_MARGIN_WORD_LEFT(16) + 4 * VOXTACT_MARGIN_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);

@@ -75,6 +75,17 @@ struct DetectorDesc {
     /// With `labelClearances`: of all that has the label, be it opaque or not; but of what is no number, nothing.
     /// InvalidArgument without it.
     bool labelsAtAnyOpacity = false;
+    /// conservative with stopAtFirst, without outputs and without another question: the way from each pose of an item
+    /// to the next, as a cpu::MotionChecker has it, for Results that were made with ResultsDesc::motions. What is said
+    /// to be free is proven free at all of its poses, and a touch by the certified test; the pair of a pose has what
+    /// its segment has: `hit`, or `possible`. That of an item's last pose has neither. In single precision it may be a
+    /// hundredth of a voxel or two from what is free to a touch, whatever the resolution, more where triangles are many
+    /// dozens of voxels long; and no piece of a way is shorter than 2^-22 of it. What is nearer grazes. A search is
+    /// recorded whole: some steps for each halving of the longest way of an item down to the resolution, and for each
+    /// of its stretches of 8 voxels; where that is not enough, the end is Budget. Poses are the host's, and meshes such
+    /// that it knows their vertices. InvalidArgument for a resolution that is not a number from 1e-6 mm on, other
+    /// projections, counts, outputs, and a margin, pose tolerance or clearance.
+    std::optional<MotionSearch> motion = std::nullopt;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -147,6 +158,9 @@ struct ResultsDesc {
     /// For detectors with DetectorDesc::labelClearances, beside `clearances`, without which it is refused: how many
     /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, as these.
     std::uint32_t labelClearances = 0;
+    /// For detectors with DetectorDesc::motion: 1256 bytes of device memory a pair, 32 of the host's where there is a
+    /// copy, and 288 bytes more for each of clustersAtOnce.
+    bool motions = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
     /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the
@@ -218,6 +232,10 @@ class Results {
     /// without ResultsDesc::labelClearances.
     [[nodiscard]] VOXTACT_API BufferRange labelClearances() const noexcept;
 
+    /// The same of a detector with DetectorDesc::motion: a MotionResult for each pair, of the way from its pose to the
+    /// next. Null without ResultsDesc::motions.
+    [[nodiscard]] VOXTACT_API BufferRange motions() const noexcept;
+
     /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
     /// render pass.
     ///   expects  the results as cmdDetect() leaves them
@@ -241,6 +259,12 @@ class Results {
     /// The clearances to labels of the batch recorded last, unpacked: by pair, then in the order of Batch::labels. The
     /// same is expected as by read(); NotReady where its detector was made without DetectorDesc::labelClearances.
     [[nodiscard]] VOXTACT_API Result<std::vector<LabelClearance>> readLabelClearances();
+    /// Whether the batch recorded last is of a detector with DetectorDesc::motion.
+    [[nodiscard]] VOXTACT_API bool moved() const noexcept;
+    /// The motions of the batch recorded last, unpacked: of each item's poses but its last, in their order. The pose of
+    /// a touch is to the last bit the one that was looked at. The same is expected as by read(); NotReady where its
+    /// detector was made without DetectorDesc::motion.
+    [[nodiscard]] VOXTACT_API Result<std::vector<SegmentMotion>> readMotions();
     /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
     /// What the passes did, of a detector with DetectorDesc::counters. The same is expected as by read(); NotReady
@@ -318,11 +342,13 @@ class Detector {
     ///                    use of the same Results in this queue may be in flight: the reads that cmdReadBack() and
     ///                    compute or fragment shaders make of pairResults() are waited for
     ///   leaves           Results::pairResults() available and visible to TRANSFER read, and to shader reads in all
-    ///   stages queries          no occlusion query may be active bound state lost graphics pipeline, descriptor sets
-    ///   0..2 of the graphics bind point (dominant-axis: 0..3; with
-    ///                    outputs: 0..4), push constants, vertex binding 0, index buffer, dynamic viewport and scissor;
-    ///                    for the method compute instead, and with devicePoses as well: compute pipeline, descriptor
-    ///                    sets 0..3 of the compute bind point (0..4 with outputs or labelClearances), push constants
+    ///                    stages
+    ///   queries          no occlusion query may be active
+    ///   bound state      lost: graphics pipeline, descriptor sets 0..2 of the graphics bind point (0..3 with
+    ///                    dominant-axis, 0..4 with outputs), push constants, vertex binding 0, index buffer, dynamic
+    ///                    viewport and scissor; for the method compute instead, and with devicePoses as well: compute
+    ///                    pipeline, descriptor sets 0..3 of the compute bind point (0..4 with outputs or
+    ///                    labelClearances), push constants
     ///
     /// With outputs, batches are refused that the Results have no room for (the list of contacts is cut instead), and
     /// with the output labels, items without a label map. With labelClearances these are refused, too, label maps that

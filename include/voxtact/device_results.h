@@ -91,6 +91,25 @@ struct ClosestResult {
 #define VOXTACT_CLEARANCE_ROUNDED 2u
 #define VOXTACT_CLEARANCE_BUDGET 3u
 
+/// What was found on the way from one pose to the next, of a detector with DetectorDesc::motion; 32 bytes, std430.
+/// Parameters are exact: whole numbers over a power of two. See SegmentMotion in motion.h. Of the last pose of an item,
+/// with which no segment begins, `freeUntil` is 1.
+struct MotionResult {
+    float freeUntil;       ///< certainly no pose from 0 to this parameter touches
+    float touchAt;         ///< the parameter of a pose that certainly does; infinite where none was found
+    VOXTACT_UINT end;      ///< VOXTACT_MOTION_*: why no more is said
+    VOXTACT_UINT triangle; ///< that touches: number in the mesh
+    float x;               ///< where, world mm; to some ten-millionths of the largest coordinate
+    float y;               ///< where, world mm
+    float z;               ///< where, world mm
+    VOXTACT_UINT reserved; ///< 0
+};
+
+// MotionResult.end, the numbers being those of MotionEnd in motion.h.
+#define VOXTACT_MOTION_DECIDED 0u
+#define VOXTACT_MOTION_GRAZES 1u
+#define VOXTACT_MOTION_BUDGET 2u
+
 /// What the passes of the projection `conservative` by `compute` did for a batch; 152 bytes, std430. They are described
 /// in the manual, "The certified engine on a device". Of each peak: in the round that had most.
 struct CertifiedCounters {
@@ -132,6 +151,7 @@ static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countH
 static_assert(sizeof(ContactResult) == 48);
 static_assert(sizeof(ClearanceResult) == 16);
 static_assert(sizeof(ClosestResult) == 48);
+static_assert(sizeof(MotionResult) == 32);
 static_assert(sizeof(CertifiedCounters) == 152);
 } // namespace voxtact
 #endif

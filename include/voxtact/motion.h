@@ -28,6 +28,13 @@ enum class Interpolation : std::uint32_t {
 
 /// mm: how near to each other the end of what is free and a touch are brought, where nothing else is asked for.
 inline constexpr double kDefaultMotionResolution = 0.01;
+/// What is asked of a search along motions.
+struct MotionSearch {
+    /// mm, from 1e-6 on: how near to each other what is free and a touch are brought.
+    double resolution = kDefaultMotionResolution;
+    Interpolation interpolation = Interpolation::Screw; ///< of the poses
+};
+
 /// What two poses may differ by that is no rigid motion (scale, shear), in each element of the matrix from one to the
 /// other. It is spread evenly over the way.
 inline constexpr double kMostDeformation = 1e-3;

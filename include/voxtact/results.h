@@ -5,6 +5,7 @@
 #include "voxtact/data.h"
 #include "voxtact/device_results.h"
 #include "voxtact/methods.h"
+#include "voxtact/motion.h"
 
 #include <cstdint>
 #include <optional>
@@ -89,6 +90,7 @@ struct BatchAnswer {
     std::vector<LabelCount> labels;              ///< by pair, then by label
     std::vector<PairClearance> clearances;       ///< with DetectorDesc::clearance, in the order of the batch
     std::vector<LabelClearance> labelClearances; ///< with DetectorDesc::labelClearances: by pair, then as Batch::labels
+    std::vector<SegmentMotion> motions;          ///< with DetectorDesc::motion, in the order of the batch
     std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
     double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where the queue has no timestamps
     double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory

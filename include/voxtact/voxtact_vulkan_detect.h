@@ -43,6 +43,12 @@ typedef struct vxt_detector_desc {
     /// no more than so many mm, 0 to 1e6. 0 and 0, the default: the pose itself
     double pose_angle;
     double pose_distance; ///< with pose_angle
+    /// CONSERVATIVE with stop_at_first, without outputs and another question: the way from each pose of an item to the
+    /// next, to so many mm, from 1e-6 on, for vxt_answer_motions(); the results need room for it. 0, the default: that
+    /// is not asked
+    double motion_resolution;
+    vxt_interpolation motion_interpolation; ///< with motion_resolution; default SCREW
+    uint32_t reserved_too;                  ///< 0
 } vxt_detector_desc;
 
 /// A view by precise queries.
@@ -156,6 +162,8 @@ typedef struct vxt_results_desc {
     vxt_buffer_range into;
     uint32_t closest;          ///< not 0, with clearances: there is room for vxt_detector_desc::closest; default 0
     uint32_t label_clearances; ///< with clearances: labels that there is room for with each of max_pairs; default 0
+    uint32_t motions;          ///< not 0: there is room for vxt_detector_desc::motion_resolution; default 0
+    uint32_t reserved;         ///< 0
 } vxt_results_desc;
 
 /// From the answers of one frame of a ring to those of the next in vxt_results_desc::into: voxtact::resultBytes().
@@ -188,6 +196,7 @@ typedef enum vxt_device_part {
     VXT_DEVICE_CLEARANCES = 6,       ///< a ClearanceResult, 16 bytes, for each pair
     VXT_DEVICE_CLOSEST = 7,          ///< a ClosestResult, 48 bytes, for each pair
     VXT_DEVICE_LABEL_CLEARANCES = 8, ///< a ClearanceResult, 16 bytes, for each label of each pair
+    VXT_DEVICE_MOTIONS = 9,          ///< a MotionResult, 32 bytes, for each pair: of the way from its pose to the next
     VXT_DEVICE_MAX = 0x7fffffff      ///< makes the type 32 bits wide
 } vxt_device_part;
 
@@ -252,6 +261,10 @@ VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certifi
 /// vxt_detector_desc::label_clearances; NOT_READY of any other. The time that `clearances` then have is that of the
 /// answer.
 VXT_CHECKED vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances);
+
+/// Of an answer of a detector with vxt_detector_desc::motion_resolution, in the order of the batch; none of any other.
+/// The time that `motions` then have is that of the answer.
+VXT_CHECKED vxt_result vxt_answer_motions(const vxt_answer* answer, vxt_motions* motions);
 
 /// Results for frames in flight: voxtact::ResultRing.
 typedef struct vxt_result_ring vxt_result_ring;

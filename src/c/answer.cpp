@@ -72,6 +72,7 @@ vxt_answer toAnswer(const BatchAnswer& answer) {
         out.clearances = answer.clearances;
     }
     out.labelClearances = answer.labelClearances;
+    out.motions = answer.motions;
     out.gpuMilliseconds = answer.gpuMilliseconds;
     out.wallMilliseconds = answer.wallMilliseconds;
     return out;

@@ -18,6 +18,7 @@ struct vxt_answer {
     std::optional<voxtact::CertifiedCounters> counters;
     std::optional<std::vector<voxtact::PairClearance>> clearances; ///< where they were measured
     std::vector<voxtact::LabelClearance> labelClearances;
+    std::vector<voxtact::SegmentMotion> motions;
     double gpuMilliseconds = 0;
     double wallMilliseconds = 0;
 };

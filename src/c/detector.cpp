@@ -32,6 +32,13 @@ std::optional<PoseTolerance> toleranceOf(const vxt_detector_desc& desc) {
     return PoseTolerance{desc.pose_distance, desc.pose_angle};
 }
 
+std::optional<MotionSearch> motionOf(const vxt_detector_desc& desc) {
+    if (desc.motion_resolution == 0) {
+        return std::nullopt;
+    }
+    return MotionSearch{desc.motion_resolution, number<Interpolation>(desc.motion_interpolation)};
+}
+
 DetectorDesc toDesc(const vxt_detector_desc* given) {
     const vxt_detector_desc desc = readOptions(given, vxt_detector_desc_init(), "detector");
     return {.method = number<CountingMethod>(desc.method),
@@ -50,7 +57,8 @@ DetectorDesc toDesc(const vxt_detector_desc* given) {
             .clearance = searchOf(desc),
             .closest = desc.closest != 0,
             .labelClearances = desc.label_clearances != 0,
-            .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0};
+            .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0,
+            .motion = motionOf(desc)};
 }
 
 } // namespace

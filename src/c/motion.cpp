@@ -4,16 +4,12 @@
 #include "c/batch.h"
 #include "c/convert.h"
 #include "c/handles.h"
+#include "c/motions.h"
 
 #include <algorithm>
 
 using namespace voxtact;
 using namespace voxtact::c;
-
-struct vxt_motions {
-    std::vector<vxt_segment_motion> segments;
-    double wallMilliseconds = 0;
-};
 
 namespace {
 
@@ -52,6 +48,13 @@ vxt_segment_motion toSegment(const SegmentMotion& motion) noexcept {
 
 } // namespace
 
+vxt_motions voxtact::c::toMotions(const std::vector<SegmentMotion>& motions, double wallMilliseconds) {
+    vxt_motions out;
+    out.wallMilliseconds = wallMilliseconds;
+    std::ranges::transform(motions, std::back_inserter(out.segments), toSegment);
+    return out;
+}
+
 const char* vxt_interpolation_name(vxt_interpolation interpolation) {
     return toString(number<Interpolation>(interpolation));
 }
@@ -89,10 +92,7 @@ vxt_result vxt_host_motion_checker_check(vxt_host_motion_checker* checker, const
         vxt_motions& to = need(motions, "motions");
         const HostBatchOf of(batch, vxt_host_batch_init(), vxt_host_item_init());
         const MotionAnswer answer = take(by.check(of.batch()));
-        vxt_motions out;
-        out.wallMilliseconds = answer.wallMilliseconds;
-        std::ranges::transform(answer.segments, std::back_inserter(out.segments), toSegment);
-        to = std::move(out);
+        to = toMotions(answer.segments, answer.wallMilliseconds);
     });
 }
 

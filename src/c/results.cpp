@@ -3,6 +3,7 @@
 #include "c/answer.h"
 #include "c/clearances.h"
 #include "c/convert_vulkan.h"
+#include "c/motions.h"
 
 #include <algorithm>
 #include <iterator>
@@ -21,6 +22,7 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
                     .clearances = desc.clearances != 0,
                     .closest = desc.closest != 0,
                     .labelClearances = desc.label_clearances,
+                    .motions = desc.motions != 0,
                     .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
@@ -51,6 +53,8 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
         return results.closest();
     case VXT_DEVICE_LABEL_CLEARANCES:
         return results.labelClearances();
+    case VXT_DEVICE_MOTIONS:
+        return results.motions();
     default:
         break;
     }
@@ -100,6 +104,9 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
     }
     if (results.measuredLabels()) {
         answer.labelClearances = take(results.readLabelClearances());
+    }
+    if (results.moved()) {
+        answer.motions = take(results.readMotions());
     }
     if (results.counted()) {
         answer.counters = take(results.counters());
@@ -160,6 +167,13 @@ vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clear
         std::ranges::transform(*from.clearances, std::back_inserter(out.pairs), toClearance);
         std::ranges::transform(from.labelClearances, std::back_inserter(out.labels), toLabelClearance);
         to = std::move(out);
+    });
+}
+
+vxt_result vxt_answer_motions(const vxt_answer* answer, vxt_motions* motions) {
+    return call([&] {
+        const vxt_answer& from = need(answer, "answer");
+        need(motions, "motions") = toMotions(from.motions, from.wallMilliseconds);
     });
 }
 

@@ -96,6 +96,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         }
         resultsDesc.clearances = desc.clearance.has_value();
         resultsDesc.closest = desc.closest;
+        resultsDesc.motions = desc.motion.has_value();
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }
@@ -135,6 +136,11 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
             Result<std::vector<LabelClearance>> labels = s.results->readLabelClearances();
             VOXTACT_TRY(labels);
             answer.labelClearances = std::move(*labels);
+        }
+        if (s.detector.desc().motion) {
+            Result<std::vector<SegmentMotion>> motions = s.results->readMotions();
+            VOXTACT_TRY(motions);
+            answer.motions = std::move(*motions);
         }
         if (s.results->counted()) {
             const Result<CertifiedCounters> counters = s.results->counters();

@@ -60,10 +60,15 @@ const PassKind kPasses[] = {
      spirv::certified_finish_touches_comp, "conservative finish", VOXTACT_QUEUE_OPEN},
 };
 
+/// Whether where a pair touches is wanted.
+bool keepsTouch(const DetectorDesc& desc) {
+    return desc.closest || desc.motion;
+}
+
 std::span<const std::uint32_t> programOf(const PassKind& kind, const DetectorDesc& desc) {
     return desc.margin > 0      ? kind.withMargin
            : desc.outputs.any() ? kind.withOutputs
-           : desc.closest       ? kind.withTouches
+           : keepsTouch(desc)   ? kind.withTouches
                                 : kind.plain;
 }
 
@@ -74,7 +79,7 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     const ShaderConstant constants[] = {
         {VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
         {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
-        {VOXTACT_CONSTANT_OUTPUTS, desc.closest ? VOXTACT_OUTPUT_TOUCH : outputsConstant(desc.outputs)}};
+        {VOXTACT_CONSTANT_OUTPUTS, keepsTouch(desc) ? VOXTACT_OUTPUT_TOUCH : outputsConstant(desc.outputs)}};
     static_assert(std::size(kPasses) == kCertifiedPasses);
     const bool outputs = desc.outputs.any();
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
@@ -101,6 +106,11 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
         Result<ClearancePass> made = ClearancePass::create(context, desc);
         VOXTACT_TRY(made);
         pass.clearance_ = std::move(*made);
+    }
+    if (desc.motion) {
+        Result<MotionPass> made = MotionPass::create(context, desc);
+        VOXTACT_TRY(made);
+        pass.motion_ = std::move(*made);
     }
     return pass;
 }
@@ -147,29 +157,39 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
     return constants;
 }
 
+void CertifiedPass::recordTouch(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
+                                const shader::CertifiedConstants& given) const {
+    const std::uint32_t room = recorder.results().queueRoom;
+    const RoundLimits limits{.clusters = clustersOfRound(room, desc_.stopAtFirst && !(desc_.margin > 0)),
+                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
+                             .looks = looksOfRound(room)};
+    const std::vector<RoundPass> passes = passesOfRound();
+    shader::CertifiedConstants constants = given;
+    eachRound(meshLooks(item, desc_.margin), limits, [&](const Round& round) {
+        constants.firstPair = given.firstPair + round.firstPair;
+        constants.firstCluster = round.firstCluster;
+        constants.endCluster = round.endCluster;
+        recorder.record(passes, layout, constants, round.pairs);
+    });
+}
+
 void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
     RoundRecorder recorder(*context_, commandBuffer, results, tally_.get());
     std::uint32_t firstPair = 0;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    const std::vector<RoundPass> passes = passesOfRound();
-    const RoundLimits limits{.clusters = clustersOfRound(results.queueRoom, desc_.stopAtFirst && !(desc_.margin > 0)),
-                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
-                             .looks = looksOfRound(results.queueRoom)};
     for (const BatchItem& item : batch.items) {
         layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
         shader::CertifiedConstants constants = constantsOf(batch, item, results);
-        eachRound(meshLooks(item, desc_.margin), limits, [&](const Round& round) {
-            constants.firstPair = firstPair + round.firstPair;
-            constants.firstCluster = round.firstCluster;
-            constants.endCluster = round.endCluster;
-            recorder.record(passes, layout, constants, round.pairs);
-        });
         constants.firstPair = firstPair;
+        recordTouch(recorder, layout, item, constants);
         if (tolerance_) {
             tolerance_->record(recorder, layout, item, constants);
         }
         if (clearance_) {
             clearance_->record(recorder, layout, item, constants, batch.labels);
+        }
+        if (motion_) {
+            motion_->record(recorder, layout, item, constants, [&] { recordTouch(recorder, layout, item, constants); });
         }
         firstPair += static_cast<std::uint32_t>(item.pairs());
     }

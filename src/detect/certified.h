@@ -2,6 +2,7 @@
 #pragma once
 
 #include "detect/clearance.h"
+#include "detect/motion.h"
 #include "detect/results_impl.h"
 #include "detect/tolerance.h"
 #include "gpu/pipeline.h"
@@ -37,6 +38,8 @@ class CertifiedPass {
     CertifiedPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
+    void recordTouch(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
+                     const shader::CertifiedConstants& constants) const;
     [[nodiscard]] std::vector<RoundPass> passesOfRound() const;
     [[nodiscard]] shader::CertifiedConstants constantsOf(const Batch& batch, const BatchItem& item,
                                                          const ResultsImpl& results) const;
@@ -47,6 +50,7 @@ class CertifiedPass {
     Owned<VkPipeline> tally_;                ///< with DetectorDesc::counters
     std::optional<TolerancePass> tolerance_; ///< with a DetectorDesc::poseTolerance that permits anything
     std::optional<ClearancePass> clearance_; ///< with DetectorDesc::clearance
+    std::optional<MotionPass> motion_;       ///< with DetectorDesc::motion
 };
 
 } // namespace voxtact

@@ -38,12 +38,44 @@ VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept {
 }
 
 VkDeviceSize closestByte(const ResultsImpl& results) noexcept {
-    return firstQueueByte(results) + VOXTACT_WORD_CLOSEST(results.queueRoom, results.maxPairs) * sizeof(std::uint32_t);
+    return firstQueueByte(results) +
+           VOXTACT_WORD_CLOSEST(results.queueRoom, VkDeviceSize{results.maxPairs}) * sizeof(std::uint32_t);
 }
 
+VkDeviceSize motionsByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) +
+           VOXTACT_WORD_MOTIONS(results.queueRoom, VkDeviceSize{results.maxPairs}) * sizeof(std::uint32_t);
+}
+
+VkDeviceSize motionStatesByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) +
+           VOXTACT_WORD_MOTION_STATES(results.queueRoom, VkDeviceSize{results.maxPairs}) * sizeof(std::uint32_t);
+}
+
+namespace {
+
+/// Bytes from the queues to what comes behind all but the clearances to labels.
+VkDeviceSize bytesBeforeLabels(std::uint32_t room, VkDeviceSize pairs, bool clearances, bool closest, bool motions) {
+    constexpr VkDeviceSize kWord = sizeof(std::uint32_t);
+    if (motions) {
+        return VOXTACT_WORD_MOTION_STATES(room, pairs) * kWord + pairs * sizeof(shader::MotionState);
+    }
+    if (closest) {
+        return VOXTACT_WORD_CLOSEST(room, pairs) * kWord + pairs * sizeof(ClosestResult);
+    }
+    return clearances ? VOXTACT_WORD_CLEARANCES(room) * kWord + pairs * sizeof(ClearanceResult) : queueBytes(room);
+}
+
+} // namespace
+
 VkDeviceSize labelClearancesByte(const ResultsImpl& results) noexcept {
-    return atPart(results.closest ? closestByte(results) + VkDeviceSize{results.maxPairs} * sizeof(ClosestResult)
-                                  : clearancesByte(results) + VkDeviceSize{results.maxPairs} * sizeof(ClearanceResult));
+    return atPart(firstQueueByte(results) + bytesBeforeLabels(results.queueRoom, results.maxPairs, results.clearances,
+                                                              results.closest, results.motionRoom));
+}
+
+VkDeviceSize bytesFromQueues(std::uint32_t room, const ResultsDesc& parts) noexcept {
+    return bytesBeforeLabels(room, parts.maxPairs, parts.clearances, parts.closest, parts.motions) +
+           labelBytes(parts.maxPairs, parts.labelClearances);
 }
 
 std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
@@ -51,11 +83,7 @@ std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDevice
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
     const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, kMostQueueRoom / kClustersOfPair));
     std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
-    const auto needed = [&] {
-        return first + queueBytes(room) + (desc.clearances ? clearanceBytes(room, desc.maxPairs) : 0) +
-               (desc.closest ? closestBytes(desc.maxPairs) : 0) + labelBytes(desc.maxPairs, desc.labelClearances);
-    };
-    while (room >= kLeastQueueRoom && needed() > bytes) {
+    while (room >= kLeastQueueRoom && first + bytesFromQueues(room, desc) > bytes) {
         room /= 2;
     }
     return room >= kLeastQueueRoom ? room / kStep * kStep : 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "clearance_words.h"
 #include "detect/results_impl.h"
+#include "motion_words.h"
 
 namespace voxtact {
 
@@ -34,11 +34,6 @@ static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::u
 /// Where the CertifiedCounters of a batch are in that buffer.
 [[nodiscard]] VkDeviceSize countersByte(const ResultsImpl& results) noexcept;
 
-/// Bytes behind the queues for the clearances of so many pairs.
-[[nodiscard]] constexpr VkDeviceSize clearanceBytes(std::uint32_t room, std::uint32_t pairs) noexcept {
-    return VkDeviceSize{VOXTACT_WORD_CLEARANCES(room)} * sizeof(std::uint32_t) - queueBytes(room) +
-           VkDeviceSize{pairs} * sizeof(ClearanceResult);
-}
 static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::uint32_t));
 /// Where the slots of bricks that have bits are in that buffer.
 [[nodiscard]] VkDeviceSize bitsByte(const ResultsImpl& results) noexcept;
@@ -47,11 +42,6 @@ static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::u
 /// Where the clearances are.
 [[nodiscard]] VkDeviceSize clearancesByte(const ResultsImpl& results) noexcept;
 
-/// Bytes behind these for the closest points of so many pairs.
-[[nodiscard]] constexpr VkDeviceSize closestBytes(std::uint32_t pairs) noexcept {
-    return VkDeviceSize{VOXTACT_WORD_CLOSEST(0, pairs) - VOXTACT_WORD_CLEARANCES(0)} * sizeof(std::uint32_t) -
-           VkDeviceSize{pairs} * sizeof(ClearanceResult) + VkDeviceSize{pairs} * sizeof(ClosestResult);
-}
 static_assert(sizeof(ClosestResult) == VOXTACT_CLOSEST_WORDS * sizeof(std::uint32_t));
 /// Where they are in that buffer.
 [[nodiscard]] VkDeviceSize closestByte(const ResultsImpl& results) noexcept;
@@ -61,12 +51,20 @@ static_assert(sizeof(ClosestResult) == VOXTACT_CLOSEST_WORDS * sizeof(std::uint3
     constexpr VkDeviceSize kAlignment = 256;
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
 }
+/// Where the motions are, and what the search along them has.
+[[nodiscard]] VkDeviceSize motionsByte(const ResultsImpl& results) noexcept;
+[[nodiscard]] VkDeviceSize motionStatesByte(const ResultsImpl& results) noexcept;
+static_assert(sizeof(MotionResult) == VOXTACT_MOTION_RESULT_WORDS * sizeof(std::uint32_t));
+
 /// Bytes behind all these for the clearances to so many labels of so many pairs, the first of them of no use.
 [[nodiscard]] constexpr VkDeviceSize labelBytes(std::uint32_t pairs, std::uint32_t labels) noexcept {
     return labels == 0 ? 0 : atPart(1) + VkDeviceSize{pairs} * labels * sizeof(ClearanceResult);
 }
 /// Where they are.
 [[nodiscard]] VkDeviceSize labelClearancesByte(const ResultsImpl& results) noexcept;
+
+/// Bytes from the queues on, with room for so many clusters, of Results that have `parts`.
+[[nodiscard]] VkDeviceSize bytesFromQueues(std::uint32_t room, const ResultsDesc& parts) noexcept;
 
 /// The room for Results, in a buffer of at most `bytes`, of which the queues begin at `first`; 0 where it has none.
 [[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept;

@@ -185,6 +185,31 @@ Result<void> checkClearance(const DetectorDesc& desc) {
     return {};
 }
 
+Result<void> checkMotion(const DetectorDesc& desc) {
+    if (!desc.motion) {
+        return {};
+    }
+    VOXTACT_TRY(checkMotion(*desc.motion));
+    if (!rowOf(desc.projection).certified) {
+        return refuse(std::string("a motion is for the projection conservative, not for ") + toString(desc.projection));
+    }
+    if (!desc.stopAtFirst) {
+        return refuse("a motion is answered by where it touches first: it needs a detector that stops at the first "
+                      "survivor");
+    }
+    if (desc.outputs.any()) {
+        return refuse("motions are looked at without outputs");
+    }
+    if (desc.margin > 0 || desc.poseTolerance || desc.clearance) {
+        return refuse(std::string("a motion and a ") +
+                      (desc.clearance       ? "clearance"
+                       : desc.poseTolerance ? "pose tolerance"
+                                            : "margin") +
+                      " are two questions: they need a detector each");
+    }
+    return {};
+}
+
 std::optional<double> maximumOf(const DetectorDesc& desc) {
     return desc.clearance ? std::optional(desc.clearance->maximum) : std::nullopt;
 }
@@ -224,6 +249,7 @@ Result<Detector> Detector::create(const Context& context, const DetectorDesc& de
         VOXTACT_TRY(checkMargin(desc));
         VOXTACT_TRY(checkPoseTolerance(desc));
         VOXTACT_TRY(checkClearance(desc));
+        VOXTACT_TRY(checkMotion(desc));
         VOXTACT_TRY(checkOutputs(c, desc));
         Result<std::unique_ptr<DetectorImpl>> impl =
             rowOf(desc.projection).certified                    ? withPass(c, desc, CertifiedPass::create(c, desc))
@@ -276,6 +302,12 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (live(impl_).desc.labelClearances) {
             VOXTACT_TRY(checkLabelClearances(context, batch, slot));
         }
+        std::optional<std::vector<std::optional<RigidMotion>>> motions;
+        if (live(impl_).desc.motion) {
+            Result<std::vector<std::optional<RigidMotion>>> made = motionsOf(batch, *live(impl_).desc.motion, slot);
+            VOXTACT_TRY(made);
+            motions = std::move(*made);
+        }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));
         slot.pairs = *pairs;
@@ -284,6 +316,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         slot.counted = live(impl_).desc.counters;
         slot.maximum = maximumOf(live(impl_).desc);
         slot.pointed = live(impl_).desc.closest;
+        slot.motions = std::move(motions);
         slot.labels.reset();
         if (live(impl_).desc.labelClearances) {
             slot.labels.emplace(batch.labels.begin(), batch.labels.end());

@@ -6,6 +6,7 @@
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
 #include "detect/certified_queues.h"
+#include "detect/motion.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
@@ -130,8 +131,11 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
         if (desc.counters) {
             recordNoCounters(context, commandBuffer, results);
         }
-        if (desc.closest) {
+        if (desc.closest || desc.motion) {
             recordNoClosest(context, commandBuffer, results);
+        }
+        if (desc.motion) {
+            recordMotions(context, commandBuffer, batch, results, *desc.motion);
         }
     } else {
         recordTransforms(context, commandBuffer, batch, results, desc.projection);

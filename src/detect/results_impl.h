@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/geometry/rigid_motion.h"
 #include "detect/output_store.h"
 #include "gpu/context_impl.h"
 #include "voxtact/detector.h"
@@ -22,6 +23,9 @@ struct ResultsImpl {
     std::uint32_t labelRoom = 0;     ///< labels of each of maxPairs that there is room for, behind all these
     /// Of the batch recorded last, where clearances to them were measured: Batch::labels.
     std::optional<std::vector<std::int32_t>> labels{};
+    bool motionRoom = false; ///< there is room for motions of maxPairs, behind what clearances and closest points have
+    /// Of the batch recorded last, where they are looked at: of each pair the one that begins with its pose.
+    std::optional<std::vector<std::optional<RigidMotion>>> motions{};
     std::optional<double> maximum{}; ///< of the batch recorded last, where it has clearances: ClearanceSearch
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
@@ -30,7 +34,7 @@ struct ResultsImpl {
     BufferRange results{};           ///< maxPairs PairResults, of `ownResults` or of the caller's buffer
     Buffer ownResults{};             ///< empty with ResultsDesc::into
     Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults, ClosestResults,
-                       ///< ClearanceResults of labels; empty when not asked for
+                       ///< ClearanceResults of labels, MotionResults; empty when not asked for
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};
@@ -49,8 +53,11 @@ struct ResultsImpl {
     [[nodiscard]] VkDeviceSize labelsOnHost() const noexcept {
         return closestOnHost() + (closest ? VkDeviceSize{maxPairs} * sizeof(ClosestResult) : 0);
     }
-    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+    [[nodiscard]] VkDeviceSize motionsOnHost() const noexcept {
         return labelsOnHost() + VkDeviceSize{maxPairs} * labelRoom * sizeof(ClearanceResult);
+    }
+    [[nodiscard]] VkDeviceSize readBackBytes() const noexcept {
+        return motionsOnHost() + (motionRoom ? VkDeviceSize{maxPairs} * sizeof(MotionResult) : 0);
     }
 };
 

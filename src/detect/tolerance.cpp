@@ -3,7 +3,6 @@
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
-#include "detect/certified_rounds.h"
 #include "gpu/scene_impl.h"
 
 #include "voxtact_shaders/certified_margin_cull_comp.h"
@@ -76,19 +75,12 @@ ShaderConstant floatConstant(std::uint32_t id, double value) {
 } // namespace
 
 Result<TolerancePass> TolerancePass::create(ContextImpl& context, const DetectorDesc& desc) {
-    struct Program {
-        std::span<const std::uint32_t> turned;
-        std::span<const std::uint32_t> moved; ///< only
-        const char* name;
-    };
-    const Program programs[Count] = {
-        {spirv::certified_tolerance_cull_comp, spirv::certified_margin_cull_comp, "tolerance cull"},
-        {spirv::certified_tolerance_refine_comp, spirv::certified_margin_refine_comp, "tolerance refine"},
-        {spirv::certified_tolerance_expand_comp, spirv::certified_margin_expand_comp, "tolerance expand"},
-        {spirv::certified_tolerance_large_comp, spirv::certified_margin_large_comp, "tolerance large"},
-        {spirv::certified_tolerance_decide_comp, spirv::certified_margin_decide_comp, "tolerance decide"},
-        {spirv::certified_tolerance_finish_comp, spirv::certified_margin_finish_comp, "tolerance finish"},
-    };
+    const MarginPasses::Programs turned{spirv::certified_tolerance_cull_comp,   spirv::certified_tolerance_refine_comp,
+                                        spirv::certified_tolerance_expand_comp, spirv::certified_tolerance_large_comp,
+                                        spirv::certified_tolerance_decide_comp, spirv::certified_tolerance_finish_comp};
+    const MarginPasses::Programs moved{spirv::certified_margin_cull_comp,   spirv::certified_margin_refine_comp,
+                                       spirv::certified_margin_expand_comp, spirv::certified_margin_large_comp,
+                                       spirv::certified_margin_decide_comp, spirv::certified_margin_finish_comp};
     constexpr double kOutward = 1 + 0x1p-22; // more than rounding to float
     const PoseTolerance& tolerance = *desc.poseTolerance;
     const double angle = radians(tolerance);
@@ -97,41 +89,18 @@ Result<TolerancePass> TolerancePass::create(ContextImpl& context, const Detector
                                         floatConstant(VOXTACT_CONSTANT_TURN_COSINE, std::cos(angle)),
                                         floatConstant(VOXTACT_CONSTANT_TURN_SINE, std::sin(angle)),
                                         floatConstant(VOXTACT_CONSTANT_TURN_CHORD, chordOf(tolerance) * kOutward)};
-    TolerancePass pass(context, tolerance);
-    for (std::size_t i = 0; i < Count; ++i) {
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, angle > 0 ? programs[i].turned : programs[i].moved, constants,
-                                context.computeLayout, programs[i].name);
-        VOXTACT_TRY(made);
-        pass.pipelines_[i] = std::move(*made);
-    }
-    return pass;
+    Result<MarginPasses> passes = MarginPasses::create(context, angle > 0 ? turned : moved, constants, "tolerance");
+    VOXTACT_TRY(passes);
+    return TolerancePass(std::move(*passes), tolerance);
 }
 
 void TolerancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
                            const shader::CertifiedConstants& given) const {
-    const auto pass = [&](Pipeline pipeline, std::uint32_t queue) {
-        return RoundPass{pipelines_[pipeline].get(), queue};
-    };
-    const RoundPass passes[] = {pass(Cull, kNoQueue),
-                                pass(Refine, VOXTACT_QUEUE_CLUSTERS),
-                                pass(Expand, VOXTACT_QUEUE_RUNS),
-                                pass(Large, VOXTACT_QUEUE_LARGE),
-                                pass(Decide, VOXTACT_QUEUE_CELLS),
-                                pass(Finish, VOXTACT_QUEUE_LEFT)};
     shader::CertifiedConstants constants = given;
     const Grid& grid = item.volume->impl().grid;
     constants.item = tolerance_.angle > 0 ? withTolerance(given.item, grid, tolerance_.distance)
                                           : withMargin(given.item, grid, tolerance_.distance);
-    const RoundLimits limits{.clusters = clustersOfRound(given.queueRoom, false),
-                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
-                             .looks = looksOfRound(given.queueRoom)};
-    eachRound(meshLooks(item, reachOf(item, tolerance_)), limits, [&](const Round& round) {
-        constants.firstPair = given.firstPair + round.firstPair;
-        constants.firstCluster = round.firstCluster;
-        constants.endCluster = round.endCluster;
-        recorder.record(passes, layout, constants, round.pairs);
-    });
+    passes_.record(recorder, layout, item, constants, reachOf(item, tolerance_));
 }
 
 } // namespace voxtact

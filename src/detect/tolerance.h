@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/round_recorder.h"
-#include "gpu/pipeline.h"
+#include "detect/margin_passes.h"
 #include "voxtact/detector.h"
-
-#include <array>
 
 namespace voxtact {
 
@@ -22,14 +19,11 @@ class TolerancePass {
                 const shader::CertifiedConstants& constants) const;
 
   private:
-    enum Pipeline : std::size_t { Cull, Refine, Expand, Large, Decide, Finish, Count };
+    TolerancePass(MarginPasses passes, const PoseTolerance& tolerance) noexcept
+        : passes_(std::move(passes)), tolerance_(tolerance) {}
 
-    TolerancePass(ContextImpl& context, const PoseTolerance& tolerance) noexcept
-        : context_(&context), tolerance_(tolerance) {}
-
-    ContextImpl* context_;
+    MarginPasses passes_;
     PoseTolerance tolerance_;
-    std::array<Owned<VkPipeline>, Count> pipelines_;
 };
 
 } // namespace voxtact

@@ -43,6 +43,7 @@ DetectorDesc descOf(const Question& question, const Context& context) {
     desc.margin = question.margin;
     desc.poseTolerance = question.tolerance;
     desc.clearance = question.clearance;
+    desc.motion = question.motion;
     desc.closest = question.clearance.has_value() && !question.toLabels;
     desc.labelClearances = question.toLabels;
     desc.labelsAtAnyOpacity = question.labelsAtAnyOpacity;
@@ -112,6 +113,17 @@ BatchAnswer DeviceSide::detect(const Request& request, std::size_t first, std::s
         items.push_back({&onDevice(item.mesh), &volume_, &function_, poses, labels_ ? &*labels_ : nullptr});
     });
     return take(detector.detect({items, viewOf(question, volume_.grid()), threshold, labels}));
+}
+
+MotionAnswer DeviceSide::move(const Request& request, std::size_t first, std::size_t count, const Question& question,
+                              double threshold) {
+    BlockingDetector& detector = detectorFor(question);
+    std::vector<BatchItem> items;
+    request.forSegments(first, count, [&](const Request::Item& item, std::span<const Mat4> poses) {
+        items.push_back({&onDevice(item.mesh), &volume_, &function_, poses});
+    });
+    BatchAnswer answer = take(detector.detect({items, {}, threshold}));
+    return {std::move(answer.motions), answer.wallMilliseconds};
 }
 
 std::size_t DeviceSide::mostPairs(const Request& request, const Question& question, std::size_t labels) noexcept {

@@ -25,6 +25,9 @@ class DeviceSide {
     [[nodiscard]] BatchAnswer detect(const Request& request, std::size_t first, std::size_t count,
                                      const Question& question, double threshold,
                                      std::span<const std::int32_t> labels = {});
+    /// `first` and `count` are of segments, and the question has a `motion`.
+    [[nodiscard]] MotionAnswer move(const Request& request, std::size_t first, std::size_t count,
+                                    const Question& question, double threshold);
     /// Pairs of one call, at most: their outputs, and clearances to so many labels, must have room.
     [[nodiscard]] static std::size_t mostPairs(const Request& request, const Question& question,
                                                std::size_t labels = 0) noexcept;

@@ -79,6 +79,7 @@ struct Question {
     double margin = 0;                        ///< mm; on a device
     std::optional<PoseTolerance> tolerance;   ///< on a device
     std::optional<ClearanceSearch> clearance; ///< on a device
+    std::optional<MotionSearch> motion;       ///< on a device
     bool toLabels = false;                    ///< with `clearance`: of these, instead of closest points
     bool labelsAtAnyOpacity = false;
     std::uint32_t mostContacts = 1U << 20U;
@@ -90,11 +91,14 @@ struct Question {
                           outputs.labels, inKey(outputs.maxDepth), samplesPerVoxel, inKey(resolution), yesNo,
                           overestimate, counters, inKey(margin), inKey(tolerance ? tolerance->distance : 0),
                           inKey(tolerance ? tolerance->angle : 0), inKey(clearance ? clearance->tolerance : 0),
-                          inKey(clearance ? clearance->maximum : 0), toLabels, labelsAtAnyOpacity, mostContacts);
+                          inKey(clearance ? clearance->maximum : 0), inKey(motion ? motion->resolution : 0),
+                          motion ? motion->interpolation : Interpolation::Screw, toLabels, labelsAtAnyOpacity,
+                          mostContacts);
     }
     using Key = std::tuple<Projection, std::optional<CountingMethod>, std::optional<Filter>, Boundary, bool, bool, bool,
                            bool, std::uint64_t, std::uint32_t, std::uint64_t, bool, bool, bool, std::uint64_t,
-                           std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, bool, bool, std::uint32_t>;
+                           std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t, Interpolation,
+                           bool, bool, std::uint32_t>;
 };
 
 /// How a clearance is measured.

@@ -269,6 +269,25 @@ std::shared_ptr<Answer> Scene::around(const std::shared_ptr<const Request>& requ
                    [&](HostSide& side, const Part& part) { return side.around(part, tolerance, desc_.threshold); });
 }
 
+std::shared_ptr<Motions> Scene::motionByDevice(std::shared_ptr<const Request> request, const MotionSearch& search,
+                                               const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    if (desc_.device == nullptr) {
+        refuseWithoutDevice(CountingMethod::Compute);
+    }
+    Question question = yesOrNoByDevice();
+    question.motion = search;
+    DeviceSide& side = onDevice(desc_.device);
+    auto found = std::make_shared<Motions>();
+    found->request = request;
+    inPieces(request->segments(), firstPiece(*request, kClearanceCost, 1), DeviceSide::mostPairs(*request, question),
+             progress, [&](std::size_t first, std::size_t count) {
+                 found->add(side.move(*request, first, count, question, desc_.threshold), desc_.labels.get());
+             });
+    return found;
+}
+
 std::shared_ptr<Motions> Scene::motion(std::shared_ptr<const Request> request, const Way& way,
                                        const Progress& progress) {
     const Turns::Turn turn(turns_);

@@ -59,6 +59,8 @@ class Scene {
     [[nodiscard]] std::shared_ptr<Answer> within(const std::shared_ptr<const Request>& request, double margin,
                                                  bool byDevice, const Progress& progress);
     /// Of a request that checkWays() accepts; `progress` counts segments.
+    [[nodiscard]] std::shared_ptr<Motions> motionByDevice(std::shared_ptr<const Request> request,
+                                                          const MotionSearch& search, const Progress& progress);
     [[nodiscard]] std::shared_ptr<Motions> motion(std::shared_ptr<const Request> request, const Way& way,
                                                   const Progress& progress);
     /// By the host, or by the device of a scene that has one.

@@ -146,13 +146,14 @@ std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py:
 
 std::shared_ptr<Motions> motion(Scene& scene, const py::object& meshes, const py::object& poses,
                                 const std::string& interpolation, double resolution, std::uint64_t mostSteps,
-                                const py::object& callback) {
+                                bool byDevice, const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Way way{interpolationOf(interpolation), resolution, mostSteps};
     checkWays(*request, way.interpolation);
     const Progress progress = progressOf(callback, request->segments());
     const Unlocked unlocked;
-    return scene.motion(request, way, progress);
+    return byDevice ? scene.motionByDevice(request, {resolution, way.interpolation}, progress)
+                    : scene.motion(request, way, progress);
 }
 
 std::shared_ptr<Answer> around(Scene& scene, const py::object& meshes, const py::object& poses, double distance,
@@ -218,7 +219,7 @@ void defineScene(py::module_& module) {
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("by_device"),
              py::arg("progress"))
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),
-             py::arg("most_steps"), py::arg("progress"))
+             py::arg("most_steps"), py::arg("by_device"), py::arg("progress"))
         .def("around", &around, py::arg("meshes"), py::arg("poses"), py::arg("distance"), py::arg("angle"),
              py::arg("by_device"), py::arg("progress"))
         .def("plan", &plan, py::arg("target"), py::arg("options"), py::arg("avoided"), py::arg("points"),

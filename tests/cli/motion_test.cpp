@@ -106,6 +106,25 @@ TEST_F(MotionTest, RefusesWhatItCannotUse) {
     EXPECT_EQ(filesInFolder(), 3U);
 }
 
+/// The same segments, and nothing against what the host says of them; what is wrong with it stands on one line.
+TEST_F(MotionTest, ByADevice) {
+    const auto host = rows({"--interpolation", "slerp"});
+    const auto found = rows({"--interpolation", "slerp", "--count", "compute"});
+    ASSERT_EQ(found.size(), host.size());
+    EXPECT_EQ(found[0], host[0]);
+    for (std::size_t i = 1; i < found.size(); ++i) {
+        SCOPED_TRACE("row " + std::to_string(i));
+        EXPECT_EQ(found[i][3], host[i][3]);
+        for (const std::size_t end : {4U, 5U}) { // voxels of several mm
+            EXPECT_NEAR(std::stod(found[i][end].empty() ? "1" : found[i][end]),
+                        std::stod(host[i][end].empty() ? "1" : host[i][end]), 0.01);
+        }
+    }
+    EXPECT_THAT(refused(2, motion({"--count", "compute", "--threads", "2"})), HasSubstr("--threads is of the host"));
+    EXPECT_THAT(refused(2, motion({"--device", "0"})), HasSubstr("unless --count compute says so"));
+    EXPECT_THAT(refused(2, motion({"--count", "query"})), HasSubstr("cpu, compute"));
+}
+
 /// Far behind the first that are checked together; before any row.
 TEST_F(MotionTest, RefusedPosesHaveTheirNumbers) {
     std::string text;

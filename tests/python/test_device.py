@@ -136,6 +136,26 @@ def test_clearances_to_labels_are_measured_by_the_device_that_is_asked(device, h
         there.clearance(knife, poses, labels=[70] * 5000, method="compute")
 
 
+def test_a_motion_is_checked_by_the_device_that_is_asked(device, head, knife):
+    host, there = both(device, head)
+    poses = random_poses(9, 35)
+    by_host = host.motion([(knife, poses[:5]), (knife, poses[5:9])])
+    found = there.motion([(knife, poses[:5]), (knife, poses[5:9])], method="compute")
+    assert len(found) == 7 and found.item.tolist() == by_host.item.tolist() and found.pose.tolist() == by_host.pose.tolist()
+    for one, other in ((found, by_host), (by_host, found), (found, found)):
+        touches = other.hit
+        assert (one.free_until[touches] <= other.touches["at"][touches]).all()
+    assert ((found.free_until < 1) & ~found.hit == found.possible).all()
+    with pytest.raises(vx.UnsupportedError, match="needs a Vulkan device"):
+        host.motion(knife, poses, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="method is 'query'"):
+        there.motion(knife, poses, method="query")
+    with pytest.raises(vx.InvalidArgumentError, match="resolution"):
+        there.motion(knife, poses, resolution=0, method="compute")
+    with pytest.raises(vx.InvalidArgumentError, match="most_steps is about the host's search"):
+        there.motion(knife, poses, most_steps=5, method="compute")
+
+
 @pytest.mark.parametrize("method", ["query", "atomic", "subgroup", "compute"])
 def test_methods(device, head, knife, method):
     if device.methods[method] is not None:

@@ -28,7 +28,8 @@ constexpr const char* kMotionFooter =
   x,y,z,triangle,label   a point of that touch, world mm, LPS; the triangle; with --labels the label there
 
 --interpolation screw turns about and moves along one axis; slerp moves the middle of the mesh's box straight and turns
-about it. By the host, in double precision; nothing is sampled: a thin plate that crosses a thin sheet is found.
+about it. Nothing is sampled: a thin plate that crosses a thin sheet is found. By the host, in double precision; with
+--count compute by a device, in single precision: hundredths of a voxel.
 
 With --resume the run is done in chunks, whose files are in that folder: ended at any moment, the same command goes on
 from there; many processes do it together, each one --shard, and voxtact merge writes the output: the manual's page "Many
@@ -44,6 +45,10 @@ constexpr std::uint32_t kMostThreads = 1024;
 
 Interpolation interpolationOf(const MotionOptions& options) {
     return options.interpolation == "slerp" ? Interpolation::Slerp : Interpolation::Screw;
+}
+
+bool isOnDevice(const MotionOptions& options) {
+    return options.count == "compute";
 }
 
 /// All files and folders that the options read.
@@ -94,13 +99,6 @@ Result<MotionInputs> readInputs(const MotionOptions& options) {
     if (!options.chunks.asked()) {
         VOXTACT_TRY(readPoses(options, inputs));
     }
-    for (const std::string& source : options.meshes.sources) {
-        const Result<MeshData> data = loadMesh(source, options.meshes);
-        VOXTACT_TRY(data);
-        Result<cpu::Mesh> mesh = cpu::Mesh::create(data->view());
-        VOXTACT_TRY(mesh);
-        inputs.meshes.push_back(std::move(*mesh));
-    }
     VOXTACT_TRY(readLabels(options, inputs));
     return inputs;
 }
@@ -109,21 +107,20 @@ Result<MotionInputs> readInputs(const MotionOptions& options) {
 Result<void> checkAll(const MotionOptions& options, const MotionInputs& inputs, SegmentChecker& checking,
                       const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
     for (std::uint32_t number = 0; number < options.volumes.size() && !interrupted(); ++number) {
-        const Result<MotionVolume> volume = loadMotionVolume(options, inputs, number);
-        VOXTACT_TRY(volume);
-        for (std::uint32_t mesh = 0; mesh < inputs.meshes.size(); ++mesh) {
-            VOXTACT_TRY(checking.check(*volume, number, mesh, inputs.poses, 0, visit));
+        VOXTACT_TRY(checking.setVolume(number));
+        for (std::uint32_t mesh = 0; mesh < options.meshes.sources.size(); ++mesh) {
+            VOXTACT_TRY(checking.check(mesh, inputs.poses, 0, visit));
         }
     }
     return {};
 }
 
-Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker) {
+Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine) {
     const Result<std::unique_ptr<MotionOutput>> output = MotionOutput::create(options, inputs);
     VOXTACT_TRY(output);
     Progress progress(options.progress, "voxtact motion: segments",
-                      (inputs.poses.size() - 1) * inputs.meshes.size() * options.volumes.size());
-    SegmentChecker checking(options, inputs, checker);
+                      (inputs.poses.size() - 1) * options.meshes.sources.size() * options.volumes.size());
+    SegmentChecker checking(options, inputs, engine);
     const Result<void> done = checkAll(options, inputs, checking, [&](std::span<const MotionRow> rows) -> Result<void> {
         VOXTACT_TRY((*output)->add(rows));
         progress.update((*output)->rows());
@@ -148,6 +145,45 @@ Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, c
     return {};
 }
 
+/// Calls `use` with the host, or with the device that the options name.
+Outcome withEngine(const MotionOptions& options, const std::function<Outcome(MotionEngine&)>& use) {
+    const MotionSearch search{options.resolution, interpolationOf(options)};
+    std::vector<MeshData> meshes;
+    for (const std::string& source : options.meshes.sources) {
+        Result<MeshData> data = loadMesh(source, options.meshes);
+        VOXTACT_TRY(data);
+        meshes.push_back(std::move(*data));
+    }
+    if (!isOnDevice(options)) {
+        const Result<std::unique_ptr<MotionEngine>> host =
+            hostMotionEngine(search, options.threads.value_or(0), meshes);
+        VOXTACT_TRY(host);
+        return use(**host);
+    }
+    std::shared_ptr<const device::ValidationMessages> messages;
+    Outcome outcome;
+    {
+        const Result<device::Session> session = openSession(options.device);
+        VOXTACT_TRY(session);
+        messages = session->instance.messages();
+        const Result<std::unique_ptr<MotionEngine>> engine = deviceMotionEngine(search, *session, meshes);
+        VOXTACT_TRY(engine);
+        outcome = use(**engine);
+    }
+    const Outcome validated = validationOutcome(*messages); // complete once the device is closed
+    return outcome.status == kExitDone ? validated : outcome;
+}
+
+Result<void> checkEngine(const MotionOptions& options) {
+    if (isOnDevice(options) && options.threads) {
+        return badArgument("--threads is of the host, and --count compute asks a device; leave out one of the two");
+    }
+    if (!isOnDevice(options) && !options.device.wanted.empty()) {
+        return badArgument("--device: motions are checked by the host unless --count compute says so");
+    }
+    return {};
+}
+
 Outcome runMotion(const CLI::App& parser, MotionOptions options) {
     if (options.output.path == "-") {
         options.output.path.clear();
@@ -155,18 +191,16 @@ Outcome runMotion(const CLI::App& parser, MotionOptions options) {
     if (options.chunks.asked() && options.output.formatName.empty()) {
         options.output.formatName = "csv"; // whoever looks on: the chunks are the same
     }
+    VOXTACT_TRY(checkEngine(options));
     VOXTACT_TRY(checkMotionChunks(options));
     VOXTACT_TRY(checkPaths(options));
     const InterruptGuard guard;
     const Result<MotionInputs> inputs = readInputs(options);
     VOXTACT_TRY(inputs);
-    Result<cpu::MotionChecker> checker = cpu::MotionChecker::create(
-        {.threads = options.threads, .interpolation = interpolationOf(options), .resolution = options.resolution});
-    VOXTACT_TRY(checker);
-    if (options.chunks.asked()) {
-        return runMotionChunks(parser, options, *inputs, *checker, readPaths(options));
-    }
-    return writeMotions(options, *inputs, *checker);
+    return withEngine(options, [&](MotionEngine& engine) {
+        return options.chunks.asked() ? runMotionChunks(parser, options, *inputs, engine, readPaths(options))
+                                      : writeMotions(options, *inputs, engine);
+    });
 }
 
 } // namespace
@@ -177,20 +211,18 @@ Result<void> checkPoseCount(const MotionOptions& options, std::uint64_t poses) {
                                     " poses, a motion needs two or more");
 }
 
-Result<MotionVolume> loadMotionVolume(const MotionOptions& options, const MotionInputs& inputs, std::uint32_t number) {
-    const std::string& source = options.volumes[number];
+Result<void> SegmentChecker::setVolume(std::uint32_t number) {
+    engine_.dropVolume();
+    const std::string& source = options_.volumes[number];
     const Result<VolumeData> data = loadVolume(source);
     VOXTACT_TRY(data);
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
-    Result<cpu::Volume> volume = cpu::Volume::create(data->view());
-    VOXTACT_TRY(volume);
-    const TransferFunctionOptions& how = options.transferFunction;
+    const TransferFunctionOptions& how = options_.transferFunction;
     const ValueRange domain = usedDomain(how, data->type, *values, source);
-    Result<cpu::TransferFunction> function = cpu::TransferFunction::create(
-        {inputs.points.empty() ? defaultRamp(domain) : inputs.points, domain, how.tableSize});
-    VOXTACT_TRY(function);
-    return MotionVolume{std::move(*volume), std::move(*function)};
+    const std::vector<ControlPoint> points = inputs_.points.empty() ? defaultRamp(domain) : inputs_.points;
+    volume_ = number;
+    return engine_.setVolume(data->view(), {points, domain, how.tableSize});
 }
 
 Result<void> SegmentChecker::checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const {
@@ -203,18 +235,14 @@ Result<void> SegmentChecker::checkRigid(std::span<const Mat4> poses, std::uint64
     return {};
 }
 
-Result<void> SegmentChecker::check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
-                                   std::span<const Mat4> poses, std::uint64_t firstPose,
+Result<void> SegmentChecker::check(std::uint32_t mesh, std::span<const Mat4> poses, std::uint64_t firstPose,
                                    const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
     VOXTACT_TRY(checkRigid(poses, firstPose));
     std::vector<MotionRow> rows;
     for (std::size_t first = 0; first + 1 < poses.size() && !interrupted();) {
         const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(pace_.size(), poses.size() - 1 - first));
-        const cpu::BatchItem item{&inputs_.meshes[mesh], &volume.volume, &volume.transferFunction,
-                                  poses.subspan(first, count + 1)};
-        const Result<MotionAnswer> answer = checker_.check({.items = std::span(&item, 1),
-                                                            .threshold = options_.transferFunction.threshold,
-                                                            .cancel = &interruptFlag()});
+        const Result<MotionAnswer> answer =
+            engine_.check(mesh, poses.subspan(first, count + 1), options_.transferFunction.threshold);
         if (!answer.ok() && answer.error().code == ErrorCode::Cancelled) {
             return {};
         }
@@ -224,7 +252,7 @@ Result<void> SegmentChecker::check(const MotionVolume& volume, std::uint32_t vol
         rows.clear();
         for (SegmentMotion motion : answer->segments) {
             motion.pose += static_cast<std::uint32_t>(firstPose + first);
-            rows.push_back({mesh, volumeNumber, motion});
+            rows.push_back({mesh, volume_, motion});
         }
         VOXTACT_TRY(visit(rows));
         first += count;
@@ -271,6 +299,9 @@ Command addMotion(CLI::App& program) {
     addPath(*parser, "--labels", options->labels, "a label map (an image of whole numbers): names what is touched");
     addPath(*parser, "--label-names", options->labelNames,
             "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
+    addName(*parser, "--count", options->count, {"cpu", "compute"},
+            "by what it is checked: cpu, the host, or compute, a device; default: cpu");
+    addDeviceOptions(*parser, options->device);
     addWholeNumber(
         *parser, "--threads", [options](std::uint32_t threads) { options->threads = threads; },
         {.least = 0, .most = kMostThreads}, "0: one for each processor", 0);

@@ -44,23 +44,20 @@ class PoseWindow {
 /// The run's rows: by volume, mesh, segment.
 class MotionChunks {
   public:
-    MotionChunks(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker,
-                 PoseSource& source)
-        : options_(options), inputs_(inputs), checking_(options, inputs, checker), poses_(source),
+    MotionChunks(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine, PoseSource& source)
+        : options_(options), inputs_(inputs), checking_(options, inputs, engine), poses_(source),
           segments_(*source.count() - 1) {}
 
     [[nodiscard]] ChunkCut cut() const {
-        return {std::vector<std::uint64_t>(options_.volumes.size(), segments_ * inputs_.meshes.size()),
+        return {std::vector<std::uint64_t>(options_.volumes.size(), segments_ * options_.meshes.sources.size()),
                 options_.chunks.chunk()};
     }
     [[nodiscard]] RunOutput output() const { return tableOutput(options_.output.format(), tableOf({}).table()); }
     [[nodiscard]] Result<void> write(const ChunkRange& range, const ChunkFiles& files,
                                      const std::function<void(std::uint64_t)>& progress) {
         if (volumeNumber_ != range.group) {
-            volume_.reset(); // before the next one is read: two may be too much
-            Result<MotionVolume> volume = loadMotionVolume(options_, inputs_, range.group);
-            VOXTACT_TRY(volume);
-            volume_ = std::move(*volume);
+            volumeNumber_.reset();
+            VOXTACT_TRY(checking_.setVolume(range.group));
             volumeNumber_ = range.group;
         }
         Result<ResultFile> file = files.create("--output");
@@ -96,8 +93,8 @@ class MotionChunks {
         const Result<std::span<const Mat4>> poses = poses_.get(segment, count + 1);
         VOXTACT_TRY(poses);
         rows_.clear();
-        VOXTACT_TRY(checking_.check(*volume_, *volumeNumber_, static_cast<std::uint32_t>(row / segments_), *poses,
-                                    segment, [&](std::span<const MotionRow> rows) -> Result<void> {
+        VOXTACT_TRY(checking_.check(static_cast<std::uint32_t>(row / segments_), *poses, segment,
+                                    [&](std::span<const MotionRow> rows) -> Result<void> {
                                         rows_.insert(rows_.end(), rows.begin(), rows.end());
                                         return {};
                                     }));
@@ -113,7 +110,6 @@ class MotionChunks {
     std::uint64_t segments_; ///< of a mesh
     std::vector<MotionRow> rows_;
     std::optional<std::uint32_t> volumeNumber_;
-    std::optional<MotionVolume> volume_;
     MotionEnds ends_;
 };
 
@@ -127,13 +123,13 @@ Result<void> checkMotionChunks(const MotionOptions& options) {
 }
 
 Outcome runMotionChunks(const CLI::App& parser, const MotionOptions& options, const MotionInputs& inputs,
-                        cpu::MotionChecker& checker, const std::vector<NamedPath>& reads) {
+                        MotionEngine& engine, const std::vector<NamedPath>& reads) {
     Result<PoseSource> source = PoseSource::open(options.poses, true);
     VOXTACT_TRY(source);
     VOXTACT_TRY(checkPoseCount(options, source->count().value_or(0)));
     RunFacts facts = runFacts(parser, options.chunks, options.output);
     VOXTACT_TRY(addInputFacts(facts, reads));
-    MotionChunks chunks(options, inputs, checker, *source);
+    MotionChunks chunks(options, inputs, engine, *source);
     ChunkedRun run{
         "voxtact motion", options.chunks, {std::move(facts), {chunks.output()}, 0}, chunks.cut(), options.progress};
     std::vector<std::string> notes;

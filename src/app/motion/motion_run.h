@@ -2,12 +2,13 @@
 #pragma once
 
 #include "app/chunks/chunk_options.h"
+#include "app/motion/motion_engine.h"
 #include "app/motion/motion_table.h"
 #include "app/options/inputs.h"
+#include "app/options/open_session.h"
 #include "app/options/output_paths.h"
 #include "app/output/progress.h"
 #include "core/batch/batch_pace.h"
-#include "voxtact/cpu.h"
 
 #include <functional>
 #include <map>
@@ -28,7 +29,9 @@ struct MotionOptions {
     std::filesystem::path labelNames;
     std::string interpolation = "screw";
     double resolution = kDefaultMotionResolution;
-    std::uint32_t threads = 0;
+    std::string count = "cpu"; ///< "cpu" or "compute"
+    std::optional<std::uint32_t> threads;
+    DeviceChoice device;
     bool timing = false;
     bool progress = true;
     OutputOptions output;
@@ -36,7 +39,6 @@ struct MotionOptions {
 };
 
 struct MotionInputs {
-    std::vector<cpu::Mesh> meshes;
     std::vector<ControlPoint> points;
     std::vector<Mat4> poses; ///< none where they are read as they are needed
     std::optional<LabelData> labels;
@@ -46,26 +48,20 @@ struct MotionInputs {
 /// Refuses fewer than two.
 [[nodiscard]] Result<void> checkPoseCount(const MotionOptions& options, std::uint64_t poses);
 
-/// A volume with its transfer function.
-struct MotionVolume {
-    cpu::Volume volume;
-    cpu::TransferFunction transferFunction;
-};
-[[nodiscard]] Result<MotionVolume> loadMotionVolume(const MotionOptions& options, const MotionInputs& inputs,
-                                                    std::uint32_t number);
-
 /// Checks the segments of some meshes and volumes.
 class SegmentChecker {
   public:
     /// All must outlive it.
-    SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, cpu::MotionChecker& checker)
-        : options_(options), inputs_(inputs), checker_(checker) {}
+    SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine)
+        : options_(options), inputs_(inputs), engine_(engine) {}
+
+    /// Reads a volume with its transfer function; what is checked from then on is about it.
+    [[nodiscard]] Result<void> setVolume(std::uint32_t number);
 
     /// The rows of the segments between poses of which the first has the number `firstPose`, some at a time; fewer
     /// where an interrupt comes, which ends what is under way, too. Refuses poses between which there is no rigid
     /// motion before any row. Ends where `visit` fails.
-    [[nodiscard]] Result<void> check(const MotionVolume& volume, std::uint32_t volumeNumber, std::uint32_t mesh,
-                                     std::span<const Mat4> poses, std::uint64_t firstPose,
+    [[nodiscard]] Result<void> check(std::uint32_t mesh, std::span<const Mat4> poses, std::uint64_t firstPose,
                                      const std::function<Result<void>(std::span<const MotionRow>)>& visit);
     /// That it took so far.
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
@@ -78,7 +74,8 @@ class SegmentChecker {
 
     const MotionOptions& options_;
     const MotionInputs& inputs_;
-    cpu::MotionChecker& checker_;
+    MotionEngine& engine_;
+    std::uint32_t volume_ = 0; ///< its number
     BatchPace pace_{kMostAtOnce, false};
     double milliseconds_ = 0;
 };
@@ -96,6 +93,6 @@ struct MotionEnds {
 [[nodiscard]] Result<void> checkMotionChunks(const MotionOptions& options);
 /// The run in chunks. `reads`: all files that the options name.
 [[nodiscard]] Outcome runMotionChunks(const CLI::App& parser, const MotionOptions& options, const MotionInputs& inputs,
-                                      cpu::MotionChecker& checker, const std::vector<NamedPath>& reads);
+                                      MotionEngine& engine, const std::vector<NamedPath>& reads);
 
 } // namespace voxtact::app

@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/glm_bridge.h"
+#include "core/geometry/wide_matrix.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace voxtact {
@@ -51,19 +53,26 @@ dmat3 nearestRotation(const dmat3& matrix) {
     return rotation;
 }
 
-dmat3 turn(const dvec3& axis, double angle) {
-    return glm::mat3_cast(glm::angleAxis(angle, axis));
-}
-
 /// Times x it is cross(of, x).
 dmat3 crossMatrix(const dvec3& of) {
     return {{0, of.z, -of.y}, {-of.z, 0, of.x}, {of.y, -of.x, 0}};
 }
 
-/// sin(part * angle / 2) / sin(angle / 2), for angles up to pi.
-double shareOfChord(double part, double angle) {
-    const double whole = std::sin(angle / 2);
-    return whole > 0 ? std::sin(part * angle / 2) / whole : part;
+dvec3 vectorAt(const shader::RigidPose& pose, std::size_t first) {
+    return {pose.number[first], pose.number[first + 1], pose.number[first + 2]};
+}
+
+Mat4 poseOf(const RigidMotion& motion, double parameter) {
+    return toMat4(shader::rigidMatrix(shader::rigidPose(motion.way(), parameter)));
+}
+
+/// Of three numbers, which are a vector.
+void setTerms(shader::RigidWay& way, std::size_t first, const std::array<dvec3, RIGID_TERMS>& terms) {
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t term = 0; term < RIGID_TERMS; ++term) {
+            way.term[RIGID_TERMS * (first + row) + term] = terms[term][static_cast<int>(row)];
+        }
+    }
 }
 
 /// Calls `visit` with the corners of a box.
@@ -108,29 +117,53 @@ Result<RigidMotion> RigidMotion::between(const Mat4& from, const Mat4& to, Inter
     const dvec3 way = dvec3(out.to_ * middle) - out.centre_;
     out.along_ = interpolation == Interpolation::Screw ? glm::dot(way, out.axis_) * out.axis_ : way;
     out.across_ = way - out.along_;
-    out.deformation_ = out.to_ - toGlm(out.at(1));
+    out.deformation_ = out.to_ - toGlm(poseOf(out, 1));
     return out;
 }
 
-dvec3 RigidMotion::centreAt(double parameter) const {
-    const dvec3 chord = turn(axis_, (parameter - 1) * angle_ / 2) * across_;
-    return centre_ + parameter * along_ + shareOfChord(parameter, angle_) * chord;
+Result<RigidMotion> RigidMotion::between(std::span<const Mat4> poses, std::size_t first, Interpolation interpolation,
+                                         const Box& bounds, std::size_t item) {
+    const Vec3 centre{0.5 * (bounds.lo[0] + bounds.hi[0]), 0.5 * (bounds.lo[1] + bounds.hi[1]),
+                      0.5 * (bounds.lo[2] + bounds.hi[2])};
+    return between(poses[first], poses[first + 1], interpolation, centre,
+                   "batch item " + std::to_string(item) + ", poses " + std::to_string(first) + " and " +
+                       std::to_string(first + 1));
+}
+
+shader::RigidWay RigidMotion::way() const {
+    const double whole = std::sin(angle_ / 2);
+    shader::RigidWay out{};
+    out.halfAngle = angle_ / 2;
+    out.perSine = whole > 0 ? 1 / whole : 0;
+    const dvec3 turned = glm::cross(axis_, across_);
+    for (int column = 0; column < 4; ++column) {
+        const bool isPlace = column == 3;
+        const dvec3 place(from_[column]);
+        const dvec3 arm = isPlace ? place - centre_ : place;
+        const dvec3 more(deformation_[column]);
+        setTerms(out, static_cast<std::size_t>(3 * column),
+                 {place, glm::cross(axis_, arm), glm::dot(axis_, arm) * axis_ - arm, isPlace ? along_ + more : more,
+                  isPlace ? across_ : dvec3(0), isPlace ? turned : dvec3(0)});
+    }
+    setTerms(out, RIGID_CENTRE, {centre_, {}, {}, along_, across_, turned});
+    const double arc = whole > 0 ? angle_ / 2 / whole : 1; // over its chord
+    setTerms(out, RIGID_SPEED, {along_, arc * across_, arc * turned, {}, {}, {}});
+    return out;
 }
 
 Mat4 RigidMotion::at(double parameter) const {
-    const dmat3 rotation = turn(axis_, parameter * angle_);
-    dmat4 pose(rotation * dmat3(from_));
-    pose[3] = glm::dvec4(centreAt(parameter) + rotation * (dvec3(from_[3]) - centre_), 1);
-    return fromGlm(pose + parameter * deformation_);
+    if (parameter == 0 || parameter == 1) {
+        return fromGlm(parameter == 0 ? from_ : to_);
+    }
+    return poseOf(*this, parameter);
 }
 
 RigidMotion::Tangent RigidMotion::tangent(double parameter) const {
+    const shader::RigidPose pose = shader::rigidPose(way(), parameter);
     Tangent out;
     out.linear = crossMatrix(angle_ * axis_);
-    const double whole = std::sin(angle_ / 2);
-    const double arc = whole > 0 ? angle_ / 2 / whole : 1;
     out.straight = along_;
-    out.offset = along_ + arc * (turn(axis_, (parameter - 0.5) * angle_) * across_) - out.linear * centreAt(parameter);
+    out.offset = vectorAt(pose, RIGID_SPEED) - out.linear * vectorAt(pose, RIGID_CENTRE);
     return out;
 }
 
@@ -158,6 +191,12 @@ double RigidMotion::deformation(const Box& box) const {
     return (1 + angle_ + angle_ * angle_) * most;
 }
 
+double RigidMotion::rounding(const Box& box) const {
+    constexpr double kPoseError = 0x1p-46; // of the largest coordinate: a pose is made of a few dozen operations
+    return kPoseError * magnitude(box);
+}
+
+/// No coordinate of a point of a box on the way, nor a term of one, is larger, mm.
 double RigidMotion::magnitude(const Box& box) const {
     double most = largestCoordinate(centre_) + glm::length(along_) + (1 + angle_) * glm::length(across_);
     forCorners(box, [&](const dvec3& corner) {
@@ -176,7 +215,7 @@ Result<Mat4> poseBetween(const Mat4& from, const Mat4& to, double parameter, Int
         }
         const Result<RigidMotion> motion = RigidMotion::between(from, to, interpolation, centre, "the two poses");
         VOXTACT_TRY(motion);
-        return parameter == 0 ? from : parameter == 1 ? to : motion->at(parameter);
+        return motion->at(parameter);
     });
 }
 

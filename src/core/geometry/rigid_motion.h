@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "rigid_pose.h"
 #include "voxtact/motion.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+
+#include <span>
+#include <string>
 
 namespace voxtact {
 
@@ -16,8 +20,14 @@ class RigidMotion {
     /// `which` names the poses in an error.
     [[nodiscard]] static Result<RigidMotion> between(const Mat4& from, const Mat4& to, Interpolation interpolation,
                                                      const Vec3& centre, const std::string& which);
+    /// From one of a batch item's poses to the next. `bounds`: of the mesh, object space.
+    [[nodiscard]] static Result<RigidMotion> between(std::span<const Mat4> poses, std::size_t first,
+                                                     Interpolation interpolation, const Box& bounds, std::size_t item);
 
-    /// world_from_object at a parameter from 0 to 1.
+    /// As shaders have it.
+    [[nodiscard]] shader::RigidWay way() const;
+    /// world_from_object at a parameter from 0 to 1, to the last bit: at the ends as it was given, in between
+    /// rigidPose() of the way.
     [[nodiscard]] Mat4 at(double parameter) const;
 
     /// How the motion goes on from a parameter. The velocity of what is at x is linear * x + offset, mm for the whole
@@ -34,11 +44,11 @@ class RigidMotion {
     [[nodiscard]] double speed(const Box& box) const;
     /// What a point of such a box is off the tangent's velocity, mm for the whole parameter: what is no rigid motion.
     [[nodiscard]] double deformation(const Box& box) const;
-    /// No coordinate of a point of such a box on the way, nor a term of one, is larger, mm.
-    [[nodiscard]] double magnitude(const Box& box) const;
+    /// What a point of such a box on the way is rounded by, mm.
+    [[nodiscard]] double rounding(const Box& box) const;
 
   private:
-    [[nodiscard]] glm::dvec3 centreAt(double parameter) const;
+    [[nodiscard]] double magnitude(const Box& box) const;
 
     glm::dmat4 from_{1};
     glm::dmat4 to_{1};

@@ -269,6 +269,18 @@ Result<void> checkDeviceTolerance(const PoseTolerance& tolerance) {
     return {};
 }
 
+Result<void> checkMotion(const MotionSearch& search) {
+    constexpr double kLeastResolution = 1e-6;
+    if (!(search.resolution >= kLeastResolution && std::isfinite(search.resolution))) {
+        return refuse("the resolution " + number(search.resolution) + " mm is not a number from " +
+                      number(kLeastResolution) + " mm on");
+    }
+    if (search.interpolation != Interpolation::Screw && search.interpolation != Interpolation::Slerp) {
+        return refuse("the interpolation is none of the enumeration's");
+    }
+    return {};
+}
+
 Result<void> checkTolerance(double tolerance) {
     constexpr double kLeastTolerance = 1e-6;
     if (!(tolerance >= kLeastTolerance && tolerance < kInfinity)) {

@@ -35,6 +35,9 @@ namespace voxtact {
 /// The same on a device, whose distances are no more than 1,000,000 mm.
 [[nodiscard]] Result<void> checkDeviceTolerance(const PoseTolerance& tolerance);
 
+/// Refuses a resolution of a motion that is not a number from 1e-6 mm on, and an interpolation that there is not.
+[[nodiscard]] Result<void> checkMotion(const MotionSearch& search);
+
 /// Refuses a tolerance of a clearance that is not a number from 1e-6 mm on.
 [[nodiscard]] Result<void> checkTolerance(double tolerance);
 /// Refuses a maximum of a clearance, mm, that is not above 0.

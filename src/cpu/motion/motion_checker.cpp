@@ -22,17 +22,9 @@ struct MotionCheckerImpl {
 
 namespace {
 
-constexpr double kLeastResolution = 1e-6;
-
 Result<void> checkDesc(const MotionDesc& desc) {
     VOXTACT_TRY(checkThreads(desc.threads));
-    if (!(desc.resolution >= kLeastResolution && std::isfinite(desc.resolution))) {
-        return refuse("the resolution " + number(desc.resolution) + " mm is not a number from " +
-                      number(kLeastResolution) + " mm on");
-    }
-    if (desc.interpolation != Interpolation::Screw && desc.interpolation != Interpolation::Slerp) {
-        return refuse("the interpolation is none of the enumeration's");
-    }
+    VOXTACT_TRY(checkMotion({desc.resolution, desc.interpolation}));
     if (desc.mostSteps == 0) {
         return refuse("at most 0 steps are allowed, a motion takes at least one step");
     }
@@ -46,21 +38,14 @@ Result<void> checkMotionBatch(const Batch& batch) {
     return {};
 }
 
-Vec3 centreOf(const Box& box) {
-    return {0.5 * (box.lo[0] + box.hi[0]), 0.5 * (box.lo[1] + box.hi[1]), 0.5 * (box.lo[2] + box.hi[2])};
-}
-
 /// Of all segments, in order.
 Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation interpolation) {
     std::vector<RigidMotion> motions;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const BatchItem& item = batch.items[i];
-        const Vec3 centre = centreOf(item.mesh->facts().bounds);
         for (std::size_t pose = 0; pose + 1 < item.world_from_object.size(); ++pose) {
-            const std::string which = "batch item " + std::to_string(i) + ", poses " + std::to_string(pose) + " and " +
-                                      std::to_string(pose + 1);
-            Result<RigidMotion> motion = RigidMotion::between(
-                item.world_from_object[pose], item.world_from_object[pose + 1], interpolation, centre, which);
+            Result<RigidMotion> motion =
+                RigidMotion::between(item.world_from_object, pose, interpolation, item.mesh->facts().bounds, i);
             VOXTACT_TRY(motion);
             motions.push_back(*motion);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/motion/segment_search.h"
+#include "motion_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +9,6 @@
 namespace voxtact::cpu {
 
 namespace {
-
-/// Of the largest coordinate: a pose on the way is made of a few dozen operations.
-constexpr double kPoseError = 0x1p-46;
-/// Of the resolution: a touch that begins just where two pieces meet is seen in the middle of the second.
-constexpr double kLastPiece = 0.25;
-/// Where a graze has been found, only a touch is still looked for, at places that are this part of the way from there.
-constexpr double kCoarser = 0.5;
 
 /// No unit vector is longer after a pose, nor after one that differs from it by a motion: the square of that is at most
 /// a sum in a row of the symmetric matrix that has the squares of lengths.
@@ -41,7 +35,7 @@ SegmentSearch::SegmentSearch(const BatchItem& item, const OpaquePart& part, cons
                              Bending* bending)
     : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), firstPose_(firstPose), cancel_(cancel),
       bending_(bending), scale_(scaleOf(item.world_from_object[firstPose])), speed_(motion.speed(bounds())),
-      deformation_(motion.deformation(bounds())), rounding_(kPoseError * motion.magnitude(bounds())) {
+      deformation_(motion.deformation(bounds())), rounding_(motion.rounding(bounds())) {
     if (bending_ != nullptr) {
         speed_ += scale_ * bending_->reach().most;
         rounding_ += 2 * scale_ * bending_->rounding(); // of where it is, and of where it may be
@@ -53,21 +47,13 @@ const Box& SegmentSearch::bounds() const {
 }
 
 PairAt SegmentSearch::pairAt(double parameter) const {
-    return {item_, part_, poseAt(parameter), cancel_, bending_ != nullptr ? &bending_->at(parameter) : nullptr};
-}
-
-Mat4 SegmentSearch::poseAt(double parameter) const {
-    // The ends are what was given, to the last bit.
-    return parameter == 0   ? item_.world_from_object[firstPose_]
-           : parameter == 1 ? item_.world_from_object[firstPose_ + 1]
-                            : motion_.at(parameter);
+    return {item_, part_, motion_.at(parameter), cancel_, bending_ != nullptr ? &bending_->at(parameter) : nullptr};
 }
 
 SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
     // A longer one that is not soon found to be free is halved, which makes it easier.
     constexpr std::uint64_t kSoon = 600;
     constexpr std::uint64_t kMost = 1U << 16U; // more decide no more than whether it grazes
-    constexpr double kFinest = 1.0 / 16;
     constexpr double kEnough = 1e-3;
     const double half = 0.5 * (interval.to - interval.from);
     const RigidMotion::Tangent tangent = motion_.tangent(interval.middle());
@@ -84,7 +70,8 @@ SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
     const SearchGoal goal{.tolerance = 0,
                           .maximum = std::numeric_limits<double>::denorm_min(),
                           .enough = (last ? kEnough : 1) * desc_.resolution,
-                          .finest = std::max(kLastPiece * desc_.resolution, last ? 0 : kFinest * length(interval)),
+                          .finest = std::max(double{VOXTACT_MOTION_LAST_PIECE} * desc_.resolution,
+                                             last ? 0 : double{VOXTACT_MOTION_FINEST_BOX} * length(interval)),
                           .mostSteps =
                               std::min(desc_.mostSteps - std::min(steps_, desc_.mostSteps - 1), last ? kMost : kSoon)};
     const Found found = pairAt(interval.middle()).search(memory_, goal, sweep, interval.open.get());
@@ -116,7 +103,8 @@ bool SegmentSearch::touches(double parameter, SegmentMotion& out) {
 void SegmentSearch::look(const Interval& interval, SegmentMotion& out) {
     const bool grazes = out.freeUntil < interval.from;
     const double finest =
-        std::max(kLastPiece * desc_.resolution, grazes ? kCoarser * speed_ * (interval.from - out.freeUntil) : 0.0);
+        std::max(double{VOXTACT_MOTION_LAST_PIECE} * desc_.resolution,
+                 grazes ? double{VOXTACT_MOTION_COARSER} * speed_ * (interval.from - out.freeUntil) : 0.0);
     const bool last = length(interval) <= finest || interval.middle() <= interval.from;
     const Seen seen = see(interval, last);
     if (seen.isFree) {

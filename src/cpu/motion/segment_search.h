@@ -35,7 +35,6 @@ class SegmentSearch {
     [[nodiscard]] double length(const Interval& interval) const noexcept {
         return (interval.to - interval.from) * speed_;
     }
-    [[nodiscard]] Mat4 poseAt(double parameter) const;
     /// The mesh there.
     [[nodiscard]] PairAt pairAt(double parameter) const;
     [[nodiscard]] const Box& bounds() const;

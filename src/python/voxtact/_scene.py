@@ -349,7 +349,8 @@ class Scene:
 
     def motion(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
                interpolation: Interpolation = "screw", resolution: float = core.DEFAULT_MOTION_RESOLUTION,
-               most_steps: int = core.DEFAULT_MOTION_STEPS, progress: Progress = None) -> Motion:
+               most_steps: int = core.DEFAULT_MOTION_STEPS, method: Literal["cpu", "compute"] = "cpu",
+               progress: Progress = None) -> Motion:
         """Whether anything touches on the way from each pose to the next, and where first: a `Motion`.
 
         Nothing is sampled: what is called free is free at all poses of the way.
@@ -363,15 +364,20 @@ class Scene:
             mm, from 1e-6 on: how far the mesh moves at most from the end of what is free to a touch
         most_steps
             a segment that takes more is left with what is known
+        method
+            "cpu": the host engine checks, also for scenes on a device; "compute": that device does, in single precision and without
+            `most_steps`: a touch is found to some hundredths of a voxel
         progress
             is told of segments
-
-        The host engine checks, also for scenes on a device.
         """
+        _check_method(method, "a motion is checked")
+        if method == "compute" and most_steps != core.DEFAULT_MOTION_STEPS:
+            raise InvalidArgumentError("most_steps is about the host's search: leave it out, or method='compute'")
         steps = whole_number(most_steps, "most_steps")
         meshes, matrices = asked(mesh, poses)
         with told(progress, segments_in(meshes, matrices)) as tell:
-            return Motion(self._core.motion(meshes, matrices, encoded_text(interpolation, "interpolation"), number(resolution, "resolution"), steps, tell))
+            return Motion(self._core.motion(meshes, matrices, encoded_text(interpolation, "interpolation"), number(resolution, "resolution"), steps,
+                                            method == "compute", tell))
 
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,

@@ -3,7 +3,7 @@
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
-#include "support/scenes.h"
+#include "support/floor.h"
 
 #include <gtest/gtest.h>
 
@@ -56,27 +56,6 @@ MeshData makeBox(const Vec3& lo, const Vec3& hi) {
     return cube;
 }
 
-/// About an axis of the world, right-handed, through the origin.
-Mat4 turned(std::size_t axis, double angle) {
-    Mat4 out = identity();
-    const std::size_t next = (axis + 1) % 3;
-    const std::size_t last = (axis + 2) % 3;
-    out[4 * next + next] = out[4 * last + last] = std::cos(angle);
-    out[4 * next + last] = std::sin(angle);
-    out[4 * last + next] = -std::sin(angle);
-    return out;
-}
-
-/// Opaque where z is below 0: voxels of 1 mm, x and y from -20 to 20.
-VolumeData floorVolume() {
-    Grid grid;
-    grid.size = {41, 41, 21};
-    grid.origin = {-20, -20, -10};
-    return makeVolume<float>(grid, ScalarType::Float32, [](auto, auto, auto z) { return 10.0 - z; });
-}
-/// Of that: the ramp is linear over all values, and one half at 0.
-const std::vector<ControlPoint> kFloorPoints{{-10, 0}, {10, 1}};
-
 /// Of a straight way down: the first touch is known, and what is said is within the resolution of it.
 void expectTouchAt(double wanted, const SegmentMotion& found, double slack) {
     ASSERT_TRUE(found.touch) << toString(found.end) << ", free until " << found.freeUntil;
@@ -88,7 +67,8 @@ void expectTouchAt(double wanted, const SegmentMotion& found, double slack) {
 }
 
 TEST(Motion, FindsWhereATipReachesAFloor) {
-    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     for (const double height : {0.02, 0.5, 3.0, 9.0, 200.0}) {
         for (const double down : {height + 0.5, 2 * height + 1}) {
             SCOPED_TRACE(std::to_string(height) + " " + std::to_string(down));
@@ -125,7 +105,8 @@ TEST(Motion, FindsAThinPlateThatCrossesASheet) {
 
 /// A rod from the origin along x, turned about y: its far end comes down on a circle.
 TEST(Motion, FindsWhereATurningRodReachesAFloor) {
-    const Held held(oneTriangle({0, 0, 0}, {15, 0, 0}, {15, 0.1, 0}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({0, 0, 0}, {15, 0, 0}, {15, 0.1, 0}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     for (const double height : {0.1, 2.0, 9.0}) {
         const Mat4 up = translation({0, 0, height});
         const double angle = 1.2;
@@ -161,7 +142,8 @@ TEST(Motion, FindsWhatIsWhereATurnEnds) {
 
 /// With slerp the middle of the mesh goes straight down while it turns: the lower end is the first.
 TEST(Motion, TurnsAboutTheMiddleWithSlerp) {
-    const Held held(oneTriangle({10, 0, 0}, {20, 0, 0}, {20, 0.1, 0}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({10, 0, 0}, {20, 0, 0}, {20, 0.1, 0}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     const Mat4 from = translation({-15, 0, 4});
     // Turned by half a right angle about the middle, which comes down by 2 mm.
     const Mat4 to = multiply(translation({0, 0, 2}), multiply(turned(1, kPi / 4), translation({-15, 0, 0})));
@@ -182,7 +164,7 @@ TEST(Motion, TurnsAboutTheMiddleWithSlerp) {
 
 /// Along a floor, at a small distance all the way: few steps, since only what goes towards it counts.
 TEST(Motion, SlidesAlongAFloor) {
-    const Held held(makeBox({-1, -1, 0}, {1, 1, 1}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(makeBox({-1, -1, 0}, {1, 1, 1}), floorImage(), kFloorPoints, kFloorDomain, kFloorEntries);
     const auto slide = [&](double height, std::uint64_t mostSteps) {
         return held.check({translation({-5, 0, height}), translation({5, 1, height})}, {.mostSteps = mostSteps})[0];
     };
@@ -203,7 +185,8 @@ TEST(Motion, SlidesAlongAFloor) {
 
 /// Somewhere it is a hair's breadth from touching, and later it touches.
 TEST(Motion, AGrazeIsNotWhereItEnds) {
-    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     // A turn about a point 10 mm above comes down to the floor, just so, and up again; then it is moved below.
     const Mat4 pivot = translation({0, 0, 10});
     const Mat4 arm = translation({0, 0, -10});
@@ -216,7 +199,8 @@ TEST(Motion, AGrazeIsNotWhereItEnds) {
 }
 
 TEST(Motion, IsThatOfEachPairOfConsecutivePoses) {
-    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     const std::vector<Mat4> path{translation({0, 0, 5}), translation({9, 0, 5}), translation({9, 0, -1}),
                                  translation({9, 0, 3})};
     const std::vector<SegmentMotion> alone = held.check(path, {.threads = 1});
@@ -274,7 +258,8 @@ TEST(Motion, GoesFromTheFirstPoseToTheSecond) {
 
 /// How far a floor is below a tip, by how much the pose may be off.
 TEST(PoseTolerance, OfATipAboveAFloor) {
-    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     for (const double height : {0.1, 2.0, 8.0}) {
         SCOPED_TRACE(height);
         const Mat4 pose = translation({1, 2, height});
@@ -294,7 +279,8 @@ TEST(PoseTolerance, OfATipAboveAFloor) {
 
 /// A rod parallel to the floor: its far end comes down by the sine of the angle.
 TEST(PoseTolerance, OfARodAboveAFloor) {
-    const Held held(oneTriangle({0, 0, 0}, {15, 0, 0}, {15, 0.01, 0}), floorVolume(), kFloorPoints, {-10, 10}, 1024);
+    const Held held(oneTriangle({0, 0, 0}, {15, 0, 0}, {15, 0.01, 0}), floorImage(), kFloorPoints, kFloorDomain,
+                    kFloorEntries);
     for (const double degrees : {0.5, 2.0, 10.0, 25.0}) {
         for (const double distance : {0.0, 1.0}) {
             SCOPED_TRACE(std::to_string(degrees) + " " + std::to_string(distance));
@@ -368,7 +354,7 @@ TEST(Motion, RefusesWhatItCannotUse) {
     EXPECT_NE(refused({.interpolation = static_cast<Interpolation>(7)}), "");
     EXPECT_EQ(refused({.threads = 2}), "");
 
-    const Held held(makeCube(-1, 1), floorVolume());
+    const Held held(makeCube(-1, 1), floorImage());
     cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
     const auto text = [&](const std::vector<Mat4>& poses) {
         const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, poses};

@@ -80,6 +80,51 @@ TEST_F(CNearTest, DecidesWhatATolerancePermits) {
     EXPECT_EQ(none, nullptr);
 }
 
+TEST_F(CNearTest, LooksAlongTheWay) {
+    RandomScene scene = halfOpaque(); // up to x = 0.5
+    scene.poses = {translation({0.9, 0, 0}), translation({0.3, 0, 0}), translation({0.8, 0, 0})};
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    const COneItem item(sides, scene);
+    vxt_detector_desc desc = yesOrNo();
+    EXPECT_EQ(desc.motion_resolution, 0);
+    const Owned<vxt_answer> answer = newAnswer();
+    const auto motions = made<vxt_motions>(vxt_motions_destroy, vxt_motions_create);
+    vxt_motion_view view = vxt_motion_view_init();
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    need(vxt_answer_motions(answer.get(), motions.get()));
+    need(vxt_motions_get(motions.get(), &view));
+    EXPECT_EQ(view.segment_count, 0U); // not asked
+    desc.motion_resolution = 0.004;
+    desc.motion_interpolation = VXT_INTERPOLATION_SLERP;
+    need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
+    need(vxt_answer_motions(answer.get(), motions.get()));
+    need(vxt_motions_get(motions.get(), &view));
+    ASSERT_EQ(view.segment_count, 2U);
+    const double wanted = (0.9 - 0.5) / (0.9 - 0.3);
+    EXPECT_LE(view.segments[0].free_until, wanted + 0.002); // an entry of the table is a part of a voxel
+    EXPECT_GE(view.segments[0].touch_at, wanted - 0.002);
+    EXPECT_LE(view.segments[0].touch_at - view.segments[0].free_until, 0.004 / 0.6);
+    EXPECT_EQ(view.segments[0].end, VXT_MOTION_DECIDED);
+    EXPECT_EQ(view.segments[0].touches, 1U);
+    EXPECT_NEAR(view.segments[0].position[0], 0.5, 0.01);
+    EXPECT_NEAR(view.segments[0].world_from_object[12], 0.9 - 0.6 * view.segments[0].touch_at, 1e-12);
+    EXPECT_EQ(view.segments[1].pose, 1U);
+    EXPECT_EQ(view.segments[1].touch_at, 0);
+    vxt_detector* none = nullptr;
+    desc.motion_resolution = -1;
+    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+    vxt_results_desc room = vxt_results_desc_init();
+    room.max_pairs = 3;
+    for (const std::uint32_t some : {0U, 1U}) {
+        room.motions = some;
+        const Owned<vxt_results> results = newResults(room);
+        vxt_buffer_range range{};
+        need(vxt_results_on_device(results.get(), VXT_DEVICE_MOTIONS, &range));
+        EXPECT_EQ(range.size, some * 96U);
+    }
+}
+
 TEST_F(CNearTest, MeasuresHowNear) {
     const RandomScene scene = threePoses();
     const CScene sides(context_.get(), queue_, scene, twoLabels());

@@ -15,6 +15,7 @@ struct Answered {
     std::vector<PairAnswer> pairs;
     std::vector<PairClearance> clearances;
     std::vector<LabelClearance> labels;
+    std::vector<SegmentMotion> motions;
     CertifiedCounters counters{};
 };
 
@@ -45,7 +46,8 @@ class CertifiedTest : public RawGpuTest {
                                                            .clustersAtOnce = clusters,
                                                            .clearances = desc.clearance.has_value(),
                                                            .closest = desc.closest,
-                                                           .labelClearances = labelRoom(desc, batch)}));
+                                                           .labelClearances = labelRoom(desc, batch),
+                                                           .motions = desc.motion.has_value()}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));
@@ -60,6 +62,10 @@ class CertifiedTest : public RawGpuTest {
         EXPECT_EQ(results.measuredLabels(), desc.labelClearances);
         if (desc.labelClearances) {
             out.labels = take(results.readLabelClearances());
+        }
+        EXPECT_EQ(results.moved(), desc.motion.has_value());
+        if (desc.motion) {
+            out.motions = take(results.readMotions());
         }
         EXPECT_EQ(results.counted(), desc.counters);
         if (desc.counters) {

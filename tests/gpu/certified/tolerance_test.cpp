@@ -6,6 +6,7 @@
 #include "certified/head_scene.h"
 #include "certified/sides.h"
 #include "cpu/scenes/margin_cases.h"
+#include "support/floor.h"
 #include "voxtact/cpu.h"
 
 #include <gmock/gmock.h>
@@ -112,20 +113,11 @@ TEST_F(ToleranceTest, SaysNothingAgainstTheHostOnRandomCases) {
     std::cout << "  " << cases << " cases: device " << said << "; host " << ofHost << '\n';
 }
 
-/// Opaque where z is below 0: voxels of 1 mm, x and y from -20 to 20.
-VolumeData floorImage() {
-    Grid grid;
-    grid.size = {41, 41, 21};
-    grid.origin = {-20, -20, -10};
-    return makeVolume<float>(grid, ScalarType::Float32, [](auto, auto, auto z) { return 10.0 - z; });
-}
-
 /// A rod from the object's origin, so many degrees above the level: turned by `angle` towards the floor and then moved,
 /// its end comes down by as much as is known. One that points at the floor gains nothing by a turn.
 TEST_F(ToleranceTest, OfARodAboveAFloor) {
     constexpr double kLength = 14;
     const VolumeData image = floorImage();
-    const std::array points{ControlPoint{-10, 0}, ControlPoint{10, 1}};
     BlockingDetector device = detector(off(kOff));
     for (const double above : {-90.0, -85.0, -40.0, 0.0, 30.0, 60.0, 90.0}) {
         const double degree = std::numbers::pi / 180;
@@ -139,7 +131,7 @@ TEST_F(ToleranceTest, OfARodAboveAFloor) {
             SCOPED_TRACE(std::to_string(above) + " degrees, " + std::to_string(more) + " mm farther than it reaches");
             const PairAnswer found =
                 ask(device,
-                    {rod.view(), image.view(), {points, {-10, 10}, 1024}, {}, translation({1, 2, reach + more}), 0.5},
+                    {rod.view(), image.view(), {kFloorPoints, kFloorDomain, kFloorEntries}, {}, translation({1, 2, reach + more}), 0.5},
                     more < 0);
             EXPECT_EQ(found.hit, more < 0);
             EXPECT_FALSE(found.possible);
@@ -232,7 +224,6 @@ TEST_F(ToleranceTest, WhatHasNoRoomIsDecidedLater) {
 /// mesh itself is not known to a voxel's part, it is *possible*, and what is far from everything is still far.
 TEST_F(ToleranceTest, OfAnOriginFarAway) {
     const VolumeData image = floorImage();
-    const std::array points{ControlPoint{-10, 0}, ControlPoint{10, 1}};
     BlockingDetector device = detector(off(kOff));
     for (const double origin : {100.0, 1e4, 1e9}) {
         SCOPED_TRACE("origin at " + std::to_string(origin));
@@ -241,7 +232,7 @@ TEST_F(ToleranceTest, OfAnOriginFarAway) {
         const auto at = [&](double height) {
             return ask(
                 device,
-                {mesh.view(), image.view(), {points, {-10, 10}, 1024}, {}, translation({1 - origin, 2, height}), 0.5},
+                {mesh.view(), image.view(), {kFloorPoints, kFloorDomain, kFloorEntries}, {}, translation({1 - origin, 2, height}), 0.5},
                 true);
         };
         EXPECT_TRUE(at(-3).hit || (origin > 1e6 && at(-3).possible));

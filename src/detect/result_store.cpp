@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "detect/result_store.h"
+#include "core/base/refuse.h"
+#include "core/base/try.h"
+#include "detect/certified_queues.h"
+#include "detect/pair_setup.h"
+#include "detect/recording.h"
+#include "gpu/debug.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace voxtact {
+
+namespace {
+
+Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type, std::uint32_t count,
+                                         const char* name) {
+    VkQueryPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    info.queryType = type;
+    info.queryCount = count;
+    VkQueryPool handle = VK_NULL_HANDLE;
+    if (const VkResult result = context.vk.CreateQueryPool(context.device, &info, context.allocator, &handle);
+        result != VK_SUCCESS) {
+        return context.failure(result, "making a query pool");
+    }
+    nameObject(context, VK_OBJECT_TYPE_QUERY_POOL, handle, name);
+    return Owned<VkQueryPool>(
+        context, handle, [](ContextImpl& c, VkQueryPool pool) { c.vk.DestroyQueryPool(c.device, pool, c.allocator); });
+}
+
+VkDeviceSize bytesFor(const ContextImpl& context) {
+    return std::min<VkDeviceSize>(context.limits.maxStorageBufferRange, context.maxAllocation);
+}
+
+/// For any projection, as far as the device has room for them, and for the least queues beside them.
+std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
+    const VkDeviceSize bytes =
+        bytesFor(context) - std::min(bytesFor(context), kSetupBytes + queueBytes(kUsualQueueRoom));
+    const VkDeviceSize room = std::min<VkDeviceSize>(bytes / sizeof(shader::PairTransform), UINT32_MAX);
+    return static_cast<std::uint32_t>(std::max<VkDeviceSize>(
+        std::min<VkDeviceSize>(VkDeviceSize{kMostTransformsPerPair} * maxPairs, room), maxPairs));
+}
+
+Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
+    if (desc.into.buffer == VK_NULL_HANDLE) {
+        return {};
+    }
+    // Results of 64-bit queries begin at multiples of 8.
+    const VkDeviceSize alignment = std::max<VkDeviceSize>(context.limits.minStorageBufferOffsetAlignment, 8);
+    if (desc.into.offset % alignment != 0) {
+        return refuse("ResultsDesc::into begins at byte " + std::to_string(desc.into.offset) +
+                      "; on this device that must be a multiple of " + std::to_string(alignment));
+    }
+    if (const VkDeviceSize needed = VkDeviceSize{desc.maxPairs} * sizeof(PairResult); desc.into.size < needed) {
+        return refuse("ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " +
+                      std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed));
+    }
+    return {};
+}
+
+Result<void> checkLabelRoom(const ContextImpl& context, const ResultsDesc& desc) {
+    if (desc.labelClearances == 0) {
+        return {};
+    }
+    if (!desc.clearances) {
+        return refuse("ResultsDesc::labelClearances is about clearances, and ResultsDesc::clearances is false");
+    }
+    if (desc.labelClearances > kMostMeasuredLabels) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "ResultsDesc::labelClearances is " + std::to_string(desc.labelClearances) +
+                         ", one batch measures at most " + std::to_string(kMostMeasuredLabels) + " labels"};
+    }
+    if (const VkDeviceSize bytes = labelBytes(desc.maxPairs, desc.labelClearances);
+        bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     "the clearances of " + std::to_string(desc.maxPairs) + " pairs to " +
+                         std::to_string(desc.labelClearances) + " labels need " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    return {};
+}
+
+Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
+    if (desc.maxPairs == 0) {
+        return refuse("ResultsDesc::maxPairs is 0");
+    }
+    if (const std::uint32_t clusters = desc.clustersAtOnce.value_or(0);
+        clusters != 0 && (clusters < kLeastQueueRoom || clusters > kMostQueueRoom)) {
+        return refuse("ResultsDesc::clustersAtOnce is " + std::to_string(clusters) + "; 0, or " +
+                      std::to_string(kLeastQueueRoom) + " to " + std::to_string(kMostQueueRoom) + ", is possible");
+    }
+    const std::uint64_t bytes = std::uint64_t{desc.maxPairs} * sizeof(shader::PairTransform) + kSetupBytes;
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     std::to_string(desc.maxPairs) + " pairs need a buffer of " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    if (desc.closest && !desc.clearances) {
+        return refuse("ResultsDesc::closest is about clearances, and ResultsDesc::clearances is false");
+    }
+    VOXTACT_TRY(checkLabelRoom(context, desc));
+    VOXTACT_TRY(checkInto(context, desc));
+    if (desc.timestamps) {
+        constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+        VOXTACT_TRY(context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily"));
+    }
+    if (desc.timestamps && context.timestampBits(desc.queueFamily) == 0) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "queue family " + std::to_string(desc.queueFamily) + " has no timestamps"};
+    }
+    return {};
+}
+
+VkDeviceSize transformBytes(const ResultsImpl& results, const ResultsDesc& desc) {
+    return firstQueueByte(results) + (results.queueRoom == 0 ? 0 : bytesFromQueues(results.queueRoom, desc));
+}
+
+/// The buffers of a Results, each with what it is for.
+Result<void> makeBuffers(ResultsImpl& out, const ResultsDesc& desc) {
+    const VkDeviceSize bytes = VkDeviceSize{out.maxPairs} * sizeof(PairResult);
+    const bool ownResults = desc.into.buffer == VK_NULL_HANDLE;
+    struct Wanted {
+        bool wanted;
+        Buffer& buffer;
+        VkDeviceSize size;
+        VkBufferUsageFlags usage;
+        MemoryUse use;
+        const char* name;
+    };
+    constexpr VkBufferUsageFlags kTo = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const Wanted wanted[] = {
+        {true, out.transforms, transformBytes(out, desc),
+         kTo | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device,
+         "pair transforms"},
+        {ownResults, out.ownResults, bytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
+        {desc.readBack, out.readBack, out.readBackBytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
+         "pair results on the host"},
+    };
+    for (const Wanted& each : wanted) {
+        if (!each.wanted) {
+            continue;
+        }
+        Result<Buffer> made = makeBuffer(out.context, each.size, each.usage, each.use, each.name);
+        VOXTACT_TRY(made);
+        each.buffer = std::move(*made);
+    }
+    out.results = {ownResults ? out.ownResults.get() : desc.into.buffer, desc.into.offset, bytes};
+    if (!desc.readBack) {
+        return {};
+    }
+    std::memset(static_cast<std::byte*>(out.readBack.mapped) + out.copyNumberOnHost(), 0, sizeof out.copies);
+    return flush(out.context, out.readBack);
+}
+
+Result<void> makeQueries(ResultsImpl& out) {
+    Result<Owned<VkQueryPool>> occlusion =
+        makeQueryPool(out.context, VK_QUERY_TYPE_OCCLUSION, out.maxPairs, "occlusion queries");
+    VOXTACT_TRY(occlusion);
+    out.occlusion = std::move(*occlusion);
+    if (out.timestampBits > 0) {
+        Result<Owned<VkQueryPool>> timestamps =
+            makeQueryPool(out.context, VK_QUERY_TYPE_TIMESTAMP, 2, "batch timestamps");
+        VOXTACT_TRY(timestamps);
+        out.timestamps = std::move(*timestamps);
+    }
+    return {};
+}
+
+Result<void> makeDescriptors(ResultsImpl& out) {
+    ContextImpl& context = out.context;
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
+    Result<DescriptorSet> set = makeDescriptorSet(context, context.setLayouts[VOXTACT_SET_PAIRS], {&size, 1}, "pairs");
+    VOXTACT_TRY(set);
+    out.descriptors = std::move(*set);
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_TRANSFORMS, out.transforms.get());
+    writeBuffer(context, out.descriptors.set, VOXTACT_BINDING_RESULTS, out.results.buffer, out.results.size,
+                out.results.offset);
+    return {};
+}
+
+} // namespace
+
+Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const ResultsDesc& desc) {
+    VOXTACT_TRY(checkDesc(context, desc));
+    auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = context, .maxPairs = desc.maxPairs});
+    impl->maxTransforms = transformsFor(context, desc.maxPairs);
+    impl->queueRoom = queueRoomFor(desc, bytesFor(context), firstQueueByte(*impl));
+    impl->clearances = desc.clearances && impl->queueRoom > 0;
+    impl->closest = desc.closest && impl->clearances;
+    impl->labelRoom = impl->clearances ? desc.labelClearances : 0;
+    impl->motionRoom = desc.motions && impl->queueRoom > 0;
+    impl->timestampBits = desc.timestamps ? context.timestampBits(desc.queueFamily) : 0;
+    VOXTACT_TRY(makeBuffers(*impl, desc));
+    for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
+        VOXTACT_TRY(make(*impl));
+    }
+    if (desc.room) {
+        Result<std::unique_ptr<OutputStore>> outputs =
+            makeOutputStore(context, desc, impl->transforms.get(), impl->results);
+        VOXTACT_TRY(outputs);
+        impl->outputs = std::move(*outputs);
+    }
+    return impl;
+}
+
+} // namespace voxtact
