@@ -26,7 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIGS = [ROOT / ".clang-tidy"]
 # As long as all others together, in other people's templates.
 SLOW_CHECKS = "-performance-unnecessary-value-param"
-TOGETHER = 8
+TOGETHER = 16
 # What .clang-tidy names, and the sources that are included where they are looked at as one.
 OURS = r"(src|include|tests)/.*\.(h|cpp)$"
 
@@ -106,19 +106,26 @@ def hashes_of(build, commands, checks):
 
 
 def groups_of(commands, sources):
-    """Sources that may be looked at as one: what the build does so, else what it compiles alike, TOGETHER at a time."""
+    """Sources that may be looked at as one: of a target's that are compiled alike, TOGETHER at a time at most."""
     alike = {}
     united = {folder_of(entry) for entry in commands.values() if "/Unity/" in entry["command"]}
     for source in sources:
         entry = commands[source]
         words = shlex.split(entry["command"])
         output = words[words.index("-o") + 1]
-        # What such a target compiles apart clashes with others of it.
-        own = output if "/Unity/" in output or folder_of(entry) in united else ""
+        # What a target whose files the build unites compiles apart clashes with others of it.
+        clashes = folder_of(entry) in united and "/Unity/" not in output
+        own = output if clashes or includes_itself(source) else folder_of(entry)
         alike.setdefault((own, *words[:words.index("-o")]), []).append(source)
     for members in alike.values():
-        for first in range(0, len(members), TOGETHER):
-            yield members[first:first + TOGETHER]
+        parts = -(-len(members) // TOGETHER)
+        for part in range(parts):
+            yield members[part * len(members) // parts:(part + 1) * len(members) // parts]
+
+
+def includes_itself(source):
+    """What Highway compiles for one processor after the other it does for one file at a time."""
+    return "hwy/foreach_target.h" in source.read_text()
 
 
 def folder_of(entry):
@@ -147,7 +154,8 @@ class Tidy:
             whole.write("".join(f'#include "{one}" // NOLINT(bugprone-suspicious-include)\n' for one in sources))
             whole.flush()
             words = shlex.split(entry["command"])
-            command = shlex.join([*words[:words.index("-o")], "-c", whole.name])
+            # A file's own variables may have names of another file.
+            command = shlex.join([*words[:words.index("-o")], "-Wno-shadow", "-c", whole.name])
             return self.run(entry | {"file": whole.name, "command": command}, f"--header-filter={OURS}")[0]
 
     def look(self, sources):

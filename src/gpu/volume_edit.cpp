@@ -20,10 +20,10 @@ namespace voxtact {
 
 namespace {
 
-constexpr VkDeviceSize kWord = 4; ///< what vkCmdFillBuffer and vkCmdUpdateBuffer write multiples of
+constexpr VkDeviceSize kFillWord = 4; ///< what vkCmdFillBuffer and vkCmdUpdateBuffer write multiples of
 
 VkDeviceSize roundedUp(VkDeviceSize bytes) {
-    return (bytes + kWord - 1) / kWord * kWord;
+    return (bytes + kFillWord - 1) / kFillWord * kFillWord;
 }
 
 Result<void> checkEditable(const VolumeImpl& volume, VkCommandBuffer commandBuffer) {
@@ -41,7 +41,7 @@ Result<void> checkEditable(const VolumeImpl& volume, VkCommandBuffer commandBuff
 std::uint32_t wordOf(const VoxelBytes& voxel, ScalarType type) {
     VoxelBytes texel{};
     fillTexels(type, voxel, texel.data());
-    std::array<std::byte, kWord> word{};
+    std::array<std::byte, kFillWord> word{};
     for (std::size_t at = 0; at < word.size(); ++at) {
         word[at] = texel[at % bytesPerVoxel(type)];
     }
@@ -278,7 +278,7 @@ Result<void> Volume::cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box,
         if (source == VK_NULL_HANDLE) {
             return refuse("the buffer to copy voxels from is null");
         }
-        if (offset % kWord != 0) {
+        if (offset % kFillWord != 0) {
             return refuse("the offset " + std::to_string(offset) + " of the voxels to copy is not a multiple of 4");
         }
         if (isEmpty(box)) {

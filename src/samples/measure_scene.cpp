@@ -11,7 +11,7 @@ namespace voxtact {
 namespace {
 
 constexpr std::uint32_t kPoses = 32;
-constexpr std::uint32_t kSide = 256;
+constexpr std::uint32_t kMeasuredSide = 256;
 
 /// The tip on a spiral over the head, from `radius` mm off the world's origin, the handle pointing outwards.
 Mat4 poseOnSpiral(std::uint32_t index) {
@@ -54,7 +54,7 @@ Result<MeasureScene> makeMeasureScene() {
         for (std::uint32_t i = 0; i < kPoses; ++i) {
             scene.world_from_object.push_back(poseOnSpiral(i));
         }
-        scene.view = {framingCamera(scene.volume.grid, kSide, kSide), kSide, kSide};
+        scene.view = {framingCamera(scene.volume.grid, kMeasuredSide, kMeasuredSide), kMeasuredSide, kMeasuredSide};
         return scene;
     });
 }

@@ -19,9 +19,7 @@ constexpr const char* kNote = "voxtact: note: auto chose ";
 class CacheTest : public CliDeviceTest {
   protected:
     /// A cache folder of the test's own. What Mesa keeps is still shared: compiling takes seconds.
-    [[nodiscard]] RunOptions own() const {
-        return {.environment = {{"XDG_CACHE_HOME", path("xdg")}, {"MESA_SHADER_CACHE_DIR", VOXTACT_TEST_CACHE}}};
-    }
+    [[nodiscard]] RunOptions own() const { return {.environment = {{"XDG_CACHE_HOME", path("xdg")}}}; }
     [[nodiscard]] fs::path folder() const { return path("xdg/voxtact"); }
 
     static Arguments automatic(const Arguments& more = {}) {
@@ -142,9 +140,8 @@ TEST_F(CacheTest, OffAndFoldersThatCannotBe) {
     }
     const RunOptions nowhere{
         .environment = {{"HOME", ""}, {"XDG_CACHE_HOME", "relative"}, {"MESA_SHADER_CACHE_DISABLE", "true"}}};
-    const RunOptions none{.environment = {{"MESA_SHADER_CACHE_DIR", VOXTACT_TEST_CACHE}}};
-    for (const Ran& ran : {run(automatic(), nowhere), run(automatic({"--cache", "/proc/no/such"}), none),
-                           run(automatic({"--cache", path("file")}), none)}) {
+    for (const Ran& ran : {run(automatic(), nowhere), run(automatic({"--cache", "/proc/no/such"})),
+                           run(automatic({"--cache", path("file")}))}) {
         EXPECT_FALSE(methodOf(ran).empty());
         EXPECT_THAT(ran.err, StartsWith(kNote));
         EXPECT_EQ(linesOf(ran.err).size(), 1U) << ran.err;

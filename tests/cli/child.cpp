@@ -52,7 +52,7 @@ Child::Child(const Arguments& arguments, std::uint64_t longestFile) : errors_(st
             const rlimit limit{longestFile, longestFile};
             ::setrlimit(RLIMIT_FSIZE, &limit);
         }
-        ::setenv("XDG_CACHE_HOME", VOXTACT_TEST_CACHE, 1);
+        setCaches();
         ::execv(VOXTACT_PROGRAM, pointers.data());
         ::_exit(127);
     }

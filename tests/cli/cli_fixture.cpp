@@ -62,8 +62,7 @@ int openOutput(const RunOptions& options, const Capture& captured) {
 [[noreturn]] void becomeProgram(const Arguments& arguments, const RunOptions& options, int out, int err) {
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
-    // Not the user's own: what is measured there, and what drivers keep there, is shared by the tests of this build.
-    ::setenv("XDG_CACHE_HOME", VOXTACT_TEST_CACHE, 1);
+    setCaches();
     for (const auto& [name, value] : options.environment) {
         ::setenv(name.c_str(), value.c_str(), 1);
     }
@@ -79,6 +78,22 @@ int openOutput(const RunOptions& options, const Capture& captured) {
 }
 
 } // namespace
+
+void setCaches() {
+    const auto of = [](const char* name) {
+        const char* const value = std::getenv(name);
+        return std::string(value == nullptr ? "" : value);
+    };
+    std::string shaders = of("MESA_SHADER_CACHE_DIR");
+    if (shaders.empty()) {
+        shaders = of("XDG_CACHE_HOME");
+    }
+    if (shaders.empty() && !of("HOME").empty()) {
+        shaders = of("HOME") + "/.cache";
+    }
+    ::setenv("MESA_SHADER_CACHE_DIR", shaders.empty() ? VOXTACT_TEST_CACHE : shaders.c_str(), 1);
+    ::setenv("XDG_CACHE_HOME", VOXTACT_TEST_CACHE, 1);
+}
 
 Ran run(const Arguments& arguments, const RunOptions& options) {
     const Capture out;

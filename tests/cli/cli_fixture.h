@@ -27,6 +27,10 @@ struct Ran {
     std::string err;
 };
 
+/// For a process that becomes the program. What is measured is kept in a folder of this build and not in the user's; of
+/// Mesa's compiled shaders, which change no answer and take seconds each, there is one store for all tests.
+void setCaches();
+
 /// Runs the built program and waits for it.
 Ran run(const Arguments& arguments, const RunOptions& options = {});
 

@@ -68,7 +68,7 @@ class MpiTest : public CliTest {
             ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
             // In a container one process may not read another's memory.
             ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);
-            ::setenv("XDG_CACHE_HOME", VOXTACT_TEST_CACHE, 1);
+            setCaches();
             ::execv(kMpirun, pointers.data());
             ::_exit(127);
         }

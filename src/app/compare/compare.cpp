@@ -42,7 +42,7 @@ Examples:
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --report report.html
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel --localize)";
 
-Result<void> writeOutputs(const CompareOptions& options, const Scene& scene, const CompareResult& result) {
+Result<void> writeOutputs(const CompareOptions& options, const lab::Scene& scene, const CompareResult& result) {
     std::vector<Delivery> deliveries{{options.output.path, [&](std::ostream& out) -> Result<void> {
                                           writeOutput(out, options.output.format(), compareOutput(scene, result));
                                           return {};
@@ -82,7 +82,7 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    const Result<Scene> scene = readScene(options);
+    const Result<lab::Scene> scene = readScene(options);
     VOXTACT_TRY(scene);
     CompareResult result;
     const auto measure = [&](const device::Session& session) {

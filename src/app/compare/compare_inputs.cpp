@@ -13,7 +13,7 @@ using namespace lab;
 
 namespace {
 
-Result<void> choosePoses(const CompareOptions& options, Scene& scene) {
+Result<void> choosePoses(const CompareOptions& options, lab::Scene& scene) {
     if (options.view.poses.empty()) {
         scene.poses = randomPoses(scene.volume->data.grid, scene.mesh->data.view(), options.number, options.seed);
         scene.posesFrom = "random, seed " + std::to_string(options.seed);
@@ -39,7 +39,7 @@ Result<void> choosePoses(const CompareOptions& options, Scene& scene) {
     return {};
 }
 
-Result<void> chooseCamera(const CompareOptions& options, Scene& scene) {
+Result<void> chooseCamera(const CompareOptions& options, lab::Scene& scene) {
     const VkExtent2D size = options.view.size;
     scene.view = {framingCamera(scene.volume->data.grid, size.width, size.height), size.width, size.height};
     if (options.view.camera.empty()) {
@@ -53,7 +53,7 @@ Result<void> chooseCamera(const CompareOptions& options, Scene& scene) {
 
 } // namespace
 
-Result<Scene> readScene(const CompareOptions& options) {
+Result<lab::Scene> readScene(const CompareOptions& options) {
     if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
         return badArgument("one --volume and one --mesh are needed, not several");
     }
@@ -61,7 +61,7 @@ Result<Scene> readScene(const CompareOptions& options) {
     VOXTACT_TRY(volume);
     Result<MeshPart> mesh = loadMeshPart(options.meshes.sources.front(), options.meshes);
     VOXTACT_TRY(mesh);
-    Scene scene{
+    lab::Scene scene{
         std::make_shared<VolumePart>(std::move(*volume)), std::make_shared<MeshPart>(std::move(*mesh)), {}, {}, {}, {}};
     VOXTACT_TRY(chooseCamera(options, scene));
     VOXTACT_TRY(choosePoses(options, scene));

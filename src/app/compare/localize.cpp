@@ -45,7 +45,7 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
         !writable.ok()) {
         return writable.error();
     }
-    const Result<Scene> scene = readScene(options);
+    const Result<lab::Scene> scene = readScene(options);
     VOXTACT_TRY(scene);
     LocalizeResult result;
     const auto measure = [&](const device::Session& session) {

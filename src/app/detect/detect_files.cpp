@@ -13,14 +13,14 @@ namespace voxtact::app {
 namespace {
 
 /// A nanometre: more digits say nothing.
-constexpr double kParts = 1e6;
+constexpr double kMillionths = 1e6;
 
-std::string rounded(double value) {
-    return number(std::round(value * kParts) / kParts + 0.0);
+std::string inMillionths(double value) {
+    return number(std::round(value * kMillionths) / kMillionths + 0.0);
 }
 
-std::string rounded(const Vec3& vector) {
-    return rounded(vector[0]) + ',' + rounded(vector[1]) + ',' + rounded(vector[2]);
+std::string inMillionths(const Vec3& vector) {
+    return inMillionths(vector[0]) + ',' + inMillionths(vector[1]) + ',' + inMillionths(vector[2]);
 }
 
 /// ",mesh,volume" of a row, where that is needed; with --jobs also the job's number.
@@ -90,9 +90,9 @@ void writeContactsCsv(std::ostream& out, const DetectOptions& options, const Det
         << sourceColumns(options);
     for (const KeptContact& kept : list.contacts) {
         const Contact& contact = kept.contact;
-        out << kept.pose << ',' << contact.triangle << ',' << rounded(contact.position) << ','
-            << rounded(contact.normal) << ',' << rounded(contact.depth) << ',' << number(contact.value) << ','
-            << rounded(contact.opacity) << ',' << contact.label
+        out << kept.pose << ',' << contact.triangle << ',' << inMillionths(contact.position) << ','
+            << inMillionths(contact.normal) << ',' << inMillionths(contact.depth) << ',' << number(contact.value) << ','
+            << inMillionths(contact.opacity) << ',' << contact.label
             << (named ? ',' + io::csvField(labelName(inputs, contact.label)) : "") << sourcesOf(options, kept.job)
             << '\n';
     }

@@ -12,7 +12,7 @@ namespace voxtact::app {
 namespace {
 
 /// Of volumes that are kept for a later job.
-constexpr std::uint64_t kMostVolumeBytes = std::uint64_t{2} << 30U;
+constexpr std::uint64_t kMostHostVolumeBytes = std::uint64_t{2} << 30U;
 
 struct HostVolume {
     cpu::Volume volume;
@@ -27,7 +27,7 @@ class HostEngine : public PairEngine {
                std::optional<cpu::ClearanceMeter> meter, std::optional<cpu::MotionChecker> checker,
                std::vector<cpu::Mesh> meshes)
         : options_(options), inputs_(inputs), detector_(std::move(detector)), meter_(std::move(meter)),
-          checker_(std::move(checker)), meshes_(std::move(meshes)), shelf_(options.jobs, kMostVolumeBytes),
+          checker_(std::move(checker)), meshes_(std::move(meshes)), shelf_(options.jobs, kMostHostVolumeBytes),
           pace_(pairsPerBatch(options, inputs, 1), options.batch.has_value() || options.timing) {}
 
     [[nodiscard]] std::string device() const override { return "host"; }

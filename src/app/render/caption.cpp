@@ -20,7 +20,7 @@ std::string nameOf(const std::string& source) {
     return path.filename().string();
 }
 
-std::string tenths(double value) {
+std::string inTenths(double value) {
     return number(std::round(10 * value) / 10);
 }
 
@@ -32,18 +32,18 @@ std::string viewText(const RenderOptions& options) {
     if (!options.azimuth && !options.elevation) {
         return options.viewName.empty() ? "front" : options.viewName;
     }
-    return "azimuth " + tenths(options.azimuth.value_or(0)) + "\u00b0, elevation " +
-           tenths(options.elevation.value_or(0)) + "\u00b0";
+    return "azimuth " + inTenths(options.azimuth.value_or(0)) + "\u00b0, elevation " +
+           inTenths(options.elevation.value_or(0)) + "\u00b0";
 }
 
 std::string sliceText(const RenderOptions& options, const SlicePlane& plane) {
     constexpr const char* kAxes[][2] = {{"axial", "z"}, {"coronal", "y"}, {"sagittal", "x"}};
     for (const auto& [name, axis] : kAxes) {
         if (options.slice->name == name) {
-            return std::string(name) + ", " + axis + " = " + tenths(plane.shown) + " mm";
+            return std::string(name) + ", " + axis + " = " + inTenths(plane.shown) + " mm";
         }
     }
-    return "slice, " + viewText(options) + ", " + tenths(plane.shown) + " mm";
+    return "slice, " + viewText(options) + ", " + inTenths(plane.shown) + " mm";
 }
 
 std::string title(const RenderOptions& options, const RenderInputs& inputs) {

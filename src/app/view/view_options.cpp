@@ -32,7 +32,7 @@ Examples:
   voxtact view --volume head.nii.gz --preset mr --mesh tool.stl --poses poses.txt
   voxtact view --session session.json)";
 
-std::vector<const char*> presetNames() {
+std::vector<const char*> curvePresetNames() {
     std::vector<const char*> names;
     for (const LookPreset& preset : lookPresets()) {
         names.push_back(preset.name);
@@ -122,7 +122,7 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
     addPath(parser, "--poses", options.poses,
             "a world_from_object matrix a line: 16 numbers, row by row; the first is shown; default: the identity");
     addTransferFunctionOptions(parser, options.transferFunction, true);
-    addName(parser, "--preset", options.preset, presetNames(),
+    addName(parser, "--preset", options.preset, curvePresetNames(),
             "colours, and the opacity where none is given, as of voxtact render");
     addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
     addPath(parser, "--label-names", options.labelNames,

@@ -8,12 +8,12 @@ namespace voxtact::cpu {
 
 namespace {
 
-constexpr double kRightAngle = 1.5; // radians, somewhat less: of cones as DirectionGrid::cone() has them
+constexpr double kNearlyRightAngle = 1.5; // radians, somewhat less: of cones as DirectionGrid::cone() has them
 /// A patch that is not soon known to be safe is halved, which makes it easier.
 constexpr std::uint64_t kSoon = 200;
 constexpr std::uint64_t kMost = 5000; // of a cell, which is not halved
 /// Of how far the paths of a patch are apart: what is smaller is not divided.
-constexpr double kFinest = 1.0 / 8;
+constexpr double kFinestPart = 1.0 / 8;
 
 } // namespace
 
@@ -56,7 +56,7 @@ Sweep PatchCertificate::sweepOf(const DirectionCone& cone) const {
 /// patch around this one has left open is looked at, and `open` is what this one leaves.
 bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open& open) {
     const DirectionCone cone = scene_.grid.cone(patch);
-    if (!(cone.angle < kRightAngle)) {
+    if (!(cone.angle < kNearlyRightAngle)) {
         return false;
     }
     const bool last = patch.cells(0) == 1 && patch.cells(1) == 1;
@@ -66,7 +66,7 @@ bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open
     const SearchGoal goal{.tolerance = 0,
                           .maximum = wanted + 2 * scene_.slack,
                           .enough = last ? -1 : wanted,
-                          .finest = std::max(kDefaultTolerance, kFinest * cone.angle * end),
+                          .finest = std::max(kDefaultTolerance, kFinestPart * cone.angle * end),
                           .mostSteps = last ? kMost : kSoon,
                           .coarsely = true};
     bool apart = true;
@@ -107,12 +107,12 @@ void PatchCertificate::look(const DirectionPatch& patch, Open open, std::vector<
 /// lower bound counts in.
 double PatchCertificate::clearanceOf(const DirectionPatch& cell, double longest, double most) {
     const DirectionCone cone = scene_.grid.cone(cell);
-    if (!(cone.angle < kRightAngle)) {
+    if (!(cone.angle < kNearlyRightAngle)) {
         return 0;
     }
     const Sweep sweep = sweepOf(cone);
     const double off = scene_.radius + 2 * scene_.slack;
-    const double fine = std::max(scene_.desc.tolerance, kFinest * cone.angle * scene_.axisEnd(longest));
+    const double fine = std::max(scene_.desc.tolerance, kFinestPart * cone.angle * scene_.axisEnd(longest));
     double clearance = most;
     for (std::size_t i = 0; i < scene_.obstacles.size() && clearance > 0; ++i) {
         const Obstacle& of = scene_.obstacles[i];

@@ -28,7 +28,7 @@ using glm::dvec3;
 /// mm: a smaller margin is taken for as much.
 constexpr double kLeastMargin = 1e-6;
 /// Of the largest coordinate, mm: a way is made of a few dozen operations.
-constexpr double kRelativeError = 0x1p-44;
+constexpr double kSlackOfMagnitude = 0x1p-44;
 /// Directions of a piece of work.
 constexpr std::uint32_t kBlock = 16;
 
@@ -212,7 +212,7 @@ Result<PlanAnswer> Planner::plan(const PlanTask& task) {
         if (answer.noSurface + answer.onBorder + answer.tooLong + answer.tooOblique == answer.directions) {
             return noEntries(answer);
         }
-        scene.slack = kRelativeError * magnitudeOf(scene);
+        scene.slack = kSlackOfMagnitude * magnitudeOf(scene);
         VOXTACT_TRY(measurePaths(scene, workers, answer));
         VOXTACT_TRY(certifyTriangles(scene, workers, answer));
         answer.wallMilliseconds = watch.milliseconds();

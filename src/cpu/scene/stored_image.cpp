@@ -12,7 +12,7 @@ namespace voxtact::cpu {
 namespace {
 
 /// A look-up of two neighbours reads four bytes.
-constexpr std::size_t kSlack = 4;
+constexpr std::size_t kBytesBehind = 4;
 
 std::uint8_t keep(std::uint8_t voxel) {
     return voxel;
@@ -51,7 +51,7 @@ Stored storedAs(ScalarType type) {
 template <class Scalar> void fill(const Grid& grid, const Scalar* voxels, StoredImage& image) {
     using Kept = decltype(keep(*voxels));
     const auto strideZ = static_cast<std::size_t>(image.stride[2]);
-    image.bytes.resize(strideZ * (grid.size[2] + std::size_t{2}) * sizeof(Kept) + kSlack);
+    image.bytes.resize(strideZ * (grid.size[2] + std::size_t{2}) * sizeof(Kept) + kBytesBehind);
     std::byte* to = image.bytes.data();
     const auto put = [&to](Scalar voxel) {
         const Kept kept = keep(voxel);

@@ -56,7 +56,7 @@ Kind kindOf(DicomTag tag) {
     return in(kSequences) ? Kind::Sequence : Kind::None;
 }
 
-std::string trimmed(std::string_view text) {
+std::string withoutPadding(std::string_view text) {
     const auto blank = [](char c) { return c == ' ' || c == '\0'; };
     while (!text.empty() && blank(text.back())) {
         text.remove_suffix(1);
@@ -200,7 +200,7 @@ bool DicomWalker::value(const Element& here, DicomDataSet& into) {
         return fail(here, "is cut off");
     }
     if (kindOf(here.tag) == Kind::Text) {
-        into.values.emplace_back(here.tag, trimmed(bytes));
+        into.values.emplace_back(here.tag, withoutPadding(bytes));
         return true;
     }
     if (here.length == 0) {

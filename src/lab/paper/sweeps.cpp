@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kVolume = "builtin:head";
 constexpr std::uint32_t kVoxels = 256;
 constexpr std::array<ControlPoint, 2> kOpacity{{{40, 0}, {80, 1}}};
-constexpr ValueRange kDomain{0, 255};
+constexpr ValueRange kSweepDomain{0, 255};
 /// Of those of the scene: a query a polygon takes its time.
 constexpr std::uint32_t kPolygonPoses = 4;
 /// Each gets the same share of the time: the four sweeps, and the polygons.
@@ -34,7 +34,7 @@ Result<Scene> headOf(const PaperSettings& settings, const Scene& v1s1) {
     VolumePart& volume = *head.volume;
     volume.name = std::string(kVolume) + ":" + std::to_string(kVoxels / settings.scale);
     volume.points = {kOpacity.begin(), kOpacity.end()};
-    volume.domain = kDomain;
+    volume.domain = kSweepDomain;
     Result<VolumeData> data = settings.load.volume(volume.name);
     VOXTACT_TRY(data);
     volume.data = std::move(*data);
