@@ -129,10 +129,14 @@ TEST_F(ToleranceTest, OfARodAboveAFloor) {
         addTriangle(rod, {0, 0, 0}, end, {end[0], end[1] + 0.1, end[2]});
         for (const double more : {-0.5, -0.02, 0.02, 0.5}) {
             SCOPED_TRACE(std::to_string(above) + " degrees, " + std::to_string(more) + " mm farther than it reaches");
-            const PairAnswer found =
-                ask(device,
-                    {rod.view(), image.view(), {kFloorPoints, kFloorDomain, kFloorEntries}, {}, translation({1, 2, reach + more}), 0.5},
-                    more < 0);
+            const PairAnswer found = ask(device,
+                                         {rod.view(),
+                                          image.view(),
+                                          {kFloorPoints, kFloorDomain, kFloorEntries},
+                                          {},
+                                          translation({1, 2, reach + more}),
+                                          0.5},
+                                         more < 0);
             EXPECT_EQ(found.hit, more < 0);
             EXPECT_FALSE(found.possible);
         }
@@ -230,10 +234,14 @@ TEST_F(ToleranceTest, OfAnOriginFarAway) {
         MeshData mesh;
         addTriangle(mesh, {origin, 0, 0}, {origin, 1, 0}, {origin, 0, 1});
         const auto at = [&](double height) {
-            return ask(
-                device,
-                {mesh.view(), image.view(), {kFloorPoints, kFloorDomain, kFloorEntries}, {}, translation({1 - origin, 2, height}), 0.5},
-                true);
+            return ask(device,
+                       {mesh.view(),
+                        image.view(),
+                        {kFloorPoints, kFloorDomain, kFloorEntries},
+                        {},
+                        translation({1 - origin, 2, height}),
+                        0.5},
+                       true);
         };
         EXPECT_TRUE(at(-3).hit || (origin > 1e6 && at(-3).possible));
         const PairAnswer near = at(kOff.distance + 1); // a turn brings it there
