@@ -33,8 +33,8 @@ double scaleOf(const Mat4& pose) {
 SegmentSearch::SegmentSearch(const BatchItem& item, const OpaquePart& part, const RigidMotion& motion,
                              const MotionDesc& desc, ThreadMemory& memory, std::uint32_t firstPose, CancelFlag cancel,
                              Bending* bending)
-    : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), firstPose_(firstPose), cancel_(cancel),
-      bending_(bending), scale_(scaleOf(item.world_from_object[firstPose])), speed_(motion.speed(bounds())),
+    : item_(item), part_(part), motion_(motion), desc_(desc), memory_(memory), cancel_(cancel), bending_(bending),
+      scale_(scaleOf(item.world_from_object[firstPose])), speed_(motion.speed(bounds())),
       deformation_(motion.deformation(bounds())), rounding_(motion.rounding(bounds())) {
     if (bending_ != nullptr) {
         speed_ += scale_ * bending_->reach().most;

@@ -53,7 +53,6 @@ class SegmentSearch {
     const RigidMotion& motion_;
     const MotionDesc& desc_;
     ThreadMemory& memory_;
-    std::uint32_t firstPose_;
     CancelFlag cancel_;
     Bending* bending_;
     double scale_;               ///< no pose makes more mm of a unit of object space
