@@ -13,9 +13,9 @@ step("${ABIDW}" --headers-dir "${HEADERS}" --drop-private-types --exported-inter
      --no-comp-dir-path --no-corpus-path --no-architecture --no-elf-needed --no-parameter-names --type-id-style hash
      --out-file "${now}" "${LIBRARY}")
 if(RENEW)
-  # Where the sources lie is the builder's own.
+  # Where the sources lie, or what several were put into to be compiled, is the builder's own.
   file(READ "${now}" text)
-  string(REGEX REPLACE " path='[^']*/src/c/" " path='src/c/" text "${text}")
+  string(REGEX REPLACE " path='[^']*/([^/']*)'" " path='\\1'" text "${text}")
   file(WRITE "${RECORD}" "${text}")
   message(STATUS "${RECORD} is renewed")
   return()
