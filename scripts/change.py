@@ -76,7 +76,7 @@ def check_output(program):
 # Each with what docs/change.md says: the steps 1 to 3 of a counting method, and all of an output but its documentation.
 CHANGES = (
     ("a counting method", "method.patch", 5, "src/core/method/method_table.h", f'"{METHOD}"', check_method),
-    ("an output", "output.patch", 7, "src/detect/output_parts.cpp", f'"{OUTPUT}"', check_output),
+    ("an output", "output.patch", 7, "src/detect/outputs/output_parts.cpp", f'"{OUTPUT}"', check_output),
 )
 
 

@@ -3,7 +3,7 @@
 #include "core/base/live.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
 #include "voxtact/detector.h"

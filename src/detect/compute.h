@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "gpu/pipeline.h"
 #include "shared.h"
 #include "voxtact/detector.h"

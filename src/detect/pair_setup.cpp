@@ -5,7 +5,7 @@
 #include "core/geometry/wide_matrix.h"
 #include "core/method/method_table.h"
 #include "detect/buffer_update.h"
-#include "detect/certified_queues.h"
+#include "detect/certified/certified_queues.h"
 #include "gpu/barriers.h"
 #include "gpu/layouts.h"
 #include "gpu/pipeline.h"

@@ -5,8 +5,8 @@
 #include "core/method/method_table.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
-#include "detect/certified_queues.h"
-#include "detect/motion.h"
+#include "detect/certified/certified_queues.h"
+#include "detect/certified/motion.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 

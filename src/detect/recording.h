@@ -2,7 +2,7 @@
 #pragma once
 
 #include "detect/pair_setup.h"
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "voxtact/detector.h"
 
 #include <optional>

@@ -4,7 +4,7 @@
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
 #include "detect/batch.h"
-#include "detect/outputs.h"
+#include "detect/outputs/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
 #include "gpu/mesh_layout.h"

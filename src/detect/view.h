@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/method/method_table.h"
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/pipeline.h"
 #include "voxtact/detector.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/method/method_table.h"
-#include "detect/output_parts.h"
+#include "detect/outputs/output_parts.h"
 #include "lab/bench/parts.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "lab/engines/engine.h"
 
 #include "core/method/method_table.h"
-#include "detect/output_parts.h"
+#include "detect/outputs/output_parts.h"
 
 #include <algorithm>
 #include <iterator>

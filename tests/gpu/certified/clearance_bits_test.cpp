@@ -2,7 +2,7 @@
 // What the search for clearances knows of cells: the bits of the bricks that it came near, against a recount of the
 // host.
 #include "certified/counted_fixture.h"
-#include "detect/certified_queues.h"
+#include "detect/certified/certified_queues.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // What the passes of the projection `conservative` count of themselves, and the rounds that bound their work by it.
 #include "certified/counted_fixture.h"
 #include "certified/head_scene.h"
-#include "detect/certified_rounds.h"
+#include "detect/certified/certified_rounds.h"
 #include "voxtact/cpu.h"
 
 #include <gmock/gmock.h>

@@ -10,7 +10,7 @@
 #include "certified.h"
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/margin_text.h"
-#include "detect/certified_rounds.h"
+#include "detect/certified/certified_rounds.h"
 #include "voxtact/cpu.h"
 
 #include <gmock/gmock.h>

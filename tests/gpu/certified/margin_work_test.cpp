@@ -3,7 +3,7 @@
 // each other and for such that are not.
 #include "certified/counted_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
-#include "detect/certified_rounds.h"
+#include "detect/certified/certified_rounds.h"
 
 #include <gtest/gtest.h>
 

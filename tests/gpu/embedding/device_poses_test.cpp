@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Poses in device memory: the pairs that the device makes of them are those of the host, bit for bit.
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "raw_fixture.h"
 #include "shared.h"
 #include "support/scenes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What an embedder gets wrong: each refused by name, before anything is recorded.
-#include "detect/output_store.h"
+#include "detect/outputs/output_store.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"

@@ -4,7 +4,7 @@
 #include "outputs_fixture.h"
 
 #include "cpu/scenes/random_scene.h"
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
 #include "lab/engines/trace.h"

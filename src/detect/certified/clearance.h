@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/clearance_programs.h"
-#include "detect/closest.h"
-#include "detect/round_recorder.h"
+#include "detect/certified/clearance_programs.h"
+#include "detect/certified/closest.h"
+#include "detect/certified/round_recorder.h"
 #include "voxtact/detector.h"
 
 #include <array>

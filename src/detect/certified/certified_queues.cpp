@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/certified_queues.h"
+#include "detect/certified/certified_queues.h"
 #include "gpu/barriers.h"
 
 #include <algorithm>

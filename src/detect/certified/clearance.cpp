@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "detect/clearance.h"
+#include "detect/certified/clearance.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "core/volume/label_grid.h"
 #include "detect/batch.h"
-#include "detect/certified_queues.h"
-#include "detect/certified_rounds.h"
-#include "detect/outputs.h"
+#include "detect/certified/certified_queues.h"
+#include "detect/certified/certified_rounds.h"
+#include "detect/outputs/outputs.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 

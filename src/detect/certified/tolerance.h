@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/margin_passes.h"
+#include "detect/certified/margin_passes.h"
 #include "voxtact/detector.h"
 
 namespace voxtact {

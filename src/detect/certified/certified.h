@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/clearance.h"
-#include "detect/motion.h"
-#include "detect/results_impl.h"
-#include "detect/tolerance.h"
+#include "detect/certified/clearance.h"
+#include "detect/certified/motion.h"
+#include "detect/certified/tolerance.h"
+#include "detect/results/results_impl.h"
 #include "gpu/pipeline.h"
 #include "shared.h"
 #include "voxtact/detector.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/certified_rounds.h"
+#include "detect/certified/certified_rounds.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
 #include "gpu/scene_impl.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/output_parts.h"
+#include "detect/outputs/output_parts.h"
 #include "gpu/memory.h"
 
 #include <memory>

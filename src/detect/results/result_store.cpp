@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "detect/result_store.h"
+#include "detect/results/result_store.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "detect/certified_queues.h"
+#include "detect/certified/certified_queues.h"
 #include "detect/pair_setup.h"
 #include "detect/recording.h"
 #include "gpu/debug.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/tolerance.h"
+#include "detect/certified/tolerance.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"

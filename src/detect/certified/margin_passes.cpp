@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "detect/margin_passes.h"
+#include "detect/certified/margin_passes.h"
 #include "core/base/try.h"
-#include "detect/certified_rounds.h"
+#include "detect/certified/certified_rounds.h"
 
 #include <string>
 

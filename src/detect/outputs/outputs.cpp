@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/outputs.h"
+#include "detect/outputs/outputs.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/batch/output_pair.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/round_recorder.h"
+#include "detect/certified/round_recorder.h"
 #include "gpu/pipeline.h"
 #include "voxtact/detector.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/closest.h"
+#include "detect/certified/closest.h"
 #include "clearance_words.h"
 #include "core/base/try.h"
 #include "detect/batch.h"

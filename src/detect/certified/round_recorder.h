@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "shared.h"
 
 #include <span>

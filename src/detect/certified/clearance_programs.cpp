@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/clearance_programs.h"
+#include "detect/certified/clearance_programs.h"
 #include "core/base/try.h"
 #include "shared.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/geometry/rigid_motion.h"
-#include "detect/margin_passes.h"
-#include "detect/results_impl.h"
+#include "detect/certified/margin_passes.h"
+#include "detect/results/results_impl.h"
 #include "voxtact/detector.h"
 
 #include <functional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "detect/output_parts.h"
+#include "detect/outputs/output_parts.h"
 #include "core/base/live.h"
 #include "core/batch/sort_contacts.h"
-#include "detect/output_store.h"
-#include "detect/results_impl.h"
+#include "detect/outputs/output_store.h"
+#include "detect/results/results_impl.h"
 
 #include <algorithm>
 #include <bit>

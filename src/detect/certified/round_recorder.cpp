@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "detect/round_recorder.h"
-#include "detect/certified_queues.h"
+#include "detect/certified/round_recorder.h"
+#include "detect/certified/certified_queues.h"
 #include "gpu/barriers.h"
 
 namespace voxtact {

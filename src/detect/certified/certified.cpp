@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "detect/certified.h"
+#include "detect/certified/certified.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
-#include "detect/certified_queues.h"
-#include "detect/certified_rounds.h"
-#include "detect/outputs.h"
+#include "detect/certified/certified_queues.h"
+#include "detect/certified/certified_rounds.h"
+#include "detect/outputs/outputs.h"
 #include "detect/recording.h"
 #include "gpu/mesh_layout.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "detect/results_impl.h"
+#include "detect/results/results_impl.h"
 #include "motion_words.h"
 
 namespace voxtact {

@@ -3,7 +3,7 @@
 #include "core/batch/output_pair.h"
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
-#include "detect/output_store.h"
+#include "detect/outputs/output_store.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/unpack.h"
+#include "detect/results/unpack.h"
 #include "core/geometry/closest_gradient.h"
 
 namespace voxtact {

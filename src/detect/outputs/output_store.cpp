@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "detect/output_store.h"
+#include "detect/outputs/output_store.h"
 #include "core/base/try.h"
 #include "gpu/context_impl.h"
 #include "gpu/scene_impl.h"

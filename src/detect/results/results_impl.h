@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geometry/rigid_motion.h"
-#include "detect/output_store.h"
+#include "detect/outputs/output_store.h"
 #include "gpu/context_impl.h"
 #include "voxtact/detector.h"
 
