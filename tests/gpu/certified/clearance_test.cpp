@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // How near, on the device: where distances are known, and bounds that overlap those of the host's cpu::ClearanceMeter.
 #include "certified/counted_fixture.h"
-#include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/known_pairs.h"
 #include "certified/sides.h"
 #include "core/geometry/clusters.h"
 #include "cpu/scenes/margin_cases.h"
+#include "few_kinds.h"
 #include "voxtact/cpu.h"
 
 #include <gmock/gmock.h>

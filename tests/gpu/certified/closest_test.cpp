@@ -2,12 +2,12 @@
 // The closest points of clearances that the device measures: on a triangle, opaque as the certified oracle says, and as
 // far apart as the bounds say.
 #include "certified/counted_fixture.h"
-#include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/known_pairs.h"
 #include "certified/sides.h"
 #include "cpu/clearance/closest_point.h"
 #include "cpu/scenes/margin_cases.h"
+#include "few_kinds.h"
 #include "oracle/certified_sample.h"
 #include "voxtact/cpu.h"
 

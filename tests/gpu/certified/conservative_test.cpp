@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative` on the device: the same fragments as on the host, which the certified oracle judges.
-#include "certified/few_kinds.h"
 #include "certified/sides.h"
+#include "few_kinds.h"
 #include "gpu_fixture.h"
 
 #include "cpu/scenes/certified_scenes.h"

@@ -2,12 +2,12 @@
 // How near each label is, on the device: where distances are known, and bounds that overlap those of the host's
 // cpu::ClearanceMeter and of the oracle.
 #include "certified/counted_fixture.h"
-#include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/sides.h"
 #include "core/base/infinity.h"
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_labels.h"
+#include "few_kinds.h"
 #include "gpu/context_impl.h"
 #include "oracle/clearance_oracle.h"
 #include "voxtact/cpu.h"

@@ -2,10 +2,10 @@
 // What is within a margin, on the device: bit for bit what the same text says on the host, never against the host's
 // own cpu::ClearanceMeter::within(), and where distances are known.
 #include "certified/counted_fixture.h"
-#include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/known_pairs.h"
 #include "certified/sides.h"
+#include "few_kinds.h"
 
 #include "certified.h"
 #include "cpu/scenes/margin_cases.h"

@@ -2,11 +2,11 @@
 // Motions on the device: never against the host's cpu::MotionChecker, where it is known when a mesh touches, and what
 // samples of the way say.
 #include "certified/counted_fixture.h"
-#include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/sides.h"
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_scene.h"
+#include "few_kinds.h"
 #include "support/floor.h"
 #include "voxtact/cpu.h"
 

@@ -2,10 +2,10 @@
 // Poses that may be off, on the device: never against the host's cpu::MotionChecker::around(), where it is known what
 // is reached, and what must follow from one tolerance for another.
 #include "certified/counted_fixture.h"
-#include "certified/few_kinds.h"
 #include "certified/head_scene.h"
 #include "certified/sides.h"
 #include "cpu/scenes/margin_cases.h"
+#include "few_kinds.h"
 #include "support/floor.h"
 #include "voxtact/cpu.h"
 
