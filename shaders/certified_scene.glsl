@@ -40,17 +40,15 @@ const bool kCarry = true;
 #endif
 #include "certified_clearance.glsl"
 #elif defined(TURN)
-layout(constant_id = VOXTACT_CONSTANT_TURN_COSINE) const float kTurnCosine = 1.0;
-layout(constant_id = VOXTACT_CONSTANT_TURN_SINE) const float kTurnSine = 0.0;
-layout(constant_id = VOXTACT_CONSTANT_TURN_CHORD) const float kTurnChord = 0.0;
-
 /// The mesh turns about its object's origin.
 MarginSpace turnSpace(uint pair) {
     MarginSpace by = marginOf(constants.item);
     const CertifiedVertex origin = certifiedVertex(transforms[pair], 0.0, 0.0, 0.0);
     by.pivot = origin.point;
     by.pivotError = origin.error;
-    by.turn = TurnLimit(kTurnCosine, kTurnSine, kTurnChord);
+    const uint limit = constants.queueWord + VOXTACT_WORD_TURN;
+    by.turn = TurnLimit(uintBitsToFloat(queues[limit]), uintBitsToFloat(queues[limit + 1]),
+                        uintBitsToFloat(queues[limit + 2]));
     return by;
 }
 

@@ -251,13 +251,16 @@ struct CertifiedConstants {
 // The CertifiedCounters of a batch, behind the headers.
 #define VOXTACT_WORD_COUNTERS (VOXTACT_HEADERS * VOXTACT_HEADER_WORDS)
 #define VOXTACT_COUNTER_WORDS 38
+// Behind these, of a pose tolerance with an angle: its TurnLimit, three floats (certified_turn.h).
+#define VOXTACT_WORD_TURN (VOXTACT_WORD_COUNTERS + VOXTACT_COUNTER_WORDS)
+#define VOXTACT_TURN_WORDS 3
 // Entries of each.
 #define VOXTACT_ROOM_RUNS(room) ((room)*VOXTACT_CLUSTER_RUNS)
 #define VOXTACT_ROOM_LARGE(room) ((room) / 4)
 #define VOXTACT_ROOM_CELLS(room) ((room)*32)
 #define VOXTACT_ROOM_LEFT(room) ((room)*2 + VOXTACT_ROOM_LARGE(room))
 // Where each begins, in words behind the first header. `room` is a multiple of 16.
-#define VOXTACT_WORD_CELLS (VOXTACT_WORD_COUNTERS + (VOXTACT_COUNTER_WORDS + 3) / 4 * 4)
+#define VOXTACT_WORD_CELLS ((VOXTACT_WORD_TURN + VOXTACT_TURN_WORDS + 3) / 4 * 4)
 #define VOXTACT_WORD_LARGE(room) (VOXTACT_WORD_CELLS + 4 * VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_OPEN(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_ROOM_LARGE(room))
 #define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
@@ -344,10 +347,6 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_COUNTERS 6
 #define VOXTACT_CONSTANT_CLOSEST 7
 #define VOXTACT_CONSTANT_OUTPUTS 16
-// Floats: of the angle of a pose tolerance, as TurnLimit of certified_turn.h has them.
-#define VOXTACT_CONSTANT_TURN_COSINE 17
-#define VOXTACT_CONSTANT_TURN_SINE 18
-#define VOXTACT_CONSTANT_TURN_CHORD 19
 // In place of outputs: where a pair touches is wanted, for its closest points.
 #define VOXTACT_OUTPUT_TOUCH 0x80000000u
 // Where the push constants of dominant.vert begin: room for those of the fragment program is before them.

@@ -7,6 +7,7 @@
 #include "detect/buffer_update.h"
 #include "detect/certified/certified_queues.h"
 #include "detect/certified/motion.h"
+#include "detect/certified/tolerance.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 
@@ -130,6 +131,9 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
         recordCertifiedPairs(context, commandBuffer, batch, results);
         if (desc.counters) {
             recordNoCounters(context, commandBuffer, results);
+        }
+        if (desc.poseTolerance && desc.poseTolerance->angle > 0) {
+            recordTurnLimit(context, commandBuffer, results, *desc.poseTolerance);
         }
         if (desc.closest || desc.motion) {
             recordNoClosest(context, commandBuffer, results);

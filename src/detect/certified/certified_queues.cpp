@@ -25,6 +25,10 @@ VkDeviceSize countersByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VOXTACT_WORD_COUNTERS * sizeof(std::uint32_t);
 }
 
+VkDeviceSize turnByte(const ResultsImpl& results) noexcept {
+    return firstQueueByte(results) + VOXTACT_WORD_TURN * sizeof(std::uint32_t);
+}
+
 VkDeviceSize bitsByte(const ResultsImpl& results) noexcept {
     return firstQueueByte(results) + VkDeviceSize{VOXTACT_WORD_BITS(results.queueRoom)} * sizeof(std::uint32_t);
 }

@@ -33,6 +33,8 @@ static_assert(sizeof(CertifiedCounters) == VOXTACT_COUNTER_WORDS * sizeof(std::u
 [[nodiscard]] std::uint32_t firstQueueWord(const ResultsImpl& results) noexcept;
 /// Where the CertifiedCounters of a batch are in that buffer.
 [[nodiscard]] VkDeviceSize countersByte(const ResultsImpl& results) noexcept;
+/// Where the TurnLimit of a pose tolerance is.
+[[nodiscard]] VkDeviceSize turnByte(const ResultsImpl& results) noexcept;
 
 static_assert(sizeof(ClearanceResult) == VOXTACT_CLEARANCE_WORDS * sizeof(std::uint32_t));
 /// Where the slots of bricks that have bits are in that buffer.

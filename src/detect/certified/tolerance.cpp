@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "detect/certified/tolerance.h"
+#include "certified_turn.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
+#include "detect/certified/certified_queues.h"
 #include "gpu/scene_impl.h"
 
 #include "voxtact_shaders/certified_margin_cull_comp.h"
@@ -19,10 +21,10 @@
 #include "voxtact_shaders/certified_tolerance_refine_comp.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace voxtact {
 
@@ -68,9 +70,7 @@ double reachOf(const BatchItem& item, const PoseTolerance& tolerance) {
     return std::max(reach, std::numeric_limits<double>::min());
 }
 
-ShaderConstant floatConstant(std::uint32_t id, double value) {
-    return {id, std::bit_cast<std::uint32_t>(static_cast<float>(value))};
-}
+static_assert(sizeof(shader::TurnLimit) == VOXTACT_TURN_WORDS * sizeof(std::uint32_t));
 
 } // namespace
 
@@ -81,17 +81,23 @@ Result<TolerancePass> TolerancePass::create(ContextImpl& context, const Detector
     const MarginPasses::Programs moved{spirv::certified_margin_cull_comp,   spirv::certified_margin_refine_comp,
                                        spirv::certified_margin_expand_comp, spirv::certified_margin_large_comp,
                                        spirv::certified_margin_decide_comp, spirv::certified_margin_finish_comp};
-    constexpr double kOutward = 1 + 0x1p-22; // more than rounding to float
     const PoseTolerance& tolerance = *desc.poseTolerance;
-    const double angle = radians(tolerance);
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, 1},
-                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
-                                        floatConstant(VOXTACT_CONSTANT_TURN_COSINE, std::cos(angle)),
-                                        floatConstant(VOXTACT_CONSTANT_TURN_SINE, std::sin(angle)),
-                                        floatConstant(VOXTACT_CONSTANT_TURN_CHORD, chordOf(tolerance) * kOutward)};
-    Result<MarginPasses> passes = MarginPasses::create(context, angle > 0 ? turned : moved, constants, "tolerance");
+                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U}};
+    Result<MarginPasses> passes =
+        MarginPasses::create(context, tolerance.angle > 0 ? turned : moved, constants, "tolerance");
     VOXTACT_TRY(passes);
     return TolerancePass(std::move(*passes), tolerance);
+}
+
+void recordTurnLimit(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
+                     const PoseTolerance& tolerance) {
+    constexpr double kOutward = 1 + 0x1p-22; // more than rounding to float
+    const double angle = radians(tolerance);
+    const shader::TurnLimit limit{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
+                                  static_cast<float>(chordOf(tolerance) * kOutward)};
+    cmdUpdateBuffer(context, commandBuffer, results.transforms.get(), turnByte(results),
+                    std::as_bytes(std::span(&limit, 1)));
 }
 
 void TolerancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,

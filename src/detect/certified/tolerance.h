@@ -26,4 +26,8 @@ class TolerancePass {
     PoseTolerance tolerance_;
 };
 
+/// Records what the passes read of a tolerance with an angle, before them.
+void recordTurnLimit(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
+                     const PoseTolerance& tolerance);
+
 } // namespace voxtact
