@@ -118,6 +118,7 @@ suites() {
             code=$?
             case $code in
             200) status="has no tests" ;;
+            77) status="skipped" ;;
             201) status="done, without the validation layer" ;;
             *) status=$(status_text $code) ;;
             esac

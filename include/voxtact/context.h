@@ -107,7 +107,8 @@ struct QueueAccess {
 };
 
 /// voxtact on one device: a private function table, pipeline and descriptor layouts. No global state: any number of
-/// contexts on any number of devices live in one process.
+/// contexts on any number of devices live in one process. Compute pipelines are made for the first object that needs
+/// them and kept: all others share them, so a further Detector of a kind is made at once.
 ///
 /// Lifetime: what was made with a Context may outlive it. All of it must end before the device.
 /// Thread-safety: the const functions, and making objects with it, are safe from any thread.

@@ -16,7 +16,8 @@ namespace voxtact {
 struct DetectorImpl;
 struct ResultsImpl;
 
-/// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines.
+/// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines, but numbers that are
+/// asked for (a margin, a tolerance, a resolution) are not.
 struct DetectorDesc {
     CountingMethod method = CountingMethod::Query; ///< how survivors are counted; Cpu is refused: see cpu.h
     Projection projection = Projection::View;      ///< how meshes become fragments

@@ -25,13 +25,13 @@ Result<ComputePass> ComputePass::create(ContextImpl& context, const DetectorDesc
         {VOXTACT_CONSTANT_OUTPUTS, outputsConstant(desc.outputs)},
     };
     const std::string name = std::string("compute ") + toString(desc.projection) + " " + toString(desc.filter);
-    Result<Owned<VkPipeline>> pipeline =
-        desc.outputs.any() ? makeComputePipeline(context, spirv::compute_outputs_comp, constants,
-                                                 context.computeOutputLayout, (name + " outputs").c_str())
-                           : makeComputePipeline(context, spirv::compute_comp, std::span(constants).first(3),
-                                                 context.computeLayout, name.c_str());
+    const Result<VkPipeline> pipeline =
+        desc.outputs.any() ? computePipeline(context, spirv::compute_outputs_comp, constants,
+                                             context.computeOutputLayout, (name + " outputs").c_str())
+                           : computePipeline(context, spirv::compute_comp, std::span(constants).first(3),
+                                             context.computeLayout, name.c_str());
     VOXTACT_TRY(pipeline);
-    pass.pipeline_ = std::move(*pipeline);
+    pass.pipeline_ = *pipeline;
     return pass;
 }
 
@@ -67,7 +67,7 @@ shader::ComputeConstants ComputePass::constantsOf(const Batch& batch, const Batc
 void ComputePass::recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item,
                              Boundary boundary, std::uint32_t firstPair, const ResultsImpl& results) const {
     const DeviceFunctions& vk = context_->vk;
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
     const VkPipelineLayout layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
     shader::ComputeConstants constants = constantsOf(batch, item);
     constants.rangeTest = boundary == Boundary::Range ? 1 : 0;

@@ -37,7 +37,7 @@ class ComputePass {
 
     ContextImpl* context_;
     DetectorDesc desc_;
-    Owned<VkPipeline> pipeline_;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
 } // namespace voxtact

@@ -42,7 +42,7 @@ static_assert(offsetof(shader::PairGrid, size) == 32 * 4 && offsetof(shader::Pai
                   offsetof(shader::PairGrid, axis) == 80 * 4 && offsetof(shader::PairGrid, aligned) == 83 * 4,
               "as pair_setup.comp reads it");
 
-/// Of VOXTACT_SET_SETUP, made for the first that asks.
+/// Of VOXTACT_SET_SETUP, made for the first who asks.
 Result<VkDescriptorSetLayout> setupSetLayout(ContextImpl& context) {
     const std::lock_guard lock(context.onDemandMutex);
     if (!context.setupSetLayout) {
@@ -53,6 +53,22 @@ Result<VkDescriptorSetLayout> setupSetLayout(ContextImpl& context) {
         VOXTACT_TRY(makeSetLayout(context, context.setupSetLayout, bindings, "pair set-up"));
     }
     return context.setupSetLayout.get();
+}
+
+/// The same.
+Result<VkPipelineLayout> setupLayout(ContextImpl& context) {
+    const Result<VkDescriptorSetLayout> poses = poseSetLayout(context);
+    VOXTACT_TRY(poses);
+    const Result<VkDescriptorSetLayout> results = setupSetLayout(context);
+    VOXTACT_TRY(results);
+    const std::lock_guard lock(context.onDemandMutex);
+    if (!context.setupLayout) {
+        static_assert(VOXTACT_SET_SETUP == 0 && VOXTACT_SET_SETUP_POSES == 1);
+        const VkDescriptorSetLayout sets[] = {*results, *poses};
+        constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::PairSetupConstants)};
+        VOXTACT_TRY(makePipelineLayout(context, context.setupLayout, sets, {&kConstants, 1}, "pair set-up layout"));
+    }
+    return context.setupLayout.get();
 }
 
 template <class Item> ItemWords wordsOf(const Item& item) {
@@ -91,28 +107,14 @@ Result<void> makeSetupSet(ResultsImpl& results) {
 }
 
 Result<PairSetup> PairSetup::create(ContextImpl& context, const DetectorDesc& desc) {
-    const Result<VkDescriptorSetLayout> poses = poseSetLayout(context);
-    VOXTACT_TRY(poses);
-    const Result<VkDescriptorSetLayout> results = setupSetLayout(context);
-    VOXTACT_TRY(results);
-    const std::lock_guard lock(context.onDemandMutex);
-    if (!context.setupLayout) {
-        static_assert(VOXTACT_SET_SETUP == 0 && VOXTACT_SET_SETUP_POSES == 1);
-        const VkDescriptorSetLayout sets[] = {*results, *poses};
-        constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::PairSetupConstants)};
-        VOXTACT_TRY(makePipelineLayout(context, context.setupLayout, sets, {&kConstants, 1}, "pair set-up layout"));
-    }
-    const bool certified = rowOf(desc.projection).certified;
-    Owned<VkPipeline>& pipeline = context.setupPipelines[certified ? 1 : 0];
-    if (!pipeline) {
-        const auto spirv = certified ? std::span<const std::uint32_t>(spirv::pair_setup_certified_comp)
-                                     : std::span<const std::uint32_t>(spirv::pair_setup_comp);
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, spirv, {}, context.setupLayout.get(), "pair set-up");
-        VOXTACT_TRY(made);
-        pipeline = std::move(*made);
-    }
-    return PairSetup(context, desc, pipeline.get());
+    const Result<VkPipelineLayout> layout = setupLayout(context);
+    VOXTACT_TRY(layout);
+    const auto spirv = rowOf(desc.projection).certified
+                           ? std::span<const std::uint32_t>(spirv::pair_setup_certified_comp)
+                           : std::span<const std::uint32_t>(spirv::pair_setup_comp);
+    const Result<VkPipeline> pipeline = computePipeline(context, spirv, {}, *layout, "pair set-up");
+    VOXTACT_TRY(pipeline);
+    return PairSetup(context, desc, *pipeline);
 }
 
 void PairSetup::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {

@@ -14,23 +14,14 @@ namespace voxtact {
 
 namespace {
 
-/// The brick pass's pipeline, made for the first volume with bricks.
-Result<void> makeBricksPipeline(ContextImpl& context) {
+Result<VkPipeline> bricksPipeline(ContextImpl& context) {
     if (context.computeLayout == VK_NULL_HANDLE) {
         return Error{ErrorCode::Unsupported, 0,
                      "bricks cannot be had on this device: its maxPerStageDescriptorStorageBuffers is " +
                          std::to_string(context.limits.maxPerStageDescriptorStorageBuffers) + ", " +
                          std::to_string(kComputeStorageBuffers) + " are needed"};
     }
-    const std::lock_guard lock(context.onDemandMutex);
-    if (context.brickPipeline) {
-        return {};
-    }
-    Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(context, spirv::bricks_comp, {}, context.computeLayout, "bricks");
-    VOXTACT_TRY(pipeline);
-    context.brickPipeline = std::move(*pipeline);
-    return {};
+    return computePipeline(context, spirv::bricks_comp, {}, context.computeLayout, "bricks");
 }
 
 BrickSpan spanOf(const VolumeImpl& volume, const VoxelBox& changed, std::size_t axis) {
@@ -73,7 +64,9 @@ Result<void> makeBricks(VolumeImpl& volume, const char* name) {
                          " bytes, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
-    VOXTACT_TRY(makeBricksPipeline(context));
+    const Result<VkPipeline> pipeline = bricksPipeline(context);
+    VOXTACT_TRY(pipeline);
+    volume.brickPipeline = *pipeline;
     Result<Buffer> buffer =
         makeBuffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                    MemoryUse::Device, (std::string(name) + " bricks").c_str());
@@ -91,7 +84,7 @@ void cmdBricks(VolumeImpl& volume, VkCommandBuffer commandBuffer, const VoxelBox
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
             VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context.brickPipeline.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, volume.brickPipeline);
     vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context.computeLayout, VOXTACT_SET_VOLUME,
                              1, &volume.descriptors.set, 0, nullptr);
     std::array<BrickSpan, 3> spans{spanOf(volume, changed, 0), spanOf(volume, changed, 1), spanOf(volume, changed, 2)};

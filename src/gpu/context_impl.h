@@ -3,6 +3,7 @@
 
 #include "core/base/shared_impl.h"
 #include "gpu/device_functions.h"
+#include "gpu/kept_pipelines.h"
 #include "gpu/memory.h"
 #include "gpu/requirements.h"
 
@@ -54,25 +55,23 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     VkPipelineLayout dominantLayout = VK_NULL_HANDLE; ///< all sets, RasterConstants, and DominantConstants for vertices
     VkPipelineLayout computeLayout = VK_NULL_HANDLE;  ///< all sets; null where the device's limits do not allow for it
 
-    std::mutex onDemandMutex; ///< of those below, which are made for the first object that needs them
-    Owned<VkPipeline> brickPipeline;
-    Owned<VkDescriptorSetLayout> poseSetLayout;  ///< poseSetLayout()
+    std::mutex onDemandMutex;                   ///< of those below, which are made for the first object that needs them
+    Owned<VkDescriptorSetLayout> poseSetLayout; ///< poseSetLayout()
     Owned<VkDescriptorSetLayout> setupSetLayout; ///< VOXTACT_SET_SETUP
     Owned<VkPipelineLayout> setupLayout;
     Owned<VkDescriptorSetLayout> labelSearchSetLayout; ///< labelSearchSetLayout()
     Owned<VkPipelineLayout> labelSearchLayout;         ///< labelSearchLayout()
-    std::array<Owned<VkPipeline>, 2> setupPipelines;   ///< the second for the projection conservative
     Owned<VkPipelineLayout> editLayout;
-    Owned<VkPipeline> editPipeline;
     Owned<VkDescriptorSetLayout> refitSetLayout;
     Owned<VkPipelineLayout> refitLayout;
-    Owned<VkPipeline> refitPipeline;
     Buffer nothing; ///< emptyBuffer()
     /// The same with outputs beside the counts: VOXTACT_SET_PAIRS has two more bindings, and there is a set more.
     VkDescriptorSetLayout outputSetLayout = VK_NULL_HANDLE;
     VkDescriptorSetLayout labelSetLayout = VK_NULL_HANDLE;
     VkPipelineLayout rasterOutputLayout = VK_NULL_HANDLE; ///< null where the device's limits do not allow for it
     VkPipelineLayout computeOutputLayout = VK_NULL_HANDLE;
+
+    KeptPipelines pipelines; ///< computePipeline()
 
     std::atomic<bool> lost{false};
     std::atomic<bool> givenUp{false}; ///< then it is lost too

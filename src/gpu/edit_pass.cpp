@@ -19,20 +19,15 @@ constexpr VkDeviceSize kTexelBytes = VkDeviceSize{1} << 20U;
 constexpr VkDeviceSize kRowBytes = 65536;
 constexpr VkDeviceSize kBytesOfRow = 2 * sizeof(std::uint32_t);
 
-/// The pass, made for the first volume that can be edited. Its set is like that of pairs: two storage buffers.
-Result<void> makeEditPipeline(ContextImpl& context) {
+/// Made for the first volume that can be edited. Its set is like that of pairs: two storage buffers.
+Result<VkPipelineLayout> editLayout(ContextImpl& context) {
     const std::lock_guard lock(context.onDemandMutex);
-    if (context.editPipeline) {
-        return {};
+    if (!context.editLayout) {
+        constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::EditConstants)};
+        VOXTACT_TRY(makePipelineLayout(context, context.editLayout, {&context.setLayouts[VOXTACT_SET_PAIRS], 1},
+                                       {&kConstants, 1}, "edit pipeline layout"));
     }
-    constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::EditConstants)};
-    VOXTACT_TRY(makePipelineLayout(context, context.editLayout, {&context.setLayouts[VOXTACT_SET_PAIRS], 1},
-                                   {&kConstants, 1}, "edit pipeline layout"));
-    Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(context, spirv::edit_comp, {}, context.editLayout.get(), "volume edit");
-    VOXTACT_TRY(pipeline);
-    context.editPipeline = std::move(*pipeline);
-    return {};
+    return context.editLayout.get();
 }
 
 VkDeviceSize roundedUp(VkDeviceSize bytes) {
@@ -45,7 +40,11 @@ Result<void> makeEditPass(VolumeImpl& volume) {
     ContextImpl& context = volume.context;
     static_assert(VOXTACT_BINDING_EDIT_ROWS == VOXTACT_BINDING_TRANSFORMS &&
                   VOXTACT_BINDING_EDIT_TEXELS == VOXTACT_BINDING_RESULTS);
-    VOXTACT_TRY(makeEditPipeline(context));
+    const Result<VkPipelineLayout> layout = editLayout(context);
+    VOXTACT_TRY(layout);
+    const Result<VkPipeline> pipeline = computePipeline(context, spirv::edit_comp, {}, *layout, "volume edit");
+    VOXTACT_TRY(pipeline);
+    volume.editPipeline = *pipeline;
     const auto& size = volume.grid.size;
     const VkDeviceSize slice = roundedUp(VkDeviceSize{size[0]} * size[1] * bytesPerVoxel(volume.type));
     if (slice > context.limits.maxStorageBufferRange) {
@@ -87,7 +86,7 @@ void cmdChangeRows(const VolumeImpl& volume, VkCommandBuffer commandBuffer, cons
     const VkPipelineLayout layout = context.editLayout.get();
     const auto texelBytes = static_cast<std::uint32_t>(bytesPerVoxel(volume.type));
     const shader::EditConstants constants{box.size[0], box.size[1] * box.size[2], texelBytes, word};
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context.editPipeline.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, volume.editPipeline);
     vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &volume.editSet.set, 0,
                              nullptr);
     vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);

@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::uint32_t kBindings = VOXTACT_BINDING_CLUSTERS + 1;
 
-/// The pass, made for the first mesh that needs it.
-Result<void> makeRefitPipeline(ContextImpl& context) {
+/// Made for the first mesh that needs it, with that of its set.
+Result<VkPipelineLayout> refitLayout(ContextImpl& context) {
     const std::lock_guard lock(context.onDemandMutex);
-    if (context.refitPipeline) {
-        return {};
+    if (context.refitLayout) {
+        return context.refitLayout.get();
     }
     std::array<VkDescriptorSetLayoutBinding, kBindings> bindings{};
     for (std::uint32_t binding = 0; binding < kBindings; ++binding) {
@@ -32,18 +32,18 @@ Result<void> makeRefitPipeline(ContextImpl& context) {
     constexpr VkPushConstantRange kConstants{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shader::RefitConstants)};
     VOXTACT_TRY(
         makePipelineLayout(context, context.refitLayout, {&set, 1}, {&kConstants, 1}, "mesh refit pipeline layout"));
-    Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(context, spirv::mesh_refit_comp, {}, context.refitLayout.get(), "mesh refit");
-    VOXTACT_TRY(pipeline);
-    context.refitPipeline = std::move(*pipeline);
-    return {};
+    return context.refitLayout.get();
 }
 
 } // namespace
 
 Result<void> makeRefit(MeshImpl& mesh) {
     ContextImpl& context = mesh.context;
-    VOXTACT_TRY(makeRefitPipeline(context));
+    const Result<VkPipelineLayout> layout = refitLayout(context);
+    VOXTACT_TRY(layout);
+    const Result<VkPipeline> pipeline = computePipeline(context, spirv::mesh_refit_comp, {}, *layout, "mesh refit");
+    VOXTACT_TRY(pipeline);
+    mesh.refitPipeline = *pipeline;
     const VkDescriptorPoolSize buffers{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings};
     Result<DescriptorSet> set = makeDescriptorSet(context, context.refitSetLayout.get(), {&buffers, 1}, "mesh refit");
     VOXTACT_TRY(set);
@@ -62,7 +62,7 @@ void cmdFitClusters(const MeshImpl& mesh, VkCommandBuffer commandBuffer) {
     const VkPipelineLayout layout = context.refitLayout.get();
     const shader::RefitConstants constants{sourceConstants(mesh), mesh.triangleCount, *mesh.clusterWord,
                                            mesh.wrapped() && mesh.indexed() ? 1U : 0U};
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context.refitPipeline.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, mesh.refitPipeline);
     vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &mesh.refitSet.set, 0,
                              nullptr);
     vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);

@@ -191,4 +191,17 @@ Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<co
     return own(context, handle, name);
 }
 
+Result<VkPipeline> computePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
+                                   std::span<const ShaderConstant> constants, VkPipelineLayout layout,
+                                   const char* name) {
+    KeptPipeline& kept = context.pipelines.of({spirv.data(), layout, {constants.begin(), constants.end()}});
+    const std::lock_guard lock(kept.making);
+    if (!kept.pipeline) {
+        Result<Owned<VkPipeline>> made = makeComputePipeline(context, spirv, constants, layout, name);
+        VOXTACT_TRY(made);
+        kept.pipeline = std::move(*made);
+    }
+    return kept.pipeline.get();
+}
+
 } // namespace voxtact

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "gpu/memory.h"
+#include "gpu/kept_pipelines.h"
 
 #include <cstdint>
 #include <span>
 
 namespace voxtact {
-
-/// A 32-bit specialization constant.
-struct ShaderConstant {
-    std::uint32_t id;
-    std::uint32_t value;
-};
 
 struct RasterPipelineDesc {
     std::span<const std::uint32_t> vertexSpirv;
@@ -36,5 +30,12 @@ struct RasterPipelineDesc {
 [[nodiscard]] Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
                                                             std::span<const ShaderConstant> constants,
                                                             VkPipelineLayout layout, const char* name);
+
+/// The same, kept by the context for all who ask for it: made for the first of them, destroyed with the context. Of
+/// `spirv`, which stays where it is, the address says which it is; `layout` is the context's. Any thread may ask; who
+/// asks for one that is being made waits for it.
+[[nodiscard]] Result<VkPipeline> computePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
+                                                 std::span<const ShaderConstant> constants, VkPipelineLayout layout,
+                                                 const char* name);
 
 } // namespace voxtact

@@ -28,12 +28,14 @@ struct VolumeImpl {
     Buffer editScratch{};    ///< the texels of a slice or more; empty when not editable
     Buffer editRows{};       ///< which of these an edit changes
     DescriptorSet editSet{}; ///< of the two
+    VkPipeline editPipeline = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     Buffer bricks{}; ///< vec4(lo, hi, wideLo, wideHi) of stored values for each brick, x fastest; empty without
     std::array<std::int32_t, 3> brickCount{}; ///< zero without bricks
-    bool bricksFilled = false;                ///< recorded, of the whole grid
-    bool uploaded = false;                    ///< recorded, or the caller's own
-    DescriptorSet descriptors{};              ///< VOXTACT_SET_VOLUME: the image, the bricks
+    VkPipeline brickPipeline = VK_NULL_HANDLE;
+    bool bricksFilled = false;   ///< recorded, of the whole grid
+    bool uploaded = false;       ///< recorded, or the caller's own
+    DescriptorSet descriptors{}; ///< VOXTACT_SET_VOLUME: the image, the bricks
 };
 
 struct TransferFunctionImpl {
@@ -79,8 +81,9 @@ struct MeshImpl {
     Buffer buffer{};
     std::optional<std::uint32_t> clusterWord{}; ///< of the buffer; nothing: no clusters on the device
     DescriptorSet refitSet{};                   ///< of the pass that fits these; empty where no command does
-    Buffer staging{};                           ///< of the buffer; of a wrapped mesh: its triangles in clusters
-    bool uploaded = false;                      ///< recorded, or the caller's own
+    VkPipeline refitPipeline = VK_NULL_HANDLE;
+    Buffer staging{};      ///< of the buffer; of a wrapped mesh: its triangles in clusters
+    bool uploaded = false; ///< recorded, or the caller's own
     bool editable = false;
     /// Of an editable mesh: three indices a triangle, the triangles in clusters (empty without), and what was known
     /// when it was made.

@@ -108,5 +108,8 @@ int main(int argc, char** argv) {
             voxtact::test::validate = false; // for drivers that the layer cannot be asked about
         }
     }
-    return RUN_ALL_TESTS();
+    const int failed = RUN_ALL_TESTS();
+    const testing::UnitTest& tests = *testing::UnitTest::GetInstance();
+    constexpr int kSkipped = 77; // as suites.cmake tells ctest
+    return failed == 0 && tests.successful_test_count() == 0 && tests.skipped_test_count() > 0 ? kSkipped : failed;
 }

@@ -84,18 +84,18 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     const bool outputs = desc.outputs.any();
     for (std::size_t i = 0; i < kCertifiedPasses; ++i) {
         const PassKind& kind = kPasses[i];
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, programOf(kind, desc), constants,
-                                outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
+        const Result<VkPipeline> made =
+            computePipeline(context, programOf(kind, desc), constants,
+                            outputs ? context.computeOutputLayout : context.computeLayout, kind.name);
         VOXTACT_TRY(made);
-        pass.pipelines_[i] = std::move(*made);
+        pass.pipelines_[i] = *made;
     }
     if (desc.counters) {
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, spirv::certified_tally_comp, {},
-                                outputs ? context.computeOutputLayout : context.computeLayout, "conservative tally");
+        const Result<VkPipeline> made =
+            computePipeline(context, spirv::certified_tally_comp, {},
+                            outputs ? context.computeOutputLayout : context.computeLayout, "conservative tally");
         VOXTACT_TRY(made);
-        pass.tally_ = std::move(*made);
+        pass.tally_ = *made;
     }
     if (desc.poseTolerance && (desc.poseTolerance->angle > 0 || desc.poseTolerance->distance > 0)) {
         Result<TolerancePass> made = TolerancePass::create(context, desc);
@@ -174,7 +174,7 @@ void CertifiedPass::recordTouch(RoundRecorder& recorder, VkPipelineLayout layout
 }
 
 void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
-    RoundRecorder recorder(*context_, commandBuffer, results, tally_.get());
+    RoundRecorder recorder(*context_, commandBuffer, results, tally_);
     std::uint32_t firstPair = 0;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     for (const BatchItem& item : batch.items) {
@@ -202,9 +202,9 @@ std::vector<RoundPass> CertifiedPass::passesOfRound() const {
         if (desc_.margin > 0 && kPasses[i].queue == VOXTACT_QUEUE_OPEN) {
             continue; // no cell is left open
         }
-        passes.push_back({pipelines_[i].get(), kPasses[i].queue});
+        passes.push_back({pipelines_[i], kPasses[i].queue});
     }
-    passes.push_back({pipelines_.back().get(), VOXTACT_QUEUE_LEFT});
+    passes.push_back({pipelines_.back(), VOXTACT_QUEUE_LEFT});
     return passes;
 }
 

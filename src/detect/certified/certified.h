@@ -46,8 +46,8 @@ class CertifiedPass {
 
     ContextImpl* context_;
     DetectorDesc desc_;
-    std::array<Owned<VkPipeline>, kCertifiedPasses> pipelines_;
-    Owned<VkPipeline> tally_;                ///< with DetectorDesc::counters
+    std::array<VkPipeline, kCertifiedPasses> pipelines_{};
+    VkPipeline tally_ = VK_NULL_HANDLE;      ///< with DetectorDesc::counters
     std::optional<TolerancePass> tolerance_; ///< with a DetectorDesc::poseTolerance that permits anything
     std::optional<ClearancePass> clearance_; ///< with DetectorDesc::clearance
     std::optional<MotionPass> motion_;       ///< with DetectorDesc::motion

@@ -90,18 +90,18 @@ Result<ClearancePass> ClearancePass::create(ContextImpl& context, const Detector
     ClearancePass pass(context, desc);
     Result<ClearancePipelines> pipelines = makeClearancePipelines(context, desc.counters, desc.closest);
     VOXTACT_TRY(pipelines);
-    pass.pipelines_ = std::move(*pipelines);
-    Result<Owned<VkPipeline>> search = makeComputePipeline(context, spirv::certified_clearance_search_comp, {},
-                                                           context.computeLayout, "clearance search");
+    pass.pipelines_ = *pipelines;
+    const Result<VkPipeline> search =
+        computePipeline(context, spirv::certified_clearance_search_comp, {}, context.computeLayout, "clearance search");
     VOXTACT_TRY(search);
-    pass.search_ = std::move(*search);
+    pass.search_ = *search;
     if (desc.labelClearances) {
         const Result<VkPipelineLayout> layout = labelSearchLayout(context);
         VOXTACT_TRY(layout);
         Result<ClearancePipelines> made = makeLabelPipelines(context, desc.counters, *layout);
         VOXTACT_TRY(made);
         pass.labelLayout_ = *layout;
-        pass.ofLabels_ = std::move(*made);
+        pass.ofLabels_ = *made;
     }
     if (desc.closest) {
         Result<ClosestPass> made = ClosestPass::create(context);
@@ -115,7 +115,7 @@ void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layou
                                  const shader::ClearanceConstants& constants) const {
     const DeviceFunctions& vk = context_->vk;
     const VkCommandBuffer commandBuffer = recorder.commandBuffer();
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, search_.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, search_);
     const std::uint32_t most = context_->limits.maxComputeWorkGroupCount[0];
     shader::ClearanceConstants part = constants;
     for (std::uint32_t done = 0; done < constants.pairs; done += part.pairs) {
@@ -147,7 +147,7 @@ void ClearancePass::recordBegin(RoundRecorder& recorder,
 void ClearancePass::recordStep(RoundRecorder& recorder, const Search& of, bool boxesOnly) const {
     using enum ClearanceProgram;
     const auto pass = [&](ClearanceProgram program, std::uint32_t queue) {
-        return RoundPass{of.pipelines[static_cast<std::size_t>(program)].get(), queue};
+        return RoundPass{of.pipelines[static_cast<std::size_t>(program)], queue};
     };
     const RoundPass boxes[] = {pass(Cull, kNoQueue), pass(Scout, VOXTACT_QUEUE_CLUSTERS)};
     const RoundPass all[] = {pass(Cull, kNoQueue),

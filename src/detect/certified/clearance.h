@@ -49,10 +49,10 @@ class ClearancePass {
     ContextImpl* context_;
     ClearanceSearch desc_;
     bool anyOpacity_;
-    ClearancePipelines pipelines_;
+    ClearancePipelines pipelines_{};
     std::optional<ClearancePipelines> ofLabels_;    ///< with DetectorDesc::labelClearances
     VkPipelineLayout labelLayout_ = VK_NULL_HANDLE; ///< of these
-    Owned<VkPipeline> search_;
+    VkPipeline search_ = VK_NULL_HANDLE;
     std::optional<ClosestPass> closest_; ///< with DetectorDesc::closest
 };
 

@@ -72,26 +72,24 @@ static_assert(std::size(kPrograms) == std::tuple_size_v<ClearancePipelines>);
 Result<ClearancePipelines> makeClearancePipelines(ContextImpl& context, bool counters, bool closest) {
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, counters ? 1U : 0U},
                                         {VOXTACT_CONSTANT_CLOSEST, closest ? 1U : 0U}};
-    ClearancePipelines out;
+    ClearancePipelines out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, kPrograms[i].plain, constants, context.computeLayout,
-                                (std::string("clearance ") + kPrograms[i].name).c_str());
+        const Result<VkPipeline> made = computePipeline(context, kPrograms[i].plain, constants, context.computeLayout,
+                                                        (std::string("clearance ") + kPrograms[i].name).c_str());
         VOXTACT_TRY(made);
-        out[i] = std::move(*made);
+        out[i] = *made;
     }
     return out;
 }
 
 Result<ClearancePipelines> makeLabelPipelines(ContextImpl& context, bool counters, VkPipelineLayout layout) {
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, counters ? 1U : 0U}};
-    ClearancePipelines out;
+    ClearancePipelines out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
-        Result<Owned<VkPipeline>> made =
-            makeComputePipeline(context, kPrograms[i].ofLabel, constants, layout,
-                                (std::string("label clearance ") + kPrograms[i].name).c_str());
+        const Result<VkPipeline> made = computePipeline(context, kPrograms[i].ofLabel, constants, layout,
+                                                        (std::string("label clearance ") + kPrograms[i].name).c_str());
         VOXTACT_TRY(made);
-        out[i] = std::move(*made);
+        out[i] = *made;
     }
     return out;
 }

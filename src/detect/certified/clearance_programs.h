@@ -29,7 +29,7 @@ enum class ClearanceProgram : std::size_t {
 };
 
 /// The pipelines of a step: about all that is opaque, or about what of it has a label.
-using ClearancePipelines = std::array<Owned<VkPipeline>, static_cast<std::size_t>(ClearanceProgram::Count)>;
+using ClearancePipelines = std::array<VkPipeline, static_cast<std::size_t>(ClearanceProgram::Count)>;
 
 /// `closest`: what proves distances is kept. Of labels it is not.
 [[nodiscard]] Result<ClearancePipelines> makeClearancePipelines(ContextImpl& context, bool counters, bool closest);

@@ -44,14 +44,14 @@ template <class Record> void eachDispatch(const ContextImpl& context, std::uint3
 
 Result<ClosestPass> ClosestPass::create(ContextImpl& context) {
     ClosestPass pass(context);
-    Result<Owned<VkPipeline>> place =
-        makeComputePipeline(context, spirv::certified_clearance_place_comp, {}, context.computeLayout, "closest place");
+    const Result<VkPipeline> place =
+        computePipeline(context, spirv::certified_clearance_place_comp, {}, context.computeLayout, "closest place");
     VOXTACT_TRY(place);
-    pass.place_ = std::move(*place);
-    Result<Owned<VkPipeline>> points = makeComputePipeline(context, spirv::certified_clearance_points_comp, {},
-                                                           context.computeLayout, "closest points");
+    pass.place_ = *place;
+    const Result<VkPipeline> points =
+        computePipeline(context, spirv::certified_clearance_points_comp, {}, context.computeLayout, "closest points");
     VOXTACT_TRY(points);
-    pass.points_ = std::move(*points);
+    pass.points_ = *points;
     return pass;
 }
 
@@ -65,7 +65,7 @@ void ClosestPass::record(RoundRecorder& recorder, VkPipelineLayout layout, const
         vk.CmdDispatch(commandBuffer, (count + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, 1, 1);
     };
     queuesBarrier(*context_, commandBuffer);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, place_.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, place_);
     eachDispatch(*context_, pairs, [&](std::uint32_t first, std::uint32_t count) {
         shader::CertifiedConstants part = constants;
         part.firstPair += first;
@@ -73,7 +73,7 @@ void ClosestPass::record(RoundRecorder& recorder, VkPipelineLayout layout, const
         dispatch(part, count);
     });
     queuesBarrier(*context_, commandBuffer);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, points_.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, points_);
     eachDispatch(*context_, pairs, [&](std::uint32_t first, std::uint32_t count) {
         shader::ClosestConstants part = pointsOf(constants, item, recorder.results().maxPairs);
         part.firstPair = constants.firstPair + first;

@@ -22,8 +22,8 @@ class ClosestPass {
     explicit ClosestPass(ContextImpl& context) noexcept : context_(&context) {}
 
     ContextImpl* context_;
-    Owned<VkPipeline> place_;
-    Owned<VkPipeline> points_;
+    VkPipeline place_ = VK_NULL_HANDLE;
+    VkPipeline points_ = VK_NULL_HANDLE;
 };
 
 } // namespace voxtact

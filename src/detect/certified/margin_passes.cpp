@@ -26,10 +26,10 @@ Result<MarginPasses> MarginPasses::create(ContextImpl& context, const Programs& 
                                           std::span<const ShaderConstant> constants, const char* name) {
     MarginPasses passes(context);
     for (std::size_t i = 0; i < kCount; ++i) {
-        Result<Owned<VkPipeline>> made = makeComputePipeline(context, programs[i], constants, context.computeLayout,
-                                                             (std::string(name) + kMarginPasses[i].name).c_str());
+        const Result<VkPipeline> made = computePipeline(context, programs[i], constants, context.computeLayout,
+                                                        (std::string(name) + kMarginPasses[i].name).c_str());
         VOXTACT_TRY(made);
-        passes.pipelines_[i] = std::move(*made);
+        passes.pipelines_[i] = *made;
     }
     return passes;
 }
@@ -38,7 +38,7 @@ void MarginPasses::record(RoundRecorder& recorder, VkPipelineLayout layout, cons
                           const shader::CertifiedConstants& given, double reach) const {
     std::array<RoundPass, kCount> passes{};
     for (std::size_t i = 0; i < kCount; ++i) {
-        passes[i] = {pipelines_[i].get(), kMarginPasses[i].queue};
+        passes[i] = {pipelines_[i], kMarginPasses[i].queue};
     }
     const RoundLimits limits{.clusters = clustersOfRound(given.queueRoom, false),
                              .pairs = context_->limits.maxComputeWorkGroupCount[1],

@@ -31,7 +31,7 @@ class MarginPasses {
     explicit MarginPasses(ContextImpl& context) noexcept : context_(&context) {}
 
     ContextImpl* context_;
-    std::array<Owned<VkPipeline>, kCount> pipelines_;
+    std::array<VkPipeline, kCount> pipelines_{};
 };
 
 } // namespace voxtact

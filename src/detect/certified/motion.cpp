@@ -131,10 +131,10 @@ Result<MotionPass> MotionPass::create(ContextImpl& context, const DetectorDesc& 
                                         {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U}};
     Result<MarginPasses> look = MarginPasses::create(context, programs, constants, "motion");
     VOXTACT_TRY(look);
-    Result<Owned<VkPipeline>> step =
-        makeComputePipeline(context, spirv::certified_motion_step_comp, {}, context.computeLayout, "motion step");
+    const Result<VkPipeline> step =
+        computePipeline(context, spirv::certified_motion_step_comp, {}, context.computeLayout, "motion step");
     VOXTACT_TRY(step);
-    return MotionPass(context, *desc.motion, std::move(*look), std::move(*step));
+    return MotionPass(context, *desc.motion, *look, *step);
 }
 
 void MotionPass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
@@ -145,7 +145,7 @@ void MotionPass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout, co
     shader::MotionConstants step = stepOf(constants, item, recorder.results());
     step.last = last ? 1 : 0;
     queuesBarrier(*context_, commandBuffer);
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, step_.get());
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, step_);
     for (std::size_t done = 0; done < item.pairs(); done += step.pairs) {
         step.firstPair = constants.firstPair + static_cast<std::uint32_t>(done);
         step.pairs = static_cast<std::uint32_t>(std::min<std::uint64_t>(item.pairs() - done, most));

@@ -27,8 +27,8 @@ class MotionPass {
                 const shader::CertifiedConstants& constants, const std::function<void()>& touch) const;
 
   private:
-    MotionPass(ContextImpl& context, const MotionSearch& search, MarginPasses look, Owned<VkPipeline> step) noexcept
-        : context_(&context), search_(search), look_(std::move(look)), step_(std::move(step)) {}
+    MotionPass(ContextImpl& context, const MotionSearch& search, const MarginPasses& look, VkPipeline step) noexcept
+        : context_(&context), search_(search), look_(look), step_(step) {}
 
     void recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
                     const shader::CertifiedConstants& constants, bool last) const;
@@ -38,7 +38,7 @@ class MotionPass {
     ContextImpl* context_;
     MotionSearch search_;
     MarginPasses look_;
-    Owned<VkPipeline> step_;
+    VkPipeline step_;
 };
 
 /// The motions of a checked batch, by pair: from its pose to the next one; of the last pose of an item none. Refuses a

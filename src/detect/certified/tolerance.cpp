@@ -87,7 +87,7 @@ Result<TolerancePass> TolerancePass::create(ContextImpl& context, const Detector
     Result<MarginPasses> passes =
         MarginPasses::create(context, tolerance.angle > 0 ? turned : moved, constants, "tolerance");
     VOXTACT_TRY(passes);
-    return TolerancePass(std::move(*passes), tolerance);
+    return TolerancePass(*passes, tolerance);
 }
 
 void recordTurnLimit(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,

@@ -19,8 +19,8 @@ class TolerancePass {
                 const shader::CertifiedConstants& constants) const;
 
   private:
-    TolerancePass(MarginPasses passes, const PoseTolerance& tolerance) noexcept
-        : passes_(std::move(passes)), tolerance_(tolerance) {}
+    TolerancePass(const MarginPasses& passes, const PoseTolerance& tolerance) noexcept
+        : passes_(passes), tolerance_(tolerance) {}
 
     MarginPasses passes_;
     PoseTolerance tolerance_;

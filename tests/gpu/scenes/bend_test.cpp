@@ -4,10 +4,12 @@
 
 #include "cpu/scenes/random_scene.h"
 #include "gpu/barriers.h"
+#include "gpu/pipeline.h"
 #include "gpu/scene_impl.h"
 #include "shared.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
+#include "voxtact_shaders/edit_comp.h"
 
 #include <gmock/gmock.h>
 
@@ -226,6 +228,7 @@ class CallersShader {
     CallersShader(const Context& context, VkBuffer vertices, std::uint32_t count, VkBuffer rows)
         : context_(context.impl()), count_(count) {
         const VkDescriptorPoolSize buffers{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
+        pipeline_ = take(computePipeline(context_, spirv::edit_comp, {}, context_.editLayout.get(), "a caller's"));
         set_ = take(makeDescriptorSet(context_, context_.setLayouts[VOXTACT_SET_PAIRS], {&buffers, 1}, "a caller's"));
         writeBuffer(context_, set_.set, VOXTACT_BINDING_EDIT_ROWS, rows);
         writeBuffer(context_, set_.set, VOXTACT_BINDING_EDIT_TEXELS, vertices);
@@ -235,7 +238,7 @@ class CallersShader {
         const DeviceFunctions& vk = context_.vk;
         const VkPipelineLayout layout = context_.editLayout.get();
         const shader::EditConstants constants{3, count_, 4, std::bit_cast<std::uint32_t>(z)};
-        vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, context_.editPipeline.get());
+        vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
         vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set_.set, 0, nullptr);
         vk.CmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants, &constants);
         vk.CmdDispatch(commands, (3 * count_ + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, 1, 1);
@@ -244,6 +247,7 @@ class CallersShader {
   private:
     ContextImpl& context_;
     std::uint32_t count_;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
     DescriptorSet set_;
 };
 
