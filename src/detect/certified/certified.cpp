@@ -100,17 +100,17 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     if (desc.poseTolerance && (desc.poseTolerance->angle > 0 || desc.poseTolerance->distance > 0)) {
         Result<TolerancePass> made = TolerancePass::create(context, desc);
         VOXTACT_TRY(made);
-        pass.tolerance_ = std::move(*made);
+        pass.tolerance_ = *made;
     }
     if (desc.clearance) {
         Result<ClearancePass> made = ClearancePass::create(context, desc);
         VOXTACT_TRY(made);
-        pass.clearance_ = std::move(*made);
+        pass.clearance_ = *made;
     }
     if (desc.motion) {
         Result<MotionPass> made = MotionPass::create(context, desc);
         VOXTACT_TRY(made);
-        pass.motion_ = std::move(*made);
+        pass.motion_ = *made;
     }
     return pass;
 }

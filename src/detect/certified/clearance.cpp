@@ -106,7 +106,7 @@ Result<ClearancePass> ClearancePass::create(ContextImpl& context, const Detector
     if (desc.closest) {
         Result<ClosestPass> made = ClosestPass::create(context);
         VOXTACT_TRY(made);
-        pass.closest_ = std::move(*made);
+        pass.closest_ = *made;
     }
     return pass;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detect/certified/clearance_programs.h"
 #include "core/base/try.h"
+#include "gpu/context_impl.h"
 #include "shared.h"
 
 #include "voxtact_shaders/certified_clearance_again_comp.h"
