@@ -3,10 +3,10 @@
 
 #include "gpu/memory.h"
 
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <vector>
 
 namespace voxtact {
@@ -16,7 +16,9 @@ struct ShaderConstant {
     std::uint32_t id;
     std::uint32_t value;
 
-    friend auto operator<=>(const ShaderConstant&, const ShaderConstant&) = default;
+    friend bool operator<(const ShaderConstant& a, const ShaderConstant& b) noexcept {
+        return std::tie(a.id, a.value) < std::tie(b.id, b.value);
+    }
 };
 
 /// Which compute pipeline it is. `spirv`: where the words are.
@@ -25,7 +27,9 @@ struct PipelineKey {
     VkPipelineLayout layout;
     std::vector<ShaderConstant> constants;
 
-    friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
+    friend bool operator<(const PipelineKey& a, const PipelineKey& b) noexcept {
+        return std::tie(a.spirv, a.layout, a.constants) < std::tie(b.spirv, b.layout, b.constants);
+    }
 };
 
 struct KeptPipeline {
