@@ -235,6 +235,9 @@ class KnownWays : public MotionTest {
     void expectTurningRod(BlockingDetector& device);
     /// Some voxels where the rod's end is at last: seen from the middle of the way, it is 3 mm beside the tangent.
     void expectEndOfATurn(BlockingDetector& device);
+    /// A tip on a circle of 8 mm that meets a thin ridge: seen from the middle of the way, which is short, the ridge is
+    /// half a mm beside the tangent.
+    void expectTightTurn(BlockingDetector& device);
     /// Along a floor at a small distance, into a wall at the end of the way, and where only the last pose touches.
     void expectSlide(BlockingDetector& device);
     /// A turn that comes down to the floor, just so, and up again.
@@ -252,6 +255,7 @@ TEST_F(KnownWays, AreFreeUntilTheyTouch) {
     expectTip(device);
     expectTurningRod(device);
     expectEndOfATurn(device);
+    expectTightTurn(device);
     expectSlide(device);
     expectGraze(device);
 }
@@ -325,6 +329,33 @@ void KnownWays::expectEndOfATurn(BlockingDetector& device) {
     EXPECT_LT(found[0].touch->at, 1);
 }
 
+void KnownWays::expectTightTurn(BlockingDetector& device) {
+    constexpr double kAngle = 0.45;
+    Grid grid;
+    grid.size = {32, 5, 20};
+    grid.origin = {-16, -2, -4};
+    const VolumeData image = makeVolume<float>(grid, ScalarType::Float32, [](auto x, auto, auto z) {
+        return x == 13 && z <= 11 ? 10.0 : -10.0; // up to z = 7.5 mm at x = -3 mm
+    });
+    MeshData tip;
+    addTriangle(tip, {0, 0, 8}, {0.01, 0, 8}, {0, 0.01, 8});
+    const std::vector<SegmentMotion> found = over(image, device, tip, {turned(1, -kAngle), turned(1, kAngle)}, true);
+    // Opaque where what the interpolant has of the ridge along x, times what it has along z, is more than a half.
+    constexpr auto kOpaque = [](double angle) {
+        return (1 - std::abs(8 * std::sin(angle) + 3)) * (1 - std::abs(8 * std::cos(angle) - 7)) > 0.5;
+    };
+    double first = -kAngle;
+    while (!kOpaque(first)) {
+        first += 1e-6;
+    }
+    const double wanted = (first + kAngle) / (2 * kAngle);
+    ASSERT_TRUE(found.at(0).touch);
+    EXPECT_GT(wanted, 0.02);
+    EXPECT_LE(found[0].freeUntil, wanted);
+    EXPECT_GT(found[0].freeUntil, wanted - 0.01);
+    EXPECT_NEAR(found[0].touch->at, wanted, 0.01);
+}
+
 void KnownWays::expectSlide(BlockingDetector& device) {
     MeshData plate;
     addTriangle(plate, {0, 0, 0}, {3, 0, 0}, {0, 3, 0});
@@ -351,6 +382,24 @@ void KnownWays::expectGraze(BlockingDetector& device) {
     EXPECT_TRUE(found[0].possible || found[0].touch);
 }
 
+/// A search takes as many steps as the ways of its item need, whatever comes before.
+TEST_F(KnownWays, HaveStepsOfTheirOwn) {
+    const DeviceSide side(context(), queue(), floorImage().view(), {kFloorPoints, kFloorDomain, kFloorEntries},
+                          makeTip().view(), true);
+    const Mat4 still[] = {translation({0, 0, 10}), translation({0, 0, 10})};
+    const auto turnedAt = [](double angle) {
+        return multiply(translation({0, 0, 10}), multiply(turned(1, angle), translation({0, 0, -10})));
+    };
+    const Mat4 grazing[] = {turnedAt(-0.5), turnedAt(0.6)};
+    const BatchItem items[] = {side.item(still), side.item(grazing)};
+    BlockingDetector device = detector(along());
+    const BatchAnswer answer = take(device.detect({items, {}, 0.5}));
+    ASSERT_EQ(answer.motions.size(), 2U);
+    EXPECT_EQ(answer.motions[0].freeUntil, 1);
+    EXPECT_GT(answer.motions[1].freeUntil, 0.4);
+    EXPECT_NE(answer.motions[1].end, MotionEnd::Budget);
+}
+
 /// What is proven does not depend on how much there is room for, on clusters, or on what else is in the batch.
 TEST_F(MotionTest, IsOneAnswerHoweverItIsFound) {
     const std::uint64_t seed = testSeed();
@@ -369,7 +418,11 @@ TEST_F(MotionTest, IsOneAnswerHoweverItIsFound) {
         for (const std::uint32_t room : {16U, 16384U}) {
             found.push_back(detect(device, scene.batch(), kPoses, room).motions);
         }
-        const std::array items{scene.item, scene.item, scene.item};
+        // Between items that stay where they are, which take few steps.
+        const std::vector<Mat4> still(kPoses, translation({0, 0, 400}));
+        BatchItem resting = scene.item;
+        resting.world_from_object = still;
+        const std::array items{resting, scene.item, resting};
         Answered three = detect(device, {items, {}, kDefaultThreshold}, 3 * kPoses, 2048);
         ASSERT_EQ(three.motions.size(), 3 * (kPoses - 1));
         EXPECT_GT(three.counters.rounds, 0U);
@@ -384,6 +437,7 @@ TEST_F(MotionTest, IsOneAnswerHoweverItIsFound) {
         ASSERT_EQ(other.size(), found[0].size());
         for (std::size_t i = 0; i < other.size(); ++i) {
             expectWaysAgree(other[i], found[0][i]);
+            EXPECT_NE(other[i].end, MotionEnd::Budget) << "segment " << i;
         }
     }
 }
