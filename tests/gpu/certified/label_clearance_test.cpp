@@ -45,7 +45,7 @@ template <class LabelOf> LabelData mapOf(const Grid& grid, const LabelOf& labelO
     return take(makeLabels(makeBytes(grid, labelOf).view()));
 }
 
-constexpr ControlPoint kRamp[] = {{0, 0}, {255, 1}};
+constexpr ControlPoint kBytesRamp[] = {{0, 0}, {255, 1}};
 
 /// Voxels of 0.5 x 1 x 0.8 mm, the axes of the grid along those of the world.
 Grid flatVoxels() {
@@ -92,7 +92,7 @@ class LabelClearanceTest : public CertifiedTest {
     /// Of a mesh in the world.
     std::vector<LabelClearance> ask(BlockingDetector& device, const VolumeData& image, const MeshData& mesh,
                                     const LabelData& labels, std::span<const std::int32_t> asked) const {
-        return ask(device, {mesh.view(), image.view(), {kRamp, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
+        return ask(device, {mesh.view(), image.view(), {kBytesRamp, {0, 255}, kDefaultTableSize}, {}, identity(), 0.5},
                    labels, asked);
     }
 };
