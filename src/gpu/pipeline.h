@@ -31,9 +31,9 @@ struct RasterPipelineDesc {
                                                             std::span<const ShaderConstant> constants,
                                                             VkPipelineLayout layout, const char* name);
 
-/// The same, kept by the context for all who ask for it: made for the first of them, destroyed with the context. Of
-/// `spirv`, which stays where it is, the address says which it is; `layout` is the context's. Any thread may ask; who
-/// asks for one that is being made waits for it.
+/// The same, kept by the context for all who ask for it: made for the first of them, destroyed with the context. It is
+/// known by the address of `spirv`, which must stay where it is; `layout` is the context's. Any thread may ask, and
+/// waits for a pipeline that another one is making.
 [[nodiscard]] Result<VkPipeline> computePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
                                                  std::span<const ShaderConstant> constants, VkPipelineLayout layout,
                                                  const char* name);
