@@ -25,6 +25,8 @@ class CertifiedOccupancy {
     }
     /// The table with its hull; valid while this object lives.
     [[nodiscard]] OpacityLook look() const noexcept { return {table(), bricks_.hull()}; }
+    /// Bricks along each axis.
+    [[nodiscard]] const std::array<std::int32_t, 3>& bricks() const noexcept { return count_; }
     [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {
         return (static_cast<std::size_t>(brick[2]) * static_cast<std::size_t>(count_[1]) +
                 static_cast<std::size_t>(brick[1])) *

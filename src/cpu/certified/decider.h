@@ -5,6 +5,7 @@
 #include "cpu/certified/box_look.h"
 #include "cpu/certified/likely_runs.h"
 #include "cpu/certified/row_counter.h"
+#include "cpu/certified/run_counter.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace voxtact::cpu {
@@ -28,7 +30,8 @@ template <class Kept, class Mode> class Decider {
   public:
     Decider(const CertifiedJob& job, const Kept* voxels, const CertifiedSink& sink)
         : job_(job), cells_(job, voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()),
-          look_(job.occupancy.look()), placed_(job.mesh, job.transform), boxes_(item_, job.transform, job.mesh.tree) {
+          look_(job.occupancy.look()), counter_(job), placed_(job.mesh, job.transform),
+          boxes_(item_, job.transform, job.mesh.tree) {
         delta_.delta = boxes_.delta();
         delta_.usable = boxes_.usable();
     }
@@ -50,6 +53,9 @@ template <class Kept, class Mode> class Decider {
     struct Triangle {
         std::uint32_t number = 0;
         std::array<std::size_t, 3> vertices{}; ///< in the mesh's arrays
+    };
+    struct NoCounter {
+        explicit NoCounter(const CertifiedJob& /*job*/) noexcept {}
     };
     struct Open {
         Triangle triangle;
@@ -120,23 +126,50 @@ template <class Kept, class Mode> class Decider {
     }
 
     void decideRun(std::uint32_t run) {
-        forTriangles(run, [this](const auto&... corners) { decideTriangle(corners...); });
+        if constexpr (Mode::kCounts) {
+            countRun(run);
+        } else {
+            forTriangles(run, [this](const auto&... corners) { decideTriangle(corners...); });
+        }
     }
 
-    /// Calls `decide(corner, corner, corner)` for a run's triangles, until it is done; `triangle_` is set.
+    /// Small triangles together, others one by one.
+    void countRun(std::uint32_t run) {
+        const auto large = [this](std::size_t at) {
+            withTriangle(at, [this](const auto&... corners) { decideTriangle(corners...); });
+        };
+        const auto open = [this](std::size_t at, const SmallTriangles::Small& small, unsigned cells) {
+            withTriangle(at, [&](const auto&... corners) {
+                decideCellsOf(shader::certifiedTriangle(corners.point..., small.delta), small.block, cells);
+            });
+        };
+        tally_.certain += counter_.count(placed_, run, large, open);
+    }
+
+    void decideCellsOf(const CertifiedTriangle& triangle, const CellBlock& block, unsigned cells) {
+        for (; cells != 0; cells &= cells - 1) {
+            const auto [x, y, z] = block.at(static_cast<unsigned>(std::countr_zero(cells)));
+            decideCell(triangle, x, y, z, cells_.ofCell({x, y, z}), true);
+        }
+    }
+
+    /// Calls `decide(corner, corner, corner)` for a run's triangles, until it is done.
     template <class Decide> void forTriangles(std::uint32_t run, const Decide& decide) {
-        const MeshImpl& mesh = job_.mesh;
         const std::size_t first = placed_.begin(run);
         for (std::size_t at = first; at < first + kRunTriangles && !done(); ++at) {
-            if (mesh.numbers[at] == kNoTriangle) {
+            if (job_.mesh.numbers[at] == kNoTriangle) {
                 return;
             }
-            const std::size_t firstVertex = placed_.firstVertex();
-            triangle_ = {
-                mesh.numbers[at],
-                {firstVertex + mesh.corner0[at], firstVertex + mesh.corner1[at], firstVertex + mesh.corner2[at]}};
-            decide(placed_.at(mesh.corner0[at]), placed_.at(mesh.corner1[at]), placed_.at(mesh.corner2[at]));
+            withTriangle(at, decide);
         }
+    }
+
+    /// Calls `decide(corner, corner, corner)` for one of the placed cluster; `triangle_` is set.
+    template <class Decide> void withTriangle(std::size_t at, const Decide& decide) {
+        const MeshImpl& mesh = job_.mesh;
+        const std::size_t first = placed_.firstVertex();
+        triangle_ = {mesh.numbers[at], {first + mesh.corner0[at], first + mesh.corner1[at], first + mesh.corner2[at]}};
+        decide(placed_.at(mesh.corner0[at]), placed_.at(mesh.corner1[at]), placed_.at(mesh.corner2[at]));
     }
 
     /// A triangle of a run that was looked at: in those cells alone that the look left, and where a look at itself
@@ -399,8 +432,9 @@ template <class Kept, class Mode> class Decider {
     shader::OpacityTable table_;
     OpacityLook look_;
     CertifiedTally tally_;
-    Triangle triangle_;                 ///< at hand
-    RowCounter rows_;                   ///< of the same
+    Triangle triangle_; ///< at hand
+    RowCounter rows_;   ///< of the same
+    std::conditional_t<Mode::kCounts, RunCounter, NoCounter> counter_;
     shader::PreciseTriangle precise_{}; ///< of number `preciseOf_`
     std::uint32_t preciseOf_ = kNoTriangle;
     std::vector<Open> open_;

@@ -13,8 +13,6 @@
 namespace voxtact::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A mesh, a volume and a transfer function of the engine.
 struct Held {
     Held(const MeshData& data, const VolumeData& image, std::span<const ControlPoint> points = byteRamp(),
@@ -146,14 +144,15 @@ TEST(Motion, TurnsAboutTheMiddleWithSlerp) {
                     kFloorEntries);
     const Mat4 from = translation({-15, 0, 4});
     // Turned by half a right angle about the middle, which comes down by 2 mm.
-    const Mat4 to = multiply(translation({0, 0, 2}), multiply(turned(1, kPi / 4), translation({-15, 0, 0})));
+    const Mat4 to =
+        multiply(translation({0, 0, 2}), multiply(turned(1, std::numbers::pi / 4), translation({-15, 0, 0})));
     const double fine = 0.001;
     const std::vector<SegmentMotion> found =
         held.check({from, to}, {.interpolation = Interpolation::Slerp, .resolution = fine});
     double wanted = 0;
     for (double step = 0.5; step > 1e-12; step /= 2) {
         const double t = wanted + step;
-        wanted = 4 - 2 * t - 5 * std::sin(t * kPi / 4) > 0 ? t : wanted;
+        wanted = 4 - 2 * t - 5 * std::sin(t * std::numbers::pi / 4) > 0 ? t : wanted;
     }
     expectTouchAt(wanted, found[0], 3e-4);
     // The screw from one to the other goes along an arc, and is there at another time.
@@ -284,7 +283,7 @@ TEST(PoseTolerance, OfARodAboveAFloor) {
     for (const double degrees : {0.5, 2.0, 10.0, 25.0}) {
         for (const double distance : {0.0, 1.0}) {
             SCOPED_TRACE(std::to_string(degrees) + " " + std::to_string(distance));
-            const double far = distance + std::hypot(15, 0.01) * std::sin(degrees * kPi / 180);
+            const double far = distance + std::hypot(15, 0.01) * std::sin(degrees * std::numbers::pi / 180);
             const PairAnswer safe = held.around(translation({0, 0, far + 0.002}), {distance, degrees});
             EXPECT_FALSE(safe.hit || safe.possible);
             EXPECT_TRUE(held.around(translation({0, 0, far - 0.02}), {distance, degrees}).hit);
@@ -318,8 +317,9 @@ TEST(PoseTolerance, NoPoseThatIsOffTouches) {
         const Vec3 origin{poses[0][12], poses[0][13], poses[0][14]};
         for (int i = 0; i < 100; ++i) {
             const Mat4 spin = randomRotation(random);
-            const Mat4 turn = multiply(
-                spin, multiply(turned(0, uniform(random, 0, tolerance.angle) * kPi / 180), take(inverse(spin))));
+            const Mat4 turn =
+                multiply(spin, multiply(turned(0, uniform(random, 0, tolerance.angle) * std::numbers::pi / 180),
+                                        take(inverse(spin))));
             const Mat4 way = randomRotation(random);
             const double by = tolerance.distance * std::cbrt(uniform(random, 0, 1));
             const Vec3 to{origin[0] + by * way[0], origin[1] + by * way[1], origin[2] + by * way[2]};

@@ -17,14 +17,13 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace voxtact::test {
 namespace {
 
 using glm::dvec3;
-
-constexpr double kPi = 3.14159265358979323846;
 
 TEST(DirectionGrid, CoversTheSphereOnce) {
     for (const std::uint32_t wanted : {1U, 12U, 13U, 500U}) {
@@ -54,7 +53,7 @@ TEST(DirectionGrid, CoversTheSphereOnce) {
         }
         EXPECT_EQ(met.size(), grid.count());
         EXPECT_EQ(*met.rbegin(), grid.count() - 1);
-        EXPECT_NEAR(angle, 4 * kPi, 1e-9);
+        EXPECT_NEAR(angle, 4 * std::numbers::pi, 1e-9);
         for (const auto& [edge, times] : edges) {
             EXPECT_EQ(times, 1);
             EXPECT_EQ(edges.count({edge.second, edge.first}), 1U);
@@ -168,7 +167,7 @@ TEST(Plan, CertifiesPatchesForAllTheirPaths) {
             }
         }
         EXPECT_NEAR(answer.area, all, 1e-6 * all);
-        EXPECT_NEAR(answer.area, 4 * kPi * 30 * 30, 0.01 * all);
+        EXPECT_NEAR(answer.area, 4 * std::numbers::pi * 30 * 30, 0.01 * all);
         EXPECT_NEAR(answer.safeArea, safe, 1e-6 * all);
         safeArea += safe;
         ASSERT_FALSE(HasFailure());

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/certified/placed_vertices.h"
+#include "cpu/certified/small_triangles.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// Counts the fragments of a run's small triangles, as far as that is clear without cutting them: certain is one in a
+/// cell that is opaque all over (CertifiedBricks::allOpaqueAt()), and none is one where the triangle does not pass
+/// through the cell. One thread's.
+class RunCounter {
+  public:
+    /// The job must outlive it.
+    explicit RunCounter(const CertifiedJob& job) noexcept : job_(job), blocks_(job) {}
+
+    /// Returns how many are certain. Calls `large(at)` for those triangles of the run that are to be counted by
+    /// themselves, `at` being their numbers in the mesh's arrays; and `open(at, small, cells)` for those that have
+    /// cells which are still to be decided: these, of the block of `small`.
+    template <class Large, class Open>
+    [[nodiscard]] std::uint64_t count(PlacedVertices& placed, std::uint32_t run, const Large& large, const Open& open) {
+        const std::size_t first = placed.begin(run);
+        const std::size_t triangles = add(placed, first);
+        small_.look(job_.occupancy.item(), job_.occupancy.bricks());
+        std::uint64_t certain = 0;
+        for (std::size_t i = 0; i < triangles; ++i) {
+            left_[i] = {};
+            if (small_.isSmall(i)) {
+                certain += countCorners(i);
+            } else {
+                large(first + i);
+            }
+        }
+        small_.answer();
+        for (std::size_t i = 0; i < triangles; ++i) {
+            if (left_[i].mayBeOpaque == 0) {
+                continue;
+            }
+            certain += countOverlap(i);
+            if (left_[i].mayBeOpaque != 0) {
+                open(first + i, small_[i], left_[i].mayBeOpaque);
+            }
+        }
+        return certain;
+    }
+
+  private:
+    std::size_t add(const PlacedVertices& placed, std::size_t first) {
+        const MeshImpl& mesh = job_.mesh;
+        std::size_t count = 0;
+        for (std::size_t at = first; count < kRunTriangles && mesh.numbers[at] != kNoTriangle; ++at, ++count) {
+            small_.add(placed.at(mesh.corner0[at]), placed.at(mesh.corner1[at]), placed.at(mesh.corner2[at]));
+        }
+        return count;
+    }
+
+    /// In the cells that one of its corners is in. Asks about the others.
+    unsigned countCorners(std::size_t i) {
+        const SmallTriangles::Small small = small_[i];
+        if (small.block.cells == 0) {
+            return 0;
+        }
+        const BlockBits known = blocks_.at(small.block);
+        const unsigned counted = known.allOpaque & small.corners;
+        left_[i] = {known.mayBeOpaque & ~counted, known.allOpaque & ~counted};
+        small_.ask(i, left_[i].mayBeOpaque);
+        return bitsIn(counted);
+    }
+
+    unsigned countOverlap(std::size_t i) {
+        const SmallTriangles::Overlap& overlap = small_.overlap(i);
+        const unsigned counted = overlap.some & left_[i].allOpaque;
+        left_[i].mayBeOpaque &= ~(counted | overlap.none);
+        return bitsIn(counted);
+    }
+
+    const CertifiedJob& job_;
+    BlockLook blocks_;
+    SmallTriangles small_;
+    std::array<BlockBits, kRunTriangles> left_{}; ///< of each triangle, the cells that are still to be decided
+};
+
+} // namespace voxtact::cpu
