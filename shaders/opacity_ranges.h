@@ -44,6 +44,14 @@ EXACT float opacityAt(OpacityTable table, float x) {
 
 /// Whether some coordinate of [lo, hi] may be opaque. NaN may be anything.
 EXACT bool mayBeOpaque(OpacityTable table, float lo, float hi) {
+#ifdef __cplusplus
+    if (hi < table.bounds.first || lo > table.bounds.last) {
+        return false;
+    }
+    if (lo <= table.bounds.allLast && hi >= table.bounds.allFirst) {
+        return true;
+    }
+#endif
     const float from = opacityEntry(table, lo, 0.0f);
     const float to = opacityEntry(table, hi, float(table.size - 1));
     const int first = wholeBelow(from);
@@ -65,6 +73,14 @@ EXACT bool certainlyAllOpaque(OpacityTable table, float lo, float hi) {
     if (!(lo <= hi)) {
         return false;
     }
+#ifdef __cplusplus
+    if (lo < table.bounds.first || hi > table.bounds.last) {
+        return false;
+    }
+    if (lo >= table.bounds.allFirst && hi <= table.bounds.allLast) {
+        return true;
+    }
+#endif
     const float from = opacityEntry(table, lo, 0.0f);
     const float to = opacityEntry(table, hi, 0.0f);
     const int first = wholeBelow(from);
@@ -86,6 +102,14 @@ EXACT bool certainlySomeOpaque(OpacityTable table, float lo, float hi) {
     if (!(lo <= hi)) {
         return false;
     }
+#ifdef __cplusplus
+    if (hi < table.bounds.first || lo > table.bounds.last) {
+        return false;
+    }
+    if (lo <= table.bounds.allLast && hi >= table.bounds.allFirst) {
+        return true;
+    }
+#endif
     const float from = opacityEntry(table, lo, 0.0f);
     const float to = opacityEntry(table, hi, 0.0f);
     const int inner = wholeAbove(from);

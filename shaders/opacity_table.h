@@ -7,7 +7,21 @@
 
 #ifdef __cplusplus
 #include <bit>
+#include <limits>
 namespace voxtact::shader {
+
+/// What the host knows of a table, in entry coordinates: what takes some look-ups to ask of a range, for most ranges
+/// takes two comparisons. Without knowing any, no range is answered by them.
+struct OpacityBounds {
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+    /// No range that ends before `first` or begins after `last` may be opaque, nor any part of one (mayBeOpaque()).
+    float first = -kInfinity;
+    float last = kInfinity;
+    /// Every range within these certainly is opaque all over (certainlyAllOpaque()). Empty: no such range is known.
+    float allFirst = kInfinity;
+    float allLast = -kInfinity;
+};
 #endif
 
 /// The table's extremes (core/transfer/table_extremes.h) and the threshold. In GLSL the extremes are the buffer of that
@@ -18,6 +32,7 @@ struct OpacityTable {
     float threshold;
 #ifdef __cplusplus
     const float* extremes;
+    OpacityBounds bounds = {};
 #endif
 };
 

@@ -37,11 +37,10 @@ unsigned blockWithin(const CellBits& bits, const CellBlock& block) {
 } // namespace
 
 BlockLook::Known BlockLook::find(const std::array<std::int32_t, 3>& brick) const {
-    const CertifiedOccupancy& occupancy = job_.occupancy;
-    if (!occupancy.mayBeOpaque(occupancy.brickNumber(brick))) {
+    if (!occupancy_.mayBeOpaque(occupancy_.brickNumber(brick))) {
         return {};
     }
-    return {&occupancy.cells(job_.volume, brick).mayBeOpaque, &occupancy.allOpaque(job_.volume, brick)};
+    return {&occupancy_.cells(volume_, brick).mayBeOpaque, &occupancy_.allOpaque(volume_, brick)};
 }
 
 BlockBits BlockLook::ofOne(const CellBlock& block) {

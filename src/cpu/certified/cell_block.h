@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/certified/certified_pair.h"
+#include "cpu/certified/certified_occupancy.h"
 
 #include <array>
 #include <cstddef>
@@ -40,8 +40,9 @@ struct BlockBits {
 /// Looks up what is known of blocks' cells. One thread's.
 class BlockLook {
   public:
-    /// The job must outlive it.
-    explicit BlockLook(const CertifiedJob& job) noexcept : job_(job) {}
+    /// Both must outlive it.
+    BlockLook(const VolumeImpl& volume, const CertifiedOccupancy& occupancy) noexcept
+        : volume_(volume), occupancy_(occupancy) {}
 
     /// Of a block in the domain.
     [[nodiscard]] BlockBits at(const CellBlock& block) {
@@ -63,16 +64,18 @@ class BlockLook {
     [[nodiscard]] BlockBits ofOne(const CellBlock& block);
     [[nodiscard]] BlockBits ofSeveral(const CellBlock& block) const;
 
-    const CertifiedJob& job_;
+    const VolumeImpl& volume_;
+    const CertifiedOccupancy& occupancy_;                             ///< of that
     std::uint32_t brick_ = std::numeric_limits<std::uint32_t>::max(); ///< that ofOne() had last
     Known known_;                                                     ///< of that
 };
 
-/// How many of eight bits are set. Not every processor has an instruction for it.
-[[nodiscard]] constexpr unsigned bitsIn(unsigned bits) noexcept {
-    bits -= bits >> 1U & 0x55U;
-    bits = (bits & 0x33U) + (bits >> 2U & 0x33U);
-    return (bits + (bits >> 4U)) & 0xFU;
+/// How many of some bits are set. Not every processor has an instruction for it.
+[[nodiscard]] constexpr unsigned bitsIn(std::uint64_t bits) noexcept {
+    bits -= bits >> 1U & 0x5555555555555555U;
+    bits = (bits & 0x3333333333333333U) + (bits >> 2U & 0x3333333333333333U);
+    bits = (bits + (bits >> 4U)) & 0x0F0F0F0F0F0F0F0FU;
+    return static_cast<unsigned>(bits * 0x0101010101010101U >> 56U);
 }
 
 } // namespace voxtact::cpu

@@ -21,7 +21,7 @@ class CertifiedOccupancy {
     [[nodiscard]] const shader::CertifiedItem& item() const noexcept { return item_; }
     /// Valid while this object lives.
     [[nodiscard]] shader::OpacityTable table() const noexcept {
-        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data()};
+        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data(), bricks_.hull()};
     }
     /// The table with its hull; valid while this object lives.
     [[nodiscard]] OpacityLook look() const noexcept { return {table(), bricks_.hull()}; }

@@ -3,8 +3,8 @@
 
 #include "core/geometry/clusters.h"
 #include "cpu/certified/box_look.h"
+#include "cpu/certified/cell_counter.h"
 #include "cpu/certified/likely_runs.h"
-#include "cpu/certified/row_counter.h"
 #include "cpu/certified/run_counter.h"
 
 #include <algorithm>
@@ -17,8 +17,6 @@
 #include <vector>
 
 namespace voxtact::cpu {
-
-static_assert(TriangleCells::kRow == kBrickSide, "a brick's rows are asked as they are");
 
 /// Goes through a job's fragments. `Mode::kCounts`: nothing but how many there are is asked. A mode is a type of the
 /// one file that instantiates this with it: compilers put in line what nobody else can call.
@@ -194,6 +192,10 @@ template <class Kept, class Mode> class Decider {
         });
     }
 
+    [[nodiscard]] static VoxelPoint originOf(std::int32_t x, std::int32_t y, std::int32_t z) {
+        return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    }
+
     [[nodiscard]] static VoxelPoint middleOf(std::int32_t x, std::int32_t y, std::int32_t z) {
         return {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, static_cast<float>(z) + 0.5F};
     }
@@ -215,7 +217,7 @@ template <class Kept, class Mode> class Decider {
         }
         const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
         if constexpr (Mode::kCounts) {
-            rows_.begin();
+            cubes_.begin(triangle);
         }
         visitBricks(bricks, [&](const std::array<std::int32_t, 3>& brick) {
             decideBrick(Rounded{*this, triangle}, cells, brick, several);
@@ -350,6 +352,16 @@ template <class Kept, class Mode> class Decider {
                 return;
             }
         }
+        if constexpr (Mode::kCounts) {
+            if (const CertifiedTriangle* counted = triangle.counted()) {
+                const CellBits& allOpaque = job_.occupancy.allOpaque(job_.volume, brick);
+                tally_.certain += cubes_.count({brick, within, known.mayBeOpaque, allOpaque},
+                                               [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+                                                   decideCell(*counted, x, y, z, known, true);
+                                               });
+                return;
+            }
+        }
         decideCells(triangle, within, known, brick, cells.single());
     }
 
@@ -360,19 +372,9 @@ template <class Kept, class Mode> class Decider {
         const auto cell = [&](std::int32_t number, std::size_t axis) {
             return VolumeCells<Kept>::cellOf(brick, number, axis);
         };
-        const CertifiedTriangle* counted = triangle.counted();
-        const CellBits* allOpaque = counted != nullptr ? &job_.occupancy.allOpaque(job_.volume, brick) : nullptr;
         for (std::int32_t z = within.lo[2]; z <= within.hi[2]; ++z) {
             for (std::int32_t y = within.lo[1]; y <= within.hi[1]; ++y) {
-                unsigned row = known.row(within, y, z);
-                if (Mode::kCounts && counted != nullptr) {
-                    const RowCounter::Row counts =
-                        rows_.count(*counted, row, (*allOpaque)[static_cast<std::size_t>(y + kBrickSide * z)],
-                                    {cell(0, 0), cell(y, 1), cell(z, 2)});
-                    tally_.certain += counts.certain;
-                    row = counts.left;
-                }
-                for (; row != 0; row &= row - 1) {
+                for (unsigned row = known.row(within, y, z); row != 0; row &= row - 1) {
                     const std::int32_t x = std::countr_zero(row);
                     const VoxelPoint centre = middleOf(cell(x, 0), cell(y, 1), cell(z, 2));
                     if (single || !triangle.planeMisses(centre, 0.5F)) {
@@ -412,7 +414,7 @@ template <class Kept, class Mode> class Decider {
     /// Whether a corner of the triangle that is in the cell proves what certifiedSettle() would find.
     [[nodiscard]] bool cornerProves(const CertifiedTriangle& triangle, const shader::CertifiedCell& cell,
                                     std::int32_t x, std::int32_t y, std::int32_t z) const {
-        const VoxelPoint origin{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+        const VoxelPoint origin = originOf(x, y, z);
         for (const VoxelPoint& corner : {triangle.corner0, triangle.corner1, triangle.corner2}) {
             const VoxelPoint at = shader::voxelDifference(corner, origin);
             const bool inCell = at.x >= cell.lo.x && at.x <= cell.hi.x && at.y >= cell.lo.y && at.y <= cell.hi.y &&
@@ -433,7 +435,7 @@ template <class Kept, class Mode> class Decider {
     OpacityLook look_;
     CertifiedTally tally_;
     Triangle triangle_; ///< at hand
-    RowCounter rows_;   ///< of the same
+    CellCounter cubes_; ///< of the same
     std::conditional_t<Mode::kCounts, RunCounter, NoCounter> counter_;
     shader::PreciseTriangle precise_{}; ///< of number `preciseOf_`
     std::uint32_t preciseOf_ = kNoTriangle;

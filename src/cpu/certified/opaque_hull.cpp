@@ -79,6 +79,8 @@ void setAll(const shader::OpacityTable& table, OpaqueHull& hull) {
 
 OpaqueHull opaqueHullOf(const shader::OpacityTable& table) noexcept {
     OpaqueHull hull;
+    hull.first = OpaqueHull::kInfinity;
+    hull.last = -OpaqueHull::kInfinity;
     setAll(table, hull);
     const shader::OpacityTable lower = with(table, -kNearly);
     const auto end = static_cast<float>(table.size - 1);

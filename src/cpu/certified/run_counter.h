@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/certified/certified_pair.h"
 #include "cpu/certified/placed_vertices.h"
 #include "cpu/certified/small_triangles.h"
 
@@ -16,7 +17,7 @@ namespace voxtact::cpu {
 class RunCounter {
   public:
     /// The job must outlive it.
-    explicit RunCounter(const CertifiedJob& job) noexcept : job_(job), blocks_(job) {}
+    explicit RunCounter(const CertifiedJob& job) noexcept : job_(job), blocks_(job.volume, job.occupancy) {}
 
     /// Returns how many are certain. Calls `large(at)` for those triangles of the run that are to be counted by
     /// themselves, `at` being their numbers in the mesh's arrays; and `open(at, small, cells)` for those that have

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/certified/triangle_cells.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -53,50 +54,69 @@ HWY_INLINE FloatV insideOf(FloatV at, FloatV lo, FloatV hi) {
     return hn::Min(hn::Sub(at, lo), hn::Sub(hi, at));
 }
 
-/// On the axes that are the same for all of a row: the least.
-HWY_INLINE float insideStill(const TriangleAxes& axes, const shader::VoxelPoint& from) {
+/// The cells of a cube, by their numbers: from the first one's middle to theirs.
+struct Places {
+    FloatV x;
+    FloatV y;
+    FloatV z;
+};
+
+HWY_INLINE Places placesOf(const std::int32_t* numbers, const shader::VoxelPoint& from) {
+    static_assert(TriangleCells::kSide == 4);
     const Floats d;
-    FloatV least = hn::Set(d, std::numeric_limits<float>::infinity());
-    for (std::size_t i = TriangleAxes::kStill; i < TriangleAxes::kCount; i += hn::Lanes(d)) {
-        const FloatV at = dotted(hn::LoadU(d, axes.x.data() + i), hn::LoadU(d, axes.y.data() + i),
-                                 hn::LoadU(d, axes.z.data() + i), from);
-        least = hn::Min(least, insideOf(at, hn::LoadU(d, axes.lo.data() + i), hn::LoadU(d, axes.hi.data() + i)));
-    }
-    return hn::GetLane(hn::MinOfLanes(d, least));
+    const hn::RebindToSigned<Floats> whole;
+    const auto number = hn::LoadU(whole, numbers);
+    const auto last = hn::Set(whole, TriangleCells::kSide - 1);
+    return {hn::Add(hn::Set(d, from.x), hn::ConvertTo(d, hn::And(number, last))),
+            hn::Add(hn::Set(d, from.y), hn::ConvertTo(d, hn::And(hn::ShiftRight<2>(number), last))),
+            hn::Add(hn::Set(d, from.z), hn::ConvertTo(d, hn::ShiftRight<4>(number)))};
 }
 
-/// Of some cells of a row on one axis; `cells` are their numbers.
-HWY_INLINE FloatV insideAlong(const TriangleAxes& axes, std::size_t axis, const shader::VoxelPoint& from,
-                              FloatV cells) {
+HWY_INLINE FloatV insideAlong(const TriangleAxes& axes, std::size_t axis, const Places& at) {
     const Floats d;
-    const float first = axes.x[axis] * from.x + axes.y[axis] * from.y + axes.z[axis] * from.z;
-    const FloatV at = hn::Add(hn::Set(d, first), hn::Mul(cells, hn::Set(d, axes.x[axis])));
-    return insideOf(at, hn::Set(d, axes.lo[axis]), hn::Set(d, axes.hi[axis]));
+    const FloatV place =
+        hn::Add(hn::Add(hn::Mul(hn::Set(d, axes.x[axis]), at.x), hn::Mul(hn::Set(d, axes.y[axis]), at.y)),
+                hn::Mul(hn::Set(d, axes.z[axis]), at.z));
+    return insideOf(place, hn::Set(d, axes.lo[axis]), hn::Set(d, axes.hi[axis]));
 }
 
-/// `from`: the middle of the first cell.
-TriangleCells::Row rowOf(const TriangleAxes& axes, const shader::VoxelPoint& from) {
-    const float still = insideStill(axes, from);
-    if (still < -TriangleCells::kMargin) {
-        return {0, (1U << TriangleCells::kRow) - 1};
-    }
+/// Of each lane a bit, lowest first.
+struct LaneBits {
+    unsigned some = 0;
+    unsigned none = 0;
+};
+
+HWY_INLINE LaneBits overlapOf(const TriangleAxes& axes, const Places& at) {
     const Floats d;
     const FloatV margin = hn::Set(d, TriangleCells::kMargin);
     const FloatV slack = hn::Set(d, axes.slack);
-    TriangleCells::Row row;
-    for (std::size_t cell = 0; cell < TriangleCells::kRow; cell += hn::Lanes(d)) {
-        const FloatV cells = hn::Iota(d, static_cast<float>(cell));
-        FloatV inside = hn::Set(d, still);
-        for (std::size_t axis = 0; axis < TriangleAxes::kAlong; ++axis) {
-            inside = hn::Min(inside, insideAlong(axes, axis, from, cells));
-        }
-        const FloatV inPlane = insideAlong(axes, TriangleAxes::kNormal, from, cells);
-        const FloatV surely = hn::Min(inside, hn::Sub(inPlane, slack));
-        const FloatV perhaps = hn::Min(inside, hn::Add(inPlane, slack));
-        row.some |= bitsOf(hn::Gt(surely, margin)) << cell;
-        row.none |= bitsOf(hn::Lt(perhaps, hn::Neg(margin))) << cell;
+    const FloatV inPlane = insideAlong(axes, TriangleAxes::kNormal, at);
+    const FloatV outermost = hn::Neg(margin);
+    FloatV inside = hn::Set(d, std::numeric_limits<float>::infinity());
+    for (std::size_t axis = TriangleAxes::kNormal + 1; axis < TriangleAxes::kUsed; ++axis) {
+        inside = hn::Min(inside, insideAlong(axes, axis, at));
     }
-    return row;
+    return {bitsOf(hn::Gt(hn::Min(inside, hn::Sub(inPlane, slack)), margin)),
+            bitsOf(hn::Lt(hn::Min(inside, hn::Add(inPlane, slack)), outermost))};
+}
+
+/// `from`: the middle of the first cell.
+TriangleCells::Overlap overlapsOf(const TriangleAxes& axes, TriangleCells::Bits cells, const shader::VoxelPoint& from) {
+    const Floats d;
+    std::int32_t numbers[64] = {};
+    std::size_t count = 0;
+    for (; cells != 0; cells &= cells - 1) {
+        numbers[count++] = std::countr_zero(cells);
+    }
+    TriangleCells::Overlap overlap;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const LaneBits bits = overlapOf(axes, placesOf(numbers + i, from));
+        for (std::size_t lane = 0; lane < hn::Lanes(d) && i + lane < count; ++lane) {
+            overlap.some |= TriangleCells::Bits{bits.some >> lane & 1U} << static_cast<unsigned>(numbers[i + lane]);
+            overlap.none |= TriangleCells::Bits{bits.none >> lane & 1U} << static_cast<unsigned>(numbers[i + lane]);
+        }
+    }
+    return overlap;
 }
 
 } // namespace
@@ -108,7 +128,7 @@ HWY_AFTER_NAMESPACE();
 namespace voxtact::cpu {
 
 HWY_EXPORT(setShadows);
-HWY_EXPORT(rowOf);
+HWY_EXPORT(overlapsOf);
 
 namespace {
 
@@ -116,21 +136,25 @@ using shader::VoxelPoint;
 
 /// Of any length.
 void setNormals(const std::array<VoxelPoint, 3>& edges, const VoxelPoint& normal, TriangleAxes& axes) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const VoxelPoint& edge = edges[i];
-        axes.x[2 * i] = edge.z; // across y
-        axes.z[2 * i] = -edge.x;
-        axes.x[2 * i + 1] = -edge.y; // across z
-        axes.y[2 * i + 1] = edge.x;
-        axes.y[TriangleAxes::kStill + i] = -edge.z; // across x
-        axes.z[TriangleAxes::kStill + i] = edge.y;
-    }
-    axes.x[6] = 1;
-    axes.y[TriangleAxes::kStill + 3] = 1;
-    axes.z[TriangleAxes::kStill + 4] = 1;
+    constexpr std::size_t kBox = TriangleAxes::kNormal + 1;
+    constexpr std::size_t kEdges = kBox + 3;
     axes.x[TriangleAxes::kNormal] = normal.x;
     axes.y[TriangleAxes::kNormal] = normal.y;
     axes.z[TriangleAxes::kNormal] = normal.z;
+    axes.x[kBox] = 1;
+    axes.y[kBox + 1] = 1;
+    axes.z[kBox + 2] = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const VoxelPoint& edge = edges[i];
+        const std::size_t first = kEdges + 3 * i;
+        axes.y[first] = -edge.z; // across x
+        axes.z[first] = edge.y;
+        axes.x[first + 1] = edge.z; // across y
+        axes.z[first + 1] = -edge.x;
+        axes.x[first + 2] = -edge.y; // across z
+        axes.y[first + 2] = edge.x;
+    }
+    static_assert(kEdges + 3 * 3 == TriangleAxes::kUsed);
 }
 
 } // namespace
@@ -143,13 +167,14 @@ TriangleCells::TriangleCells(const shader::CertifiedTriangle& triangle) noexcept
     HWY_DYNAMIC_DISPATCH(setShadows)(axes_, second, third);
     // As certifiedPlaneMisses() has it.
     const float size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-    const float cube = triangle.reach * triangle.reach * (triangle.reach + static_cast<float>(2 * kRow));
+    const float cube = triangle.reach * triangle.reach * (triangle.reach + static_cast<float>(2 * kBrickSide));
     axes_.slack = size > 0 ? cube * CERTIFIED_CLIP_ERROR / size : std::numeric_limits<float>::infinity();
 }
 
-TriangleCells::Row TriangleCells::row(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
-    const VoxelPoint middle{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, static_cast<float>(z) + 0.5F};
-    return HWY_DYNAMIC_DISPATCH(rowOf)(axes_, shader::voxelDifference(middle, corner_));
+TriangleCells::Overlap TriangleCells::of(Bits cells, const std::array<std::int32_t, 3>& first) const noexcept {
+    const VoxelPoint middle{static_cast<float>(first[0]) + 0.5F, static_cast<float>(first[1]) + 0.5F,
+                            static_cast<float>(first[2]) + 0.5F};
+    return HWY_DYNAMIC_DISPATCH(overlapsOf)(axes_, cells, shader::voxelDifference(middle, corner_));
 }
 
 } // namespace voxtact::cpu

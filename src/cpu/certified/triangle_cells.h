@@ -14,9 +14,8 @@ namespace voxtact::cpu {
 /// separates nothing that its neighbours do not.
 struct TriangleAxes {
     static constexpr std::size_t kCount = 16; ///< some are nothing, to make them as many
-    static constexpr std::size_t kAlong = 7;  ///< of them are not at right angles to a row
-    static constexpr std::size_t kNormal = 7; ///< is the triangle's
-    static constexpr std::size_t kStill = 8;  ///< and on: those at right angles, the same for all of a row
+    static constexpr std::size_t kNormal = 0; ///< is the triangle's
+    static constexpr std::size_t kUsed = 13;
     using Numbers = std::array<float, kCount>;
 
     Numbers x{};
@@ -27,23 +26,24 @@ struct TriangleAxes {
     float slack = 0; ///< voxels along the triangle's normal, which rounding may have turned
 };
 
-/// Which cells a triangle passes through, eight of a row at a time, as far as that is clear without cutting the
-/// triangle: it meets a box where no axis separates them, of those of the box, the triangle's normal, and the nine at
-/// right angles to an edge of either (Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001). They are asked of
-/// a box somewhat smaller than the cell, and of a larger one; for what is between, there is certifiedClip().
+/// Which cells a triangle passes through, many at a time, as far as that is clear without cutting the triangle: it
+/// meets a box where no axis separates them, of those of the box, the triangle's normal, and the nine at right angles
+/// to an edge of either (Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001). They are asked of a box
+/// somewhat smaller than the cell, and of a larger one; for what is between, there is certifiedClip().
 class TriangleCells {
   public:
-    /// Cells of a row.
-    static constexpr std::size_t kRow = 8;
+    /// Cells of a side of a cube.
+    static constexpr std::uint32_t kSide = 4;
+    /// A bit for each cell of a cube: x + kSide (y + kSide z).
+    using Bits = std::uint64_t;
     /// Voxels: by how much a cell is made smaller and larger on each side.
     static constexpr float kMargin = CERTIFIED_OVERLAP_MARGIN;
     /// Voxels: nothing is said of triangles that may be displaced farther.
     static constexpr float kMostDelta = CERTIFIED_OVERLAP_DELTA;
 
-    /// A bit for each cell of a row.
-    struct Row {
-        unsigned some = 0; ///< of a cell in the domain, certifiedClip() leaves something of the triangle
-        unsigned none = 0; ///< it leaves nothing
+    struct Overlap {
+        Bits some = 0; ///< of a cell in the domain, certifiedClip() leaves something of the triangle
+        Bits none = 0; ///< it leaves nothing
     };
 
     /// Whether something is said of a triangle: nothing of large ones, either.
@@ -53,9 +53,9 @@ class TriangleCells {
     /// Expects one that may be asked.
     explicit TriangleCells(const shader::CertifiedTriangle& triangle) noexcept;
 
-    /// Of the cells from (x, y, z) on, along x. Expects cells that the triangle's box meets, or beside these by no more
-    /// than a row.
-    [[nodiscard]] Row row(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept;
+    /// Of some cells of the cube from `first` on. Expects cells that the triangle's box meets, or beside these by no
+    /// more than two cubes.
+    [[nodiscard]] Overlap of(Bits cells, const std::array<std::int32_t, 3>& first) const noexcept;
 
   private:
     shader::VoxelPoint corner_; ///< all else is measured from here

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bits of a brick's cells.
+#include "cpu/certified/cell_block.h"
 #include "cpu/certified/certified_bricks.h"
 #include "cpu/certified/certified_occupancy.h"
 #include "cpu/certified/triangle_cells.h"
@@ -182,6 +183,60 @@ TEST(BrickCellsTest, WhatIsOpaqueAllOverIsSoForEveryTriangle) {
         }
     }
     EXPECT_GT(all, 5000U);
+}
+
+/// A block somewhere in a volume of that size.
+cpu::CellBlock drawnBlock(std::mt19937_64& random, const std::array<std::int32_t, 3>& size,
+                          const std::array<std::int32_t, 3>& bricks) {
+    cpu::CellBlock block;
+    block.cells = 0xFF;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        constexpr std::array<unsigned, 3> kFirst{0x55, 0x33, 0x0F};
+        block.first[axis] = static_cast<std::int32_t>(below(random, static_cast<std::uint64_t>(size[axis]) + 1)) - 1;
+        const bool two = block.first[axis] + 1 < size[axis] && chance(random, 0.7);
+        block.cells &= two ? 0xFFU : kFirst[axis];
+        block.oneBrick = block.oneBrick && !(two && (block.first[axis] + 1) % kBrickSide == kBrickSide - 1);
+    }
+    const auto padded = [&](std::size_t axis) { return block.first[axis] + 1; };
+    block.brick = static_cast<std::uint32_t>((padded(2) / kBrickSide * bricks[1] + padded(1) / kBrickSide) * bricks[0] +
+                                             padded(0) / kBrickSide);
+    block.row = static_cast<std::uint32_t>(padded(1) % kBrickSide + padded(2) % kBrickSide * kBrickSide);
+    block.column = static_cast<std::uint32_t>(padded(0) % kBrickSide);
+    return block;
+}
+
+TEST(BrickCellsTest, OfABlockAreThoseOfItsBricks) {
+    std::mt19937_64 random(testSeed());
+    std::size_t some = 0;
+    for (int round = 0; round < 100 && !HasFailure(); ++round) {
+        const FlatScene scene(random);
+        const cpu::VolumeImpl& volume = scene.volume->impl();
+        cpu::BlockLook look(volume, *scene.occupancy);
+        for (int i = 0; i < 200; ++i) {
+            const cpu::CellBlock block = drawnBlock(random, volume.image.size, scene.occupancy->bricks());
+            unsigned mayBe = 0;
+            unsigned all = 0;
+            for (unsigned number = 0; number < cpu::CellBlock::kMost; ++number) {
+                const std::array<std::int32_t, 3> cell = block.at(number);
+                const std::array<std::int32_t, 3> brick = CellBox{cell, cell}.bricks().lo;
+                if ((block.cells >> number & 1U) == 0 ||
+                    !scene.occupancy->mayBeOpaque(scene.occupancy->brickNumber(brick))) {
+                    continue;
+                }
+                const CellBox within = CellBox{cell, cell}.within(brick);
+                const unsigned may = scene.occupancy->cells(volume, brick).row(within, within.lo[1], within.lo[2]);
+                const unsigned row = scene.occupancy->allOpaque(
+                    volume, brick)[static_cast<std::size_t>(within.lo[1] + kBrickSide * within.lo[2])];
+                mayBe |= (may != 0 ? 1U : 0U) << number;
+                all |= ((may & row) != 0 ? 1U : 0U) << number;
+            }
+            const cpu::BlockBits bits = look.at(block);
+            EXPECT_EQ(bits.mayBeOpaque, mayBe) << "round " << round << ", block " << i;
+            EXPECT_EQ(bits.allOpaque, all) << "round " << round << ", block " << i;
+            some += mayBe != 0 && mayBe != block.cells ? 1 : 0;
+        }
+    }
+    EXPECT_GT(some, 500U);
 }
 
 } // namespace

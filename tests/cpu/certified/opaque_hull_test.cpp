@@ -79,6 +79,8 @@ TEST(OpaqueHullTest, SaysWhatTheTableSaysOfARangeAndItsParts) {
                                          extremes.values().data()};
         const OpaqueHull hull = cpu::opaqueHullOf(table);
         const cpu::OpacityLook look{table, hull};
+        shader::OpacityTable bounded = table;
+        bounded.bounds = hull;
         whole += hull.whole ? 1 : 0;
         for (int i = 0; i < 50; ++i) {
             const Range range = drawnRange(random, hull, entries);
@@ -89,6 +91,13 @@ TEST(OpaqueHullTest, SaysWhatTheTableSaysOfARangeAndItsParts) {
                 << range.lo << " to " << range.hi << ", error " << error << ", round " << round;
             for (const Range& part : {range, {range.lo, middle}, {middle, range.hi}, {middle, middle}}) {
                 const bool may = shader::mayBeOpaque(table, part.lo, part.hi);
+                EXPECT_EQ(shader::mayBeOpaque(bounded, part.lo, part.hi), may) << part.lo << " to " << part.hi;
+                EXPECT_EQ(shader::certainlyAllOpaque(bounded, part.lo, part.hi),
+                          shader::certainlyAllOpaque(table, part.lo, part.hi))
+                    << part.lo << " to " << part.hi << ", round " << round;
+                EXPECT_EQ(shader::certainlySomeOpaque(bounded, part.lo, part.hi),
+                          shader::certainlySomeOpaque(table, part.lo, part.hi))
+                    << part.lo << " to " << part.hi << ", round " << round;
                 if (range.hi < hull.first || range.lo > hull.last) {
                     EXPECT_FALSE(may) << part.lo << " to " << part.hi << ", round " << round;
                     ++none;

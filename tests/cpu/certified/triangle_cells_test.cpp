@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of the cells of a row without cutting the triangle, against cutting it.
+// What is said of the cells of a cube without cutting the triangle, against cutting it.
 #include "cpu/certified/triangle_cells.h"
 
 #include "cpu/scenes/random_scene.h"
@@ -69,8 +69,16 @@ bool cutLeavesSome(const CertifiedTriangle& triangle, std::int32_t x, std::int32
     return shader::certifiedClip(triangle, cell, origin, polygon) > 0;
 }
 
-/// From the last cell before to the first one after.
-template <class Visit> void forRows(const Corners& corners, const Visit& visit) {
+constexpr auto kSide = static_cast<std::int32_t>(TriangleCells::kSide);
+constexpr std::int32_t kCubeCells = kSide * kSide * kSide;
+
+/// The cell of a number in the cube from `first` on.
+std::array<std::int32_t, 3> cellOfCube(const std::array<std::int32_t, 3>& first, std::int32_t number) {
+    return {first[0] + number % kSide, first[1] + number / kSide % kSide, first[2] + number / (kSide * kSide)};
+}
+
+/// Cubes from the last cell before to the first one after.
+template <class Visit> void forCubes(const Corners& corners, const Visit& visit) {
     std::array<std::int32_t, 3> lo{};
     std::array<std::int32_t, 3> hi{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -78,10 +86,10 @@ template <class Visit> void forRows(const Corners& corners, const Visit& visit) 
         lo[axis] = static_cast<std::int32_t>(std::floor(std::min({of(0), of(1), of(2)}))) - 1;
         hi[axis] = static_cast<std::int32_t>(std::floor(std::max({of(0), of(1), of(2)}))) + 1;
     }
-    for (std::int32_t z = lo[2]; z <= hi[2]; ++z) {
-        for (std::int32_t y = lo[1]; y <= hi[1]; ++y) {
-            for (std::int32_t x = lo[0]; x <= hi[0]; x += static_cast<std::int32_t>(TriangleCells::kRow)) {
-                visit(x, y, z);
+    for (std::int32_t z = lo[2]; z <= hi[2]; z += kSide) {
+        for (std::int32_t y = lo[1]; y <= hi[1]; y += kSide) {
+            for (std::int32_t x = lo[0]; x <= hi[0]; x += kSide) {
+                visit(std::array{x, y, z});
             }
         }
     }
@@ -100,20 +108,22 @@ TEST(TriangleCellsTest, SayWhatCuttingLeaves) {
             continue;
         }
         const TriangleCells cells(triangle);
-        forRows(corners, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-            const TriangleCells::Row row = cells.row(x, y, z);
-            EXPECT_EQ(row.some & row.none, 0U);
-            EXPECT_LT(row.some | row.none, 1U << TriangleCells::kRow);
-            for (std::int32_t i = 0; i < static_cast<std::int32_t>(TriangleCells::kRow); ++i) {
-                const unsigned bit = 1U << static_cast<unsigned>(i);
-                if (((row.some | row.none) & bit) != 0) {
-                    EXPECT_EQ(cutLeavesSome(triangle, x + i, y, z), (row.some & bit) != 0)
-                        << "round " << round << ", cell " << x + i << ", " << y << ", " << z;
+        forCubes(corners, [&](const std::array<std::int32_t, 3>& first) {
+            const TriangleCells::Bits asked = chance(random, 0.5) ? ~TriangleCells::Bits{0} : random();
+            const TriangleCells::Overlap overlap = cells.of(asked, first);
+            EXPECT_EQ(overlap.some & overlap.none, 0U);
+            EXPECT_EQ((overlap.some | overlap.none) & ~asked, 0U);
+            for (std::int32_t i = 0; i < kCubeCells; ++i) {
+                const TriangleCells::Bits bit = TriangleCells::Bits{1} << static_cast<unsigned>(i);
+                if (((overlap.some | overlap.none) & bit) != 0) {
+                    const auto [x, y, z] = cellOfCube(first, i);
+                    EXPECT_EQ(cutLeavesSome(triangle, x, y, z), (overlap.some & bit) != 0)
+                        << "round " << round << ", cell " << x << ", " << y << ", " << z;
                 }
             }
-            some += static_cast<std::size_t>(std::popcount(row.some));
-            none += static_cast<std::size_t>(std::popcount(row.none));
-            unclear += TriangleCells::kRow - static_cast<std::size_t>(std::popcount(row.some | row.none));
+            some += static_cast<std::size_t>(std::popcount(overlap.some));
+            none += static_cast<std::size_t>(std::popcount(overlap.none));
+            unclear += static_cast<std::size_t>(std::popcount(asked & ~(overlap.some | overlap.none)));
         });
     }
     std::cout << some << " pass, " << none << " do not, " << unclear << " are unclear\n";
@@ -130,13 +140,14 @@ TEST(TriangleCellsTest, OneCellIsSaidToHaveWhatCuttingLeaves) {
         const CertifiedTriangle triangle =
             triangleOf(corners, chance(random, 0.3) ? drawn(random, 0, 4.5e-4) : drawn(random, 0, 1e-4));
         const bool asked = TriangleCells::mayBeAsked(triangle);
-        forRows(corners, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-            for (std::int32_t i = 0; i < static_cast<std::int32_t>(TriangleCells::kRow); ++i) {
-                const int verdict = shader::certifiedOverlap(triangle, x + i, y, z);
+        forCubes(corners, [&](const std::array<std::int32_t, 3>& first) {
+            for (std::int32_t i = 0; i < kCubeCells; ++i) {
+                const auto [x, y, z] = cellOfCube(first, i);
+                const int verdict = shader::certifiedOverlap(triangle, x, y, z);
                 if (verdict != CERTIFIED_UNDECIDED) {
                     EXPECT_TRUE(asked);
-                    EXPECT_EQ(verdict == CERTIFIED_CERTAIN, cutLeavesSome(triangle, x + i, y, z))
-                        << "round " << round << ", cell " << x + i << ", " << y << ", " << z;
+                    EXPECT_EQ(verdict == CERTIFIED_CERTAIN, cutLeavesSome(triangle, x, y, z))
+                        << "round " << round << ", cell " << x << ", " << y << ", " << z;
                 }
                 verdicts[static_cast<std::size_t>(verdict)] += asked ? 1U : 0U;
             }
@@ -160,10 +171,10 @@ TEST(TriangleCellsTest, FewAreUnclear) {
         const CertifiedTriangle triangle = triangleOf(corners, 1e-5F);
         ASSERT_TRUE(TriangleCells::mayBeAsked(triangle));
         const TriangleCells cells(triangle);
-        forRows(corners, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-            const TriangleCells::Row row = cells.row(x, y, z);
-            some += static_cast<std::size_t>(std::popcount(row.some));
-            unclear += TriangleCells::kRow - static_cast<std::size_t>(std::popcount(row.some | row.none));
+        forCubes(corners, [&](const std::array<std::int32_t, 3>& first) {
+            const TriangleCells::Overlap overlap = cells.of(~TriangleCells::Bits{0}, first);
+            some += static_cast<std::size_t>(std::popcount(overlap.some));
+            unclear += kCubeCells - static_cast<std::size_t>(std::popcount(overlap.some | overlap.none));
         });
     }
     EXPECT_LT(unclear, some / 10) << some;
