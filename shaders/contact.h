@@ -15,8 +15,9 @@
 #define OUTPUT_BOUND_WORDS 6
 #define OUTPUT_HEADER_WORDS 4
 #define OUTPUT_CONTACT_WORDS 12
-/// The way out of what is opaque is cut into at most this many steps, and the last of them halved this often.
-#define CONTACT_MOST_STEPS 1024
+/// The way out of what is opaque is cut into at most this many steps, and the last of them halved this often. More than
+/// steps of half a voxel through most images; llvmpipe ends loops of 65,535 rounds.
+#define CONTACT_MOST_STEPS 16384
 #define CONTACT_HALVINGS 16
 
 #include "exact_language.h"
@@ -48,8 +49,9 @@ struct OutputPair {
     float valueScale;           // value = valueScale * stored + valueBias
     float valueBias;
     float maxDepth;    // mm
+    float depthWay;    // mm: as far, or to where the image certainly has ended
     float depthStep;   // mm
-    uint depthSteps;   // the last one ends at maxDepth
+    uint depthSteps;   // the last one ends at depthWay
     uint doublings;    // of the gradient's step, until it is `farthest` along all axes
     uint labelCount;   // 0: no label map
     uint outsideLabel; // number of the label 0
@@ -62,7 +64,7 @@ struct OutputPair {
     uint firstBound;    // its box,
     uint contacts;      // and the list of contacts of all pairs
     uint contactRoom;   // contacts that the list has room for
-    uint unused0, unused1, unused2;
+    uint unused0, unused1;
 };
 
 /// A point or a direction.
@@ -252,7 +254,7 @@ FIELD_FUNCTION EXACT float contactDepth(FIELD OUTPUT_PAIR pair, ContactVector at
     int halvings = 0;
     // One loop for both, so that there is one look-up to compile.
     for (uint step = 1u; (left || step <= pair.depthSteps) && halvings <= CONTACT_HALVINGS; ++step) {
-        PRECISE float marched = step == pair.depthSteps ? pair.maxDepth : float(step) * pair.depthStep;
+        PRECISE float marched = step == pair.depthSteps ? pair.depthWay : float(step) * pair.depthStep;
         PRECISE float sum = inside + outside;
         PRECISE float middle = 0.5f * sum;
         float distance = left ? middle : marched;

@@ -38,14 +38,17 @@ struct TouchedTriangle {
 struct Contact {
     std::uint32_t pair = 0;     ///< number of the pair in its batch
     std::uint32_t triangle = 0; ///< number in the mesh
-    Vec3 position{}; ///< world, mm: on the triangle to 0.004 % of its size, in an opaque sample up to rounding
+    /// World, mm: in an opaque sample up to rounding, and on the triangle to 0.002 % of its size times the ratio of the
+    /// grid's largest spacing to its smallest.
+    Vec3 position{};
     /// Unit vector in world space, against the gradient of opacity: out of what is opaque. The gradient is of
     /// differences over one voxel to each side, the span clamped to the image; where these vanish the step is doubled,
     /// up to maxDepth. Zero where they all vanish.
     Vec3 normal{};
     /// mm along the normal from the position to where the opacity falls below the threshold, or the image ends. It is
-    /// looked for in steps of half the smallest spacing, or of maxDepth/1024 where that is more, so that a thinner gap
-    /// may be missed. maxDepth where there is none up to there, or where there is no normal.
+    /// looked for in steps of half the smallest spacing, so that a thinner gap may be missed; they are longer where
+    /// more than 16,384 of them would be needed, up to maxDepth or through the image. maxDepth where there is none up
+    /// to there, or where there is no normal.
     double depth = 0;
     double value = 0; ///< of the image, in its own units
     /// Of that value, by Filter::Exact: a survivor of Filter::Hardware may be a little below the threshold. In

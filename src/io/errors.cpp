@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/errors.h"
 
+#include "core/base/escaped.h"
 #include "core/base/try.h"
 
 #include <algorithm>
@@ -11,12 +12,6 @@
 namespace voxtact::io {
 
 namespace {
-
-std::string inAscii(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return text;
-}
 
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -55,8 +50,7 @@ Error badLine(const std::filesystem::path& path, std::uint64_t line, std::string
 
 std::string printable(std::string_view text) {
     constexpr std::size_t kLongest = 64;
-    const std::string result = inAscii(std::string(text.substr(0, kLongest)));
-    return text.size() > kLongest ? result + "..." : result;
+    return escaped(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "");
 }
 
 std::string oneLine(std::string_view text) {
@@ -80,7 +74,7 @@ std::string jsonReason(std::string_view text) {
     constexpr std::size_t kEnd = 80; // where it went wrong, and what was expected there
     // "[json.exception.parse_error.101] parse error at line 2, column 5: ..."
     const std::size_t name = text.find("] ");
-    std::string reason = inAscii(oneLine(name == std::string_view::npos ? text : text.substr(name + 2)));
+    std::string reason = escaped(oneLine(name == std::string_view::npos ? text : text.substr(name + 2)));
     if (reason.size() <= kLongest) {
         return reason;
     }

@@ -23,11 +23,11 @@ namespace voxtact::io {
 [[nodiscard]] std::string oneLine(std::string_view text);
 
 /// What nlohmann's JSON says is wrong, in one line without the name of its exception. Of a long one, which quotes all
-/// that was read of a text, the beginning and the end; other than ASCII becomes '?'.
+/// that was read of a text, the beginning and the end; escaped().
 [[nodiscard]] std::string jsonReason(std::string_view text);
 
-/// A short text of the user's or a file's, as a message may quote it: other than ASCII letters and signs become '?',
-/// and after 64 of them "..." follows.
+/// A short text of the user's or a file's, as a message may quote it: escaped(), and after 64 bytes of it "..."
+/// follows.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// The length of a file; refuses what is not there, what is no file (folders, pipes, sockets, devices), before it is

@@ -2,6 +2,7 @@
 // What the program says of arguments that are long, not text, or misspelt, and of the time that is left.
 #include "app/output/progress.h"
 #include "app/output/text_for_messages.h"
+#include "core/base/escaped.h"
 #include "cli_fixture.h"
 
 namespace voxtact::test {
@@ -57,13 +58,13 @@ TEST_F(MessagesTest, LongAndBrokenArgumentsAreNotEchoed) {
 }
 
 TEST(TextForMessages, KeepsTextAndEscapesBytes) {
-    EXPECT_EQ(app::escaped("caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80"), "caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80");
-    EXPECT_EQ(app::escaped("a\nb\x7f"), "a\\x0ab\\x7f");
-    EXPECT_EQ(app::escaped("\xC3"), "\\xc3");
-    EXPECT_EQ(app::escaped("\xC0\xAF"), "\\xc0\\xaf") << "overlong";
-    EXPECT_EQ(app::escaped("\xED\xA0\x80"), "\\xed\\xa0\\x80") << "a surrogate";
-    EXPECT_EQ(app::escaped("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond the last character";
-    EXPECT_EQ(app::escaped("\xC2\x9B"), "\\xc2\\x9b") << "a control character";
+    EXPECT_EQ(escaped("caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80"), "caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80");
+    EXPECT_EQ(escaped("a\nb\x7f"), "a\\x0ab\\x7f");
+    EXPECT_EQ(escaped("\xC3"), "\\xc3");
+    EXPECT_EQ(escaped("\xC0\xAF"), "\\xc0\\xaf") << "overlong";
+    EXPECT_EQ(escaped("\xED\xA0\x80"), "\\xed\\xa0\\x80") << "a surrogate";
+    EXPECT_EQ(escaped("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond the last character";
+    EXPECT_EQ(escaped("\xC2\x9B"), "\\xc2\\x9b") << "a control character";
 }
 
 TEST(TextForMessages, ShortensInTheMiddleAndBetweenCharacters) {
@@ -76,7 +77,7 @@ TEST(TextForMessages, ShortensInTheMiddleAndBetweenCharacters) {
             text += "\xE2\x82\xAC";
         }
         const std::string cut = app::shortened(text);
-        EXPECT_EQ(app::escaped(cut), cut) << "valid: no character is cut";
+        EXPECT_EQ(escaped(cut), cut) << "valid: no character is cut";
         EXPECT_LE(cut.size(), 130U);
     }
 }

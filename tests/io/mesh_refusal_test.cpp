@@ -43,7 +43,7 @@ TEST(MeshRefusal, Obj) {
          {corners + "f 1 2 -4\n", "line 4: a face uses vertex -4, which does not exist (3 before it)"},
          {corners + "f 1 2 x\n", "line 4: 'x' is not a vertex number"},
          {corners + "f 1 2 3.5\n", "line 4: '3.5' is not a vertex number"},
-         {corners + "f 1 2 3/\x80\n", "line 4: '3/?' is not a vertex number"},
+         {corners + "f 1 2 3/\x80\n", "line 4: '3/\\x80' is not a vertex number"},
          {corners + "f 1 2 99999999999\n", "line 4: a face uses vertex 99999999999, which does not exist"},
          {corners + "foo 1 2 3\n", "line 4: 'foo' is no word of an OBJ file"},
          {"w 0 0 0\n" + corners + "f 1 2 3\n", "line 1: 'w' is no word of an OBJ file"},

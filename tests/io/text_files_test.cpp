@@ -124,6 +124,8 @@ TEST(TransferFunction, Refusals) {
           Case{"1 0\n\n0 1", "line 3: the value 0 is below the one before it (1)"},
           Case{"0 zero", "line 1: 'zero' is not a number"}, Case{"", "it holds no point"},
           Case{"{\n\"points\": [[0, 0],\n", "line 3"}, Case{"{}", "it has no 'points'"},
+          Case{R"({"points": [[0, 0]], "points": [[9, 1]]})", "it says 'points' twice"},
+          Case{R"({"points": [{"value": 1, "value": 2, "opacity": 0}]})", "it says 'value' twice"},
           Case{"[]", "it has no 'points'"}, Case{R"({"points": []})", "it has no 'points'"},
           Case{R"({"points": [[0, 0], [1]]})", "points[1]: expected [value, opacity]"},
           Case{R"({"points": [["0", 0]]})", "points[0]: expected"},

@@ -155,6 +155,9 @@ TEST(VolumeRefusal, VoxelsThatAreNoScalars) {
 
 TEST(VolumeRefusal, Storage) {
     const TemporaryFolder folder;
+    expectRefused(io::readVolume(folder.write("v.nrrd", "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\n"
+                                                        "encoding: ascii\n\n1 2 3 4 5 6 7 8\n")),
+                  "its encoding 'ascii' is not supported");
     expectRefused(io::readVolume(folder.write("v.nrrd", nrrd("ascii", "1 2 3"))),
                   "its encoding 'ascii' is not supported");
     expectRefused(
@@ -193,6 +196,25 @@ TEST(VolumeRefusal, DamagedMetaImageHeader) {
     expectRefused(io::readVolume(folder.write("v.mha", metaImage("TransformMatrix = 1 0 0 0 1 0 0 1\n", noise()))),
                   "'TransformMatrix' needs 9 numbers");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(VolumeRefusal, AFieldThatIsThereTwice) {
+    const TemporaryFolder folder;
+    const auto meta = [&](const std::string& fields) {
+        return io::readVolume(folder.write("v.mha", metaImage(fields, noise())));
+    };
+    const auto nrrdWith = [&](const std::string& fields) {
+        return io::readVolume(
+            folder.write("v.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
+                                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nspace origin: (0,0,0)\n" +
+                                       fields + "\n" + noise()));
+    };
+    expectRefused(meta("Offset = 0 0 1\nOffset = 0 0 2\n"), "it says 'Offset' twice, first '0 0 1' and then '0 0 2'");
+    expectRefused(meta("DimSize = 4 16 8\n"), "it says 'DimSize' twice");
+    EXPECT_TRUE(isOk(meta("Offset = 0 0 1\nOffset = 0 0 1\nComment = a\nComment = b\n")));
+    expectRefused(nrrdWith("space: RAS\n"), "it says 'space' twice, first 'left-posterior-superior' and then 'RAS'");
+    expectRefused(nrrdWith("sizes: 4 16 8\n"), "it says 'sizes' twice");
+    EXPECT_TRUE(isOk(nrrdWith("sizes: 8 8 8\nnote:=of: one\nnote:=of: another\n")));
 }
 
 TEST(VolumeRefusal, BadSpacing) {

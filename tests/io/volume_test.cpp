@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <thread>
 
@@ -226,6 +227,60 @@ TEST(Volume, MetaImageCompressedAndDetached) {
         ASSERT_TRUE(isOk(volume));
         EXPECT_EQ(volume->voxels, std::vector<std::byte>(24, std::byte{5}));
     }
+}
+
+/// Without a space: from `axis mins` on.
+std::string plainNrrd(const std::string& fields) {
+    return "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n" + fields + "\n" + std::string(24, '\1');
+}
+
+TEST(Volume, WhatANrrdHeaderDoesNotSayIsNoted) {
+    using testing::ElementsAre;
+    using testing::HasSubstr;
+    const TemporaryFolder folder;
+    const auto lies = HasSubstr("how the patient lies");
+    const auto notesOf = [&](const std::string& fields) {
+        return io::readVolume(folder.write("v.nrrd", plainNrrd(fields))).value().notes;
+    };
+    EXPECT_THAT(notesOf(""), ElementsAre(lies, HasSubstr("its spacing"), HasSubstr("where its first voxel is")));
+    EXPECT_THAT(notesOf("spacings: 1 2 3\n"), ElementsAre(lies, HasSubstr("where its first voxel is")));
+    EXPECT_THAT(notesOf("spacings: 1 2 3\naxis mins: 1 2 3\n"), ElementsAre(lies, HasSubstr("'centerings'")));
+    EXPECT_THAT(notesOf("spacings: 1 2 3\naxis mins: 1 2 3\ncenterings: cell cell ???\n"),
+                ElementsAre(lies, HasSubstr("'centerings'")));
+    EXPECT_THAT(notesOf("spacings: 1 2 3\naxis mins: 1 2 3\ncenterings: cell node cell\n"), ElementsAre(lies));
+}
+
+TEST(Volume, TheFirstVoxelOfANrrdIsAtItsAxesMins) {
+    const TemporaryFolder folder;
+    const auto originOf = [&](const std::string& fields) {
+        return io::readVolume(folder.write("v.nrrd", plainNrrd(fields))).value().grid.origin;
+    };
+    const std::string mins = "axis mins: 10 20 30\n";
+    EXPECT_EQ(originOf("spacings: 1 2 4\n" + mins), (Vec3{10.5, 21, 32}));
+    EXPECT_EQ(originOf("spacings: 1 2 4\ncenterings: node cell node\n" + mins), (Vec3{10, 21, 30}));
+    EXPECT_EQ(originOf(mins), (Vec3{10.5, 20.5, 30.5})) << "1 mm is taken";
+}
+
+TEST(Volume, WhatAMetaImageHeaderDoesNotSayIsNoted) {
+    using testing::HasSubstr;
+    const TemporaryFolder folder;
+    const std::map<std::string, std::string> fields{{"ElementSpacing = 1 2 3\n", "its spacing"},
+                                                    {"Offset = 4 5 6\n", "where its first voxel is"},
+                                                    {"TransformMatrix = 1 0 0 0 1 0 0 0 1\n", "how its axes lie"},
+                                                    {"BinaryDataByteOrderMSB = False\n", "its byte order"}};
+    const auto notesWithout = [&](const std::string& left, const char* type, std::size_t bytes) {
+        std::string head = "ObjectType = Image\nNDims = 3\n";
+        for (const auto& [field, note] : fields) {
+            head += field == left ? "" : field;
+        }
+        head += std::string("DimSize = 4 3 2\nElementType = ") + type + "\nElementDataFile = LOCAL\n";
+        return io::readVolume(folder.write("v.mha", head + std::string(24 * bytes, '\1'))).value().notes;
+    };
+    EXPECT_THAT(notesWithout("", "MET_SHORT", 2), testing::IsEmpty());
+    for (const auto& [field, note] : fields) {
+        EXPECT_THAT(notesWithout(field, "MET_SHORT", 2), testing::ElementsAre(HasSubstr(note))) << field;
+    }
+    EXPECT_THAT(notesWithout("BinaryDataByteOrderMSB = False\n", "MET_UCHAR", 1), testing::IsEmpty());
 }
 
 template <class Scalar> Result<VolumeData> readNifti(std::int16_t type, const std::vector<Scalar>& values) {

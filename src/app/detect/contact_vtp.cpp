@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 #include "app/output/text_for_messages.h"
+#include "core/base/escaped.h"
 
 #include <array>
 #include <bit>

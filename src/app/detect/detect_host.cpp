@@ -144,10 +144,6 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
 }
 
 Result<void> checkLimits(const DetectOptions& options) {
-    if (options.transferFunction.tableSize > kMostTableSize) {
-        return badArgument("--tf-size: " + std::to_string(options.transferFunction.tableSize) +
-                           " is beyond what the counting method cpu can do, " + std::to_string(kMostTableSize));
-    }
     return !usesView(*options.method.projection)
                ? Result<void>()
                : checkViewport(options.view.size, {cpu::kMaxViewport, cpu::kMaxViewport}, "the counting method cpu");

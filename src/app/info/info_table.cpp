@@ -4,6 +4,7 @@
 #include "app/output/progress.h"
 #include "app/output/text_for_messages.h"
 #include "app/version.h"
+#include "core/base/escaped.h"
 #include "core/base/text.h"
 
 #include <algorithm>

@@ -184,7 +184,9 @@ void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& optio
         parser, "--tf-domain",
         [&options](const std::string& text) { options.domain = parseDomain("--tf-domain", text); },
         "values that the table covers; default 0:255 for uint8, else the data's min and max", "LO:HI", "");
-    addWholeNumber(parser, "--tf-size", options.tableSize, 2, "entries of the table");
+    addWholeNumber(
+        parser, "--tf-size", [&options](std::uint32_t size) { options.tableSize = size; },
+        {.least = 2, .most = kMostTableSize}, "entries of the table", options.tableSize);
     if (threshold) {
         addNumber(
             parser, "--threshold", [&options](double value) { options.threshold = value; },

@@ -8,9 +8,7 @@
 /// What a user typed, as a message may show it.
 namespace voxtact::app {
 
-/// `text` in one line of valid UTF-8: other bytes and control characters are written as \xNN.
-[[nodiscard]] std::string escaped(std::string_view text);
-/// The same, and no longer than a line bears: the middle of a long one is left out.
+/// escaped(), and no longer than a line bears: the middle of a long one is left out.
 [[nodiscard]] std::string shortened(std::string_view text);
 /// That in quotes: 'text'.
 [[nodiscard]] std::string forMessage(std::string_view text);

@@ -36,13 +36,24 @@ void setGradientSteps(shader::OutputPair& pair, const Grid& grid, double maxDept
     pair.doublings = static_cast<std::uint32_t>(std::ceil(std::log2(most)));
 }
 
+/// More than any two places in the image are apart, mm.
+double acrossImage(const Grid& grid) {
+    constexpr double kBeyond = 1.001; // more than rounding
+    double sides = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sides += grid.size[axis] * grid.spacing[axis];
+    }
+    return kBeyond * sides;
+}
+
 void setDepthSteps(shader::OutputPair& pair, const Grid& grid, double maxDepth) {
     const double half = 0.5 * *std::min_element(grid.spacing.begin(), grid.spacing.end());
-    const double step = std::max(half, maxDepth / CONTACT_MOST_STEPS);
+    const double way = std::min(maxDepth, acrossImage(grid));
+    const double step = std::max(half, way / CONTACT_MOST_STEPS);
     pair.maxDepth = static_cast<float>(maxDepth);
+    pair.depthWay = static_cast<float>(way);
     pair.depthStep = static_cast<float>(step);
-    pair.depthSteps =
-        static_cast<std::uint32_t>(std::clamp(std::ceil(maxDepth / step), 1.0, double{CONTACT_MOST_STEPS}));
+    pair.depthSteps = static_cast<std::uint32_t>(std::clamp(std::ceil(way / step), 1.0, double{CONTACT_MOST_STEPS}));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/text/text_lines.h"
 
+#include "core/base/escaped.h"
 #include "core/base/try.h"
 #include "io/errors.h"
 
@@ -18,11 +19,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string inQuotes(std::string_view token) {
     constexpr std::size_t kLongest = 40;
-    std::string text = "'";
-    for (const char c : token.substr(0, kLongest)) {
-        text += c >= ' ' && c <= '~' ? c : '?';
-    }
-    return text + (token.size() > kLongest ? "...'" : "'");
+    return "'" + escaped(token.substr(0, kLongest)) + (token.size() > kLongest ? "...'" : "'");
 }
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {

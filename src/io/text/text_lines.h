@@ -40,7 +40,7 @@ void splitTokens(std::string_view line, std::vector<std::string_view>& tokens);
 /// exponent. Otherwise the reason is returned: "'1,5' is not a number".
 [[nodiscard]] std::optional<std::string> parseNumber(std::string_view token, double& value);
 
-/// A token of a file for a message: in quotes, its beginning where it is long, and '?' for what is not plain ASCII.
+/// A token of a file for a message: in quotes, escaped(), its beginning where it is long.
 [[nodiscard]] std::string inQuotes(std::string_view token);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);

@@ -11,6 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace voxtact::io {
 
@@ -83,10 +87,34 @@ std::optional<ControlPoint> pointOf(const Json& item) {
     return std::nullopt;
 }
 
+/// Finds members of an object that have the same name: of these a parser keeps the last one.
+class TwiceSaid {
+  public:
+    bool operator()(Json::parse_event_t event, const Json& parsed) {
+        if (event == Json::parse_event_t::object_start) {
+            names_.emplace_back();
+        } else if (event == Json::parse_event_t::object_end) {
+            names_.pop_back();
+        } else if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
+            found_ = found_.value_or(parsed.get<std::string>());
+        }
+        return true;
+    }
+    [[nodiscard]] const std::optional<std::string>& found() const noexcept { return found_; }
+
+  private:
+    std::vector<std::set<std::string>> names_; ///< of the objects that are open
+    std::optional<std::string> found_;
+};
+
 Result<Json> parseJson(const std::filesystem::path& path) {
     try {
         std::ifstream file(path, std::ios::binary);
-        return Json::parse(file);
+        TwiceSaid twice;
+        Json root = Json::parse(
+            file, [&twice](int, Json::parse_event_t event, const Json& parsed) { return twice(event, parsed); });
+        return twice.found() ? Result<Json>(cannotRead(path, "it says " + inQuotes(*twice.found()) + " twice"))
+                             : Result<Json>(std::move(root));
     } catch (const Json::exception& problem) {
         return cannotRead(path, jsonReason(problem.what()));
     }

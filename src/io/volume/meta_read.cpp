@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace voxtact::io {
 
@@ -23,6 +24,9 @@ struct MetaHeader {
     std::map<std::string, std::string, std::less<>> fields;
 
     [[nodiscard]] bool has(std::string_view key) const { return fields.find(key) != fields.end(); }
+    [[nodiscard]] bool hasAny(std::span<const std::string_view> keys) const {
+        return std::any_of(keys.begin(), keys.end(), [this](std::string_view key) { return has(key); });
+    }
     [[nodiscard]] std::string_view get(std::string_view key) const {
         const auto found = fields.find(key);
         return found == fields.end() ? std::string_view() : std::string_view(found->second);
@@ -51,7 +55,14 @@ Result<MetaHeader> readHeader(ByteReader& reader) {
             break;
         }
         const std::string key(trimmed(std::string_view(*line).substr(0, equals)));
-        header.fields[key] = trimmed(std::string_view(*line).substr(equals + 1));
+        const std::string value(trimmed(std::string_view(*line).substr(equals + 1)));
+        const auto [field, isNew] = header.fields.try_emplace(key, value);
+        // Comments may be many.
+        if (!isNew && field->second != value && key != "Comment") {
+            return cannotRead(reader.path(), "its MetaImage header is damaged: it says " + inQuotes(key) +
+                                                 " twice, first " + inQuotes(field->second) + " and then " +
+                                                 inQuotes(value));
+        }
         if (key == "ElementDataFile") {
             break;
         }
@@ -114,9 +125,17 @@ Result<StoredType> storedType(const fs::path& path, const MetaHeader& header) {
     return known->type;
 }
 
+/// Names of fields that mean the same.
+constexpr std::array<std::string_view, 3> kMatrices{"TransformMatrix", "Rotation", "Orientation"};
+constexpr std::array<std::string_view, 3> kOrigins{"Offset", "Position", "Origin"};
+constexpr std::array<std::string_view, 1> kSpacings{"ElementSpacing"};
+constexpr std::array<std::string_view, 1> kSizes{"ElementSize"};
+constexpr std::array<std::string_view, 1> kCentres{"CenterOfRotation"};
+constexpr std::array<std::string_view, 2> kByteOrders{"BinaryDataByteOrderMSB", "ElementByteOrderMSB"};
+
 /// The numbers of the first field that is there; a field under two names must say the same.
 Result<std::vector<double>> numbersOf(const fs::path& path, const MetaHeader& header,
-                                      std::initializer_list<std::string_view> names, std::size_t count) {
+                                      std::span<const std::string_view> names, std::size_t count) {
     std::vector<double> numbers;
     for (const std::string_view name : names) {
         if (!header.has(name)) {
@@ -146,12 +165,11 @@ Result<std::vector<double>> numbersOf(const fs::path& path, const MetaHeader& he
 
 Result<Grid> gridOf(const fs::path& path, const MetaHeader& header, const std::vector<std::int64_t>& sizes) {
     const std::size_t dimensions = sizes.size();
-    const Result<std::vector<double>> matrix =
-        numbersOf(path, header, {"TransformMatrix", "Rotation", "Orientation"}, dimensions * dimensions);
-    const Result<std::vector<double>> origin = numbersOf(path, header, {"Offset", "Position", "Origin"}, dimensions);
-    const Result<std::vector<double>> spacing = numbersOf(path, header, {"ElementSpacing"}, dimensions);
-    const Result<std::vector<double>> size = numbersOf(path, header, {"ElementSize"}, dimensions);
-    const Result<std::vector<double>> centre = numbersOf(path, header, {"CenterOfRotation"}, dimensions);
+    const Result<std::vector<double>> matrix = numbersOf(path, header, kMatrices, dimensions * dimensions);
+    const Result<std::vector<double>> origin = numbersOf(path, header, kOrigins, dimensions);
+    const Result<std::vector<double>> spacing = numbersOf(path, header, kSpacings, dimensions);
+    const Result<std::vector<double>> size = numbersOf(path, header, kSizes, dimensions);
+    const Result<std::vector<double>> centre = numbersOf(path, header, kCentres, dimensions);
     for (const Result<std::vector<double>>* numbers : {&matrix, &origin, &spacing, &size, &centre}) {
         if (!numbers->ok()) {
             return numbers->error();
@@ -174,12 +192,11 @@ Result<Grid> gridOf(const fs::path& path, const MetaHeader& header, const std::v
 }
 
 Result<bool> isSwapped(const fs::path& path, const MetaHeader& header) {
-    constexpr std::string_view kBinary = "BinaryDataByteOrderMSB";
-    constexpr std::string_view kElement = "ElementByteOrderMSB";
-    if (header.has(kBinary) && header.has(kElement) && header.isTrue(kBinary) != header.isTrue(kElement)) {
+    const auto [one, other] = kByteOrders;
+    if (header.has(one) && header.has(other) && header.isTrue(one) != header.isTrue(other)) {
         return cannotRead(path, "its MetaImage header is damaged: it says two byte orders");
     }
-    return (header.isTrue(kBinary) || header.isTrue(kElement)) == (std::endian::native == std::endian::little);
+    return (header.isTrue(one) || header.isTrue(other)) == (std::endian::native == std::endian::little);
 }
 
 /// A reader that stands at the first voxel: `local` where the header's file holds them.
@@ -215,8 +232,20 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader local, cons
     return skipped.ok() ? std::move(reader) : Result<ByteReader>(skipped.error());
 }
 
-std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid) {
+std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid, StoredType type) {
     std::vector<std::string> notes;
+    if (!header.hasAny(kSpacings) && !header.hasAny(kSizes)) {
+        notes.emplace_back(kNoSpacing);
+    }
+    if (!header.hasAny(kOrigins)) {
+        notes.emplace_back(kNoOrigin);
+    }
+    if (!header.hasAny(kMatrices)) {
+        notes.emplace_back("the file does not say how its axes lie; left, posterior, superior is taken");
+    }
+    if (storedBytes(type) > 1 && !header.hasAny(kByteOrders)) {
+        notes.emplace_back("the file does not say its byte order; the least significant byte is taken as the first");
+    }
     noteShear(grid, notes);
     for (const auto& [key, usual] :
          {std::pair{"ElementToIntensityFunctionSlope", "1"}, std::pair{"ElementToIntensityFunctionOffset", "0"}}) {
@@ -251,7 +280,7 @@ Result<ContainedImage> readMeta(const VolumeSource& source, const fs::path& path
     VOXTACT_TRY(swapped);
     Result<ByteReader> voxels = openVoxels(source, std::move(*reader), *header, *needed);
     VOXTACT_TRY(voxels);
-    ContainedImage contained{{*grid, *type, std::nullopt, {}}, notesOf(*header, *grid)};
+    ContainedImage contained{{*grid, *type, std::nullopt, {}}, notesOf(*header, *grid, *type)};
     VOXTACT_TRY(takeVoxels(*voxels, contained.image, *swapped));
     VOXTACT_TRY(voxels->finish());
     return contained;

@@ -5,6 +5,7 @@
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 #include "io/volume/nrrd_header.h"
+#include "io/volume/volume_container.h"
 
 #include <algorithm>
 #include <array>
@@ -137,7 +138,7 @@ Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, s
             affine.directions[axis] = *(*vectors)[axis];
         }
     } else {
-        notes.emplace_back("the file does not say its spacing; 1 mm is taken");
+        notes.emplace_back(kNoSpacing);
     }
     if (const std::string text = header.get("spaceorigin"); !text.empty()) {
         const auto origin = vectorsOf(text);
@@ -146,9 +147,29 @@ Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, s
         }
         affine.origin = *origin->front();
     } else {
-        notes.emplace_back("the file does not say where its first voxel is; 0 0 0 is taken");
+        notes.emplace_back(kNoOrigin);
     }
     return affine;
+}
+
+/// The centre of the first voxel where the axes begin at `mins`: its border, or with the centering "node" its centre.
+Vec3 firstVoxel(const NrrdHeader& header, const Vec3& mins, const Vec3& lengths, std::vector<std::string>& notes) {
+    std::vector<std::string_view> centres;
+    const std::string text = header.get(header.get("centers").empty() ? "centerings" : "centers");
+    splitTokens(text, centres);
+    Vec3 first{};
+    bool isSaid = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::string_view centre = axis < centres.size() ? centres[axis] : std::string_view();
+        isSaid = isSaid && (centre == "node" || centre == "cell");
+        first[axis] = mins[axis] + (centre == "node" ? 0 : lengths[axis] / 2);
+    }
+    if (!isSaid) {
+        notes.emplace_back(
+            "the file does not say of each axis whether 'axis mins' is a border or a centre of its first "
+            "voxel ('centerings'); a border is taken, as ITK does");
+    }
+    return first;
 }
 
 /// Without one: a distance for each axis, and where the first voxel begins or has its centre.
@@ -164,16 +185,12 @@ Result<AffineSteps> plainSteps(const fs::path& path, const NrrdHeader& header, c
     if (*spacings) {
         affine.lengths = **spacings;
     } else {
-        notes.emplace_back("the file does not say its spacing; 1 mm is taken");
+        notes.emplace_back(kNoSpacing);
     }
-    if (*mins && *spacings) {
-        std::vector<std::string_view> centres;
-        const std::string text = header.get(header.get("centers").empty() ? "centerings" : "centers");
-        splitTokens(text, centres);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const bool isNode = axis < centres.size() && centres[axis] == "node";
-            affine.origin[axis] = (**mins)[axis] + (isNode ? 0 : affine.lengths[axis] / 2);
-        }
+    if (*mins) {
+        affine.origin = firstVoxel(header, **mins, affine.lengths, notes);
+    } else {
+        notes.emplace_back(kNoOrigin);
     }
     return affine;
 }

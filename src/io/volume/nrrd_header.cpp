@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/volume/nrrd_header.h"
 
+#include "core/base/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
 
@@ -16,6 +17,16 @@ std::optional<std::int64_t> wholeNumber(std::string_view token) {
     std::int64_t value = 0;
     const auto end = std::from_chars(token.data(), token.data() + token.size(), value);
     return end.ec == std::errc{} && end.ptr == token.data() + token.size() ? std::optional(value) : std::nullopt;
+}
+
+/// NRRD forbids a field to be there twice; one that says the same is let pass.
+Result<void> addField(const fs::path& path, std::string_view name, std::string_view value, NrrdHeader& header) {
+    const auto [field, isNew] = header.fields.try_emplace(withoutBlanks(name), value);
+    if (!isNew && field->second != value) {
+        return cannotRead(path, "its NRRD header is damaged: it says " + inQuotes(name) + " twice, first " +
+                                    inQuotes(field->second) + " and then " + inQuotes(value));
+    }
+    return {};
 }
 
 } // namespace
@@ -52,8 +63,8 @@ Result<NrrdHeader> readNrrdHeader(ByteReader& reader) {
         header.complete = text.empty() && reader.lineEnded();
         const std::size_t colon = text.find(": ");
         // "key:=value" is a note of somebody's.
-        if (colon != std::string_view::npos && !text.starts_with('#')) {
-            header.fields[withoutBlanks(text.substr(0, colon))] = trimmed(text.substr(colon + 1));
+        if (colon != std::string_view::npos && colon < text.find(":=") && !text.starts_with('#')) {
+            VOXTACT_TRY(addField(reader.path(), text.substr(0, colon), trimmed(text.substr(colon + 1)), header));
         }
     }
     for (const char* needed : {"type", "dimension", "sizes", "encoding"}) {

@@ -41,6 +41,20 @@ std::optional<StoredType> storedType(const std::string& type) {
     return std::nullopt;
 }
 
+constexpr std::string_view kRaw = "raw";
+
+std::string encodingOf(const NrrdHeader& header) {
+    return withoutBlanks(header.get("encoding"));
+}
+
+Result<void> checkEncoding(const fs::path& path, const NrrdHeader& header) {
+    const std::string encoding = encodingOf(header);
+    if (encoding != kRaw && encoding != "gzip" && encoding != "gz") {
+        return cannotRead(path, "its encoding " + inQuotes(encoding) + " is not supported; write it as raw or gzip");
+    }
+    return {};
+}
+
 Result<bool> isSwapped(const fs::path& path, const NrrdHeader& header, StoredType type) {
     const std::string endian = withoutBlanks(header.get("endian"));
     if (storedBytes(type) == 1) {
@@ -72,7 +86,6 @@ Result<void> skipBefore(ByteReader& reader, std::int64_t lines, std::int64_t byt
 Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader attached, const NrrdHeader& header,
                               std::uint64_t needed) {
     const fs::path path = attached.path();
-    const std::string encoding = withoutBlanks(header.get("encoding"));
     const std::string detached = header.get("datafile");
     if (!detached.empty() && (detached.starts_with("LIST") || detached.find('%') != std::string::npos)) {
         return cannotRead(path, "its voxels are spread over several files; convert it to one .nrrd file");
@@ -87,18 +100,15 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader attached, c
     }
     Result<ByteReader> reader = detached.empty() ? std::move(attached) : source.openBeside(path, detached);
     VOXTACT_TRY(reader);
-    if (encoding == "raw") {
+    if (encodingOf(header) == kRaw) {
         const Result<void> skipped = skipBefore(*reader, *lines, *bytes, needed);
         return skipped.ok() ? std::move(reader) : Result<ByteReader>(skipped.error());
     }
-    if (encoding == "gzip" || encoding == "gz") {
-        if (*lines != 0 || *bytes != 0) {
-            return cannotRead(path, "compressed data behind skipped lines or bytes is not supported; write it anew");
-        }
-        const Result<void> unpacked = reader->unpack(ByteReader::Packing::Gzip);
-        return unpacked.ok() ? std::move(reader) : Result<ByteReader>(unpacked.error());
+    if (*lines != 0 || *bytes != 0) {
+        return cannotRead(path, "compressed data behind skipped lines or bytes is not supported; write it anew");
     }
-    return cannotRead(path, "its encoding " + inQuotes(encoding) + " is not supported; write it as raw or gzip");
+    const Result<void> unpacked = reader->unpack(ByteReader::Packing::Gzip);
+    return unpacked.ok() ? std::move(reader) : Result<ByteReader>(unpacked.error());
 }
 
 } // namespace
@@ -115,6 +125,7 @@ Result<ContainedImage> readNrrd(const VolumeSource& source, const fs::path& path
         return cannotRead(path, "its voxels are of the type " + inQuotes(header->get("type")) +
                                     ", which is not supported; convert it to integers or floats");
     }
+    VOXTACT_TRY(checkEncoding(path, *header));
     const Result<std::uint64_t> needed = imageBytes(path, *sizes, storedBytes(*type));
     VOXTACT_TRY(needed);
     ContainedImage contained;

@@ -78,6 +78,10 @@ struct AffineSteps {
 /// How far the axes are from standing at right angles to each other, in degrees.
 [[nodiscard]] double shearDegrees(const Grid& grid);
 
+/// What is assumed where a header does not say it.
+inline constexpr const char* kNoSpacing = "the file does not say its spacing; 1 mm is taken";
+inline constexpr const char* kNoOrigin = "the file does not say where its first voxel is; 0 0 0 is taken";
+
 /// Says so where the axes are not at right angles and the format means it.
 void noteShear(const Grid& grid, std::vector<std::string>& notes);
 

@@ -297,6 +297,49 @@ TEST(CpuOutputs, NoNormalBeyondTheMaximalDepth) {
     }
 }
 
+TEST(CpuOutputs, HowFarTheDepthMayGoDoesNotChangeIt) {
+    // Opaque to z = 0.9, but for a gap of two voxels that ends the way.
+    ContactScene scene = inUnitCube(0.5, [](auto, auto, double z) { return z < 0.6 || (z > 0.66 && z < 0.9) ? 1 : 0; });
+    scene.maxDepth = 0.2;
+    const std::vector<Contact> near = detect(scene).contacts;
+    EXPECT_EQ(near.size(), 32U * 32U);
+    for (const double depth : {1.0, 4e3, 1e9, 1e30}) {
+        scene.maxDepth = depth;
+        const std::vector<Contact> contacts = detect(scene).contacts;
+        ASSERT_EQ(contacts.size(), near.size());
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            EXPECT_NEAR(contacts[i].depth, near[i].depth, 1e-5) << "at most " << depth;
+            EXPECT_NEAR(contacts[i].depth, 0.1, 0.03);
+        }
+    }
+}
+
+/// Spacings so fine that the largest depth is many times as long as the image.
+TEST(CpuOutputs, AFineImageHasFineSteps) {
+    ContactScene scene = inUnitCube(0.5, [](auto, auto, double z) { return z < 0.6 || (z > 0.66 && z < 0.9) ? 1 : 0; });
+    constexpr double kSmall = 1.0 / 4096;
+    for (double& spacing : scene.volume.grid.spacing) {
+        spacing *= kSmall;
+    }
+    for (double& place : scene.volume.grid.origin) {
+        place *= kSmall;
+    }
+    for (float& place : scene.mesh.positions) {
+        place *= static_cast<float>(kSmall);
+    }
+    for (std::size_t column = 0; column < 3; ++column) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            scene.view.clip_from_world[4 * column + row] /= kSmall;
+        }
+    }
+    scene.maxDepth = kDefaultMaxDepth;
+    const std::vector<Contact> contacts = detect(scene).contacts;
+    EXPECT_EQ(contacts.size(), 32U * 32U);
+    for (const Contact& contact : contacts) {
+        EXPECT_NEAR(contact.depth, 0.1 * kSmall, 0.03 * kSmall);
+    }
+}
+
 TEST(CpuOutputs, TheWayOutEndsWithTheImage) {
     // Opaque everywhere, less so towards x = 1.
     const ContactScene scene = inUnitCube(0.5, [](double x, auto, auto) { return 1 - 0.4 * x; });

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace voxtact {
+
+/// `text` in one line of valid UTF-8: other bytes and control characters are written as \xNN.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+} // namespace voxtact
