@@ -114,6 +114,7 @@ TEST_F(PlanTest, ALabelThatNoVoxelHasIsRefused) {
     const std::string file = path("full.mha");
     writeText(file,
               "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = 4 4 4\n"
+              "ElementSpacing = 1 1 1\nOffset = 0 0 0\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
               "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
                   std::string(64, '\5'));
     const auto line = [&](const std::string& target, const std::string& avoid) {

@@ -94,6 +94,7 @@ TEST_F(RenderShowTest, ThresholdThatNothingReachesIsSaidAndDrawn) {
 
 /// A cube of 32 mm whose lower half is opaque, up to 0.4 mm above its middle.
 constexpr const char* kHalf = "ObjectType = Image\nNDims = 3\nDimSize = 32 32 32\nOffset = -15.5 -15.5 -15.5\n"
+                              "ElementSpacing = 1 1 1\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
                               "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n";
 constexpr double kSurface = 0.4; // mm, at the threshold 0.1
 constexpr int kSide = 64;

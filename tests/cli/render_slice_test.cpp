@@ -62,6 +62,7 @@ TEST_F(RenderSliceTest, GrayPlanesOfTheVolume) {
 TEST_F(RenderSliceTest, ValuesAreTheVolumes) {
     // Values rise along x, from 0 to 100, 40 mm in 4 voxels; the window is 0 to 100.
     writeText(path("v.mhd"), "ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementSpacing = 10 10 10\n"
+                             "TransformMatrix = 1 0 0 0 1 0 0 0 1\n"
                              "Offset = -15 -15 -15\nElementType = MET_UCHAR\nElementDataFile = v.raw\n");
     std::string voxels;
     for (int i = 0; i < 64; ++i) {
