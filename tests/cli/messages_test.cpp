@@ -2,8 +2,8 @@
 // What the program says of arguments that are long, not text, or misspelt, and of the time that is left.
 #include "app/output/progress.h"
 #include "app/output/text_for_messages.h"
-#include "core/base/escaped.h"
 #include "cli_fixture.h"
+#include "core/base/escaped.h"
 
 namespace voxtact::test {
 namespace {

@@ -122,7 +122,7 @@ const BrickCells& CertifiedBricks::makeCells(const VolumeImpl& volume, const sha
     volume.image.visit([&](const auto* voxels) { findRange(volume.image, voxels, place, made); });
     const CornerRanges ranges = cornerRangesOf(volume.image, item, place);
     const float error = shader::certifiedPointError(item, made.wideLo, made.wideHi);
-    made.mayBeOpaque = cellsThatMeet(ranges, error, hull_.first, hull_.last);
+    made.mayBeOpaque = cellsThatMeet(ranges, error, hull_.bounds.first, hull_.bounds.last);
     for (int z = 0; z < kBrickSide; ++z) {
         for (int y = 0; y < kBrickSide; ++y) {
             std::uint8_t& row = made.mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)];
@@ -152,7 +152,7 @@ const CellBits& CertifiedBricks::makeAllOpaque(const VolumeImpl& volume, const s
     if (!ranges.finite || whole.empty()) {
         return allOpaque_.keep(slots_[number], {});
     }
-    CellBits made = cellsWithin(ranges, margin, hull_.allFirst, hull_.allLast);
+    CellBits made = cellsWithin(ranges, margin, hull_.bounds.allFirst, hull_.bounds.allLast);
     for (int z = 0; z < kBrickSide; ++z) {
         for (int y = 0; y < kBrickSide; ++y) {
             const bool inside = z >= whole.lo[2] && z <= whole.hi[2] && y >= whole.lo[1] && y <= whole.hi[1];

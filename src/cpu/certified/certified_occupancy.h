@@ -21,10 +21,10 @@ class CertifiedOccupancy {
     [[nodiscard]] const shader::CertifiedItem& item() const noexcept { return item_; }
     /// Valid while this object lives.
     [[nodiscard]] shader::OpacityTable table() const noexcept {
-        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data(), bricks_.hull()};
+        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data(), bricks_.hull().bounds};
     }
-    /// The table with its hull; valid while this object lives.
-    [[nodiscard]] OpacityLook look() const noexcept { return {table(), bricks_.hull()}; }
+    /// The table with what is known of its hull; valid while this object lives.
+    [[nodiscard]] OpacityLook look() const noexcept { return {table(), bricks_.hull().whole}; }
     /// Bricks along each axis.
     [[nodiscard]] const std::array<std::int32_t, 3>& bricks() const noexcept { return count_; }
     [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {

@@ -52,7 +52,7 @@ bool isNear(float may, float all) {
     return may == all || std::abs(all - may) < 1;
 }
 
-void setAll(const shader::OpacityTable& table, OpaqueHull& hull) {
+void setAll(const shader::OpacityTable& table, shader::OpacityBounds& bounds) {
     const shader::OpacityTable higher = with(table, kNearly);
     const Run run = longestRun(higher);
     if (run.last < run.first) {
@@ -64,14 +64,14 @@ void setAll(const shader::OpacityTable& table, OpaqueHull& hull) {
     if (!all(first, last)) {
         return;
     }
-    hull.allFirst =
-        run.first == 0 ? -OpaqueHull::kInfinity : bisect(first - 1, first, [&](float at) { return all(at, last); });
-    hull.allLast = run.last == table.size - 1
-                       ? OpaqueHull::kInfinity
-                       : bisect(last + 1, last, [&](float at) { return all(hull.allFirst, at); });
-    if (!all(hull.allFirst, hull.allLast)) {
-        hull.allFirst = first;
-        hull.allLast = last;
+    bounds.allFirst = run.first == 0 ? -shader::OpacityBounds::kInfinity
+                                     : bisect(first - 1, first, [&](float at) { return all(at, last); });
+    bounds.allLast = run.last == table.size - 1
+                         ? shader::OpacityBounds::kInfinity
+                         : bisect(last + 1, last, [&](float at) { return all(bounds.allFirst, at); });
+    if (!all(bounds.allFirst, bounds.allLast)) {
+        bounds.allFirst = first;
+        bounds.allLast = last;
     }
 }
 
@@ -79,9 +79,10 @@ void setAll(const shader::OpacityTable& table, OpaqueHull& hull) {
 
 OpaqueHull opaqueHullOf(const shader::OpacityTable& table) noexcept {
     OpaqueHull hull;
-    hull.first = OpaqueHull::kInfinity;
-    hull.last = -OpaqueHull::kInfinity;
-    setAll(table, hull);
+    shader::OpacityBounds& bounds = hull.bounds;
+    bounds.first = shader::OpacityBounds::kInfinity;
+    bounds.last = -shader::OpacityBounds::kInfinity;
+    setAll(table, bounds);
     const shader::OpacityTable lower = with(table, -kNearly);
     const auto end = static_cast<float>(table.size - 1);
     const auto before = [&](float at) { return shader::mayBeOpaque(lower, 0, at); };
@@ -89,9 +90,10 @@ OpaqueHull opaqueHullOf(const shader::OpacityTable& table) noexcept {
     if (!before(end)) {
         return hull; // nothing is
     }
-    hull.first = before(0) ? -OpaqueHull::kInfinity : bisect(0, end, before);
-    hull.last = after(end) ? OpaqueHull::kInfinity : bisect(end, 0, after);
-    hull.whole = hull.allFirst <= hull.allLast && isNear(hull.first, hull.allFirst) && isNear(hull.last, hull.allLast);
+    bounds.first = before(0) ? -shader::OpacityBounds::kInfinity : bisect(0, end, before);
+    bounds.last = after(end) ? shader::OpacityBounds::kInfinity : bisect(end, 0, after);
+    hull.whole = bounds.allFirst <= bounds.allLast && isNear(bounds.first, bounds.allFirst) &&
+                 isNear(bounds.last, bounds.allLast);
     return hull;
 }
 

@@ -6,26 +6,28 @@
 namespace voxtact::cpu {
 
 /// From where to where a table is opaque.
-struct OpaqueHull : shader::OpacityBounds {
-    /// Every range that reaches from `first` on and begins up to `last` may be opaque, or nearly so: there is no hole.
+struct OpaqueHull {
+    shader::OpacityBounds bounds;
+    /// Every range that reaches from the first on and begins up to the last may be opaque, or nearly so: there is no
+    /// hole.
     bool whole = false;
 };
 
 [[nodiscard]] OpaqueHull opaqueHullOf(const shader::OpacityTable& table) noexcept;
 
-/// A table, and its hull.
+/// A table with its bounds, and whether its hull is whole.
 struct OpacityLook {
     shader::OpacityTable table;
-    OpaqueHull hull;
+    bool whole = false;
 
     /// False only where certifiedMayBeOpaque() says so of the table.
     [[nodiscard]] bool mayBeOpaque(float lo, float hi, float error) const noexcept {
         const float below = lo - error;
         const float above = hi + error;
-        if (above < hull.first || below > hull.last) {
+        if (above < table.bounds.first || below > table.bounds.last) {
             return false;
         }
-        return hull.whole || shader::mayBeOpaque(table, below, above);
+        return whole || shader::mayBeOpaque(table, below, above);
     }
 };
 

@@ -55,7 +55,8 @@ Range drawnRange(std::mt19937_64& random, const OpaqueHull& hull, std::size_t en
         case 1:
             return static_cast<float>(below(random, entries));
         default: {
-            const std::array<float, 4> ends{hull.first, hull.last, hull.allFirst, hull.allLast};
+            const std::array<float, 4> ends{hull.bounds.first, hull.bounds.last, hull.bounds.allFirst,
+                                            hull.bounds.allLast};
             const float end = ends[below(random, ends.size())];
             return std::isfinite(end) ? std::nextafter(end, chance(random, 0.5) ? -1e9F : 1e9F) : 0.0F;
         }
@@ -78,9 +79,9 @@ TEST(OpaqueHullTest, SaysWhatTheTableSaysOfARangeAndItsParts) {
         const shader::OpacityTable table{static_cast<int>(entries), static_cast<int>(extremes.levels()), threshold,
                                          extremes.values().data()};
         const OpaqueHull hull = cpu::opaqueHullOf(table);
-        const cpu::OpacityLook look{table, hull};
         shader::OpacityTable bounded = table;
-        bounded.bounds = hull;
+        bounded.bounds = hull.bounds;
+        const cpu::OpacityLook look{bounded, hull.whole};
         whole += hull.whole ? 1 : 0;
         for (int i = 0; i < 50; ++i) {
             const Range range = drawnRange(random, hull, entries);
@@ -98,17 +99,17 @@ TEST(OpaqueHullTest, SaysWhatTheTableSaysOfARangeAndItsParts) {
                 EXPECT_EQ(shader::certainlySomeOpaque(bounded, part.lo, part.hi),
                           shader::certainlySomeOpaque(table, part.lo, part.hi))
                     << part.lo << " to " << part.hi << ", round " << round;
-                if (range.hi < hull.first || range.lo > hull.last) {
+                if (range.hi < hull.bounds.first || range.lo > hull.bounds.last) {
                     EXPECT_FALSE(may) << part.lo << " to " << part.hi << ", round " << round;
                     ++none;
                 }
-                if (range.lo >= hull.allFirst && range.hi <= hull.allLast) {
+                if (range.lo >= hull.bounds.allFirst && range.hi <= hull.bounds.allLast) {
                     EXPECT_TRUE(shader::certainlyAllOpaque(table, part.lo, part.hi))
                         << part.lo << " to " << part.hi << ", round " << round;
                     ++all;
                 }
                 // No more than an entry is said to be that is not.
-                if (hull.whole && part.hi >= hull.first + 1 && part.lo <= hull.last - 1) {
+                if (hull.whole && part.hi >= hull.bounds.first + 1 && part.lo <= hull.bounds.last - 1) {
                     EXPECT_TRUE(may) << part.lo << " to " << part.hi << ", round " << round;
                 }
             }
@@ -128,10 +129,10 @@ TEST(OpaqueHullTest, OfARampIsFromTheThresholdOn) {
     const shader::OpacityTable table{101, static_cast<int>(extremes.levels()), 0.255F, extremes.values().data()};
     const OpaqueHull hull = cpu::opaqueHullOf(table);
     EXPECT_TRUE(hull.whole);
-    EXPECT_NEAR(hull.first, 25.5, 1e-3);
-    EXPECT_NEAR(hull.allFirst, 25.5, 1e-3);
-    EXPECT_EQ(hull.last, OpaqueHull::kInfinity);
-    EXPECT_EQ(hull.allLast, OpaqueHull::kInfinity);
+    EXPECT_NEAR(hull.bounds.first, 25.5, 1e-3);
+    EXPECT_NEAR(hull.bounds.allFirst, 25.5, 1e-3);
+    EXPECT_EQ(hull.bounds.last, shader::OpacityBounds::kInfinity);
+    EXPECT_EQ(hull.bounds.allLast, shader::OpacityBounds::kInfinity);
 }
 
 } // namespace

@@ -110,6 +110,12 @@ int verdictOf(const Scene& scene, const shader::CertifiedCorners& corners,
     return shader::certifiedSettle(scene.table(), scene.item.resolution, cell, polygon, count, witness);
 }
 
+cpu::OpacityLook lookAt(shader::OpacityTable table) {
+    const cpu::OpaqueHull hull = cpu::opaqueHullOf(table);
+    table.bounds = hull.bounds;
+    return {table, hull.whole};
+}
+
 TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
     std::mt19937_64 random(testSeed());
     std::size_t without = 0;   // an opaque point, by each triangle
@@ -133,7 +139,7 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
         if (!shader::certifiedCellMayBeOpaque(scene.table(), cell)) {
             continue;
         }
-        const cpu::OpacityLook look{scene.table(), cpu::opaqueHullOf(scene.table())};
+        const cpu::OpacityLook look = lookAt(scene.table());
         const bool may = cpu::hullMayMeet(look, points.hull(bounds.delta), cell, x, 20, 20);
         bool none = true;
         for (const auto& triangle : run) {
@@ -164,7 +170,7 @@ TEST(RunLookTest, LeavesWhatIsNotANumber) {
         const auto run = drawnRun(random);
         const cpu::TriangleHull hull(run[0][0].point, run[0][1].point, run[0][2].point, 1e-4F);
         const shader::CertifiedCell cell = shader::certifiedCell(scene.item, corners, 20, 20, 20, 1e-4F);
-        const cpu::OpacityLook look{scene.table(), cpu::opaqueHullOf(scene.table())};
+        const cpu::OpacityLook look = lookAt(scene.table());
         EXPECT_TRUE(cpu::hullMayMeetLinearly(look, hull.hull(), cell, 20, 20, 20)) << "round " << round;
     }
 }
