@@ -136,7 +136,7 @@ template <class Kept, class Mode> class Decider {
         const auto large = [this](std::size_t at) {
             withTriangle(at, [this](const auto&... corners) { decideTriangle(corners...); });
         };
-        const auto open = [this](std::size_t at, const SmallTriangles::Small& small, unsigned cells) {
+        const auto open = [this](std::size_t at, const FineRun::Small& small, unsigned cells) {
             withTriangle(at, [&](const auto&... corners) {
                 decideCellsOf(shader::certifiedTriangle(corners.point..., small.delta), small.block, cells);
             });

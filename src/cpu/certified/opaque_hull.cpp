@@ -14,6 +14,7 @@ constexpr float kNearly = 4 * OPACITY_ERROR;
 shader::OpacityTable with(const shader::OpacityTable& table, float more) {
     shader::OpacityTable out = table;
     out.threshold += more;
+    out.bounds = {}; // which are of another threshold
     return out;
 }
 

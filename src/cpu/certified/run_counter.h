@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cpu/certified/certified_pair.h"
+#include "cpu/certified/fine_run.h"
 #include "cpu/certified/placed_vertices.h"
-#include "cpu/certified/small_triangles.h"
 
 #include <array>
 #include <cstddef>
@@ -61,7 +61,7 @@ class RunCounter {
 
     /// In the cells that one of its corners is in. Asks about the others.
     unsigned countCorners(std::size_t i) {
-        const SmallTriangles::Small small = small_[i];
+        const FineRun::Small small = small_[i];
         if (small.block.cells == 0) {
             return 0;
         }
@@ -73,7 +73,7 @@ class RunCounter {
     }
 
     unsigned countOverlap(std::size_t i) {
-        const SmallTriangles::Overlap& overlap = small_.overlap(i);
+        const FineRun::Overlap& overlap = small_.overlap(i);
         const unsigned counted = overlap.some & left_[i].allOpaque;
         left_[i].mayBeOpaque &= ~(counted | overlap.none);
         return bitsIn(counted);
@@ -81,7 +81,7 @@ class RunCounter {
 
     const CertifiedJob& job_;
     BlockLook blocks_;
-    SmallTriangles small_;
+    FineRun small_;
     std::array<BlockBits, kRunTriangles> left_{}; ///< of each triangle, the cells that are still to be decided
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cpu/certified/small_triangles.h"
+#include "cpu/certified/fine_run.h"
 
 #include "certified_overlap.h"
 
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "cpu/certified/small_triangles.cpp"
+#define HWY_TARGET_INCLUDE "cpu/certified/fine_run.cpp"
 #include <hwy/foreach_target.h>
 
 #include "cpu/certified/simd_rows.h"
@@ -39,7 +39,7 @@ struct Corners {
 };
 
 /// As certifiedReach(), where all is a number.
-HWY_INLINE Corners cornersOf(const SmallTriangles::Triangles& lanes, std::size_t i) {
+HWY_INLINE Corners cornersOf(const FineRun::Triangles& lanes, std::size_t i) {
     const Floats d;
     Corners corners;
     FloatV side = hn::Zero(d);
@@ -119,7 +119,7 @@ using Whole = hn::RebindToSigned<Floats>;
 using Bricks = std::array<std::int32_t, 3>;
 
 /// Keeps where the first cell is. `first`: of the three axes, from 0 on.
-HWY_INLINE void keepPlace(const std::array<Along, 3>& along, const Bricks& bricks, SmallTriangles::Triangles& lanes,
+HWY_INLINE void keepPlace(const std::array<Along, 3>& along, const Bricks& bricks, FineRun::Triangles& lanes,
                           std::size_t i) {
     const Words words;
     const Whole whole;
@@ -144,7 +144,7 @@ HWY_INLINE void keepPlace(const std::array<Along, 3>& along, const Bricks& brick
     hn::StoreU(hn::IfThenElseZero(oneBrick, hn::Set(words, 1)), words, lanes.oneBrick.data() + i);
 }
 
-HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const Bricks& bricks, SmallTriangles::Triangles& lanes,
+HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const Bricks& bricks, FineRun::Triangles& lanes,
                            std::size_t i) {
     const Floats d;
     const Words words;
@@ -170,8 +170,7 @@ HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const Bricks& bric
     keepPlace(along, bricks, lanes, i);
 }
 
-void lookAt(const shader::CertifiedItem& item, const Bricks& bricks, SmallTriangles::Triangles& lanes,
-            std::size_t count) {
+void lookAt(const shader::CertifiedItem& item, const Bricks& bricks, FineRun::Triangles& lanes, std::size_t count) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(Floats())) {
         lookAtSome(item, bricks, lanes, i);
     }
@@ -232,8 +231,7 @@ struct Asked {
     PointV middle;
 };
 
-HWY_INLINE Asked askedOf(const SmallTriangles::Triangles& triangles, const SmallTriangles::Cells& cells,
-                         std::size_t i) {
+HWY_INLINE Asked askedOf(const FineRun::Triangles& triangles, const FineRun::Cells& cells, std::size_t i) {
     const Floats d;
     const Whole whole;
     const auto triangle = hn::LoadU(whole, cells.triangle.data() + i);
@@ -283,7 +281,7 @@ HWY_INLINE Verdict overlapOf(const Asked& asked) {
     return verdict;
 }
 
-void answerTo(const SmallTriangles::Triangles& triangles, SmallTriangles::Cells& cells, std::size_t count) {
+void answerTo(const FineRun::Triangles& triangles, FineRun::Cells& cells, std::size_t count) {
     const Words words;
     const WordV one = hn::Set(words, 1);
     for (std::size_t i = 0; i < count; i += hn::Lanes(words)) {
@@ -306,10 +304,10 @@ namespace voxtact::cpu {
 HWY_EXPORT(lookAt);
 HWY_EXPORT(answerTo);
 
-static_assert(SmallTriangles::kMost % kBrickSide == 0, "vectors have no more lanes than that");
+static_assert(FineRun::kMost % kBrickSide == 0, "vectors have no more lanes than that");
 
-void SmallTriangles::add(const shader::CertifiedVertex& a, const shader::CertifiedVertex& b,
-                         const shader::CertifiedVertex& c) noexcept {
+void FineRun::add(const shader::CertifiedVertex& a, const shader::CertifiedVertex& b,
+                  const shader::CertifiedVertex& c) noexcept {
     std::size_t corner = 0;
     for (const shader::CertifiedVertex* const vertex : {&a, &b, &c}) {
         triangles_.at[corner][0][count_] = vertex->point.x;
@@ -321,13 +319,13 @@ void SmallTriangles::add(const shader::CertifiedVertex& a, const shader::Certifi
     ++count_;
 }
 
-void SmallTriangles::look(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept {
+void FineRun::look(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept {
     HWY_DYNAMIC_DISPATCH(lookAt)(item, bricks, triangles_, count_);
     count_ = 0;
     asked_ = 0;
 }
 
-void SmallTriangles::ask(std::size_t i, unsigned cells) noexcept {
+void FineRun::ask(std::size_t i, unsigned cells) noexcept {
     overlaps_[i] = {};
     for (; cells != 0; cells &= cells - 1) {
         cells_.triangle[asked_] = static_cast<std::int32_t>(i);
@@ -336,7 +334,7 @@ void SmallTriangles::ask(std::size_t i, unsigned cells) noexcept {
     }
 }
 
-void SmallTriangles::answer() noexcept {
+void FineRun::answer() noexcept {
     HWY_DYNAMIC_DISPATCH(answerTo)(triangles_, cells_, asked_);
     for (std::size_t i = 0; i < asked_; ++i) {
         Overlap& overlap = overlaps_[static_cast<std::size_t>(cells_.triangle[i])];

@@ -12,7 +12,7 @@ namespace voxtact::cpu {
 
 /// The triangles of a run, of which all are looked at together that have no more cells than a CellBlock, as most of a
 /// fine mesh have. One thread's.
-class SmallTriangles {
+class FineRun {
   public:
     static constexpr std::size_t kMost = kRunTriangles;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is said of small triangles together, against what is said of each by itself.
-#include "cpu/certified/small_triangles.h"
+#include "cpu/certified/fine_run.h"
 
 #include "certified_overlap.h"
 #include "cpu/scenes/random_scene.h"
@@ -22,7 +22,7 @@ namespace voxtact::test {
 namespace {
 
 using cpu::CellBlock;
-using cpu::SmallTriangles;
+using cpu::FineRun;
 using shader::CertifiedVertex;
 using shader::VoxelPoint;
 
@@ -70,7 +70,7 @@ struct SmallRun {
 
 SmallRun drawnSmallRun(std::mt19937_64& random) {
     SmallRun run{itemOf(random), {}};
-    const std::size_t count = 1 + below(random, SmallTriangles::kMost);
+    const std::size_t count = 1 + below(random, FineRun::kMost);
     for (std::size_t i = 0; i < count; ++i) {
         run.triangles.push_back(drawnVertices(random, run.item));
     }
@@ -82,7 +82,7 @@ std::array<std::int32_t, 3> bricksOf(const shader::CertifiedItem& item) {
     return {count(item.sizeX), count(item.sizeY), count(item.sizeZ)};
 }
 
-void look(const SmallRun& run, SmallTriangles& small) {
+void look(const SmallRun& run, FineRun& small) {
     for (const Vertices& of : run.triangles) {
         small.add(of[0], of[1], of[2]);
     }
@@ -112,7 +112,7 @@ void expectPlace(const CellBlock& block, const std::array<std::int32_t, 3>& bric
 }
 
 /// Of one triangle; returns whether it is small and meets the volume.
-bool expectBlock(const SmallRun& run, const SmallTriangles& small, std::size_t i) {
+bool expectBlock(const SmallRun& run, const FineRun& small, std::size_t i) {
     const auto& [a, b, c] = run.triangles[i];
     const shader::CertifiedBounds bounds = shader::certifiedBounds(run.item, a, b, c);
     const std::array<int, 3> more{bounds.lastX - bounds.firstX, bounds.lastY - bounds.firstY,
@@ -125,7 +125,7 @@ bool expectBlock(const SmallRun& run, const SmallTriangles& small, std::size_t i
     if (!small.isSmall(i)) {
         return false;
     }
-    const SmallTriangles::Small found = small[i];
+    const FineRun::Small found = small[i];
     EXPECT_EQ(found.delta, bounds.delta);
     if (none) {
         EXPECT_EQ(found.block.cells, 0U);
@@ -148,9 +148,9 @@ bool expectBlock(const SmallRun& run, const SmallTriangles& small, std::size_t i
     return true;
 }
 
-TEST(SmallTrianglesTest, HaveTheCellsOfEachAlone) {
+TEST(FineRunTest, HaveTheCellsOfEachAlone) {
     std::mt19937_64 random(testSeed());
-    SmallTriangles small;
+    FineRun small;
     std::size_t found = 0;
     for (std::size_t round = 0; round < randomCases(100000, 10) && !HasFailure(); ++round) {
         const SmallRun run = drawnSmallRun(random);
@@ -164,9 +164,9 @@ TEST(SmallTrianglesTest, HaveTheCellsOfEachAlone) {
     EXPECT_GT(found, 10000U);
 }
 
-TEST(SmallTrianglesTest, PassThroughTheCellsOfEachAlone) {
+TEST(FineRunTest, PassThroughTheCellsOfEachAlone) {
     std::mt19937_64 random(testSeed());
-    SmallTriangles small;
+    FineRun small;
     std::array<std::size_t, 3> verdicts{};
     for (std::size_t round = 0; round < randomCases(100000, 10) && !HasFailure(); ++round) {
         const SmallRun run = drawnSmallRun(random);
@@ -184,7 +184,7 @@ TEST(SmallTrianglesTest, PassThroughTheCellsOfEachAlone) {
             const auto& [a, b, c] = run.triangles[i];
             const shader::CertifiedTriangle triangle =
                 shader::certifiedTriangle(a.point, b.point, c.point, small[i].delta);
-            const SmallTriangles::Overlap overlap = small.overlap(i);
+            const FineRun::Overlap overlap = small.overlap(i);
             EXPECT_EQ((overlap.some | overlap.none) & ~small[i].block.cells, 0U);
             for (unsigned number = 0; number < CellBlock::kMost; ++number) {
                 const auto [x, y, z] = small[i].block.at(number);
@@ -207,13 +207,13 @@ TEST(SmallTrianglesTest, PassThroughTheCellsOfEachAlone) {
 
 /// All that is said of a run, as numbers.
 std::vector<float> saidOf(const SmallRun& run) {
-    SmallTriangles small;
+    FineRun small;
     look(run, small);
     std::vector<float> said;
     for (std::size_t i = 0; i < run.triangles.size(); ++i) {
         said.push_back(small.isSmall(i) ? 1.0F : 0.0F);
         if (small.isSmall(i)) {
-            const SmallTriangles::Small of = small[i];
+            const FineRun::Small of = small[i];
             small.ask(i, of.block.cells);
             for (const unsigned bits : {of.block.cells, of.corners, of.block.cells == 0 ? 0 : of.block.brick}) {
                 said.push_back(static_cast<float>(bits));
@@ -230,7 +230,7 @@ std::vector<float> saidOf(const SmallRun& run) {
     return said;
 }
 
-TEST(SmallTrianglesTest, AreTheSameByEveryInstructionSet) {
+TEST(FineRunTest, AreTheSameByEveryInstructionSet) {
     std::mt19937_64 random(testSeed());
     std::vector<SmallRun> runs;
     for (int i = 0; i < 200; ++i) {
@@ -247,7 +247,7 @@ TEST(SmallTrianglesTest, AreTheSameByEveryInstructionSet) {
     hwy::SetSupportedTargetsForTest(0);
 }
 
-TEST(SmallTrianglesTest, BitsAreCounted) {
+TEST(FineRunTest, BitsAreCounted) {
     for (unsigned bits = 0; bits < 256; ++bits) {
         EXPECT_EQ(cpu::bitsIn(bits), static_cast<unsigned>(std::popcount(bits)));
     }
