@@ -45,11 +45,9 @@ EXACT float opacityAt(OpacityTable table, float x) {
 /// Whether some coordinate of [lo, hi] may be opaque. NaN may be anything.
 EXACT bool mayBeOpaque(OpacityTable table, float lo, float hi) {
 #ifdef __cplusplus
-    if (hi < table.bounds.first || lo > table.bounds.last) {
-        return false;
-    }
-    if (lo <= table.bounds.allLast && hi >= table.bounds.allFirst) {
-        return true;
+    const bool some = table.bounds.some(lo, hi);
+    if (some || table.bounds.none(lo, hi)) {
+        return some;
     }
 #endif
     const float from = opacityEntry(table, lo, 0.0f);
@@ -74,11 +72,9 @@ EXACT bool certainlyAllOpaque(OpacityTable table, float lo, float hi) {
         return false;
     }
 #ifdef __cplusplus
-    if (lo < table.bounds.first || hi > table.bounds.last) {
-        return false;
-    }
-    if (lo >= table.bounds.allFirst && hi <= table.bounds.allLast) {
-        return true;
+    const bool all = table.bounds.all(lo, hi);
+    if (all || table.bounds.none(lo, lo) || table.bounds.none(hi, hi)) {
+        return all;
     }
 #endif
     const float from = opacityEntry(table, lo, 0.0f);
@@ -103,11 +99,9 @@ EXACT bool certainlySomeOpaque(OpacityTable table, float lo, float hi) {
         return false;
     }
 #ifdef __cplusplus
-    if (hi < table.bounds.first || lo > table.bounds.last) {
-        return false;
-    }
-    if (lo <= table.bounds.allLast && hi >= table.bounds.allFirst) {
-        return true;
+    const bool some = table.bounds.some(lo, hi);
+    if (some || table.bounds.none(lo, hi)) {
+        return some;
     }
 #endif
     const float from = opacityEntry(table, lo, 0.0f);

@@ -21,6 +21,12 @@ struct OpacityBounds {
     /// Every range within these certainly is opaque all over (certainlyAllOpaque()). Empty: no such range is known.
     float allFirst = kInfinity;
     float allLast = -kInfinity;
+
+    /// What they say of a range: nothing in it is opaque, something is, all is. False where they do not say it, and
+    /// with NaN.
+    [[nodiscard]] constexpr bool none(float lo, float hi) const noexcept { return hi < first || lo > last; }
+    [[nodiscard]] constexpr bool some(float lo, float hi) const noexcept { return lo <= allLast && hi >= allFirst; }
+    [[nodiscard]] constexpr bool all(float lo, float hi) const noexcept { return lo >= allFirst && hi <= allLast; }
 };
 #endif
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace voxtact::test {
@@ -90,6 +91,11 @@ TEST(OpaqueHullTest, SaysWhatTheTableSaysOfARangeAndItsParts) {
             EXPECT_TRUE(look.mayBeOpaque(range.lo, range.hi, error) ||
                         !shader::certifiedMayBeOpaque(table, range.lo, range.hi, error))
                 << range.lo << " to " << range.hi << ", error " << error << ", round " << round;
+            constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+            for (const Range& part : {Range{kNone, range.hi}, {range.lo, kNone}, {kNone, kNone}}) {
+                EXPECT_EQ(shader::mayBeOpaque(bounded, part.lo, part.hi), shader::mayBeOpaque(table, part.lo, part.hi))
+                    << part.lo << " to " << part.hi << ", round " << round;
+            }
             for (const Range& part : {range, {range.lo, middle}, {middle, range.hi}, {middle, middle}}) {
                 const bool may = shader::mayBeOpaque(table, part.lo, part.hi);
                 EXPECT_EQ(shader::mayBeOpaque(bounded, part.lo, part.hi), may) << part.lo << " to " << part.hi;
