@@ -13,20 +13,22 @@ CertifiedOccupancy::CertifiedOccupancy(const VolumeImpl& volume, const TransferF
                                        double resolution)
     : item_(certifiedItem(volume.grid, 1, volume.storedIntercept, function.domain, function.table.size(), threshold,
                           resolution)),
-      extremes_(function.table), count_(volume.bricks.count) {
+      extremes_(function.table), table_{item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data()},
+      count_(volume.bricks.count) {
     classify(volume);
     sums_ = BrickSums<std::uint32_t>(count_, [this](std::size_t brick) { return std::uint32_t{mixed_[brick]}; });
 }
 
 void CertifiedOccupancy::classify(const VolumeImpl& volume) {
-    const shader::OpacityTable opacities = table();
+    const OpaqueHull hull = opaqueHullOf(table_);
+    table_.bounds = hull.bounds;
     mixed_.resize(volume.bricks.lo.size());
     for (std::size_t brick = 0; brick < mixed_.size(); ++brick) {
         const bool may =
-            shader::certifiedRangeMayBeOpaque(opacities, item_, volume.bricks.lo[brick], volume.bricks.hi[brick]);
+            shader::certifiedRangeMayBeOpaque(table_, item_, volume.bricks.lo[brick], volume.bricks.hi[brick]);
         mixed_[brick] = may ? 1 : 0;
     }
-    bricks_ = CertifiedBricks(mixed_, opaqueHullOf(opacities));
+    bricks_ = CertifiedBricks(mixed_, hull);
 }
 
 bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const {
@@ -56,7 +58,7 @@ bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const CellBox& ce
 bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick,
                                      const CellBox& cells) const {
     const std::size_t number = brickNumber(brick);
-    return mayBeOpaque(number) && bricks_.at(volume, item_, table(), number, brick).any(cells.within(brick));
+    return mayBeOpaque(number) && bricks_.at(volume, item_, table_, number, brick).any(cells.within(brick));
 }
 
 } // namespace voxtact::cpu

@@ -17,14 +17,15 @@ class CertifiedOccupancy {
   public:
     CertifiedOccupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
                        double resolution);
+    CertifiedOccupancy(const CertifiedOccupancy&) = delete;
+    CertifiedOccupancy& operator=(const CertifiedOccupancy&) = delete;
+    ~CertifiedOccupancy() = default;
 
     [[nodiscard]] const shader::CertifiedItem& item() const noexcept { return item_; }
+    /// With what is known of its hull; valid while this object lives.
+    [[nodiscard]] const shader::OpacityTable& table() const noexcept { return table_; }
     /// Valid while this object lives.
-    [[nodiscard]] shader::OpacityTable table() const noexcept {
-        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data(), bricks_.hull().bounds};
-    }
-    /// The table with what is known of its hull; valid while this object lives.
-    [[nodiscard]] OpacityLook look() const noexcept { return {table(), bricks_.hull().whole}; }
+    [[nodiscard]] OpacityLook look() const noexcept { return {table_, bricks_.hull().whole}; }
     /// Bricks along each axis.
     [[nodiscard]] const std::array<std::int32_t, 3>& bricks() const noexcept { return count_; }
     [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {
@@ -42,12 +43,12 @@ class CertifiedOccupancy {
     [[nodiscard]] bool nothingOpaque() const noexcept { return sums_.all() == 0; }
     /// The cells of a brick that may have an opaque point. `volume` is the one of the constructor.
     [[nodiscard]] const BrickCells& cells(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
-        return bricks_.at(volume, item_, table(), brickNumber(brick), brick);
+        return bricks_.at(volume, item_, table_, brickNumber(brick), brick);
     }
 
     /// Those of them that are opaque all over.
     [[nodiscard]] const CellBits& allOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
-        return bricks_.allOpaqueAt(volume, item_, table(), brickNumber(brick), brick);
+        return bricks_.allOpaqueAt(volume, item_, table_, brickNumber(brick), brick);
     }
 
   private:
@@ -58,6 +59,7 @@ class CertifiedOccupancy {
 
     shader::CertifiedItem item_;
     TableExtremes extremes_;
+    shader::OpacityTable table_; ///< of those
     std::array<std::int32_t, 3> count_;
     std::vector<std::uint8_t> mixed_;
     CertifiedBricks bricks_;
