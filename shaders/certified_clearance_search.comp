@@ -86,7 +86,7 @@ void search(uint at, bool mayTouch) {
     const bool boxesOnly = constants.step == 1;
     const float farther = found.asked - found.lo; // than what was known before
     const bool refused = found.open == VOXTACT_CLEARANCE_REFUSED;
-    const float open = found.open <= VOXTACT_CLEARANCE_UNKNOWN ? 0.0 : uintBitsToFloat(found.open);
+    const float open = found.open <= VOXTACT_CLEARANCE_ASTRAY ? 0.0 : uintBitsToFloat(found.open);
     const bool some = found.hi < VOXTACT_CLEARANCE_FAR;
     const float useful =
         min(some ? found.hi - max(constants.tolerance, found.hi * constants.rounding) : constants.most, constants.most);

@@ -75,6 +75,30 @@ const bool kAnyBrick = false; // the nearest of all
 const bool kAnyBrick = true;
 #endif
 
+/// Whether all of the volume is looked at, and something may be in it, but from where a node begins it may be farther
+/// than a search goes.
+bool isAstray(Node node) {
+    if (clearanceAsked(node.pair) < VOXTACT_CLEARANCE_FAR) {
+        return false;
+    }
+    const vec3 position = positionOf(constants.mesh, 3 * triangleAt(node.number * kNodeTriangles));
+    const VoxelPoint at = certifiedVertex(transforms[node.pair], position.x, position.y, position.z).point;
+    const bool nearby = all(lessThanEqual(abs(vec3(at.x, at.y, at.z)), vec3(VOXTACT_CLEARANCE_NEARBY)));
+    return !nearby && mayHaveAnything();
+}
+
+/// Something is no nearer to a node than `distance`, which is 0 where that is not known.
+void leaveBegun(Node node, float distance) {
+    if (isAstray(node)) {
+        atomicMin(queues[clearanceWord(node.pair) + VOXTACT_CLEARANCE_OPEN], VOXTACT_CLEARANCE_ASTRAY);
+    }
+#ifdef SCOUT
+    else if (distance < VOXTACT_CLEARANCE_FAR) {
+        leaveOpen(node.pair, distance);
+    }
+#endif
+}
+
 /// Whether something nearer than what is known may be near a node. What certainly is, is made known.
 bool isNear(Node node) {
     const CertifiedPair transform = transforms[node.pair];
@@ -94,11 +118,7 @@ bool isNear(Node node) {
     if (found.hi < clearanceHi(node.pair)) {
         foundAt(node.pair, triangleAt(node.number * kNodeTriangles), found.hi, found.place);
     }
-#ifdef SCOUT
-    if (found.open < VOXTACT_CLEARANCE_FAR) {
-        leaveOpen(node.pair, found.open);
-    }
-#endif
+    leaveBegun(node, found.open);
     return found.open < clearanceSpace(node.pair).margin;
 }
 #else
@@ -225,11 +245,9 @@ void main() {
     if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
         keep = isNear(node);
     }
-#ifdef SCOUT
     else if (keep) {
-        leaveOpen(node.pair, mayHaveAnything() ? 0.0 : VOXTACT_CLEARANCE_FAR);
+        leaveBegun(node, mayHaveAnything() ? 0.0 : VOXTACT_CLEARANCE_FAR);
     }
-#endif
 #else
     if (keep && constants.clusterWord != VOXTACT_NO_CLUSTERS) {
         const CertifiedPair transform = transforms[node.pair];

@@ -48,7 +48,8 @@ struct Grid {
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< columns: unit vectors along the index axes
 };
 
-/// Refuses an empty grid, a spacing that is not positive and finite, a singular or non-finite direction.
+/// Refuses an empty grid, one of more than 2^56 voxels, a spacing that is not positive and finite, a singular or
+/// non-finite direction.
 [[nodiscard]] VOXTACT_API Result<void> checkGrid(const Grid& grid);
 /// From texture space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromTexture(const Grid& grid) noexcept;

@@ -26,7 +26,7 @@ struct DetectorDesc {
     Outputs outputs{};                             ///< beside the counts; the Results need room for them
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
     double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
-    bool stopAtFirst = false; ///< conservative: the count is then 0 or 1, and its exactness LowerBound
+    bool stopAtFirst = false; ///< conservative without outputs: the count is then 0 or 1, its exactness LowerBound
     /// conservative: what the passes do is counted, for Results::counters(). Costs some atomics a triangle; nothing
     /// where it is not asked for.
     bool counters = false;

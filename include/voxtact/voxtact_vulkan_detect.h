@@ -22,7 +22,7 @@ typedef struct vxt_detector_desc {
     double resolution;          ///< CONSERVATIVE, voxels; 2^-12 to 1; default 1/64
     uint32_t outputs;           ///< bits of vxt_output; default none; the results need room for them
     uint32_t samples_per_voxel; ///< DOMINANT_AXIS: along a voxel's side; 1 to 16; default 1
-    uint32_t stop_at_first;     ///< CONSERVATIVE: the count is then 0 or 1, a lower bound; default 0
+    uint32_t stop_at_first;     ///< CONSERVATIVE without outputs: the count is then 0 or 1, a lower bound; default 0
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
     uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
     uint32_t device_poses;      ///< items may have vxt_item::poses; the queue then needs compute, too; default 0

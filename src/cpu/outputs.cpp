@@ -230,10 +230,7 @@ void OutputRun::Sink::publish() {
 }
 
 Result<void> checkOutputs(const DetectorDesc& desc) {
-    if (desc.outputs.any() && desc.stopAtFirst) {
-        return refuse("a yes or no ends at the first survivor, the outputs need all of them");
-    }
-    return voxtact::checkOutputs(desc.outputs);
+    return voxtact::checkOutputs(desc.outputs, desc.stopAtFirst);
 }
 
 Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs) {

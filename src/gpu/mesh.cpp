@@ -165,7 +165,7 @@ Result<Mesh> Mesh::create(const Context& context, const MeshView& data, const Me
         VOXTACT_TRY(fill(*impl, data, *facts, options));
         if (facts->degenerate > 0) {
             c.log("the mesh has " + std::to_string(facts->degenerate) + " degenerate triangles of " +
-                  std::to_string(facts->triangles) + "; they give no fragment");
+                  std::to_string(facts->triangles) + "; only the projection conservative counts them");
         }
         return Mesh(std::move(impl));
     });

@@ -116,6 +116,22 @@ TEST(Grids, BadOnesAreRefused) {
     EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("origin"));
 }
 
+/// 2^64 bytes of voxels are 0 to whoever counts them in 64 bits.
+TEST(Grids, MoreVoxelsThanCanBeCountedAreRefused) {
+    constexpr std::uint32_t kHalf = 1U << 31U;
+    for (const auto& [type, last] :
+         {std::pair{ScalarType::UInt8, 4U}, {ScalarType::Int16, 2U}, {ScalarType::Float32, 1U}}) {
+        const VolumeView view{.grid = {.size = {kHalf, kHalf, last}}, .type = type, .voxels = {}};
+        EXPECT_THAT(checkVolume(view).error().text, HasSubstr("more than 2^56 voxels"));
+        EXPECT_THAT(makeLabels(view).error().text, HasSubstr("more than 2^56 voxels"));
+    }
+    Grid grid;
+    grid.size = {1U << 28U, 1U << 28U, 1};
+    EXPECT_TRUE(checkGrid(grid).ok());
+    ++grid.size[0];
+    EXPECT_FALSE(checkGrid(grid).ok());
+}
+
 TEST(Cameras, FramingShowsTheWholeBox) {
     const Grid grid = obliqueGrid();
     const Mat4 clip_from_texture = multiply(framingCamera(grid, 640, 480), worldFromTexture(grid));

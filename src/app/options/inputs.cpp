@@ -100,7 +100,7 @@ Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options)
     }
     if (facts->degenerate > 0) {
         mesh->notes.push_back(std::to_string(facts->degenerate) + " of " + std::to_string(facts->triangles) +
-                              " triangles have no area: they give no fragment");
+                              " triangles have no area: only the projection conservative counts them");
     }
     printNotes(source, mesh->notes);
     return mesh;

@@ -82,7 +82,10 @@ void addLabelMap(shader::OutputPair& pair, const Grid& grid, const Grid& labelGr
     pair.labelSizeZ = labelGrid.size[2];
 }
 
-Result<void> checkOutputs(const Outputs& outputs) {
+Result<void> checkOutputs(const Outputs& outputs, bool stopAtFirst) {
+    if (outputs.any() && stopAtFirst) {
+        return refuse("a yes or no ends at the first survivor, the outputs need all of them");
+    }
     const auto depth = static_cast<float>(outputs.maxDepth);
     if (outputs.contacts && !(std::isnormal(depth) && depth > 0)) {
         return refuse("the largest depth of contacts is " + number(outputs.maxDepth) +

@@ -50,6 +50,11 @@ Result<void> checkGrid(const Grid& grid) {
             return refuse(std::string("the origin's ") + kAxes[axis] + " is not finite");
         }
     }
+    // So that no number of bytes is more than 64 bits hold.
+    constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 56U;
+    if (std::uint64_t{grid.size[0]} * grid.size[1] > kMostVoxels / grid.size[2]) {
+        return refuse("the image has more than 2^56 voxels");
+    }
     glm::dmat3 direction;
     for (int c = 0; c < 3; ++c) {
         for (int r = 0; r < 3; ++r) {

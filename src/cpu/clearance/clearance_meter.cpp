@@ -4,6 +4,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/batch/output_pair.h"
 #include "core/geometry/closest_gradient.h"
 #include "core/geometry/glm_bridge.h"
 #include "core/method/certified_constants.h"
@@ -158,14 +159,16 @@ std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const st
     return indices;
 }
 
-LabelSets setsOf(ClearanceMeterImpl& impl, const BatchItem& item, const std::shared_ptr<const OpaquePart>& part,
-                 std::uint64_t labels, const std::vector<std::uint32_t>& indices) {
+/// Refuses what checkLabels() refuses.
+Result<LabelSets> setsOf(ClearanceMeterImpl& impl, const BatchItem& item, const std::shared_ptr<const OpaquePart>& part,
+                         std::uint64_t labels, const std::vector<std::uint32_t>& indices) {
     constexpr std::size_t kMostKept = 4;
     for (const KeptLabels& kept : impl.labels) {
         if (kept.part == part && kept.labels == labels && kept.indices == indices) {
             return kept.sets;
         }
     }
+    VOXTACT_TRY(checkLabels(*item.labels));
     auto made =
         std::make_shared<const std::vector<LabelSet>>(singleLabels(*part, item.volume->impl(), *item.labels, indices));
     if (impl.labels.size() == kMostKept) {
@@ -265,7 +268,9 @@ Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, s
             const auto [print, isNew] = fingerprints.try_emplace(item.labels);
             print->second = isNew ? labelFingerprint(*item.labels) : print->second;
             indices.push_back(indicesOf(*item.labels, labels));
-            sets.push_back(setsOf(*impl_, item, parts[i], print->second, indices[i]));
+            Result<LabelSets> made = setsOf(*impl_, item, parts[i], print->second, indices[i]);
+            VOXTACT_TRY(made);
+            sets.push_back(std::move(*made));
         }
         LabelClearanceAnswer answer;
         answer.labels = numberedPairs<LabelClearance>(batch, labels.size());

@@ -62,7 +62,7 @@ Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc) 
     if (!desc.outputs.any()) {
         return {};
     }
-    VOXTACT_TRY(checkOutputs(desc.outputs));
+    VOXTACT_TRY(checkOutputs(desc.outputs, desc.stopAtFirst));
     const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
     if (rasterised && !context.features.fragmentStoresAndAtomics) {
         return unsupported("fragmentStoresAndAtomics is not enabled");

@@ -230,6 +230,10 @@ TEST(Clearance, RefusesWhatItCannotUse) {
     EXPECT_EQ(refusedLabels(&coarse, one),
               "batch item 0: the label map is not on the grid of the volume; resample it to that");
     EXPECT_NE(refusedLabels(&labels, std::vector<std::int32_t>(5000, 1)), "");
+    LabelData beyond = labels;
+    beyond.indices[5] = 60000;
+    EXPECT_EQ(refusedLabels(&beyond, one), "the label map's voxel 5 has the index 60000, there are " +
+                                               std::to_string(beyond.values.size()) + " values");
     EXPECT_EQ(refusedLabels(&labels, one), "");
     EXPECT_EQ(refusedLabels(&labels, {}), "");
     item.volume = nullptr;

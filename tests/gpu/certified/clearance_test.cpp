@@ -264,6 +264,36 @@ TEST_F(ClearanceTest, WhereNothingIsOpaque) {
     }
 }
 
+/// What is opaque is there, however far away the mesh is.
+TEST_F(ClearanceTest, FarAwayIsNotNowhere) {
+    const VolumeData image = makeBytes(unitGrid(20), [](auto...) { return 200.0; });
+    const Volume volume = take(Volume::upload(context(), queue(), image.view(), {.bricks = true}));
+    const TransferFunction function = upload(std::array{ControlPoint{0, 0}, ControlPoint{255, 1}}, {0, 255});
+    const MeshData flat = makeFlat(0.2, 0.8, 0.2, 0.8, 0.5);
+    const Detector anywhere = take(Detector::create(context(), howNear({.maximum = kInfinity})));
+    const Detector near = take(Detector::create(context(), howNear({.maximum = 3})));
+    // A voxel is 1/20 mm: from 2^22 voxels to far beyond 2^24.
+    const std::array places{1e3, 2.2e5, 4e5, 8.3e5, 8.5e5, 1e6, 1e9, 1e15};
+    std::vector<Mat4> poses;
+    for (const double place : places) {
+        poses.push_back(translation({0, place, 0}));
+    }
+    for (const bool clusters : {true, false}) {
+        const Mesh mesh = take(Mesh::upload(context(), queue(), flat.view(), {.clusters = clusters}));
+        const BatchItem item{&mesh, &volume, &function, poses};
+        const Answered found = detect(anywhere, {{&item, 1}, {}, 0.5}, places.size(), 2048);
+        const Answered within = detect(near, {{&item, 1}, {}, 0.5}, places.size(), 2048);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            SCOPED_TRACE(std::to_string(places[i]) + (clusters ? " with clusters" : ""));
+            EXPECT_LE(found.clearances[i].bounds.lo, places[i]);
+            EXPECT_GE(found.clearances[i].bounds.hi, places[i] - 1);
+            EXPECT_NE(found.clearances[i].end, ClearanceEnd::Closed);
+            EXPECT_EQ(within.clearances[i].bounds.lo, 3);
+            EXPECT_EQ(within.clearances[i].end, ClearanceEnd::Beyond);
+        }
+    }
+}
+
 /// A batch of several items, each with a volume and a transfer function of its own.
 TEST_F(ClearanceTest, OfSeveralItems) {
     std::vector<Answered> alone;

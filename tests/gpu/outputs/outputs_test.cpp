@@ -322,6 +322,13 @@ TEST_F(OutputsTest, BadDepthsAndLabelMaps) {
         EXPECT_THAT(refused.error().text, HasSubstr("the largest depth of contacts is"));
     }
     EXPECT_TRUE(Detector::create(context(), {.outputs = {.bounds = true, .maxDepth = nan}}).ok());
+    EXPECT_THAT(Detector::create(context(), {.method = CountingMethod::Compute,
+                                             .projection = Projection::Conservative,
+                                             .outputs = {.triangles = true},
+                                             .stopAtFirst = true})
+                    .error()
+                    .text,
+                HasSubstr("a yes or no ends at the first survivor"));
     LabelData labels{unitGrid(2), std::vector<std::uint16_t>(8), {0, 3}};
     EXPECT_TRUE(LabelMap::create(context(), labels).ok());
     labels.indices[5] = 2;
