@@ -20,8 +20,8 @@ namespace voxtact {
 void addLabelMap(shader::OutputPair& pair, const Grid& grid, const Grid& labelGrid,
                  std::span<const std::int32_t> values);
 
-/// Refuses outputs of what stops at the first survivor, and, where contacts are asked for, a maximal depth that is not a
-/// positive number.
+/// Refuses outputs of what stops at the first survivor, and, where contacts are asked for, a maximal depth that is not
+/// a positive number.
 [[nodiscard]] Result<void> checkOutputs(const Outputs& outputs, bool stopAtFirst);
 
 /// Refuses labels that makeLabels() would not make, their indices aside. O(labels).
