@@ -284,13 +284,12 @@ struct CertifiedConstants {
 #define VOXTACT_CLEARANCE_ENDS 4u // numbers of ClearanceEnd
 // In place of a distance that is left undecided: nothing is known of it; and that for want of room or time.
 #define VOXTACT_CLEARANCE_UNKNOWN 1u
-// The same, of what begins so far from the volume that it may be farther than VOXTACT_CLEARANCE_FAR.
-#define VOXTACT_CLEARANCE_ASTRAY 2u
 #define VOXTACT_CLEARANCE_REFUSED 0u
+// The first, of what begins so far from the volume that it may be farther than VOXTACT_CLEARANCE_FAR.
+#define VOXTACT_CLEARANCE_ASTRAY 2u
 /// Farther than anything, flat, of a mesh that has a point near the volume.
 #define VOXTACT_CLEARANCE_FAR 16777216.0f
-/// Voxels along an axis: what is no farther from the volume's corner is within half of that, and so is all the volume
-/// from it.
+/// Voxels along each axis: a point that is no farther from the first voxel has all of the volume within half of that.
 #define VOXTACT_CLEARANCE_NEARBY 4194304.0f
 /// Of a distance, over the size of MarginSpace: bounds of single precision are no nearer to each other.
 #define VOXTACT_CLEARANCE_ROUNDING 2.0e-5f

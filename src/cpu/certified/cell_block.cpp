@@ -56,11 +56,10 @@ BlockBits BlockLook::ofOne(const CellBlock& block) {
 
 BlockBits BlockLook::ofSeveral(const CellBlock& block) const {
     const auto second = [&](unsigned bits) { return (block.cells & bits) != 0 ? 1 : 0; };
-    const BrickBox bricks = CellBox{
+    const CellBox cells{
         block.first,
-        {block.first[0] + second(kSecondX), block.first[1] + second(kSecondY),
-         block.first[2] +
-             second(kSecondZ)}}.bricks();
+        {block.first[0] + second(kSecondX), block.first[1] + second(kSecondY), block.first[2] + second(kSecondZ)}};
+    const BrickBox bricks = cells.bricks();
     BlockBits bits;
     for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
         for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {

@@ -23,7 +23,6 @@ struct CellBlock {
     std::uint32_t column = 0;
     bool oneBrick = true;
 
-    [[nodiscard]] bool single() const noexcept { return cells == 1; }
     [[nodiscard]] std::array<std::int32_t, 3> at(unsigned number) const noexcept {
         return {first[0] + static_cast<std::int32_t>(number & 1U),
                 first[1] + static_cast<std::int32_t>(number >> 1U & 1U),
