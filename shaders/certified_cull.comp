@@ -87,7 +87,8 @@ bool isAstray(Node node) {
     return !nearby && mayHaveAnything();
 }
 
-/// Something is no nearer to a node than `distance`, which is 0 where that is not known.
+/// Says whether a node is astray; in the first step also that something is no nearer to it than `distance`, which is 0
+/// where that is not known.
 void leaveBegun(Node node, float distance) {
     if (isAstray(node)) {
         atomicMin(queues[clearanceWord(node.pair) + VOXTACT_CLEARANCE_OPEN], VOXTACT_CLEARANCE_ASTRAY);

@@ -289,7 +289,8 @@ struct CertifiedConstants {
 #define VOXTACT_CLEARANCE_ASTRAY 2u
 /// Farther than anything, flat, of a mesh that has a point near the volume.
 #define VOXTACT_CLEARANCE_FAR 16777216.0f
-/// Voxels along each axis: a point that is no farther from the first voxel has all of the volume within half of that.
+/// Voxels along each axis: from a point that is no farther from the first voxel, all of the volume is within half of
+/// VOXTACT_CLEARANCE_FAR.
 #define VOXTACT_CLEARANCE_NEARBY 4194304.0f
 /// Of a distance, over the size of MarginSpace: bounds of single precision are no nearer to each other.
 #define VOXTACT_CLEARANCE_ROUNDING 2.0e-5f

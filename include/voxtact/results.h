@@ -46,9 +46,9 @@ struct Contact {
     /// up to maxDepth. Zero where they all vanish.
     Vec3 normal{};
     /// mm along the normal from the position to where the opacity falls below the threshold, or the image ends. It is
-    /// looked for in steps of half the smallest spacing, so that a thinner gap may be missed; they are longer where
-    /// more than 16,384 of them would be needed, up to maxDepth or through the image. maxDepth where there is none up
-    /// to there, or where there is no normal.
+    /// looked for in steps of half the smallest spacing, so that a thinner gap may be missed. No more than 16,384 steps
+    /// are taken: they get longer where the way to maxDepth, or through the image, needs more. maxDepth where there is
+    /// none up to there, or where there is no normal.
     double depth = 0;
     double value = 0; ///< of the image, in its own units
     /// Of that value, by Filter::Exact: a survivor of Filter::Hardware may be a little below the threshold. In

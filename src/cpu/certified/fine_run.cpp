@@ -67,7 +67,7 @@ HWY_INLINE Corners cornersOf(const FineRun::Triangles& lanes, std::size_t i) {
     return corners;
 }
 
-/// The cells of an axis, as certifiedCells(), and which of the corners are in them.
+/// The cells of an axis, as certifiedCells() has them.
 struct Along {
     FloatV first;
     FloatV last;
@@ -92,14 +92,13 @@ HWY_INLINE Along cellsAlong(const Corners& corners, std::size_t axis, std::int32
     return along;
 }
 
-/// The bits of the cells that a corner is in: of each, of the axes that were looked at so far.
+/// The bit of the cell that a corner is in, as far as axes were looked at, and whether there is such a cell.
 struct InCells {
     WordV bits;
     Mask inside;
 };
 
-/// Takes the next axis into account, from the last one to the first: bits are moved by as many as there are cells
-/// before the second one along it.
+/// Takes one axis into account: the second cell along it has its bit kShift higher than the first.
 template <int kShift> HWY_INLINE void narrow(const Along& along, FloatV at, InCells& in) {
     const Floats d;
     const Words words;
@@ -118,7 +117,7 @@ template <int kShift> HWY_INLINE WordV widen(const Along& along, WordV cells) {
 using Whole = hn::RebindToSigned<Floats>;
 using Bricks = std::array<std::int32_t, 3>;
 
-/// Keeps where the first cell is. `first`: of the three axes, from 0 on.
+/// Keeps where the first cell is: in the volume, and in its brick.
 HWY_INLINE void keepPlace(const std::array<Along, 3>& along, const Bricks& bricks, FineRun::Triangles& lanes,
                           std::size_t i) {
     const Words words;
