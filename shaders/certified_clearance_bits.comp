@@ -2,7 +2,6 @@
 // Where clearances are measured: the bits of the bricks that want them, a work group a brick.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

@@ -4,7 +4,6 @@
 // its nearest triangle: that bounds the distance above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

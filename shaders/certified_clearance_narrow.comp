@@ -3,7 +3,6 @@
 // AGAIN, those go on in which what may be opaque may be nearer than what is known by then.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

@@ -3,7 +3,6 @@
 // lane a near one. With PROBE that pass only bounds the distance above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

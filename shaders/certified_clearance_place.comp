@@ -4,7 +4,6 @@
 // in between; so halving leads there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE

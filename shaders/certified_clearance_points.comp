@@ -3,7 +3,6 @@
 // triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "clearance_words.h"
 #include "voxtact/device_results.h"
 

@@ -5,7 +5,6 @@
 // distance above. Triangles that are farther from the brick than what is known are taken out of the entry.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

@@ -8,7 +8,6 @@
 // be nearer to something opaque than what is known of their pair; SCOUT is the first step, which ends here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

@@ -4,7 +4,6 @@
 // groups share it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

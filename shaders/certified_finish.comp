@@ -4,7 +4,6 @@
 // and decided here. Each entry of that has as many work groups as its bricks need.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #ifdef OUTPUTS
 #extension GL_EXT_samplerless_texture_functions : require
 #endif

@@ -3,7 +3,6 @@
 // as it has lanes. The lanes share the bricks, and then the cells of each brick that may touch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

@@ -2,7 +2,6 @@
 // The projection `conservative` with a margin, the decision: a lane a cell. What it leaves undecided is *possible*.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

@@ -3,7 +3,6 @@
 // for, found and decided here. Each entry of that has as many work groups as its bricks need.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

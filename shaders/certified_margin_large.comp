@@ -7,7 +7,6 @@
 // to certified_margin_finish, whose work groups share it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

@@ -4,7 +4,6 @@
 // triangle does not serialise; and by as many groups along z as the host has taken for those that are huge.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #ifdef OUTPUTS
 #extension GL_EXT_samplerless_texture_functions : require
 #endif

@@ -18,6 +18,8 @@
 /// A triangle that six planes clip has at most this many corners.
 #define EXACT_MAX_CORNERS 9
 
+#include "long.h"
+
 #include "exact_language.h"
 
 #ifdef __cplusplus
@@ -205,8 +207,8 @@ EXACT float exactReciprocalW(float w) {
 }
 
 /// Twice the signed area of (a, b, p); positive where p is inside of the edge from a to b.
-EXACT INT64 exactEdge(int ax, int ay, int bx, int by, int px, int py) {
-    return INT64(bx - ax) * INT64(py - ay) - INT64(by - ay) * INT64(px - ax);
+EXACT Long exactEdge(int ax, int ay, int bx, int by, int px, int py) {
+    return longDifference(longProduct(bx - ax, py - ay), longProduct(by - ay, px - ax));
 }
 
 /// Top-left rule, y down: an edge function of zero covers only on a top or a left edge. Covered: edge + bias >= 0.
@@ -241,11 +243,12 @@ EXACT bool exactSetUp(ExactCorner c0, ExactCorner c1, ExactCorner c2, int width,
     triangle.y1 = int(y1);
     triangle.x2 = int(x2);
     triangle.y2 = int(y2);
-    INT64 area = exactEdge(triangle.x0, triangle.y0, triangle.x1, triangle.y1, triangle.x2, triangle.y2);
-    if (area == INT64(0)) {
+    PRECISE float area =
+        longToFloat(exactEdge(triangle.x0, triangle.y0, triangle.x1, triangle.y1, triangle.x2, triangle.y2));
+    if (area == 0.0f) {
         return false;
     }
-    if (area < INT64(0)) {
+    if (area < 0.0f) {
         int x = triangle.x1;
         int y = triangle.y1;
         triangle.x1 = triangle.x2;
@@ -280,7 +283,7 @@ EXACT bool exactSetUp(ExactCorner c0, ExactCorner c1, ExactCorner c2, int width,
     if (triangle.maxX < triangle.minX || triangle.maxY < triangle.minY) {
         return false;
     }
-    triangle.rcpArea = exactReciprocal(float(area));
+    triangle.rcpArea = exactReciprocal(area);
     PRECISE float t0x = c0.tx * q0;
     PRECISE float t0y = c0.ty * q0;
     PRECISE float t0z = c0.tz * q0;
@@ -326,14 +329,14 @@ EXACT float exactPlaneAt(float base, float u, float v, float weight1, float weig
 EXACT bool exactFragment(ExactTriangle triangle, int pixelX, int pixelY, OUT(float) tx, OUT(float) ty, OUT(float) tz) {
     int px = pixelX * EXACT_SUBPIXEL + EXACT_SUBPIXEL / 2;
     int py = pixelY * EXACT_SUBPIXEL + EXACT_SUBPIXEL / 2;
-    INT64 edge0 = exactEdge(triangle.x1, triangle.y1, triangle.x2, triangle.y2, px, py);
-    INT64 edge1 = exactEdge(triangle.x2, triangle.y2, triangle.x0, triangle.y0, px, py);
-    INT64 edge2 = exactEdge(triangle.x0, triangle.y0, triangle.x1, triangle.y1, px, py);
-    bool covered = edge0 + INT64(exactBias(triangle.x1, triangle.y1, triangle.x2, triangle.y2)) >= INT64(0) &&
-                   edge1 + INT64(exactBias(triangle.x2, triangle.y2, triangle.x0, triangle.y0)) >= INT64(0) &&
-                   edge2 + INT64(exactBias(triangle.x0, triangle.y0, triangle.x1, triangle.y1)) >= INT64(0);
-    PRECISE float weight1 = float(edge1) * triangle.rcpArea;
-    PRECISE float weight2 = float(edge2) * triangle.rcpArea;
+    Long edge0 = exactEdge(triangle.x1, triangle.y1, triangle.x2, triangle.y2, px, py);
+    Long edge1 = exactEdge(triangle.x2, triangle.y2, triangle.x0, triangle.y0, px, py);
+    Long edge2 = exactEdge(triangle.x0, triangle.y0, triangle.x1, triangle.y1, px, py);
+    bool covered = !longIsNegative(longSum(edge0, exactBias(triangle.x1, triangle.y1, triangle.x2, triangle.y2))) &&
+                   !longIsNegative(longSum(edge1, exactBias(triangle.x2, triangle.y2, triangle.x0, triangle.y0))) &&
+                   !longIsNegative(longSum(edge2, exactBias(triangle.x0, triangle.y0, triangle.x1, triangle.y1)));
+    PRECISE float weight1 = longToFloat(edge1) * triangle.rcpArea;
+    PRECISE float weight2 = longToFloat(edge2) * triangle.rcpArea;
     PRECISE float x = exactPlaneAt(triangle.tx, triangle.ux, triangle.vx, weight1, weight2);
     PRECISE float y = exactPlaneAt(triangle.ty, triangle.uy, triangle.vy, weight1, weight2);
     PRECISE float z = exactPlaneAt(triangle.tz, triangle.uz, triangle.vz, weight1, weight2);

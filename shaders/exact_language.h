@@ -10,7 +10,6 @@
 #define OUT(type) type&
 #define INOUT(type) type&
 #define ARRAY(type, name, count) type(&name)[count]
-#define INT64 std::int64_t
 #define ROLLED
 #else
 #define EXACT
@@ -18,7 +17,6 @@
 #define OUT(type) out type
 #define INOUT(type) inout type
 #define ARRAY(type, name, count) inout type name[count]
-#define INT64 int64_t
 #ifdef SMALL_PROGRAM
 #define ROLLED [[dont_unroll]]
 #else
@@ -33,7 +31,6 @@
 #undef OUT
 #undef INOUT
 #undef ARRAY
-#undef INT64
 #undef ROLLED
 
 #endif

@@ -4,7 +4,9 @@
 #ifndef VOXTACT_OPERATIONS_H
 #define VOXTACT_OPERATIONS_H
 
+#include "long.h"
 #include "precise.h"
+#include "wide_integers.h"
 
 #define OPERATION_FLOAT_ADD 0
 #define OPERATION_FLOAT_SUBTRACT 1
@@ -23,27 +25,29 @@
 #define OPERATION_FLOAT_BITS 14
 #define OPERATION_INT_TO_FLOAT 15
 #define OPERATION_UINT_TO_FLOAT 16
-#define OPERATION_INT64_TO_FLOAT 17
-#define OPERATION_FLOAT_TO_INT 18
-#define OPERATION_INT_ADD 19
-#define OPERATION_INT_MULTIPLY 20
-#define OPERATION_INT_SHIFT 21
-#define OPERATION_INT_COMPARE 22
-#define OPERATION_INT_MIN_MAX 23
-#define OPERATION_UINT_SHIFT 24
-#define OPERATION_UINT_DIVIDE 25
-#define OPERATION_UINT_COMPARE 26
-#define OPERATION_INT64_WIDEN 27
-#define OPERATION_INT64_ADD 28
-#define OPERATION_INT64_SUBTRACT 29
-#define OPERATION_INT64_MULTIPLY 30
-#define OPERATION_INT64_SHIFT 31
-#define OPERATION_INT64_COMPARE 32
+#define OPERATION_FLOAT_TO_INT 17
+#define OPERATION_INT_ADD 18
+#define OPERATION_INT_MULTIPLY 19
+#define OPERATION_INT_SHIFT 20
+#define OPERATION_INT_COMPARE 21
+#define OPERATION_INT_MIN_MAX 22
+#define OPERATION_UINT_SHIFT 23
+#define OPERATION_UINT_DIVIDE 24
+#define OPERATION_UINT_COMPARE 25
+#define OPERATION_UINT_FIRST_BIT 26
+#define OPERATION_UINT_PRODUCT 27
+#define OPERATION_LONG_PRODUCT 28
+#define OPERATION_LONG_SUM 29
+#define OPERATION_LONG_DIFFERENCE 30
+#define OPERATION_LONG_SIGN 31
+#define OPERATION_LONG_TO_FLOAT 32
 /// How many there are.
 #define OPERATION_COUNT 33
 /// The one behind them: what lanes do together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
 #define OPERATION_GROUP 33
 #define OPERATION_GROUP_WORDS 6
+/// The first of them that are of work groups, the others of subgroups.
+#define OPERATION_GROUP_SHARED_WORDS 3
 
 /// Inputs of an operation, in words, and its results.
 #define OPERATION_INPUTS 4
@@ -63,6 +67,8 @@ inline float floatOf(uint bits) {
 inline uint bitsOf(float value) {
     return std::bit_cast<uint>(value);
 }
+using integers::umulExtended;
+using integers::wideLeadingZeros;
 #else
 #define uintAsInt int
 #define intAsUint uint
@@ -141,7 +147,9 @@ EXACT bool operationOnWords(int operation, uint a, uint b, OUT(uint) low, OUT(ui
     } else if (operation == OPERATION_INT_TO_FLOAT) {
         low = bitsOf(float(uintAsInt(a)));
     } else if (operation == OPERATION_UINT_TO_FLOAT) {
-        low = bitsOf(float(a));
+        // Those that are floats: a driver at hand rounds others twice, and nothing rests on them.
+        low = bitsOf(float(a & 0xffffffu));
+        high = bitsOf(float(a >> 8));
     } else if (operation == OPERATION_FLOAT_TO_INT) {
         low = intAsUint(int(floatOf((a & 0x807fffffu) | ((((a >> 23) & 15u) * 2u + 126u) << 23))));
     } else if (operation == OPERATION_INT_ADD) {
@@ -165,41 +173,41 @@ EXACT bool operationOnWords(int operation, uint a, uint b, OUT(uint) low, OUT(ui
         high = a % (b | 1u);
     } else if (operation == OPERATION_UINT_COMPARE) {
         low = (a < b ? 1u : 0u) | (a <= b ? 2u : 0u) | (a == b ? 4u : 0u);
+    } else if (operation == OPERATION_UINT_FIRST_BIT) {
+        low = wideLeadingZeros(a);
+        high = wideLeadingZeros(a >> (b & 31u));
     } else {
         return false;
     }
     return true;
 }
 
-/// Operations on 64-bit integers: of a and b, and of c and d, the low words first. Nothing overflows, which C++ leaves
-/// open.
+/// Operations with 64-bit integers: of a and b, and of c and d, the low words first, as much of them as each takes.
 EXACT void operationOnLongs(int operation, uint a, uint b, uint c, uint d, OUT(uint) low, OUT(uint) high) {
-    INT64 left = (INT64(uintAsInt(b)) << 32) | INT64(a);
-    INT64 right = (INT64(uintAsInt(d)) << 32) | INT64(c);
-    INT64 value = INT64(0);
-    if (operation == OPERATION_INT64_TO_FLOAT) {
-        low = bitsOf(float(left));
-        high = bitsOf(float(left >> (d & 63u)));
+    low = 0u;
+    high = 0u;
+    if (operation == OPERATION_UINT_PRODUCT) {
+        umulExtended(a, b, high, low);
         return;
     }
-    if (operation == OPERATION_INT64_COMPARE) {
-        low = (left < right ? 1u : 0u) | (left <= right ? 2u : 0u) | (left == right ? 4u : 0u);
-        high = left > INT64(0) ? 1u : 0u;
+    if (operation == OPERATION_LONG_TO_FLOAT) {
+        low = bitsOf(longToFloat(longOf(uintAsInt(b) >> 15, a)));
+        high = bitsOf(longToFloat(longOf(uintAsInt(d) >> 31, c)));
         return;
     }
-    if (operation == OPERATION_INT64_WIDEN) {
-        value = INT64(uintAsInt(a));
-    } else if (operation == OPERATION_INT64_ADD) {
-        value = (left >> 1) + (right >> 1);
-    } else if (operation == OPERATION_INT64_SUBTRACT) {
-        value = (left >> 1) - (right >> 1);
-    } else if (operation == OPERATION_INT64_MULTIPLY) {
-        value = INT64(uintAsInt(a)) * INT64(uintAsInt(c));
-    } else if (operation == OPERATION_INT64_SHIFT) {
-        value = left >> (c & 63u);
+    if (operation == OPERATION_LONG_SIGN) {
+        low = longIsNegative(longOf(uintAsInt(b), a)) ? 1u : 0u;
+        high = longIsNegative(longOf(uintAsInt(d), c)) ? 1u : 0u;
+        return;
     }
-    low = uint(value & INT64(0xffffffffu));
-    high = uint((value >> 32) & INT64(0xffffffffu));
+    Long value = longProduct(uintAsInt(a), uintAsInt(b));
+    if (operation == OPERATION_LONG_SUM) {
+        value = longSum(longOf(uintAsInt(b) >> 1, a), uintAsInt(c));
+    } else if (operation == OPERATION_LONG_DIFFERENCE) {
+        value = longDifference(longOf(uintAsInt(b) >> 1, a), longOf(uintAsInt(d) >> 1, c));
+    }
+    low = longLow(value);
+    high = longHigh(value);
 }
 
 /// One operation on four words; two words of results.

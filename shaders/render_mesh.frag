@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #ifdef PAINT_FRAGMENTS
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #endif
 #include "picture.glsl"
 

@@ -2,7 +2,6 @@
 // The numbers are those of view.vert, bit for bit: what is painted by fragment is decided from them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "picture.glsl"
 #include "exact.h"
 

@@ -73,7 +73,6 @@ static void open_device(engine* e) {
     VkPhysicalDeviceFeatures2 wanted = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &rendering};
     wanted.features.occlusionQueryPrecise = VK_TRUE;
     wanted.features.fragmentStoresAndAtomics = VK_TRUE;
-    wanted.features.shaderInt64 = VK_TRUE;
 
     e->log = pl_log_create(PL_API_VER, pl_log_params(.log_cb = hear, .log_priv = e, .log_level = PL_LOG_WARN));
     e->instance = pl_vk_inst_create(e->log, &(struct pl_vk_inst_params){.debug = true});

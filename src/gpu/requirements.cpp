@@ -23,7 +23,6 @@ constexpr std::array kRequirements{
     Requirement{
         "geometryShader", kCore, false,
         "no outputs beside the counts by the rasteriser, and no list of surviving fragments (gl_PrimitiveID needs it)"},
-    Requirement{"shaderInt64", kCore, false, "no counting method compute"},
 };
 
 constexpr std::array kOptionalExtensions{VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
@@ -91,14 +90,11 @@ DeviceSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
                                     std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) +
                                     ", 1.3 is needed");
     }
-    const auto has = [&](VkShaderStageFlags stage, VkSubgroupFeatureFlags operations) {
-        return (subgroup.supportedStages & stage) != 0 && (subgroup.supportedOperations & operations) == operations;
-    };
-    return {has(VK_SHADER_STAGE_FRAGMENT_BIT,
-                VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
-            has(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT),
-            properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers,
-            readFloatControls(floats)};
+    return {
+        hasSubgroup(subgroup, VK_SHADER_STAGE_FRAGMENT_BIT,
+                    VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
+        properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers,
+        readFloatControls(floats)};
 }
 
 static_assert(kComputeStorageBuffers == 6, "methodSupport() says so");
@@ -114,8 +110,6 @@ std::vector<MethodSupport> methodSupport(const EnabledFeatures& enabled, const D
         {kNeedsFragmentStores, enabled.fragmentStoresAndAtomics, "fragmentStoresAndAtomics is not enabled"},
         {kNeedsFragmentBallot, device.fragmentBallotAndShuffle,
          "the fragment stage has no subgroup ballot and shuffle"},
-        {kNeedsInt64, enabled.shaderInt64, "shaderInt64 is not enabled"},
-        {kNeedsComputeArithmetic, device.computeArithmetic, "the compute stage has no subgroup arithmetic"},
         {kNeedsComputeBuffers, device.computeBuffers, "maxPerStageDescriptorStorageBuffers is below 6"},
     };
     std::vector<MethodSupport> all;
@@ -144,6 +138,11 @@ std::span<const char* const> optionalDeviceExtensions() noexcept {
     return kOptionalExtensions;
 }
 
+bool hasSubgroup(const VkPhysicalDeviceSubgroupProperties& properties, VkShaderStageFlags stage,
+                 VkSubgroupFeatureFlags operations) noexcept {
+    return (properties.supportedStages & stage) != 0 && (properties.supportedOperations & operations) == operations;
+}
+
 FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept {
     return {on(properties.shaderSignedZeroInfNanPreserveFloat32), on(properties.shaderRoundingModeRTEFloat32),
             on(properties.shaderDenormPreserveFloat32)};
@@ -164,7 +163,6 @@ EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept
     out.occlusionQueryPrecise = on(features->features.occlusionQueryPrecise);
     out.fragmentStoresAndAtomics = on(features->features.fragmentStoresAndAtomics);
     out.geometryShader = on(features->features.geometryShader);
-    out.shaderInt64 = on(features->features.shaderInt64);
     forEachStruct(features, [&](const VkBaseInStructure* next) {
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
             const auto* all = reinterpret_cast<const VkPhysicalDeviceVulkan13Features*>(next);
@@ -202,15 +200,14 @@ FeatureRequest::FeatureRequest(const VkPhysicalDeviceFeatures2* supported) noexc
     features2.features.occlusionQueryPrecise = has.occlusionQueryPrecise ? VK_TRUE : VK_FALSE;
     features2.features.fragmentStoresAndAtomics = has.fragmentStoresAndAtomics ? VK_TRUE : VK_FALSE;
     features2.features.geometryShader = has.geometryShader ? VK_TRUE : VK_FALSE;
-    features2.features.shaderInt64 = has.shaderInt64 ? VK_TRUE : VK_FALSE;
 }
 
 CheckReport check(const ContextDesc& desc) {
     CheckReport report;
     checkHandles(desc, report);
     const EnabledFeatures enabled = readFeatures(desc.enabledFeatures);
-    const bool has[] = {enabled.dynamicRendering,         enabled.synchronization2, enabled.occlusionQueryPrecise,
-                        enabled.fragmentStoresAndAtomics, enabled.geometryShader,   enabled.shaderInt64};
+    const bool has[] = {enabled.dynamicRendering, enabled.synchronization2, enabled.occlusionQueryPrecise,
+                        enabled.fragmentStoresAndAtomics, enabled.geometryShader};
     static_assert(std::size(has) == kRequirements.size());
     DeviceSupport device;
     if (desc.getInstanceProcAddr != nullptr && desc.instance != VK_NULL_HANDLE && desc.device != VK_NULL_HANDLE &&

@@ -15,22 +15,23 @@ struct EnabledFeatures {
     bool synchronization2 = false;
     bool occlusionQueryPrecise = false;
     bool fragmentStoresAndAtomics = false;
-    bool shaderInt64 = false;
     bool geometryShader = false;
 };
 
 /// What no feature struct says.
 struct DeviceSupport {
-    bool fragmentBallotAndShuffle = false; ///< subgroup operations of the stages
-    bool computeArithmetic = false;
-    bool computeBuffers = false;         ///< kComputeStorageBuffers in the compute stage
-    std::optional<FloatControls> floats; ///< nothing: the device could not be asked
+    bool fragmentBallotAndShuffle = false; ///< subgroup operations of the fragment stage
+    bool computeBuffers = false;           ///< kComputeStorageBuffers in the compute stage
+    std::optional<FloatControls> floats;   ///< nothing: the device could not be asked
 };
 
 /// Storage buffers of the compute stage: bricks, the table's extremes, transforms, results, vertices, indices. Vulkan
 /// promises four.
 inline constexpr std::uint32_t kComputeStorageBuffers = 6;
 
+/// Whether a stage has all of these operations.
+[[nodiscard]] bool hasSubgroup(const VkPhysicalDeviceSubgroupProperties& properties, VkShaderStageFlags stage,
+                               VkSubgroupFeatureFlags operations) noexcept;
 [[nodiscard]] FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept;
 /// What the projection conservative lacks by the method compute, as Vulkan spells it; null: nothing.
 [[nodiscard]] const char* missingFloatControl(const FloatControls& floats) noexcept;

@@ -27,7 +27,6 @@ const VkPhysicalDeviceFeatures2* features() {
         supported.features.occlusionQueryPrecise = VK_TRUE;
         supported.features.fragmentStoresAndAtomics = VK_TRUE;
         supported.features.geometryShader = VK_TRUE;
-        supported.features.shaderInt64 = VK_TRUE;
         return std::make_unique<FeatureRequest>(&supported);
     }();
     return &all->features2;

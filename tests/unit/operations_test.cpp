@@ -100,10 +100,10 @@ TEST(Operations, TiesAwayFromZeroAreNoticed) {
 
 TEST(Operations, ALongRoundedTwiceIsNoticed) {
     const auto twice = [](const std::uint32_t* in, std::uint32_t) {
-        const auto value = static_cast<std::int64_t>((std::uint64_t{in[1]} << 32U) | in[0]);
-        return bits(static_cast<float>(static_cast<double>(value)));
+        const auto high = static_cast<float>(static_cast<std::int32_t>(in[1]) >> 15);
+        return bits(high * 0x1p32F + static_cast<float>(in[0]));
     };
-    EXPECT_GT(noticed(OPERATION_INT64_TO_FLOAT, twice), 10U);
+    EXPECT_GT(noticed(OPERATION_LONG_TO_FLOAT, twice), 10U);
 }
 
 TEST(Operations, ComparisonsThatForgetNaNAreNoticed) {
@@ -137,7 +137,7 @@ TEST(Operations, MistakesOfIntegersAreNoticed) {
     const auto logical = [](const std::uint32_t* in, std::uint32_t) { return in[0] >> (in[1] & 31U); };
     EXPECT_GT(noticed(OPERATION_INT_SHIFT, logical), 1000U);
     const auto narrow = [](const std::uint32_t* in, std::uint32_t right) { return in[1] == 0 ? right : in[0]; };
-    EXPECT_GT(noticed(OPERATION_INT64_ADD, narrow), 1000U);
+    EXPECT_GT(noticed(OPERATION_LONG_SUM, narrow), 1000U);
     const auto unsignedOne = [](const std::uint32_t* in, std::uint32_t) { return bits(static_cast<float>(in[0])); };
     EXPECT_GT(noticed(OPERATION_INT_TO_FLOAT, unsignedOne), 1000U);
 }

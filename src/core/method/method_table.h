@@ -17,9 +17,7 @@ enum MethodNeed : std::uint32_t {
     kNeedsPreciseQuery = 1U << 0U,
     kNeedsFragmentStores = 1U << 1U,
     kNeedsFragmentBallot = 1U << 2U,
-    kNeedsInt64 = 1U << 3U,
-    kNeedsComputeArithmetic = 1U << 4U,
-    kNeedsComputeBuffers = 1U << 5U,
+    kNeedsComputeBuffers = 1U << 3U,
 };
 
 /// Who covers the pixels of the projections that have pixels: methods of one kind count the same on every pose.
@@ -50,7 +48,7 @@ inline constexpr std::array kMethodTable{
     MethodRow{CountingMethod::Subgroup, "subgroup", false, false, Coverage::Rasteriser, false, Exactness::Exact,
               Filter::Hardware, kNeedsFragmentStores | kNeedsFragmentBallot},
     MethodRow{CountingMethod::Compute, "compute", false, false, Coverage::Computed, true, Exactness::Exact,
-              Filter::Exact, kNeedsInt64 | kNeedsComputeArithmetic | kNeedsComputeBuffers},
+              Filter::Exact, kNeedsComputeBuffers},
     MethodRow{CountingMethod::Cpu, "cpu", true, false, Coverage::Computed, true, Exactness::Exact, Filter::Exact,
               kNeedsNothing},
 };

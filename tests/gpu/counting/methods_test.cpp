@@ -68,13 +68,19 @@ TEST_F(MethodsTest, AtomicNeedsFragmentStores) {
     }
 }
 
-TEST_F(MethodsTest, ComputeNeedsInt64) {
+TEST_F(MethodsTest, ComputeNeedsNoFeature) {
     const device::VulkanDevice device =
-        deviceWithout([](FeatureRequest& request) { request.features2.features.shaderInt64 = VK_FALSE; });
+        deviceWithout([](FeatureRequest& request) { request.features2.features = VkPhysicalDeviceFeatures{}; });
     const Context context = take(Context::create(device.contextDesc()));
-    const Result<Detector> detector = Detector::create(context, {.method = CountingMethod::Compute});
-    ASSERT_FALSE(detector.ok());
-    EXPECT_THAT(detector.error().text, HasSubstr("shaderInt64"));
+    EXPECT_EQ(context.defaultMethod(), CountingMethod::QueryAny);
+    for (const SelfTestVerdict& verdict : take(selfTest(context, device.queueAccess()))) {
+        const bool trusted = verdict.method == CountingMethod::QueryAny || verdict.method == CountingMethod::Compute;
+        EXPECT_EQ(verdict.trusted, trusted) << verdict.text;
+    }
+    for (const Projection projection :
+         {Projection::View, Projection::TwoView, Projection::DominantAxis, Projection::Conservative}) {
+        take(Detector::create(context, {.method = CountingMethod::Compute, .projection = projection}));
+    }
     EXPECT_THAT(Detector::create(context, {.method = CountingMethod::Cpu}).error().text, HasSubstr("voxtact/cpu.h"));
 }
 
