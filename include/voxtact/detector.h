@@ -296,8 +296,9 @@ class ResultRing {
 
     /// Slots, one for each frame in flight.
     [[nodiscard]] std::uint32_t frames() const noexcept { return static_cast<std::uint32_t>(slots_.size()); }
-    /// Claims the slot of `frame` for recording. The caller knows that frame `frame - frames()` has completed.
-    /// Frames ascend; claiming one that is older than its slot's is refused.
+    /// Claims the slot of `frame` for recording; nothing can be read of it until a detection and its read-back are
+    /// recorded. The caller knows that frame `frame - frames()` has completed. Frames ascend; claiming one that is
+    /// older than its slot's is refused.
     [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
     /// The slot of a completed frame, to read whatever its Results have: clearances, counters, times. NotReady when it
     /// was never used, or has been taken by a later frame. Lives as long as the ring does, and is the next frame's from

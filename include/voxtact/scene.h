@@ -194,9 +194,11 @@ class TransferFunction {
 
 /// Buffers of the caller's. Vertices are three floats each at the start of a stride.
 struct WrappedMesh {
-    VkBuffer vertices = VK_NULL_HANDLE;           ///< usage VERTEX_BUFFER
-    VkDeviceSize vertexOffset = 0;                ///< bytes, of the first position; a multiple of 4
-    std::uint32_t vertexStride = 12;              ///< bytes; at least 12, a multiple of 4
+    VkBuffer vertices = VK_NULL_HANDLE; ///< usage VERTEX_BUFFER
+    VkDeviceSize vertexOffset = 0;      ///< bytes, of the first position; a multiple of 4
+    /// Bytes; at least 12, a multiple of 4. A mesh that is drawn (by `query`, `query-any`, `atomic` or `subgroup`
+    /// in a view, or in a picture) keeps to the device's maxVertexInputBindingStride.
+    std::uint32_t vertexStride = 12;
     std::uint32_t vertexCount = 0;                ///< vertices in the buffer
     VkBuffer indices = VK_NULL_HANDLE;            ///< usage INDEX_BUFFER; null: every three vertices are a triangle
     VkDeviceSize indexOffset = 0;                 ///< bytes
@@ -224,8 +226,8 @@ struct MeshOptions {
     bool clusters = false;
     /// Allows cmdUpdate() and cmdCopy(); keeps the triangles on the host, 12 bytes each, 16 with clusters.
     bool editable = false;
-    /// Bytes from one vertex to the next on the device; at least 12, a multiple of 4. More than 12 are for cmdCopy(),
-    /// from buffers whose vertices are as far apart.
+    /// Bytes from one vertex to the next on the device; as in WrappedMesh. More than 12 are for cmdCopy(), from buffers
+    /// whose vertices are as far apart.
     std::uint32_t vertexStride = 12;
 };
 

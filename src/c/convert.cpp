@@ -19,15 +19,14 @@ static_assert(VXT_OUTPUT_TRIANGLES == 1 && VXT_OUTPUT_CONTACTS == 2 && VXT_OUTPU
 static_assert(kDefaultThreshold == 0.1 && kDefaultTableSize == 256 && kDefaultMaxDepth == 10);
 static_assert(kDefaultResolution == 1.0 / 64 && kDefaultSamplesPerVoxel == 1);
 
-/// Refuses an array that is longer than its elements can be counted in bytes.
+} // namespace
+
 std::size_t times(std::size_t count, std::size_t each, const char* what) {
     if (count > std::numeric_limits<std::size_t>::max() / sizeof(double) / each) {
         refuse(ErrorCode::InvalidArgument, std::string(what) + ": " + std::to_string(count) + " are too many");
     }
     return count * each;
 }
-
-} // namespace
 
 Vec3 toVec3(const double* vector, const char* what) {
     const double* first = &need(vector, what);

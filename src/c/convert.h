@@ -53,6 +53,9 @@ class TransferFunctionOf {
     vxt_transfer_function_desc given_;
 };
 
+/// How many elements `count` of `each` are. Refuses an array that is longer than its elements can be counted in bytes.
+std::size_t times(std::size_t count, std::size_t each, const char* what);
+
 /// An array of the caller's.
 template <class T> std::span<const T> toSpan(const T* first, std::size_t count, const char* what) {
     return count == 0 ? std::span<const T>() : std::span<const T>(&need(first, what), count);

@@ -73,8 +73,9 @@ void vxt_host_mesh_destroy(vxt_host_mesh* mesh) {
 }
 
 vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const float* positions, size_t vertex_count) {
-    return call(
-        [&] { take(need(mesh, "mesh").object.update(toSpan(positions, std::size_t{3} * vertex_count, "positions"))); });
+    return call([&] {
+        take(need(mesh, "mesh").object.update(toSpan(positions, times(vertex_count, 3, "positions"), "positions")));
+    });
 }
 
 vxt_result vxt_cancel_create(vxt_cancel** cancel) {

@@ -38,7 +38,7 @@ class RenderFunctionOf {
 
 /// `colours`: three numbers for each vertex.
 std::vector<Colour> vertexColours(const double* colours, std::size_t vertices) {
-    const std::span<const double> numbers = toSpan(colours, 3 * vertices, "colours");
+    const std::span<const double> numbers = toSpan(colours, times(vertices, 3, "colours"), "colours");
     std::vector<Colour> out;
     out.reserve(vertices);
     for (std::size_t at = 0; at < numbers.size(); at += 3) {

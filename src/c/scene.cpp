@@ -120,7 +120,7 @@ void vxt_mesh_release_staging(vxt_mesh* mesh) {
 vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const float* positions, size_t vertex_count) {
     return call(mesh, [&] {
         take(need(mesh, "mesh")
-                 .object.cmdUpdate(commands, toSpan(positions, std::size_t{3} * vertex_count, "positions")));
+                 .object.cmdUpdate(commands, toSpan(positions, times(vertex_count, 3, "positions"), "positions")));
     });
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/batch/batch_check.h"
+#include "gpu/mesh_layout.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
 
@@ -48,6 +49,7 @@ Result<void> checkDevicePoses(const ContextImpl& context, const BatchItem& item,
 struct DeviceSide {
     const ContextImpl& context;
     bool devicePoses;   ///< DetectorDesc::devicePoses
+    bool draws;         ///< vertices are the input of a draw
     bool readsVertices; ///< vertices are pulled from a storage buffer
     bool filters;       ///< by the device's sampler
 
@@ -80,6 +82,9 @@ struct DeviceSide {
                              (item.volume->impl().filtered ? "transfer function's table" : "volume's format") +
                              " linearly; the filter exact needs no filtering"};
         }
+        if (draws) {
+            return checkVertexInput(item.mesh->impl(), which);
+        }
         return readsVertices ? checkStorage(item, "the projection dominant-axis") : Result<void>();
     }
 };
@@ -88,8 +93,9 @@ struct DeviceSide {
 
 Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch) {
     const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
+    const bool pulls = rowOf(desc.projection).voxelGrid;
     return checkBatch(desc.projection, desc.samplesPerVoxel, batch,
-                      DeviceSide{context, desc.devicePoses, rasterised && rowOf(desc.projection).voxelGrid,
+                      DeviceSide{context, desc.devicePoses, rasterised && !pulls, rasterised && pulls,
                                  desc.filter == Filter::Hardware && !rowOf(desc.projection).certified});
 }
 

@@ -86,6 +86,17 @@ MeshRanges rangesOf(const MeshImpl& mesh) noexcept {
     return ranges;
 }
 
+Result<void> checkVertexInput(const MeshImpl& mesh, const std::string& which) {
+    const std::uint32_t most = mesh.context.limits.maxVertexInputBindingStride;
+    if (mesh.vertexStride <= most) {
+        return {};
+    }
+    return Error{ErrorCode::LimitExceeded, 0,
+                 which + ": the vertexStride " + std::to_string(mesh.vertexStride) +
+                     " is beyond the device's maxVertexInputBindingStride, " + std::to_string(most) +
+                     "; compute and dominant-axis take any"};
+}
+
 Result<void> describe(MeshImpl& mesh, const char* name) {
     ContextImpl& context = mesh.context;
     const MeshRanges ranges = rangesOf(mesh);

@@ -21,6 +21,9 @@ struct MeshRanges {
 };
 [[nodiscard]] MeshRanges rangesOf(const MeshImpl& mesh) noexcept;
 
+/// LimitExceeded where the vertices are too far apart for the device to draw them.
+[[nodiscard]] Result<void> checkVertexInput(const MeshImpl& mesh, const std::string& which);
+
 /// Makes the descriptor set for shaders that read the mesh as storage; MeshImpl::noStorage where the device's limits
 /// do not allow for it.
 [[nodiscard]] Result<void> describe(MeshImpl& mesh, const char* name);

@@ -5,6 +5,7 @@
 #include "core/base/try.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
+#include "gpu/mesh_layout.h"
 #include "gpu/submit.h"
 #include "render/render_impl.h"
 
@@ -19,6 +20,7 @@ Result<void> checkMeshParts(const ContextImpl& context, const SceneMesh& mesh) {
     if (&mesh.mesh->impl().context != &context) {
         return refuse("Scene::mesh belongs to another Context");
     }
+    VOXTACT_TRY(checkVertexInput(mesh.mesh->impl(), "Scene::mesh"));
     if (mesh.normals == nullptr) {
         return {};
     }

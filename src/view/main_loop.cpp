@@ -77,6 +77,7 @@ Result<void> MainLoop::run(std::function<Result<Given>(Progress&)> first) {
     frames_ = std::move(*frames);
     loader_ = std::make_unique<Loader>(*session_, [] { glfwPostEmptyEvent(); });
     state_->recent = recent_.paths();
+    state_->mayWrite = desc_->mayWrite;
     if (first) {
         load(std::move(first), std::nullopt);
     }

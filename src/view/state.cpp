@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "view/state.h"
 
+#include "view/model/files/source_paths.h"
+
 #include <algorithm>
 #include <iterator>
 #include <tuple>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -25,7 +28,7 @@ State::State(Given opened)
     : blank(false), volume(std::move(opened.volume)), meshes(std::move(opened.meshes)),
       labels(std::move(opened.labels)), values(opened.values), coarserBy(opened.coarserBy),
       deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
-      document(std::move(opened.document)), window(opened.values) {
+      document(std::move(opened.document)), window(opened.values), read(std::move(opened.read)) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
     histogram = histogramOf(volume.view(), document.domain);
@@ -202,6 +205,17 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
     next.quit = quit;
     next.wanted = std::move(wanted);
     next.recent = std::move(recent);
+    next.read.insert(next.read.end(), read.begin(), read.end());
+    next.mayWrite = mayWrite;
+}
+
+Result<void> State::checkOutput(const std::filesystem::path& path) const {
+    std::vector<std::string> inputs = read;
+    Sources sources = document.sources;
+    for (const SourceMember& member : membersOf(sources)) {
+        inputs.push_back(*member.path);
+    }
+    return mayWrite ? mayWrite(path, inputs) : Result<void>();
 }
 
 Given State::giveBack() {
@@ -214,6 +228,7 @@ Given State::giveBack() {
     out.values = values;
     out.coarserBy = coarserBy;
     out.deviceOption = deviceOption;
+    out.read = std::exchange(read, {});
     State next;
     passOn(next, std::nullopt);
     *this = std::move(next);

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,9 +33,10 @@ struct Given {
     std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
-    std::uint32_t coarserBy = 1; ///< Sources::coarser of the volume that is here
-    std::string deviceOption;    ///< as --device was given; for copied commands
-    std::string deviceName;      ///< that draws
+    std::uint32_t coarserBy = 1;   ///< Sources::coarser of the volume that is here
+    std::vector<std::string> read; ///< paths of poses and transfer functions, which no Sources have
+    std::string deviceOption;      ///< as --device was given; for copied commands
+    std::string deviceName;        ///< that draws
 };
 
 /// What a file can be to the window.
@@ -139,6 +141,8 @@ struct State {
     void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
     [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
+    /// Refuses a file to write that is one of those that are shown, or were read for it.
+    [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path) const;
     /// The document with what the window has of its own: camera, method, cursor, holes, and what is on.
     [[nodiscard]] Document saved() const;
 
@@ -184,6 +188,9 @@ struct State {
     std::string error;
     std::optional<Question> question; ///< a dialog, until it is answered
     std::vector<std::string> recent;  ///< files that were opened, the last first
+    std::vector<std::string> read;    ///< poses and transfer functions, of all that was opened
+    /// Refuses an output that is one of these files, by whatever name; empty: everything may be written.
+    std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)> mayWrite;
 
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame

@@ -7,6 +7,9 @@
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 
+#include <gmock/gmock.h>
+
+#include <cstdint>
 #include <cstring>
 #include <iostream>
 #include <thread>
@@ -144,6 +147,9 @@ TEST_F(CHostEdit, ABentMeshIsSeenByTheNextAnswer) {
     EXPECT_EQ(wholeDifferenceOf(byC(), byCpp()), "");
     EXPECT_EQ(vxt_host_mesh_update(both_->cMeshHandle.get(), positions.data(), 3), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(vxt_host_mesh_update(both_->cMeshHandle.get(), nullptr, 4), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_host_mesh_update(both_->cMeshHandle.get(), positions.data(), SIZE_MAX / 3 + 2),
+              VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(vxt_last_error(nullptr), testing::HasSubstr("are too many"));
     EXPECT_EQ(vxt_host_mesh_update(nullptr, positions.data(), 4), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(wholeDifferenceOf(byC(), byCpp()), "");
 }

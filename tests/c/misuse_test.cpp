@@ -236,6 +236,9 @@ TEST(CMisuse, NumbersThatAreNoneAreRefusedByName) {
     EXPECT_STREQ(vxt_filter_name(static_cast<vxt_filter>(99)), "unknown");
     EXPECT_STREQ(vxt_boundary_name(static_cast<vxt_boundary>(99)), "unknown");
     EXPECT_STREQ(vxt_exactness_name(static_cast<vxt_exactness>(99)), "unknown");
+    EXPECT_STREQ(vxt_clearance_end_name(static_cast<vxt_clearance_end>(99)), "unknown");
+    EXPECT_STREQ(vxt_interpolation_name(static_cast<vxt_interpolation>(99)), "unknown");
+    EXPECT_STREQ(vxt_motion_end_name(static_cast<vxt_motion_end>(99)), "unknown");
 }
 
 TEST(CMisuse, LengthsBeyondWhatMemoryHasAreRefused) {

@@ -148,6 +148,37 @@ TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
     EXPECT_THAT(badDetect({"--threshold", "0.1", "--threshold", "0.2"}), HasSubstr("--threshold"));
 }
 
+TEST_F(ArgumentsTest, WhatIsOneIsNotGivenTwice) {
+    const std::vector<std::pair<Arguments, Arguments>> cases{
+        {{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200"}, {"--pose-tolerance", "1,2"}},
+        {{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200", "--resume", path("run")},
+         {"--shard", "1/2"}},
+        {{"render", "--volume", "builtin:head:16", "--output", path("x.png")}, {"--slice", "axial"}},
+        {{"render", "--volume", "builtin:head:16", "--output", path("x.png"), "--slice", "axial"},
+         {"--window", "-1:2"}},
+        {{"plan", "--volume", "builtin:head:16", "--target", "0,0,0"}, {"--tip", "-1,2,3"}}};
+    for (const auto& [command, twice] : cases) {
+        Arguments all = command;
+        all.insert(all.end(), twice.begin(), twice.end());
+        all.insert(all.end(), twice.begin(), twice.end());
+        EXPECT_THAT(refused(2, all), AllOf(HasSubstr(twice[0]), HasSubstr("At Most 1 required but received 2")));
+    }
+}
+
+/// Where the current folder is gone, a path says so.
+TEST_F(ArgumentsTest, NoCurrentFolder) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::create_directory(path("gone"));
+    std::filesystem::current_path(path("gone"));
+    std::filesystem::remove(path("gone"));
+    const std::string text = refused(1, {"make", "mesh", "builtin:scalpel:200", "x.stl"});
+    const std::string rows = refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200",
+                                         "--count", "cpu", "--output", "x.csv"});
+    std::filesystem::current_path(before);
+    EXPECT_THAT(text, AllOf(HasSubstr("'x.stl'"), HasSubstr("voxtact make")));
+    EXPECT_THAT(rows, HasSubstr("x.csv"));
+}
+
 TEST_F(ArgumentsTest, EmptyPathsAreNotTheDefault) {
     for (const char* option : {"--poses", "--camera", "--transfer-function", "--output", "--device", "--cache",
                                "--triangles", "--contacts", "--labels", "--label-names"}) {

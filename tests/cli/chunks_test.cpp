@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <random>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace voxtact::test {
@@ -227,6 +228,23 @@ TEST_F(ChunksTest, KilledItGoesOn) {
     EXPECT_THAT(last.err, AllOf(HasSubstr("were there already"), Not(HasSubstr("damaged"))));
 }
 
+/// Whoever did them: of a job of many processes each one knows its own.
+TEST_F(ChunksTest, ItCountsWhatIsThereAndWaitsForNoPipe) {
+    const std::string plain = output(chunked());
+    const std::size_t all = chunkFiles().size();
+    ASSERT_GT(all, 4U);
+    fs::remove(chunkFiles()[1]);
+    const fs::path pipe = chunkFiles().back();
+    fs::remove(pipe);
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const Ran ran = run(chunked());
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_THAT(ran.err, AllOf(HasSubstr(pipe.string() + "': what is there is not a file"),
+                               HasSubstr("; " + std::to_string(all - 1) + " chunks in ")));
+    fs::remove(pipe);
+    EXPECT_EQ(run(chunked()).out, plain);
+}
+
 TEST_F(ChunksTest, InterruptedItSaysWhatIsThere) {
     std::string many;
     for (int i = 0; i < 200; ++i) {
@@ -241,8 +259,9 @@ TEST_F(ChunksTest, InterruptedItSaysWhatIsThere) {
     const Ran ran = child.end();
     EXPECT_EQ(ran.status, 128 + SIGINT);
     EXPECT_EQ(ran.out, "");
-    EXPECT_THAT(ran.err, HasSubstr("are done, and the same command goes on from there"));
     EXPECT_FALSE(chunkFiles().empty());
+    EXPECT_THAT(ran.err, HasSubstr(std::to_string(chunkFiles().size()) + " chunk"));
+    EXPECT_THAT(ran.err, HasSubstr("are done, and the same command goes on from there"));
     // Nothing half done is left.
     for (const auto& entry : fs::directory_iterator(path("run"))) {
         EXPECT_FALSE(entry.path().filename().string().starts_with(".tmp")) << entry.path();

@@ -239,6 +239,13 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--clip", "0,0,0,5"})), HasSubstr("a normal of zero"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "1,0,5"})), HasSubstr("neither"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "left:x"})), HasSubstr("no number of millimetres"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "left:10", "--clip", "right:20"})),
+                HasSubstr("--clip left:10, --clip right:20: together they take all of the volume away"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "1,1,0,0", "--clip", "-1,1,0,-20", "--clip", "0,-1,0,5"})),
+                HasSubstr("together"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "top:5", "--clip", "bottom:5"})), HasSubstr("together"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "0", "--pose", "0"})),
+                AllOf(HasSubstr("--pose"), HasSubstr("At Most 1 required")));
     EXPECT_THAT(refused(2, render(png, {"--clip", "left:-500"})),
                 AllOf(HasSubstr("--clip left:-500 takes all of the volume away"), HasSubstr("mm")));
     Arguments seven;

@@ -251,6 +251,15 @@ def refusals(program, folder):
     refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
     refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"],
             without)
+    named = make(program, folder, "volume", "builtin:ct:16", "named.nii")
+    session.write_text(json.dumps({"voxtact_session": 1, "volume": "named.nii", "mesh": "builtin:scalpel:300",
+                                   "transfer_function": {"points": [[0, 0], [1, 1]]}}))
+    for output in (session, named):
+        before = pathlib.Path(output).read_bytes()
+        refused(program, 2, f"'{output}' is the file that --session reads",
+                ["--session", str(session), "--report-state", str(output)], without)
+        assert pathlib.Path(output).read_bytes() == before, output
+    refused(program, 2, "'-' is not a file", [*SCENE, "--report-state", "-"], without)
     refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/files/open_file.h"
+#include "view/model/files/save_file.h"
 #include "view/model/files/session_file.h"
 
+#include "voxtact/io.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 
 #include <unistd.h>
 
@@ -165,6 +169,47 @@ TEST_F(ViewOpen, WithNothingToShowItNeedsAVolume) {
     EXPECT_FALSE(openFile(file("poses.txt", "1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1\n"), blank).ok());
     ASSERT_TRUE(openFile("/data/head.nii", blank).ok());
     EXPECT_EQ(blank.wanted->document.sources.volume, "/data/head.nii");
+}
+
+TEST_F(ViewOpen, WhatIsReadIsNotWrittenOver) {
+    using Save = Result<void> (*)(const std::filesystem::path&, const State&);
+    const std::filesystem::path poses = file("poses.txt", "1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1\n");
+    const std::filesystem::path curve = file("curve.json", R"({"points": [[1, 0], [2, 1]]})");
+    ASSERT_TRUE(openFile(poses, state_).ok());
+    ASSERT_TRUE(openFile(curve, state_).ok());
+    std::vector<std::string> asked;
+    state_.mayWrite = [&asked](const std::filesystem::path& output, const std::vector<std::string>& inputs) {
+        asked = inputs;
+        const bool reads = std::ranges::find(inputs, output.string()) != inputs.end();
+        return reads ? Result<void>(Error{ErrorCode::InvalidArgument, 0, "it is read"}) : Result<void>();
+    };
+    EXPECT_EQ(savePose(poses, state_).error().text, "it is read");
+    EXPECT_EQ(saveFunction(curve, state_).error().text, "it is read");
+    EXPECT_THAT(asked, testing::UnorderedElementsAre(poses.string(), curve.string(), "builtin:head:16",
+                                                     "builtin:scalpel:300", "atlas.nii", "names.txt"));
+    for (const Save save : {&saveSession, &saveFunction, &savePose}) {
+        EXPECT_EQ(save("atlas.nii", state_).error().text, "it is read");
+    }
+    EXPECT_EQ(io::readPoses(poses).value().size(), 1U);
+    State next(given()); // after another volume was opened
+    state_.passOn(next, FileKind::Volume);
+    EXPECT_EQ(savePose(poses, next).error().text, "it is read");
+}
+
+TEST_F(ViewOpen, WhatIsOfAnotherKindIsNotWrittenOver) {
+    const std::filesystem::path other = file("notes.md", "keep me");
+    EXPECT_THAT(saveSession(other, state_).error().text, HasSubstr("is there already, and is no session"));
+    EXPECT_THAT(saveFunction(other, state_).error().text, HasSubstr("is no transfer function"));
+    EXPECT_THAT(savePose(other, state_).error().text, HasSubstr("is no file of poses"));
+    std::ifstream kept(other);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "keep me");
+    for (int again = 0; again < 2; ++again) {
+        EXPECT_TRUE(saveSession(folder_ / "s.json", state_).ok());
+        EXPECT_TRUE(saveFunction(folder_ / "c.json", state_).ok());
+        EXPECT_TRUE(savePose(folder_ / "p.txt", state_).ok());
+    }
+    EXPECT_TRUE(isSession(folder_ / "s.json").value());
+    EXPECT_EQ(io::readPoses(folder_ / "p.txt").value().size(), 1U);
 }
 
 } // namespace voxtact::test

@@ -128,7 +128,7 @@ TEST(ViewSession, WhatIsWrongWithAMeshIsNamed) {
     EXPECT_EQ(refused("/meshes/0/mesh_space", "lps", several()), "");
     EXPECT_THAT(refused("/meshes", Json::array(), several()), HasSubstr("meshes: is empty"));
     EXPECT_THAT(refused("/meshes", 3, several()), HasSubstr("meshes: is not an array"));
-    EXPECT_THAT(refused("/meshes/1", 3, several()), HasSubstr("meshes[1]: "));
+    EXPECT_THAT(refused("/meshes/1", 3, several()), HasSubstr("meshes[1]: is not an object"));
     EXPECT_THAT(refused("/meshes/1/mesh", Json(), several()), HasSubstr("meshes[1]: mesh: is missing"));
     EXPECT_THAT(refused("/meshes/1/mesh_scale", 0, several()), HasSubstr("meshes[1]: mesh_scale: "));
     EXPECT_THAT(refused("/meshes/2/pose", Json(), several()), HasSubstr("meshes[2]: pose: is missing"));
@@ -144,7 +144,12 @@ TEST(ViewSession, ComesBackFromAFile) {
     ASSERT_TRUE(writeSession(path, document()).ok());
     const Result<Document> read = readSession(path);
     ASSERT_TRUE(read.ok()) << read.error().text;
-    EXPECT_EQ(sessionText(*read), sessionText(document()));
+    Document whole = document(); // the files of document() are in the current folder, not in the session's
+    whole.sources.volume = (std::filesystem::current_path() / "head.nii.gz").string();
+    whole.sources.meshes[0].path = (std::filesystem::current_path() / "tool.stl").string();
+    whole.sources.labels = (std::filesystem::current_path() / "atlas.nii.gz").string();
+    whole.sources.labelNames = (std::filesystem::current_path() / "atlas names.txt").string();
+    EXPECT_EQ(sessionText(*read), sessionText(whole));
     ASSERT_TRUE(writeTransferFunction(path, document()).ok());
     const auto points = io::readTransferFunction(path);
     ASSERT_TRUE(points.ok()) << points.error().text;
@@ -195,11 +200,13 @@ TEST(ViewSession, WhatIsWrongIsNamed) {
         {"/transfer_function/threshold", 2, "transfer_function.threshold: "},
         {"/instrument/pose", Json::array({1, 2}), "instrument.pose: is not an array of 16 numbers"},
         {"/instrument/pose/12", 1, "instrument.pose: "},
-        {"/instrument/poses/1/15", 0, "instrument.poses[1]: "},
+        {"/instrument/poses/1/15", 0, "instrument.poses[1]: the last row"},
         {"/instrument/pose_number", 2, "instrument.pose_number: "},
         {"/method/count", "guess", "method.count: "},
         {"/method/projection", "guess", "method.projection: "},
         {"/camera/half_height", 0, "camera.half_height: "},
+        {"/camera/half_height", 1e300, "camera.half_height: is not a number of mm from 1e-9 to 1e9"},
+        {"/camera/target/1", -1e300, "camera.target: is farther away than 1e9 mm"},
         {"/camera/target", Json::array({1, 2}), "camera.target: "},
         {"/cursor", "here", "cursor: "},
     };
@@ -208,6 +215,44 @@ TEST(ViewSession, WhatIsWrongIsNamed) {
         EXPECT_THAT(error, HasSubstr(std::string("cannot use the session 's.json': ") + text)) << pointer;
         EXPECT_EQ(error.find('\n'), std::string::npos);
     }
+}
+
+/// A session of one patient must not open another one's files because of where the program runs.
+TEST(ViewSession, FilesAreFoundFromTheSessionOn) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / ("voxtact_moved_" + std::to_string(getpid()));
+    fs::create_directories(folder / "a" / "meshes");
+    Document saved = document();
+    saved.sources.volume = (folder / "a" / "head.nii.gz").string();
+    saved.sources.meshes = {{(folder / "a" / "meshes" / "tool.stl").string()}};
+    saved.sources.labels = (folder / "atlas.nii#2").string();
+    saved.sources.labelNames.clear();
+    ASSERT_TRUE(writeSession(folder / "a" / "s.json", saved).ok());
+    EXPECT_EQ(sessionText(readSession(folder / "a" / "s.json").value()), sessionText(saved));
+    fs::rename(folder / "a", folder / "b");
+    const Sources moved = readSession(folder / "b" / "s.json").value().sources;
+    EXPECT_EQ(moved.volume, (folder / "b" / "head.nii.gz").string());
+    EXPECT_EQ(moved.meshes.at(0).path, (folder / "b" / "meshes" / "tool.stl").string());
+    EXPECT_EQ(moved.labels, (folder / "atlas.nii#2").string());
+    const fs::path before = fs::current_path();
+    fs::current_path(folder / "b");
+    EXPECT_EQ(readSession("s.json").value().sources.volume, "head.nii.gz");
+    saved.sources.volume = "builtin:head:16";
+    saved.sources.meshes[0].path = "meshes/tool.stl"; // from the current folder on
+    ASSERT_TRUE(writeSession(folder / "s.json", saved).ok());
+    fs::current_path(before);
+    const Sources above = readSession(folder / "s.json").value().sources;
+    EXPECT_EQ(above.volume, "builtin:head:16");
+    EXPECT_EQ(above.meshes.at(0).path, (folder / "b" / "meshes" / "tool.stl").string());
+    fs::remove_all(folder);
+}
+
+TEST(ViewSession, AMemberThatIsThereTwiceIsRefused) {
+    std::string text = sessionText(document());
+    text.insert(text.rfind('}'), ", \"volume\": \"other.nii\"");
+    const Result<Document> parsed = parseSession(text, "s.json");
+    ASSERT_FALSE(parsed.ok());
+    EXPECT_THAT(parsed.error().text, HasSubstr("'s.json': it says \"volume\" twice"));
 }
 
 TEST(ViewSession, PathsThatAreNoUtf8DoNoHarm) {

@@ -5,6 +5,7 @@
 #include "app/output/progress.h"
 #include "app/version.h"
 #include "core/base/try.h"
+#include "core/base/whole_path.h"
 
 #include <CLI/CLI.hpp>
 
@@ -122,9 +123,9 @@ std::string chunksText(std::uint64_t count) {
 }
 
 /// What there is beside the error, for who asks what is lost.
-Error withWhatIsThere(Error error, const RunFolder& folder, const Tally& tally) {
+Error withWhatIsThere(Error error, const RunFolder& folder) {
     if (error.code == ErrorCode::File) {
-        error.text += "; " + chunksText(tally.done + tally.found) + " in " + folderText(folder.path()) +
+        error.text += "; " + chunksText(folder.chunksThere()) + " in " + folderText(folder.path()) +
                       " stay as they are, and the same command goes on from there";
     }
     return error;
@@ -147,12 +148,13 @@ void addChunkOptions(CLI::App& parser, ChunkOptions& options) {
     addPath(parser, "--resume", options.folder,
             "a folder for the run in chunks, which is made: a run that was ended goes on with what is there; many "
             "processes may share one");
-    addTexts(
+    addText(
         parser, "--shard",
         [&options](const std::string& text) -> std::optional<std::string> {
             options.shard = parseShard(text);
-            return options.shard ? std::nullopt
-                                 : std::optional<std::string>("is not I/N, two whole numbers with I from 1 to N");
+            return options.shard
+                       ? std::nullopt
+                       : std::optional<std::string>("is not I/N, two whole numbers below 2^32 with I from 1 to N");
         },
         "with --resume: does only the I-th of N parts of the run, and writes no output; voxtact merge does, once all "
         "parts are there",
@@ -178,9 +180,8 @@ Result<void> checkChunkOptions(const ChunkOptions& options, const OutputOptions&
                      "the columns are as wide as the rows before; choose csv or json"});
     unfit.push_back({options.shard && !output.path.empty(), "--output",
                      "a shard writes no output; give it to voxtact merge, which does"});
-    unfit.push_back({!output.path.empty() && std::filesystem::weakly_canonical(output.path) ==
-                                                 std::filesystem::weakly_canonical(options.folder),
-                     "--output", "it is the run's folder; each needs a path of its own"});
+    unfit.push_back({!output.path.empty() && realPath(output.path) == realPath(options.folder), "--output",
+                     "it is the run's folder; each needs a path of its own"});
     for (const Unfit& entry : unfit) {
         if (entry.given) {
             return badArgument(entry.option + std::string(": not with ") +
@@ -247,11 +248,10 @@ Outcome doChunks(ChunkedRun run, const DoChunk& doChunk, const MergePaths& paths
     }
     Doing doing(run, *folder, doChunk, dealing);
     if (const Result<void> done = doing.all(); !done.ok()) {
-        return withWhatIsThere(done.error(), *folder, doing.tally());
+        return withWhatIsThere(done.error(), *folder);
     }
     if (interrupted()) {
-        const Tally& tally = doing.tally();
-        return interruptOutcome(chunksText(tally.done + tally.found) + " in " + folderText(folder->path()) +
+        return interruptOutcome(chunksText(folder->chunksThere()) + " in " + folderText(folder->path()) +
                                 " are done, and the same command goes on from there");
     }
     addNotes(*folder, doing.tally(), notes);

@@ -120,10 +120,11 @@ Result<void> prepare(const fs::path& folder) {
         if (std::error_code ignored; !problem || fs::is_directory(folder, ignored)) {
             return {};
         }
-        return cannotUse(folder,
-                         problem == std::errc::no_such_file_or_directory
-                             ? "the folder " + folderText(folder.parent_path()) + " does not exist: make it first"
-                             : problem.message());
+        return cannotUse(folder, problem == std::errc::no_such_file_or_directory
+                                     ? "the folder " +
+                                           folderText(folder.has_parent_path() ? folder.parent_path() : ".") +
+                                           " does not exist: make it first"
+                                     : problem.message());
     }
     if (!fs::is_directory(status)) {
         return cannotUse(folder, problem ? problem.message() : "it is a file; give a folder, which need not be there");
@@ -350,6 +351,17 @@ ChunkState RunFolder::stateOf(std::uint64_t chunk) const {
         }
     }
     return state;
+}
+
+std::uint64_t RunFolder::chunksThere() const {
+    std::uint64_t there = 0;
+    for (std::uint64_t chunk = 0; chunk < manifest_.chunks; ++chunk) {
+        there += std::ranges::all_of(manifest_.outputs, [&](const RunOutput& output) {
+            std::error_code ignored;
+            return fs::is_regular_file(chunkPath(chunk, output), ignored);
+        });
+    }
+    return there;
 }
 
 std::vector<Shard> RunFolder::shards() const {

@@ -70,6 +70,8 @@ class RunFolder {
     [[nodiscard]] std::string chunkLine(std::uint64_t chunk, const RunOutput& output) const;
     /// Reads all of it.
     [[nodiscard]] ChunkState stateOf(std::uint64_t chunk) const;
+    /// How many chunks have all of their files, whoever did them. Reads none.
+    [[nodiscard]] std::uint64_t chunksThere() const;
     /// The shards that processes have begun here.
     [[nodiscard]] std::vector<Shard> shards() const;
 

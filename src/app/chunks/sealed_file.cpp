@@ -138,6 +138,10 @@ Result<ResultFile> ResultFile::create(const fs::path& path) {
 }
 
 Result<ResultFile> ResultFile::createSealed(const fs::path& path, const std::string& firstLine) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+        return Error{ErrorCode::File, 0, "cannot write '" + path.string() + "': what is there is not a file"};
+    }
     Result<ResultFile> file = create(path);
     VOXTACT_TRY(file);
     std::ostream& out = file->file_->stream();

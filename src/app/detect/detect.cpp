@@ -266,7 +266,7 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
         parser, "--margin", [&options](double mm) { options.margin = mm; },
         "mm: hit says whether anything opaque is so near, as certified as a touch; 0 is the touch itself",
         [](double mm) { return mm >= 0; }, "at least 0", "none");
-    addTexts(
+    addText(
         parser, "--pose-tolerance",
         [&options](const std::string& text) -> std::optional<std::string> {
             const std::size_t comma = text.find(',');

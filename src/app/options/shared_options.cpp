@@ -247,6 +247,17 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
     addParsed(parser, option, parse, help, "RRGGBB", "");
 }
 
+void addText(CLI::App& parser, const char* option,
+             const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
+             const char* type) {
+    const auto parse = [option, use](const std::string& text) {
+        if (const std::optional<std::string> wrong = use(text)) {
+            refuse(option, quote(text) + " " + *wrong);
+        }
+    };
+    addParsed(parser, option, parse, help, type, "");
+}
+
 void addTexts(CLI::App& parser, const char* option,
               const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
               const char* type) {
@@ -275,10 +286,11 @@ void addName(CLI::App& parser, const char* option, std::string& name, const std:
     addParsed(parser, option, parse, help, "NAME", "");
 }
 
-void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help) {
+void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help,
+             const std::string& standard) {
     addParsed(
         parser, "--size", [store](const std::string& text) { store(parseSize("--size", text)); }, help, "WxH",
-        "512x512");
+        standard.c_str());
 }
 
 void addViewOptions(CLI::App& parser, ViewOptions& options) {

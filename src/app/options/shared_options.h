@@ -94,6 +94,10 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
 /// One of `names`, as an option.
 void addName(CLI::App& parser, const char* option, std::string& name, const std::vector<const char*>& names,
              const std::string& help);
+/// An option that is there once: `use` takes its text, and says what is wrong with one that it cannot use.
+void addText(CLI::App& parser, const char* option,
+             const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
+             const char* type);
 /// An option whose texts, of which there may be several, `use` takes one after the other, in their order; it says what
 /// is wrong with one that it cannot use.
 void addTexts(CLI::App& parser, const char* option,
@@ -105,8 +109,9 @@ void addTexts(CLI::App& parser, const char* option,
 [[nodiscard]] std::optional<double> parseFinite(std::string_view text);
 /// LO:HI, two finite numbers with LO below HI.
 [[nodiscard]] std::optional<ValueRange> parseRange(std::string_view text);
-/// --size, 512x512 unless given.
-void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help);
+/// --size; `standard`: what it is unless given.
+void addSize(CLI::App& parser, const std::function<void(const VkExtent2D&)>& store, const std::string& help,
+             const std::string& standard = "512x512");
 void addViewOptions(CLI::App& parser, ViewOptions& options);
 void addMethodOptions(CLI::App& parser, MethodOptions& options);
 void addDeviceOptions(CLI::App& parser, DeviceChoice& options);

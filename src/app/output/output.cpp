@@ -5,6 +5,7 @@
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
+#include "core/base/whole_path.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
@@ -72,8 +73,7 @@ Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& 
         if (isStandardOutput(path) || isSpecial(path)) {
             continue;
         }
-        std::error_code ignored;
-        std::size_t first = places.emplace(fs::weakly_canonical(fs::absolute(path), ignored), number).first->second;
+        std::size_t first = places.emplace(realPath(path), number).first->second;
         if (const auto identity = identityOf(path)) {
             first = std::min(first, identities.emplace(*identity, number).first->second);
         }

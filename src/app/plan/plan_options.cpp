@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kMostThreads = 1024;
 
 void addVector(CLI::App& parser, const char* option, std::optional<Vec3>& value, const std::string& help) {
-    addTexts(
+    addText(
         parser, option,
         [&value](const std::string& text) -> std::optional<std::string> {
             value = parsePoint(text);

@@ -62,6 +62,59 @@ ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
     return reach;
 }
 
+/// The planes that bound what is left of the volume, in texture coordinates, each moved inwards a little: the faces of
+/// the volume, then the clips.
+std::vector<ClipPlane> boundsInTexture(const std::vector<ClipPlane>& planes, const Grid& grid) {
+    constexpr double kInwards = 1e-9; // of how far the volume reaches along the normal
+    const Mat4 world_from_texture = worldFromTexture(grid);
+    const Vec3 origin = transformPoint(world_from_texture, {0, 0, 0});
+    std::vector<ClipPlane> bounds{{{1, 0, 0}, 1},  {{0, 1, 0}, 1},  {{0, 0, 1}, 1},
+                                  {{-1, 0, 0}, 0}, {{0, -1, 0}, 0}, {{0, 0, -1}, 0}};
+    for (const ClipPlane& plane : planes) {
+        Vec3 normal{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t column = 4 * axis;
+            normal[axis] = dot(plane.normal, {world_from_texture[column], world_from_texture[column + 1],
+                                              world_from_texture[column + 2]});
+        }
+        const ValueRange reach = reachAlong(plane.normal, grid);
+        bounds.push_back({normal, plane.offset - dot(plane.normal, origin) - kInwards * (reach.hi - reach.lo)});
+    }
+    return bounds;
+}
+
+/// Whether anything of the volume is within all planes: what is bounded has a corner, where three of them meet.
+bool leaveSomething(const std::vector<ClipPlane>& planes, const Grid& grid) {
+    const std::vector<ClipPlane> bounds = boundsInTexture(planes, grid);
+    constexpr double kRounding = 1e-12;
+    const auto isWithin = [&](const Vec3& point) {
+        return std::ranges::all_of(bounds, [&](const ClipPlane& plane) {
+            const double size = std::abs(plane.normal[0]) + std::abs(plane.normal[1]) + std::abs(plane.normal[2]);
+            return dot(plane.normal, point) <= plane.offset + kRounding * size;
+        });
+    };
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        for (std::size_t j = i + 1; j < bounds.size(); ++j) {
+            for (std::size_t k = j + 1; k < bounds.size(); ++k) {
+                const Vec3 along = cross(bounds[j].normal, bounds[k].normal);
+                const Vec3 ki = cross(bounds[k].normal, bounds[i].normal);
+                const Vec3 ij = cross(bounds[i].normal, bounds[j].normal);
+                const double volume = dot(bounds[i].normal, along);
+                Vec3 point{};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    point[axis] =
+                        (bounds[i].offset * along[axis] + bounds[j].offset * ki[axis] + bounds[k].offset * ij[axis]) /
+                        volume;
+                }
+                if (volume != 0 && isWithin(point)) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
 /// Where the volume is along a clip's own measure, in words.
 std::string whereItIs(const ClipOption& clip, const Grid& grid, const Vec3& normal, const ValueRange& reach) {
     const auto from = [](double lo, double hi) {
@@ -121,6 +174,13 @@ Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, 
                       " takes nothing of the volume away: " + whereItIs(clip, grid, plane.normal, reach));
         }
         planes.push_back(plane);
+    }
+    if (!leaveSomething(planes, grid)) {
+        std::string all;
+        for (const ClipOption& clip : clips) {
+            all += (all.empty() ? "--clip " : ", --clip ") + clip.text;
+        }
+        return badArgument(all + ": together they take all of the volume away");
     }
     return planes;
 }

@@ -70,7 +70,7 @@ std::optional<PoseChoice> parsePoses(std::string_view text) {
 }
 
 void addPoseOption(CLI::App& parser, RenderOptions& options) {
-    addTexts(
+    addText(
         parser, "--pose",
         [&options](const std::string& text) -> std::optional<std::string> {
             options.poses = parsePoses(text);
@@ -124,12 +124,12 @@ void addCutOptions(CLI::App& parser, RenderOptions& options) {
         "SIDE[:MM]");
     parser.add_flag("--clip-mesh", options.clipMesh, "--clip takes the same of meshes away");
     parser.get_option("--clip-mesh")->needs("--clip");
-    addTexts(
+    addText(
         parser, "--slice", [&options](const std::string& text) { return parseSlice(text, options.slice.emplace()); },
         "a gray plane instead of the volume: axial at MM of the world's z, coronal at y, sagittal at x, or view (at "
         "right angles to the view, MM before the volume's middle); default: through the mesh, else the middle",
         "NAME[:MM]");
-    addTexts(
+    addText(
         parser, "--window",
         [&options](const std::string& text) -> std::optional<std::string> {
             options.window = parseRange(text);

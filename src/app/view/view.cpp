@@ -28,6 +28,7 @@ view::WindowDesc windowDesc(const ViewerOptions& options) {
     desc.size = {options.size.width, options.size.height};
     desc.font = {kFont, kFontBytes};
     desc.light = [](const Grid& grid) { return lightingNamed("soft", grid).value_or(Lighting{}); };
+    desc.mayWrite = checkWindowOutput;
     desc.reportState = options.reportState;
     desc.frames = options.frames;
     desc.mostSide = options.mostSide;
@@ -48,6 +49,7 @@ void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std:
                         files->values,
                         files->document,
                         1,
+                        std::move(files->read),
                         device,
                         {}};
         out.document.method = out.document.method ? *out.document.method : standard(session);

@@ -6,6 +6,7 @@
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "view/model/files/session_file.h"
+#include "view/model/files/source_paths.h"
 #include "voxtact/io.h"
 #include "voxtact/looks.h"
 
@@ -112,6 +113,18 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
     return {};
 }
 
+/// A session, and the files that it names; nothing of one that cannot be read.
+void addSessionPaths(std::vector<NamedPath>& paths, const std::filesystem::path& session) {
+    addInput(paths, "--session", session);
+    Result<view::Document> document =
+        session.empty() ? Result<view::Document>(view::Document{}) : view::readSession(session);
+    if (document.ok()) {
+        for (const view::SourceMember& member : view::membersOf(document->sources)) {
+            addInput(paths, "--session", *member.path);
+        }
+    }
+}
+
 } // namespace
 
 void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
@@ -148,7 +161,8 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
         "takes",
         0);
     addSize(
-        parser, [&options](const VkExtent2D& size) { options.size = size; }, "of the window, in points");
+        parser, [&options](const VkExtent2D& size) { options.size = size; }, "of the window, in points",
+        std::to_string(options.size.width) + "x" + std::to_string(options.size.height));
 }
 
 Result<void> checkViewerOptions(const ViewerOptions& options) {
@@ -179,7 +193,19 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
         paths.push_back({"--labels", options.labels});
         paths.push_back({"--label-names", labelNamesPath(options.labelNames, options.labels)});
     }
+    if (options.reportState == "-") {
+        return badArgument("--report-state: '-' is not a file, and it is written anew after each answer; give a path");
+    }
+    addSessionPaths(paths, options.session);
     return checkOutputs({{"--report-state", options.reportState}}, paths);
+}
+
+Result<void> checkWindowOutput(const std::filesystem::path& output, const std::vector<std::string>& inputs) {
+    std::vector<NamedPath> read;
+    for (const std::string& input : inputs) {
+        addInput(read, "the window", input);
+    }
+    return checkOutputs({{"Save", output}}, read);
 }
 
 Result<view::Document> sessionOf(const ViewerOptions& options) {
@@ -215,6 +241,7 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     VOXTACT_TRY(document);
     opened.document = std::move(*document);
     opened.document.sources = sources;
+    opened.read = {options.poses.string(), options.transferFunction.path.string()};
     for (std::size_t mesh = 1; mesh < sources.meshes.size(); ++mesh) {
         opened.document.edit.instruments.push_back({mesh, opened.document.edit.pose(), true});
     }

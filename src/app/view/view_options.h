@@ -28,6 +28,9 @@ struct ViewerOptions {
 };
 
 void addViewerOptions(CLI::App& parser, ViewerOptions& options);
+/// Refuses a file that the window is to write and that is one of those that it has read.
+[[nodiscard]] Result<void> checkWindowOutput(const std::filesystem::path& output,
+                                             const std::vector<std::string>& inputs);
 /// What a parser cannot see.
 [[nodiscard]] Result<void> checkViewerOptions(const ViewerOptions& options);
 
@@ -38,6 +41,7 @@ struct Opened {
     std::vector<MeshData> meshes; ///< of Sources::meshes
     std::optional<view::Labels> labels;
     ValueRange values;
+    std::vector<std::string> read; ///< paths of poses and a transfer function
 };
 [[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progress);
 /// The session alone, answered as the options say.

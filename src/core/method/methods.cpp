@@ -66,13 +66,19 @@ const char* toString(ClearanceEnd end) noexcept {
     case ClearanceEnd::Rounding:
         return "rounding";
     case ClearanceEnd::Budget:
-        break;
+        return "budget";
     }
-    return "budget";
+    return "unknown";
 }
 
 const char* toString(Interpolation interpolation) noexcept {
-    return interpolation == Interpolation::Slerp ? "slerp" : "screw";
+    switch (interpolation) {
+    case Interpolation::Screw:
+        return "screw";
+    case Interpolation::Slerp:
+        return "slerp";
+    }
+    return "unknown";
 }
 
 const char* toString(MotionEnd end) noexcept {
@@ -82,9 +88,9 @@ const char* toString(MotionEnd end) noexcept {
     case MotionEnd::Grazes:
         return "grazes";
     case MotionEnd::Budget:
-        break;
+        return "budget";
     }
-    return "budget";
+    return "unknown";
 }
 
 const char* toString(Exactness exactness) noexcept {

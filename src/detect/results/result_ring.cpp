@@ -2,6 +2,7 @@
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "detect/results/results_impl.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>
@@ -59,6 +60,12 @@ Result<Results*> ResultRing::begin(std::uint64_t frame) {
         if (slot.used && frame < slot.frame) {
             return refuse("frame " + std::to_string(frame) + " comes after frame " + std::to_string(slot.frame) +
                           " in the same slot: frames ascend");
+        }
+        if (!slot.used || slot.frame != frame) {
+            // What is still there is another frame's.
+            ResultsImpl& results = slot.results.impl();
+            results.detectRecorded = false;
+            results.readBackRecorded = false;
         }
         slot.used = true;
         slot.frame = frame;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 
 namespace voxtact {
 
@@ -57,6 +58,10 @@ Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
     if (const VkDeviceSize needed = VkDeviceSize{desc.maxPairs} * sizeof(PairResult); desc.into.size < needed) {
         return refuse("ResultsDesc::into has " + std::to_string(desc.into.size) + " bytes, " +
                       std::to_string(desc.maxPairs) + " pairs need " + std::to_string(needed));
+    }
+    if (desc.into.offset > std::numeric_limits<VkDeviceSize>::max() - desc.into.size) {
+        return refuse("ResultsDesc::into of " + std::to_string(desc.into.size) + " bytes cannot begin at byte " +
+                      std::to_string(desc.into.offset));
     }
     return {};
 }

@@ -5,6 +5,7 @@
 #include "core/base/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
+#include "io/text/twice_said.h"
 #include "voxtact/io.h"
 
 #include <nlohmann/json.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -87,30 +87,10 @@ std::optional<ControlPoint> pointOf(const Json& item) {
     return std::nullopt;
 }
 
-/// Finds members of an object that have the same name: of these a parser keeps the last one.
-class TwiceSaid {
-  public:
-    bool operator()(Json::parse_event_t event, const Json& parsed) {
-        if (event == Json::parse_event_t::object_start) {
-            names_.emplace_back();
-        } else if (event == Json::parse_event_t::object_end) {
-            names_.pop_back();
-        } else if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
-            found_ = found_.value_or(parsed.get<std::string>());
-        }
-        return true;
-    }
-    [[nodiscard]] const std::optional<std::string>& found() const noexcept { return found_; }
-
-  private:
-    std::vector<std::set<std::string>> names_; ///< of the objects that are open
-    std::optional<std::string> found_;
-};
-
 Result<Json> parseJson(const std::filesystem::path& path) {
     try {
         std::ifstream file(path, std::ios::binary);
-        TwiceSaid twice;
+        TwiceSaid<Json> twice;
         Json root = Json::parse(
             file, [&twice](int, Json::parse_event_t event, const Json& parsed) { return twice(event, parsed); });
         return twice.found() ? Result<Json>(cannotRead(path, "it says " + inQuotes(*twice.found()) + " twice"))

@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/try.h"
 #include "view/model/files/open_file.h"
-#include "view/model/files/session_file.h"
+#include "view/model/files/save_file.h"
 #include "view/panels/panels.h"
-
-#include "view/model/answers/command_text.h"
-#include "voxtact/io.h"
 
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
-#include <ostream>
 #include <utility>
 
 namespace voxtact::view {
 
 namespace {
-
-Result<void> savePose(const std::filesystem::path& path, const State& state) {
-    return io::writeFile(path, [&state](std::ostream& out) -> Result<void> {
-        out << poseText(state.document.edit.pose()) << "\n";
-        return {};
-    });
-}
 
 constexpr const char* kOpen = "Open";
 constexpr const char* kSession = "Save session";
@@ -67,19 +57,18 @@ std::array<PathDialog, 5>& dialogs() {
     static std::array<PathDialog, 5> all{{
         {kSession, "save", "session.json",
          [](const std::filesystem::path& path, State& state) -> Result<void> {
-             if (const Result<void> written = writeSession(path, state.saved()); !written.ok()) {
-                 return written.error();
-             }
+             VOXTACT_TRY(saveSession(path, state));
              state.say("the session is in " + path.string());
              state.taken.push_back(path.string());
              return {};
          }},
         {"Save transfer function", "save", "curve.json",
-         [](const std::filesystem::path& path, State& state) { return writeTransferFunction(path, state.document); }},
+         [](const std::filesystem::path& path, State& state) { return saveFunction(path, state); }},
         {"Save pose", "save", "pose.txt",
          [](const std::filesystem::path& path, State& state) { return savePose(path, state); }},
         {kPicture, "save", "picture.png",
          [](const std::filesystem::path& path, State& state) -> Result<void> {
+             VOXTACT_TRY(state.checkOutput(path));
              state.shot = Shot{path.string(), pictureSize()};
              return {};
          }},

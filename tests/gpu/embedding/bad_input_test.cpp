@@ -144,6 +144,35 @@ TEST_F(BadInputTest, ReadingTooEarlyIsAnError) {
     EXPECT_FALSE(ring.begin(3).ok());
 }
 
+/// What is farther apart than a draw may read is refused where it is drawn, and counted by `compute`.
+TEST_F(BadInputTest, VerticesTooFarApartToDraw) {
+    const std::uint32_t most = context().impl().limits.maxVertexInputBindingStride;
+    const MeshData square = makeFlat(0, 1, 0, 1, 0.5);
+    for (const std::uint32_t stride : {most / 4 * 4, most / 4 * 4 + 4}) {
+        const Mesh mesh = take(Mesh::upload(context(), queue(), square.view(), {.vertexStride = stride}));
+        BatchItem far = item();
+        far.mesh = &mesh;
+        const Batch batch{std::span(&far, 1), flatView(0, 1, 16, 16), 0.5};
+        for (const MethodSupport& method : context().methods()) {
+            if (!method.available) {
+                continue;
+            }
+            BlockingDetector one = detector({.method = method.method});
+            const Result<BatchAnswer> answer = one.detect(batch);
+            ASSERT_EQ(answer.ok(), stride <= most || method.method == CountingMethod::Compute)
+                << toString(method.method);
+            if (!answer.ok()) {
+                EXPECT_EQ(answer.error().code, ErrorCode::LimitExceeded);
+                EXPECT_THAT(answer.error().text,
+                            HasSubstr("vertexStride " + std::to_string(stride) +
+                                      " is beyond the device's maxVertexInputBindingStride, " + std::to_string(most)));
+            } else {
+                EXPECT_TRUE(take(answer).pairs[0].hit) << toString(method.method);
+            }
+        }
+    }
+}
+
 TEST_F(BadInputTest, StagingIsReleasedOnce) {
     Volume volume = upload(makeBytes(unitGrid(4), [](auto...) { return 0.0; }));
     EXPECT_EQ(volume.cmdUpload(VK_NULL_HANDLE).error().code, ErrorCode::NotReady);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace voxtact::test {
 namespace {
@@ -209,6 +210,9 @@ TEST_F(CallerResultsTest, WhatHasNoRoomIsRefusedByName) {
                 HasSubstr("ResultsDesc::into has 239 bytes, 10 pairs need 240"));
     EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, 4, 240}}),
                 HasSubstr("ResultsDesc::into begins at byte 4; on this device that must be a multiple of "));
+    const VkDeviceSize last = std::numeric_limits<VkDeviceSize>::max() / 4096 * 4096;
+    EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, last, 4096}}),
+                HasSubstr("ResultsDesc::into of 4096 bytes cannot begin at byte " + std::to_string(last)));
     const Result<ResultRing> ring = ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 751}});
     ASSERT_FALSE(ring.ok());
     EXPECT_THAT(ring.error().text, HasSubstr("ResultsDesc::into has 751 bytes, 3 frames of 10 pairs need 752"));

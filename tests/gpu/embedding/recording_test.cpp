@@ -59,5 +59,38 @@ TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
     }
 }
 
+TEST_F(RecordingTest, AFrameHasNothingOfTheOneBeforeIt) {
+    const Detector detector = take(Detector::create(context(), {.method = CountingMethod::QueryAny}));
+    ResultRing ring = take(ResultRing::create(context(), 1, {.maxPairs = 1}));
+    const Volume volume = upload(makeBytes(unitGrid(4), [](auto...) { return 255.0; }));
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const Mat4 pose = identity();
+    const BatchItem good{&mesh, &volume, &function, std::span(&pose, 1)};
+    const Batch batch{std::span(&good, 1), flatView(0, 1, 16, 16), 0.5};
+    const auto answer = [&](std::uint64_t frame) {
+        Results& results = *take(ring.begin(frame));
+        const VkCommandBuffer commands = raw().begin();
+        take(detector.cmdDetect(commands, batch, results));
+        take(results.cmdReadBack(commands));
+        raw().submitAndWait(commands);
+    };
+    answer(1);
+    EXPECT_EQ(take(ring.read(1))[0].countLow, 1U);
+    EXPECT_EQ(take(ring.begin(1)), take(ring.results(1))) << "the same frame once more";
+    EXPECT_EQ(take(ring.read(1))[0].countLow, 1U);
+    Results& next = *take(ring.begin(2));
+    EXPECT_EQ(ring.read(2).error().code, ErrorCode::NotReady);
+    BatchItem bad = good;
+    bad.volume = nullptr;
+    const VkCommandBuffer commands = raw().begin();
+    EXPECT_FALSE(detector.cmdDetect(commands, {std::span(&bad, 1), batch.view, 0.5}, next).ok());
+    EXPECT_EQ(next.cmdReadBack(commands).error().code, ErrorCode::NotReady);
+    raw().submitAndWait(commands);
+    EXPECT_EQ(ring.read(2).error().code, ErrorCode::NotReady);
+    answer(3);
+    EXPECT_EQ(take(ring.read(3))[0].countLow, 1U);
+}
+
 } // namespace
 } // namespace voxtact::test

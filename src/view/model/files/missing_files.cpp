@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/files/missing_files.h"
 
+#include "view/model/files/source_paths.h"
+
 #include <algorithm>
 
 namespace voxtact::view {
@@ -8,21 +10,6 @@ namespace voxtact::view {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Member {
-    std::string name;
-    std::string* path;
-};
-
-std::vector<Member> membersOf(Sources& sources) {
-    std::vector<Member> out{{"volume", &sources.volume}};
-    for (std::size_t i = 0; i < sources.meshes.size(); ++i) {
-        out.push_back({sources.meshes.size() == 1 ? "mesh" : "mesh " + std::to_string(i + 1), &sources.meshes[i].path});
-    }
-    out.push_back({"label map", &sources.labels});
-    out.push_back({"label names", &sources.labelNames});
-    return out;
-}
 
 bool isThere(const std::string& path) {
     std::error_code ignored;
@@ -34,9 +21,9 @@ bool isThere(const std::string& path) {
 
 std::vector<MissingFile> missingFiles(Sources sources, const fs::path& session) {
     std::vector<MissingFile> out;
-    for (const Member& member : membersOf(sources)) {
+    for (const SourceMember& member : membersOf(sources)) {
         const std::string& path = *member.path;
-        if (path.empty() || path.starts_with("builtin:") || isThere(path)) {
+        if (!isFile(path) || isThere(path)) {
             continue;
         }
         const std::string beside = (session.parent_path() / fs::path(path).filename()).string();
@@ -46,9 +33,9 @@ std::vector<MissingFile> missingFiles(Sources sources, const fs::path& session) 
 }
 
 Sources found(Sources sources, const std::vector<MissingFile>& files) {
-    const std::vector<Member> members = membersOf(sources);
+    const std::vector<SourceMember> members = membersOf(sources);
     for (const MissingFile& file : files) {
-        const auto member = std::ranges::find(members, file.name, &Member::name);
+        const auto member = std::ranges::find(members, file.name, &SourceMember::name);
         if (member != members.end()) {
             *member->path = file.path;
         }

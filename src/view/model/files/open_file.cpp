@@ -37,6 +37,7 @@ Result<void> openFunction(const std::filesystem::path& path, State& state) {
     });
     state.curvePoint.reset();
     state.taken.push_back(path.string());
+    state.read.push_back(path.string());
     return {};
 }
 
@@ -47,6 +48,7 @@ Result<void> openPoses(const std::filesystem::path& path, State& state) {
     state.takePose(0);
     state.history.end();
     state.taken.push_back(path.string());
+    state.read.push_back(path.string());
     return {};
 }
 

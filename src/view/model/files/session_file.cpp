@@ -2,8 +2,10 @@
 #include "view/model/files/session_file.h"
 
 #include "core/base/try.h"
+#include "io/text/twice_said.h"
 #include "view/model/files/session_reader.h"
 #include "view/model/files/session_shown.h"
+#include "view/model/files/source_paths.h"
 #include "voxtact/io.h"
 
 #include <cmath>
@@ -19,6 +21,9 @@ using Json = SessionReader::Json;
 constexpr int kVersion = 1;
 constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
+/// Of a camera whose matrices can be used.
+constexpr double kLeastHalfHeight = 1e-9;
+constexpr double kMostMillimetres = 1e9;
 
 /// Row by row, as pose files have them.
 Mat4 readPose(SessionReader& reader, const std::string& name, const Json& json) {
@@ -29,7 +34,7 @@ Mat4 readPose(SessionReader& reader, const std::string& name, const Json& json) 
     }
     if (reader.wrong().empty()) {
         if (const Result<void> affine = checkAffine(pose, name); !affine.ok()) {
-            reader.refuse(name, affine.error().text);
+            reader.refuse(affine.error().text);
         }
     }
     return pose;
@@ -150,6 +155,10 @@ void readInstrument(SessionReader& reader, Document& document) {
 Instrument readMember(SessionReader& reader, const std::string& at, const Json& json, Document& document) {
     SessionReader member(json);
     Instrument out;
+    if (!json.is_object()) {
+        reader.refuse(at, "is not an object");
+        return out;
+    }
     out.mesh = document.sources.meshes.size();
     document.sources.meshes.push_back(readMesh(member, ""));
     if (const Json* pose = member.find("pose"); pose != nullptr) {
@@ -236,8 +245,13 @@ void readCamera(SessionReader& reader, Document& document) {
     camera.target = reader.numbers<3>("camera.target", *target);
     camera.direction = {reader.number("camera.azimuth", 0.0), reader.number("camera.elevation", 0.0)};
     camera.halfHeight = reader.number("camera.half_height", camera.halfHeight);
-    if (!(camera.halfHeight > 0) || !std::isfinite(camera.halfHeight)) {
-        reader.refuse("camera.half_height", "is not a positive number");
+    if (!(camera.halfHeight >= kLeastHalfHeight && camera.halfHeight <= kMostMillimetres)) {
+        reader.refuse("camera.half_height", "is not a number of mm from 1e-9 to 1e9");
+    }
+    for (const double place : camera.target) {
+        if (!(std::abs(place) <= kMostMillimetres)) {
+            reader.refuse("camera.target", "is farther away than 1e9 mm");
+        }
     }
     document.camera = camera;
 }
@@ -248,9 +262,14 @@ Result<Document> parseSession(std::string_view text, const std::string& name) {
     const auto wrong = [&name](const std::string& why) {
         return Error{ErrorCode::Format, 0, "cannot use the session '" + name + "': " + why};
     };
-    const Json json = Json::parse(text, nullptr, false);
+    io::TwiceSaid<Json> twice;
+    const Json json = Json::parse(
+        text, [&twice](int, Json::parse_event_t event, const Json& parsed) { return twice(event, parsed); }, false);
     if (json.is_discarded()) {
         return wrong("it is not JSON");
+    }
+    if (twice.found()) {
+        return wrong("it says " + Json(*twice.found()).dump(-1, ' ', false, Json::error_handler_t::replace) + " twice");
     }
     SessionReader reader(json);
     const Json* mark = json.is_object() ? reader.find(kMark) : nullptr;
@@ -357,12 +376,17 @@ Result<bool> isSession(const std::filesystem::path& path) {
 Result<Document> readSession(const std::filesystem::path& path) {
     const Result<std::string> text = textOf(path, "the session");
     VOXTACT_TRY(text);
-    return parseSession(*text, path.string());
+    Result<Document> document = parseSession(*text, path.string());
+    VOXTACT_TRY(document);
+    document->sources = foundFrom(std::move(document->sources), path.parent_path());
+    return document;
 }
 
 Result<void> writeSession(const std::filesystem::path& path, const Document& document) {
-    return io::writeFile(path, [&document](std::ostream& out) -> Result<void> {
-        out << sessionText(document);
+    Document there = document;
+    there.sources = seenFrom(std::move(there.sources), path.parent_path());
+    return io::writeFile(path, [&there](std::ostream& out) -> Result<void> {
+        out << sessionText(there);
         return {};
     });
 }

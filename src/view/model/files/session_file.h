@@ -15,8 +15,10 @@ namespace voxtact::view {
 
 /// Whether a file is JSON with the mark of a session, whatever else is in it. Errors: it cannot be read.
 [[nodiscard]] Result<bool> isSession(const std::filesystem::path& path);
+/// Relative paths in it are from its folder on.
 [[nodiscard]] Result<Document> readSession(const std::filesystem::path& path);
-/// To a temporary name, and renamed.
+/// To a temporary name, and renamed. Paths of the document are relative to the current folder, those in the file as
+/// seenFrom() has them.
 [[nodiscard]] Result<void> writeSession(const std::filesystem::path& path, const Document& document);
 
 /// The curve and the colours as --transfer-function takes them.

@@ -21,6 +21,9 @@ class SessionReader {
         wrong_ = wrong_.empty() ? member + ": " + why : wrong_;
     }
 
+    /// With a text that names the member.
+    void refuse(const std::string& why) { wrong_ = wrong_.empty() ? why : wrong_; }
+
     /// The member "a.b", or null.
     [[nodiscard]] const Json* find(const std::string& path) {
         const Json* at = root_;
