@@ -12,14 +12,22 @@ namespace voxtact::python {
 
 namespace {
 
-/// Triangles that a first piece may look at: some milliseconds.
+/// Triangles that a first piece may look at: some milliseconds; and things that it has at most, as one triangle may go
+/// through all of the volume. Of a device, which cannot be interrupted, they are fewer.
 constexpr std::size_t kFirstTriangles = std::size_t{1} << 20U;
+constexpr std::size_t kFirstOnHost = 64;
+constexpr std::size_t kFirstOnDevice = 8;
 /// Clearances take that many times as long.
 constexpr std::size_t kClearanceCost = 16;
 constexpr std::size_t kMostHostPairs = std::size_t{1} << 20U;
 
-std::size_t firstPiece(const Request& request, std::size_t cost, std::size_t threads) {
-    return std::max(kFirstTriangles / (request.mostTriangles() * cost), threads);
+std::size_t firstPiece(const Request& request, std::size_t cost, std::size_t most) {
+    return std::clamp<std::size_t>(kFirstTriangles / (request.mostTriangles() * cost), 1, most);
+}
+
+/// So that all threads have something to do.
+std::size_t firstOnHost(const Request& request, std::size_t cost, std::size_t threads) {
+    return std::max(firstPiece(request, cost, kFirstOnHost), threads);
 }
 
 /// A certified yes or no that a device is asked for.
@@ -119,13 +127,13 @@ std::shared_ptr<Answer> Scene::answered(std::shared_ptr<const Request> request, 
     answer->revision = revision_;
     if (desc_.device != nullptr) {
         DeviceSide& side = onDevice(desc_.device);
-        inPieces(request->pairs, firstPiece(*request, 1, 1), DeviceSide::mostPairs(*request, question), progress,
-                 [&](std::size_t first, std::size_t count) {
+        inPieces(request->pairs, firstPiece(*request, 1, kFirstOnDevice), DeviceSide::mostPairs(*request, question),
+                 progress, [&](std::size_t first, std::size_t count) {
                      answer->add(first, side.detect(*request, first, count, question, desc_.threshold));
                  });
     } else {
         HostSide& side = host();
-        inPieces(request->pairs, firstPiece(*request, 1, side.threads()), kMostHostPairs, progress,
+        inPieces(request->pairs, firstOnHost(*request, 1, side.threads()), kMostHostPairs, progress,
                  [&](std::size_t first, std::size_t count) {
                      answer->add(first,
                                  side.detect({*request, first, count}, question, desc_.threshold, desc_.labels.get()));
@@ -173,7 +181,7 @@ std::shared_ptr<Clearances> Scene::clearance(std::shared_ptr<const Request> requ
     HostSide& side = host();
     auto found = std::make_shared<Clearances>();
     found->request = request;
-    inPieces(request->pairs, firstPiece(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
+    inPieces(request->pairs, firstOnHost(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
              [&](std::size_t first, std::size_t count) {
                  found->add(side.measure({*request, first, count}, distance, desc_.threshold));
              });
@@ -200,7 +208,7 @@ std::shared_ptr<Clearances> Scene::clearanceByDevice(std::shared_ptr<const Reque
     found->request = request;
     found->toLabels = question.toLabels;
     found->labels = labels ? std::move(*labels) : std::vector<std::int32_t>();
-    inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), 1),
+    inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), kFirstOnDevice),
              DeviceSide::mostPairs(*request, question, found->labels.size()), progress,
              [&](std::size_t first, std::size_t count) {
                  BatchAnswer answer = side.detect(*request, first, count, question, desc_.threshold, found->labels);
@@ -222,7 +230,7 @@ std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request>
     found->request = request;
     found->toLabels = true;
     found->labels = std::move(labels);
-    inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), side.threads()),
+    inPieces(request->pairs, firstOnHost(*request, kClearanceCost * (1 + found->labels.size()), side.threads()),
              kMostHostPairs, progress, [&](std::size_t first, std::size_t count) {
                  found->add(side.measureLabels({*request, first, count}, distance, desc_.threshold, desc_.labels.get(),
                                                found->labels));
@@ -240,7 +248,7 @@ std::shared_ptr<Answer> Scene::yesOrNo(const std::shared_ptr<const Request>& req
     question.yesNo = true;
     auto answer = std::make_shared<Answer>(request, question);
     answer->revision = revision_;
-    inPieces(request->pairs, firstPiece(*request, cost, side.threads()), kMostHostPairs, progress,
+    inPieces(request->pairs, firstOnHost(*request, cost, side.threads()), kMostHostPairs, progress,
              [&](std::size_t first, std::size_t count) {
                  answer->add(first, ask(side, Part{*request, first, count}));
              });
@@ -281,8 +289,8 @@ std::shared_ptr<Motions> Scene::motionByDevice(std::shared_ptr<const Request> re
     DeviceSide& side = onDevice(desc_.device);
     auto found = std::make_shared<Motions>();
     found->request = request;
-    inPieces(request->segments(), firstPiece(*request, kClearanceCost, 1), DeviceSide::mostPairs(*request, question),
-             progress, [&](std::size_t first, std::size_t count) {
+    inPieces(request->segments(), firstPiece(*request, kClearanceCost, kFirstOnDevice),
+             DeviceSide::mostPairs(*request, question), progress, [&](std::size_t first, std::size_t count) {
                  found->add(side.move(*request, first, count, question, desc_.threshold), desc_.labels.get());
              });
     return found;
@@ -295,7 +303,7 @@ std::shared_ptr<Motions> Scene::motion(std::shared_ptr<const Request> request, c
     HostSide& side = host();
     auto found = std::make_shared<Motions>();
     found->request = request;
-    inPieces(request->segments(), firstPiece(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
+    inPieces(request->segments(), firstOnHost(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
              [&](std::size_t first, std::size_t count) {
                  found->add(side.move({*request, first, count}, way, desc_.threshold), desc_.labels.get());
              });

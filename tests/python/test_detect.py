@@ -296,6 +296,10 @@ def test_progress(scene, knife):
         scene.detect(knife, np.tile(poses, (50, 1, 1)), progress=stop)
     assert len(told) == 1 and told[0] < 50_000, "it ended with the first piece"
     assert len(scene.detect(knife, poses)) == 1000, "and the scene is as good as ever"
+    told.clear()
+    with pytest.raises(StopIteration, match="enough"):  # few triangles, which may go through all of the volume
+        scene.detect(vx.Mesh([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]]), poses, progress=stop)
+    assert len(told) == 1 and told[0] <= 64
     tqdm = pytest.importorskip("tqdm").tqdm
     scene.within(knife, poses, margin=1, progress=tqdm)
 

@@ -45,6 +45,19 @@ def test_the_certified_answer_is_the_hosts(device, head, knife):
     assert repr(there).endswith(f"on {device.info.name!r}>")
 
 
+def test_the_first_piece_of_a_device_is_small(device, head):
+    def stop(done, of):
+        told.append(done)
+        raise StopIteration("enough")
+
+    told = []
+    triangle = vx.Mesh([[-90, -90, 0], [90, -90, 0], [0, 90, 0]], [[0, 1, 2]])
+    scene = vx.Scene(head, opacity=[(40, 0), (80, 1)], device=device)
+    with pytest.raises(StopIteration, match="enough"):
+        scene.detect(triangle, random_poses(1000, 32), progress=stop)
+    assert told == [8]
+
+
 def hits_of_both(ask):
     """How many poses hit by a question that `ask` puts: device and host never contradict each other."""
     expected, answer = ask(), ask(method="compute")
