@@ -12,8 +12,8 @@ tests=${1:?usage: second_drivers.sh TESTS [FILTER]}
 asked=${2:-}
 of_mesa=(ArithmeticTest.\* MethodsTest.\* AgreementTest.\* HostAgreementTest.\* ConservativeTest.\* AnalyticTest.\*
     ProjectionsTest.\* RandomPosesTest.\* EditTest.\* ValueTest.\* TableUpdateTest.\*)
-of_swiftshader=(AgreementTest.\*-\*.ItemsOfOneBatchKeepTheirNames:\*.QueriesCountRightInLongSubmissions ArithmeticTest.\* ValueTest.\*
-    EditTest.\* TableUpdateTest.\* AnalyticTest.\*)
+of_swiftshader=(AgreementTest.\*-\*.ItemsOfOneBatchKeepTheirNames:\*.QueriesCountRightInLongSubmissions
+    ArithmeticTest.\* ValueTest.\* EditTest.\* TableUpdateTest.\* AnalyticTest.\*)
 drivers=build/drivers
 mkdir -p "$drivers"
 

@@ -10,8 +10,8 @@
 
 /// Sub-pixel steps in a pixel: 8 fraction bits, as every rasteriser at hand has.
 #define EXACT_SUBPIXEL 256
-/// Coordinates are kept within this many pixels of the viewport's centre by clipping, so that edge functions fit 64
-/// bits with room. It is the largest viewport, too.
+/// Coordinates are kept within this many pixels of the viewport's centre by clipping, so that edge functions are at
+/// most 2^49 in size, which longToFloat() takes. It is the largest viewport, too.
 #define EXACT_GUARD_PIXELS 16384.0f
 /// Sub-pixels of a corner lie within this. The guard band keeps to 3/4 of it; a cut whose rounding was bad may not.
 #define EXACT_FARTHEST_SUBPIXEL 8388608.0f

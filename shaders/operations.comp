@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Does each operation of operations.h on each set of inputs; what lanes do together, and with SUBGROUPS those of a
-// subgroup, too; and what a volume's texels are. Work groups along y are the operations.
+// Does each operation of operations.h on each set of inputs; what the lanes of a work group do together; and what a
+// volume's texels are. Work groups along y are the operations.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#ifdef SUBGROUPS
-#extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#endif
 #include "shared.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
@@ -23,9 +19,6 @@ layout(push_constant) uniform Constants { OperationConstants constants; };
 shared uint sum;
 shared uint bits;
 shared uint most;
-shared uint subgroupSum;
-shared uint subgroupBits;
-shared uint subgroups;
 
 /// `at`: where in `outputs` the results of this kind begin.
 void together(uint at, uint value) {
@@ -33,34 +26,17 @@ void together(uint at, uint value) {
         sum = 0;
         bits = 0;
         most = 0;
-        subgroupSum = 0;
-        subgroupBits = 0;
-        subgroups = 0;
     }
     barrier();
     atomicAdd(sum, value);
     atomicOr(bits, value);
     atomicMax(most, value);
-#ifdef SUBGROUPS
-    const uint added = subgroupAdd(value);
-    const uint joined = subgroupOr(value);
-    if (subgroupElect()) {
-        atomicAdd(subgroupSum, added);
-        atomicOr(subgroupBits, joined);
-        atomicAdd(subgroups, 1u);
-    }
-#endif
     barrier();
     if (gl_LocalInvocationIndex == 0) {
         const uint first = at + OPERATION_GROUP_WORDS * gl_WorkGroupID.x;
         outputs[first] = sum;
         outputs[first + 1] = bits;
         outputs[first + 2] = most;
-#ifdef SUBGROUPS
-        outputs[first + 3] = subgroupSum;
-        outputs[first + 4] = subgroupBits;
-        outputs[first + 5] = subgroups == gl_NumSubgroups ? 1u : 0u;
-#endif
     }
 }
 

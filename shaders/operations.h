@@ -45,9 +45,7 @@
 #define OPERATION_COUNT 33
 /// The one behind them: what lanes do together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
 #define OPERATION_GROUP 33
-#define OPERATION_GROUP_WORDS 6
-/// The first of them that are of work groups, the others of subgroups.
-#define OPERATION_GROUP_SHARED_WORDS 3
+#define OPERATION_GROUP_WORDS 3
 
 /// Inputs of an operation, in words, and its results.
 #define OPERATION_INPUTS 4
@@ -147,7 +145,7 @@ EXACT bool operationOnWords(int operation, uint a, uint b, OUT(uint) low, OUT(ui
     } else if (operation == OPERATION_INT_TO_FLOAT) {
         low = bitsOf(float(uintAsInt(a)));
     } else if (operation == OPERATION_UINT_TO_FLOAT) {
-        // Those that are floats: a driver at hand rounds others twice, and nothing rests on them.
+        // Only those that are floats: nothing rests on how others are rounded.
         low = bitsOf(float(a & 0xffffffu));
         high = bitsOf(float(a >> 8));
     } else if (operation == OPERATION_FLOAT_TO_INT) {

@@ -38,9 +38,9 @@ struct TouchedTriangle {
 struct Contact {
     std::uint32_t pair = 0;     ///< number of the pair in its batch
     std::uint32_t triangle = 0; ///< number in the mesh
-    /// World, mm: in an opaque sample up to rounding, and on the triangle to a hundred-thousandth of a voxel and 0.002
-    /// % of its size, times the ratio of the grid's largest spacing to its smallest, and times the condition number of
-    /// a pose that shears or squashes.
+    /// World, mm: in an opaque sample up to rounding, and on the triangle to a hundred-thousandth of a voxel and two of
+    /// its size, times the ratio of the grid's largest spacing to its smallest, and times the condition number of a
+    /// pose that shears or squashes.
     Vec3 position{};
     /// Unit vector in world space, against the gradient of opacity: out of what is opaque. The gradient is of
     /// differences over one voxel to each side, the span clamped to the image; where these vanish the step is doubled,

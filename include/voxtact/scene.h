@@ -196,8 +196,9 @@ class TransferFunction {
 struct WrappedMesh {
     VkBuffer vertices = VK_NULL_HANDLE; ///< usage VERTEX_BUFFER
     VkDeviceSize vertexOffset = 0;      ///< bytes, of the first position; a multiple of 4
-    /// Bytes; at least 12, a multiple of 4. A mesh that is drawn (by `query`, `query-any`, `atomic` or `subgroup`
-    /// in a view, or in a picture) keeps to the device's maxVertexInputBindingStride.
+    /// Bytes; at least 12, a multiple of 4. Drawing it (by a rasteriser's method in `view` or `two-view`, or in a
+    /// picture) is LimitExceeded beyond the device's maxVertexInputBindingStride; `compute` and `dominant-axis` take
+    /// any.
     std::uint32_t vertexStride = 12;
     std::uint32_t vertexCount = 0;                ///< vertices in the buffer
     VkBuffer indices = VK_NULL_HANDLE;            ///< usage INDEX_BUFFER; null: every three vertices are a triangle

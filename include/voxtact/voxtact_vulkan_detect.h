@@ -272,7 +272,8 @@ typedef struct vxt_result_ring vxt_result_ring;
 VXT_CHECKED vxt_result vxt_result_ring_create(const vxt_context* context, uint32_t frames, const vxt_results_desc* desc,
                                               vxt_result_ring** ring);
 /// The slot of a frame, for recording; the ring's own, valid until its next vxt_result_ring_begin(). The caller knows
-/// that the frame that had the slot before has completed.
+/// that the frame that had the slot before has completed. Nothing can be read of it until a detection and its read-back
+/// are recorded.
 VXT_CHECKED vxt_result vxt_result_ring_begin(vxt_result_ring* ring, uint64_t frame, vxt_results** results);
 /// The results of a completed frame; NOT_READY when its slot was never used, or has been taken by a later frame.
 VXT_CHECKED vxt_result vxt_result_ring_read(vxt_result_ring* ring, uint64_t frame, vxt_answer* answer);

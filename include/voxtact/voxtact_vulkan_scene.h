@@ -158,7 +158,8 @@ typedef struct vxt_mesh_options {
     const char* name;   ///< appears on the Vulkan objects; may be null
     uint32_t clusters;  ///< keeps clusters of triangles, for the projection CONSERVATIVE to skip; default 0
     uint32_t editable;  ///< allows vxt_mesh_cmd_update() and vxt_mesh_cmd_copy(); default 0
-    /// Bytes from one vertex to the next on the device; at least 12, the default; a multiple of 4.
+    /// Bytes from one vertex to the next on the device; at least 12, the default; a multiple of 4. Where it is drawn,
+    /// at most the device's maxVertexInputBindingStride.
     uint32_t vertex_stride;
     uint32_t reserved; ///< 0
 } vxt_mesh_options;
@@ -179,7 +180,7 @@ typedef struct vxt_wrapped_mesh {
     VkDeviceSize vertex_offset; ///< bytes, of the first position; a multiple of 4
     VkBuffer indices;           ///< usage INDEX_BUFFER; null: every three vertices are a triangle
     VkDeviceSize index_offset;  ///< bytes
-    uint32_t vertex_stride;     ///< bytes; at least 12, the default; a multiple of 4
+    uint32_t vertex_stride;     ///< bytes; as in vxt_mesh_options
     uint32_t vertex_count;      ///< vertices in the buffer
     VkIndexType index_type;     ///< UINT16 or UINT32, the default
     uint32_t triangle_count;    ///< triangles that are drawn

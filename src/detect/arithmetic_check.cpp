@@ -9,7 +9,6 @@
 #include "operations.h"
 #include "voxtact/scene.h"
 #include "voxtact_shaders/operations_comp.h"
-#include "voxtact_shaders/operations_subgroup_comp.h"
 
 #include <algorithm>
 #include <array>
@@ -148,11 +147,8 @@ Result<Bench> Bench::create(const Context& context, const QueueAccess& queue, st
     Result<Submitter> submitter = Submitter::create(impl, queue, VK_QUEUE_COMPUTE_BIT);
     VOXTACT_TRY(submitter);
     Bench out(impl, std::move(*submitter), groups);
-    const std::span<const std::uint32_t> program = impl.subgroupArithmetic
-                                                       ? std::span<const std::uint32_t>(spirv::operations_subgroup_comp)
-                                                       : std::span<const std::uint32_t>(spirv::operations_comp);
     Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(impl, program, {}, impl.computeLayout, "arithmetic self-test");
+        makeComputePipeline(impl, spirv::operations_comp, {}, impl.computeLayout, "arithmetic self-test");
     VOXTACT_TRY(pipeline);
     out.pipeline_ = std::move(*pipeline);
     Result<Buffer> inputs = makeBuffer(impl, std::size_t{out.sets()} * OPERATION_INPUTS * sizeof(std::uint32_t),
@@ -213,9 +209,8 @@ class Findings {
     std::string text_;
 };
 
-/// How many work groups have other results than they should, of what lanes do together: the first `words` of them.
-std::size_t wrongGroups(std::span<const std::uint32_t> inputs, std::span<const std::uint32_t> results,
-                        std::size_t words) {
+/// How many work groups have other results than they should, of what lanes do together.
+std::size_t wrongGroups(std::span<const std::uint32_t> inputs, std::span<const std::uint32_t> results) {
     constexpr std::size_t kGroupInputs = std::size_t{OPERATION_INPUTS} * VOXTACT_COMPUTE_GROUP;
     std::size_t wrong = 0;
     for (std::size_t group = 0; group < inputs.size() / kGroupInputs; ++group) {
@@ -228,9 +223,9 @@ std::size_t wrongGroups(std::span<const std::uint32_t> inputs, std::span<const s
             bits |= value;
             most = std::max(most, value);
         }
-        const std::array<std::uint32_t, OPERATION_GROUP_WORDS> expected{sum, bits, most, sum, bits, 1};
-        const auto found = results.subspan(group * OPERATION_GROUP_WORDS, words);
-        wrong += std::ranges::equal(std::span(expected).first(words), found) ? 0U : 1U;
+        const std::array<std::uint32_t, OPERATION_GROUP_WORDS> expected{sum, bits, most};
+        const auto found = results.subspan(group * OPERATION_GROUP_WORDS, OPERATION_GROUP_WORDS);
+        wrong += std::ranges::equal(expected, found) ? 0U : 1U;
     }
     return wrong;
 }
@@ -312,11 +307,9 @@ Result<std::uint32_t> checkOperations(const ContextImpl& context, Bench& bench, 
                                                        " " + hex(first[1]) + " " + hex(first[2]));
         }
     }
-    const std::size_t words = context.subgroupArithmetic ? OPERATION_GROUP_WORDS : OPERATION_GROUP_SHARED_WORDS;
-    const std::size_t groups = wrongGroups(inputs, bench.results().subspan(OPERATION_GROUP * each), words);
+    const std::size_t groups = wrongGroups(inputs, bench.results().subspan(OPERATION_GROUP * each));
     if (groups > 0) {
-        findings.add(context.subgroupArithmetic ? "sums of work groups and subgroups" : "sums of work groups",
-                     std::to_string(groups) + " of " + std::to_string(bench.groups()));
+        findings.add("sums of work groups", std::to_string(groups) + " of " + std::to_string(bench.groups()));
     }
     return asked;
 }

@@ -35,9 +35,6 @@ void readProperties(ContextImpl& context) {
     VkPhysicalDeviceFloatControlsProperties floats{};
     floats.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES;
     driver.pNext = &floats;
-    VkPhysicalDeviceSubgroupProperties subgroup{};
-    subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
-    floats.pNext = &subgroup;
     VkPhysicalDeviceProperties2 properties{};
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     properties.pNext = &maintenance3;
@@ -45,8 +42,6 @@ void readProperties(ContextImpl& context) {
     context.limits = properties.properties.limits;
     context.maxAllocation = maintenance3.maxMemoryAllocationSize;
     context.floatControls = readFloatControls(floats);
-    context.subgroupArithmetic = hasSubgroup(subgroup, VK_SHADER_STAGE_COMPUTE_BIT,
-                                             VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT);
     context.flushAfterQuery = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     context.endsLongLoops = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     context.vk.GetPhysicalDeviceMemoryProperties(context.physicalDevice, &context.memory);

@@ -36,8 +36,7 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     bool conservativeRasterization = false; ///< the extension is enabled
     VkPhysicalDeviceLimits limits{};
     VkDeviceSize maxAllocation = 0;
-    FloatControls floatControls;     ///< asked for by every shader module
-    bool subgroupArithmetic = false; ///< of the compute stage
+    FloatControls floatControls; ///< asked for by every shader module
     /// llvmpipe (seen in Mesa 22.3) counts too much when the memory of its scene runs out while the end of a query is
     /// being put into the tiles: some tiles then end the query twice. A scene that is flushed after each query does
     /// not fill up.

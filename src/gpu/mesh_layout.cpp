@@ -93,8 +93,7 @@ Result<void> checkVertexInput(const MeshImpl& mesh, const std::string& which) {
     }
     return Error{ErrorCode::LimitExceeded, 0,
                  which + ": the vertexStride " + std::to_string(mesh.vertexStride) +
-                     " is beyond the device's maxVertexInputBindingStride, " + std::to_string(most) +
-                     "; compute and dominant-axis take any"};
+                     " is beyond the device's maxVertexInputBindingStride, " + std::to_string(most)};
 }
 
 Result<void> describe(MeshImpl& mesh, const char* name) {

@@ -90,11 +90,12 @@ DeviceSupport checkDevice(const ContextDesc& desc, CheckReport& report) {
                                     std::to_string(VK_API_VERSION_MINOR(properties.properties.apiVersion)) +
                                     ", 1.3 is needed");
     }
-    return {
-        hasSubgroup(subgroup, VK_SHADER_STAGE_FRAGMENT_BIT,
-                    VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT),
-        properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers,
-        readFloatControls(floats)};
+    constexpr VkSubgroupFeatureFlags kOperations =
+        VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    return {(subgroup.supportedStages & VK_SHADER_STAGE_FRAGMENT_BIT) != 0 &&
+                (subgroup.supportedOperations & kOperations) == kOperations,
+            properties.properties.limits.maxPerStageDescriptorStorageBuffers >= kComputeStorageBuffers,
+            readFloatControls(floats)};
 }
 
 static_assert(kComputeStorageBuffers == 6, "methodSupport() says so");
@@ -136,11 +137,6 @@ std::span<const Requirement> requirements() noexcept {
 
 std::span<const char* const> optionalDeviceExtensions() noexcept {
     return kOptionalExtensions;
-}
-
-bool hasSubgroup(const VkPhysicalDeviceSubgroupProperties& properties, VkShaderStageFlags stage,
-                 VkSubgroupFeatureFlags operations) noexcept {
-    return (properties.supportedStages & stage) != 0 && (properties.supportedOperations & operations) == operations;
 }
 
 FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept {

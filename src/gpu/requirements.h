@@ -29,9 +29,6 @@ struct DeviceSupport {
 /// promises four.
 inline constexpr std::uint32_t kComputeStorageBuffers = 6;
 
-/// Whether a stage has all of these operations.
-[[nodiscard]] bool hasSubgroup(const VkPhysicalDeviceSubgroupProperties& properties, VkShaderStageFlags stage,
-                               VkSubgroupFeatureFlags operations) noexcept;
 [[nodiscard]] FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept;
 /// What the projection conservative lacks by the method compute, as Vulkan spells it; null: nothing.
 [[nodiscard]] const char* missingFloatControl(const FloatControls& floats) noexcept;

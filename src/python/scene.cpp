@@ -12,8 +12,9 @@ namespace voxtact::python {
 
 namespace {
 
-/// Triangles that a first piece may look at: some milliseconds; and things that it has at most, as one triangle may go
-/// through all of the volume. Of a device, which cannot be interrupted, they are fewer.
+/// Triangles that a first piece may look at: some milliseconds; and the poses that it has at most, as one triangle may
+/// go through all of the volume. A device, which cannot be interrupted, gets fewer; the host one for each thread at
+/// least.
 constexpr std::size_t kFirstTriangles = std::size_t{1} << 20U;
 constexpr std::size_t kFirstOnHost = 64;
 constexpr std::size_t kFirstOnDevice = 8;

@@ -25,7 +25,7 @@ std::array<std::uint32_t, OPERATION_GROUP_WORDS> together(std::span<const std::u
         bits |= value;
         most = std::max(most, value);
     }
-    return {sum, bits, most, sum, bits, 1};
+    return {sum, bits, most};
 }
 
 /// OPERATION_COUNT blocks, and that of the groups.

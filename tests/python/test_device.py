@@ -51,7 +51,7 @@ def test_the_first_piece_of_a_device_is_small(device, head):
         raise StopIteration("enough")
 
     told = []
-    triangle = vx.Mesh([[-90, -90, 0], [90, -90, 0], [0, 90, 0]], [[0, 1, 2]])
+    triangle = vx.read_mesh(([[-90, -90, 0], [90, -90, 0], [0, 90, 0]], [[0, 1, 2]]))
     scene = vx.Scene(head, opacity=[(40, 0), (80, 1)], device=device)
     with pytest.raises(StopIteration, match="enough"):
         scene.detect(triangle, random_poses(1000, 32), progress=stop)

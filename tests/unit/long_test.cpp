@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // 64-bit integers by two words, as shaders have them, against the processor's.
+#include "exact.h"
 #include "long.h"
 #include "long_words.h"
 
@@ -7,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -86,7 +89,7 @@ TEST(Long, ProductsAreOfAllInts) {
 
 /// The sums and differences of edge functions: each coordinate within EXACT_FARTHEST_SUBPIXEL.
 TEST(Long, EdgeFunctionsFit) {
-    constexpr std::int32_t kFarthest = 1 << 23;
+    constexpr auto kFarthest = static_cast<std::int32_t>(EXACT_FARTHEST_SUBPIXEL);
     for (const std::int32_t x : {-kFarthest, kFarthest}) {
         for (const std::int32_t y : {-kFarthest, kFarthest}) {
             const std::int64_t edge =

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -247,26 +248,28 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
     addParsed(parser, option, parse, help, "RRGGBB", "");
 }
 
-void addText(CLI::App& parser, const char* option,
-             const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
-             const char* type) {
-    const auto parse = [option, use](const std::string& text) {
+namespace {
+
+using UseText = std::function<std::optional<std::string>(const std::string&)>;
+
+/// Refuses what `use` says is wrong.
+std::function<void(const std::string&)> refusing(const char* option, const UseText& use) {
+    return [option, use](const std::string& text) {
         if (const std::optional<std::string> wrong = use(text)) {
             refuse(option, quote(text) + " " + *wrong);
         }
     };
-    addParsed(parser, option, parse, help, type, "");
 }
 
-void addTexts(CLI::App& parser, const char* option,
-              const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
-              const char* type) {
-    const auto parse = [option, use](const std::vector<std::string>& texts) {
-        for (const std::string& text : texts) {
-            if (const std::optional<std::string> wrong = use(text)) {
-                refuse(option, quote(text) + " " + *wrong);
-            }
-        }
+} // namespace
+
+void addText(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type) {
+    addParsed(parser, option, refusing(option, use), help, type, "");
+}
+
+void addTexts(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type) {
+    const auto parse = [each = refusing(option, use)](const std::vector<std::string>& texts) {
+        std::ranges::for_each(texts, each);
     };
     parser.add_option_function<std::vector<std::string>>(option, parse, help)->type_name(type)->allow_extra_args(false);
 }

@@ -100,13 +100,16 @@ bool leaveSomething(const std::vector<ClipPlane>& planes, const Grid& grid) {
                 const Vec3 ki = cross(bounds[k].normal, bounds[i].normal);
                 const Vec3 ij = cross(bounds[i].normal, bounds[j].normal);
                 const double volume = dot(bounds[i].normal, along);
+                if (volume == 0) {
+                    continue; // they meet nowhere, or all along a line
+                }
                 Vec3 point{};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     point[axis] =
                         (bounds[i].offset * along[axis] + bounds[j].offset * ki[axis] + bounds[k].offset * ij[axis]) /
                         volume;
                 }
-                if (volume != 0 && isWithin(point)) {
+                if (isWithin(point)) {
                     return true;
                 }
             }
@@ -175,7 +178,7 @@ Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, 
         }
         planes.push_back(plane);
     }
-    if (!leaveSomething(planes, grid)) {
+    if (planes.size() > 1 && !leaveSomething(planes, grid)) {
         std::string all;
         for (const ClipOption& clip : clips) {
             all += (all.empty() ? "--clip " : ", --clip ") + clip.text;

@@ -21,8 +21,8 @@ struct ClipOption {
 /// What is wrong with a text, or nothing.
 [[nodiscard]] std::optional<std::string> parseClip(const std::string& text, ClipOption& clip);
 
-/// Planes in world space. Refuses one that takes all of the volume away, and several that do
-/// together; says of one that takes nothing.
+/// Planes in world space. Refuses one that takes all of the volume away, and several that do together; says of one that
+/// takes nothing.
 [[nodiscard]] Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, const Grid& grid,
                                                         const Mat4& clip_from_world);
 

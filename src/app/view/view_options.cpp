@@ -107,6 +107,7 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
         Result<NamedLabels> named = loadNamedLabels(sources.labels, sources.labelNames);
         VOXTACT_TRY(named);
         opened.labels = view::Labels{std::move(named->labels), std::move(named->names)};
+        opened.read.push_back(labelNamesPath(sources.labelNames, sources.labels).string());
     }
     opened.volume = std::move(*volume);
     opened.values = *values;
@@ -115,13 +116,18 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
 
 /// A session, and the files that it names; nothing of one that cannot be read.
 void addSessionPaths(std::vector<NamedPath>& paths, const std::filesystem::path& session) {
-    addInput(paths, "--session", session);
-    Result<view::Document> document =
-        session.empty() ? Result<view::Document>(view::Document{}) : view::readSession(session);
-    if (document.ok()) {
-        for (const view::SourceMember& member : view::membersOf(document->sources)) {
-            addInput(paths, "--session", *member.path);
-        }
+    constexpr const char* kOption = "--session";
+    addInput(paths, kOption, session);
+    Result<view::Document> document = view::readSession(session);
+    if (!document.ok()) {
+        return;
+    }
+    view::Sources& sources = document->sources;
+    for (const view::SourceMember& member : view::membersOf(sources)) {
+        addInput(paths, kOption, *member.path);
+    }
+    if (!sources.labels.empty()) {
+        addInput(paths, kOption, labelNamesPath(sources.labelNames, sources.labels));
     }
 }
 
@@ -196,7 +202,9 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
     if (options.reportState == "-") {
         return badArgument("--report-state: '-' is not a file, and it is written anew after each answer; give a path");
     }
-    addSessionPaths(paths, options.session);
+    if (!options.session.empty() && !options.reportState.empty()) {
+        addSessionPaths(paths, options.session);
+    }
     return checkOutputs({{"--report-state", options.reportState}}, paths);
 }
 
@@ -241,7 +249,8 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     VOXTACT_TRY(document);
     opened.document = std::move(*document);
     opened.document.sources = sources;
-    opened.read = {options.poses.string(), options.transferFunction.path.string()};
+    opened.read.push_back(options.poses.string());
+    opened.read.push_back(options.transferFunction.path.string());
     for (std::size_t mesh = 1; mesh < sources.meshes.size(); ++mesh) {
         opened.document.edit.instruments.push_back({mesh, opened.document.edit.pose(), true});
     }

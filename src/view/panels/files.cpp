@@ -68,7 +68,7 @@ std::array<PathDialog, 5>& dialogs() {
          [](const std::filesystem::path& path, State& state) { return savePose(path, state); }},
         {kPicture, "save", "picture.png",
          [](const std::filesystem::path& path, State& state) -> Result<void> {
-             VOXTACT_TRY(state.checkOutput(path));
+             VOXTACT_TRY(checkPicture(path, state));
              state.shot = Shot{path.string(), pictureSize()};
              return {};
          }},

@@ -5,7 +5,6 @@
 #include "gpu_fixture.h"
 #include "interception.h"
 #include "voxtact_shaders/operations_comp.h"
-#include "voxtact_shaders/operations_subgroup_comp.h"
 
 #include <gmock/gmock.h>
 
@@ -41,15 +40,12 @@ const Mistake* mistake = nullptr;
 std::size_t changed = 0; ///< instructions that became others
 PFN_vkCreateShaderModule realCreate = nullptr;
 
-/// Whether it is a program: the last words are, whatever was added before.
-bool is(const VkShaderModuleCreateInfo& info, std::span<const std::uint32_t> program) {
-    constexpr std::size_t kWords = 64;
-    const std::size_t words = info.codeSize / sizeof(std::uint32_t);
-    return words > kWords && std::ranges::equal(program.last(kWords), std::span(info.pCode + words - kWords, kWords));
-}
-
+/// Whether it is operations.comp: the last words are, whatever was added before.
 bool asksForOperations(const VkShaderModuleCreateInfo& info) {
-    return is(info, spirv::operations_comp) || is(info, spirv::operations_subgroup_comp);
+    constexpr std::size_t kWords = 64;
+    const std::span<const std::uint32_t> own = std::span(spirv::operations_comp).last(kWords);
+    const std::size_t words = info.codeSize / sizeof(std::uint32_t);
+    return words > kWords && std::ranges::equal(own, std::span(info.pCode + words - kWords, kWords));
 }
 
 VkResult VKAPI_PTR createMistaken(VkDevice device, const VkShaderModuleCreateInfo* info,
@@ -113,42 +109,6 @@ TEST_F(ArithmeticTest, AWrongOperationIsNamedAndItsMethodNotTrusted) {
         }
         mistake = nullptr;
     }
-}
-
-PFN_vkGetPhysicalDeviceProperties2 realProperties = nullptr;
-bool asked = false; ///< without subgroups
-
-void VKAPI_PTR noSubgroupArithmetic(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {
-    realProperties(device, properties);
-    for (auto* next = static_cast<VkBaseOutStructure*>(properties->pNext); next != nullptr; next = next->pNext) {
-        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
-            auto* subgroup = reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next);
-            subgroup->supportedOperations &= ~VkSubgroupFeatureFlags{VK_SUBGROUP_FEATURE_ARITHMETIC_BIT};
-        }
-    }
-}
-
-VkResult VKAPI_PTR createNoted(VkDevice device, const VkShaderModuleCreateInfo* info,
-                               const VkAllocationCallbacks* allocator, VkShaderModule* module) {
-    asked = asked || is(*info, spirv::operations_comp);
-    return realCreate(device, info, allocator, module);
-}
-
-TEST_F(ArithmeticTest, SubgroupsAreAskedOnlyWhereTheyAre) {
-    Interception loader(gpu().instance.getInstanceProcAddr());
-    ContextDesc desc = gpu().device.contextDesc();
-    realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
-        desc.getInstanceProcAddr(desc.instance, "vkGetPhysicalDeviceProperties2"));
-    realCreate = reinterpret_cast<PFN_vkCreateShaderModule>(reinterpret_cast<PFN_vkGetDeviceProcAddr>(
-        desc.getInstanceProcAddr(desc.instance, "vkGetDeviceProcAddr"))(desc.device, "vkCreateShaderModule"));
-    loader.replace("vkGetPhysicalDeviceProperties2", &noSubgroupArithmetic);
-    loader.replace("vkCreateShaderModule", &createNoted);
-    desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
-    asked = false;
-    const Context context = take(Context::create(desc));
-    EXPECT_TRUE(context.supports(CountingMethod::Compute));
-    EXPECT_EQ(take(checkArithmetic(context, queue())).wrong, "");
-    EXPECT_TRUE(asked);
 }
 
 } // namespace

@@ -38,9 +38,13 @@ class ConservativeTest : public GpuTest {
   protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (!IsSkipped() && !context().supports(CountingMethod::Compute, Projection::Conservative)) {
-            GTEST_SKIP() << "the device cannot answer conservative";
+        if (IsSkipped() || HasFatalFailure()) {
+            return;
         }
+        if (const char* control = missingFloatControl(context().impl().floatControls); control != nullptr) {
+            GTEST_SKIP() << "the device does not report " << control;
+        }
+        ASSERT_TRUE(context().supports(CountingMethod::Compute, Projection::Conservative));
     }
 };
 

@@ -147,6 +147,9 @@ TEST_F(BadInputTest, ReadingTooEarlyIsAnError) {
 /// What is farther apart than a draw may read is refused where it is drawn, and counted by `compute`.
 TEST_F(BadInputTest, VerticesTooFarApartToDraw) {
     const std::uint32_t most = context().impl().limits.maxVertexInputBindingStride;
+    if (most > 65536) {
+        GTEST_SKIP() << "vertices can be as far apart as they like: " << most;
+    }
     const MeshData square = makeFlat(0, 1, 0, 1, 0.5);
     for (const std::uint32_t stride : {most / 4 * 4, most / 4 * 4 + 4}) {
         const Mesh mesh = take(Mesh::upload(context(), queue(), square.view(), {.vertexStride = stride}));

@@ -7,7 +7,10 @@
 #include "view/model/files/session_file.h"
 #include "voxtact/io.h"
 
+#include <array>
+#include <fstream>
 #include <ostream>
+#include <string_view>
 
 namespace voxtact::view {
 
@@ -18,7 +21,7 @@ template <class IsOne>
 Result<void> check(const std::filesystem::path& path, const State& state, const char* kind, const IsOne& isOne) {
     VOXTACT_TRY(state.checkOutput(path));
     std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) && !isOne()) {
+    if (std::filesystem::exists(path, ignored) && !(std::filesystem::is_regular_file(path, ignored) && isOne())) {
         return refuse("'" + path.string() + "' is there already, and is no " + kind + "; choose another path");
     }
     return {};
@@ -44,6 +47,15 @@ Result<void> savePose(const std::filesystem::path& path, const State& state) {
     return io::writeFile(path, [&state](std::ostream& out) -> Result<void> {
         out << poseText(state.document.edit.pose()) << "\n";
         return {};
+    });
+}
+
+Result<void> checkPicture(const std::filesystem::path& path, const State& state) {
+    return check(path, state, "picture", [&path] {
+        constexpr std::string_view kPng = "\x89PNG\r\n";
+        std::array<char, kPng.size()> first{};
+        std::ifstream(path, std::ios::binary).read(first.data(), first.size());
+        return std::string_view(first.data(), first.size()) == kPng;
     });
 }
 

@@ -8,6 +8,7 @@
 #include "view/model/files/source_paths.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -21,9 +22,8 @@ using Json = SessionReader::Json;
 constexpr int kVersion = 1;
 constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
-/// Of a camera whose matrices can be used.
-constexpr double kLeastHalfHeight = 1e-9;
-constexpr double kMostMillimetres = 1e9;
+/// mm; of a camera farther away the matrices cannot be used.
+constexpr double kFarthest = 1e12;
 
 /// Row by row, as pose files have them.
 Mat4 readPose(SessionReader& reader, const std::string& name, const Json& json) {
@@ -245,12 +245,13 @@ void readCamera(SessionReader& reader, Document& document) {
     camera.target = reader.numbers<3>("camera.target", *target);
     camera.direction = {reader.number("camera.azimuth", 0.0), reader.number("camera.elevation", 0.0)};
     camera.halfHeight = reader.number("camera.half_height", camera.halfHeight);
-    if (!(camera.halfHeight >= kLeastHalfHeight && camera.halfHeight <= kMostMillimetres)) {
-        reader.refuse("camera.half_height", "is not a number of mm from 1e-9 to 1e9");
+    if (!(camera.halfHeight > 0) || !std::isfinite(camera.halfHeight)) {
+        reader.refuse("camera.half_height", "is not a positive number");
     }
+    camera.halfHeight = std::clamp(camera.halfHeight, kLeastHalfHeight, kMostHalfHeight);
     for (const double place : camera.target) {
-        if (!(std::abs(place) <= kMostMillimetres)) {
-            reader.refuse("camera.target", "is farther away than 1e9 mm");
+        if (!(std::abs(place) <= kFarthest)) {
+            reader.refuse("camera.target", "is farther away than 1e12 mm");
         }
     }
     document.camera = camera;

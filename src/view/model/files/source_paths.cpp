@@ -3,6 +3,8 @@
 
 #include "core/base/whole_path.h"
 
+#include <algorithm>
+
 namespace voxtact::view {
 
 namespace {
@@ -40,13 +42,13 @@ Sources seenFrom(Sources sources, const fs::path& folder) {
     return changed(std::move(sources), [&](const fs::path& path) {
         const fs::path whole = wholePath(path);
         const fs::path relative = whole.lexically_relative(base);
-        return relative.empty() || *relative.begin() == ".." ? whole : relative;
+        // With "..", also farther down, it may be elsewhere: behind a link.
+        return relative.empty() || std::ranges::find(relative, fs::path("..")) != relative.end() ? whole : relative;
     });
 }
 
 Sources foundFrom(Sources sources, const fs::path& folder) {
-    return changed(std::move(sources),
-                   [&](const fs::path& path) { return (folder / path).lexically_normal(); }); // an absolute one stays
+    return changed(std::move(sources), [&](const fs::path& path) { return path.is_absolute() ? path : folder / path; });
 }
 
 } // namespace voxtact::view

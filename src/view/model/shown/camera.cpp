@@ -8,8 +8,6 @@ namespace voxtact::view {
 
 namespace {
 
-constexpr double kLeastHalfHeight = 0.01; // mm
-constexpr double kMostHalfHeight = 1e6;
 constexpr double kHalfTurn = 180;
 
 /// The picture's axis in the world: 0 to the right, 1 down, 2 forward.

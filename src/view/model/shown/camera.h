@@ -8,6 +8,10 @@
 /// The eye of the large picture: orthographic, round a point that it looks at.
 namespace voxtact::view {
 
+/// mm; Camera::halfHeight keeps to these.
+inline constexpr double kLeastHalfHeight = 0.01;
+inline constexpr double kMostHalfHeight = 1e6;
+
 struct Camera {
     Vec3 target{};           ///< world, mm: in the picture's middle
     ViewDirection direction; ///< whence the eye looks
