@@ -162,6 +162,7 @@ void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice, VkPhysicalDeviceP
     limits.maxStorageBufferRange = 1U << 27U;
     limits.maxPerStageDescriptorStorageBuffers = 16;
     limits.maxBoundDescriptorSets = 8;
+    limits.maxVertexInputBindingStride = 2048;
     limits.maxViewportDimensions[0] = limits.maxViewportDimensions[1] = 4096;
     limits.maxFramebufferWidth = limits.maxFramebufferHeight = 4096;
     for (std::uint32_t& count : limits.maxComputeWorkGroupCount) {
