@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whole numbers of 64 bits, the same in C++, where they are std::int64_t, and in GLSL, where two words make them: many
-// GPUs have no shaderInt64. There is what edge functions need, and
-// what tests of that do.
+// GPUs have no shaderInt64. There is what edge functions need, and what tests of that do.
 #ifndef VOXTACT_LONG_H
 #define VOXTACT_LONG_H
 
