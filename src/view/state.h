@@ -83,6 +83,10 @@ struct KeyPress {
     bool control = false;
 };
 
+/// Refuses an output that is one of these files, by whatever name.
+using MayWrite =
+    std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)>;
+
 /// A handle that is held, and what was there when it was taken.
 struct GizmoDrag {
     Handle handle;
@@ -141,7 +145,7 @@ struct State {
     void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
     [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
-    /// Refuses a file to write that is one of those that are shown, or were read for it.
+    /// Refuses a path that is a file that is shown, or was read for what is shown.
     [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path) const;
     /// The document with what the window has of its own: camera, method, cursor, holes, and what is on.
     [[nodiscard]] Document saved() const;
@@ -189,8 +193,7 @@ struct State {
     std::optional<Question> question; ///< a dialog, until it is answered
     std::vector<std::string> recent;  ///< files that were opened, the last first
     std::vector<std::string> read;    ///< poses and transfer functions, of all that was opened
-    /// Refuses an output that is one of these files, by whatever name; empty: everything may be written.
-    std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)> mayWrite;
+    MayWrite mayWrite;                ///< empty: everything may be written
 
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame

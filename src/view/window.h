@@ -37,11 +37,10 @@ struct WindowDesc {
     Extent size{1280, 800};
     std::span<const unsigned char> font;        ///< a TrueType file; outlives the window
     std::function<Lighting(const Grid&)> light; ///< of the fine picture of a volume
-    /// State::mayWrite.
-    std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)> mayWrite;
-    std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
-    std::optional<std::uint64_t> frames; ///< to show before it ends by itself; nothing: until it is closed
-    std::uint32_t mostSide = 0;          ///< voxels along a side of a volume; 0: what the device takes
+    MayWrite mayWrite;                          ///< of all that is saved
+    std::filesystem::path reportState;          ///< a file to write after each answer; empty: none
+    std::optional<std::uint64_t> frames;        ///< to show before it ends by itself; nothing: until it is closed
+    std::uint32_t mostSide = 0;                 ///< voxels along a side of a volume; 0: what the device takes
 
     /// A device to draw on, with the display's extensions; asked again when that was lost.
     std::function<Result<std::unique_ptr<device::Session>>()> session;

@@ -62,6 +62,15 @@ CLI::Option* addParsed(CLI::App& parser, const char* option, const std::function
     return parser.add_option_function<std::string>(option, parse, help)->type_name(type)->default_str(standard);
 }
 
+/// Refuses what `use` says is wrong.
+std::function<void(const std::string&)> refusing(const char* option, const UseText& use) {
+    return [option, use](const std::string& text) {
+        if (const std::optional<std::string> wrong = use(text)) {
+            refuse(option, quote(text) + " " + *wrong);
+        }
+    };
+}
+
 /// A shell variable that is not set must not silently mean the default.
 std::string refuseEmpty(const std::string& text) {
     return text.empty() ? "an empty value" : "";
@@ -247,21 +256,6 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
     };
     addParsed(parser, option, parse, help, "RRGGBB", "");
 }
-
-namespace {
-
-using UseText = std::function<std::optional<std::string>(const std::string&)>;
-
-/// Refuses what `use` says is wrong.
-std::function<void(const std::string&)> refusing(const char* option, const UseText& use) {
-    return [option, use](const std::string& text) {
-        if (const std::optional<std::string> wrong = use(text)) {
-            refuse(option, quote(text) + " " + *wrong);
-        }
-    };
-}
-
-} // namespace
 
 void addText(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type) {
     addParsed(parser, option, refusing(option, use), help, type, "");

@@ -94,15 +94,12 @@ void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colo
 /// One of `names`, as an option.
 void addName(CLI::App& parser, const char* option, std::string& name, const std::vector<const char*>& names,
              const std::string& help);
-/// An option that is there once: `use` takes its text, and says what is wrong with one that it cannot use.
-void addText(CLI::App& parser, const char* option,
-             const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
-             const char* type);
-/// An option whose texts, of which there may be several, `use` takes one after the other, in their order; it says what
-/// is wrong with one that it cannot use.
-void addTexts(CLI::App& parser, const char* option,
-              const std::function<std::optional<std::string>(const std::string&)>& use, const std::string& help,
-              const char* type);
+/// Takes the text of an option, and says what is wrong with one that it cannot use.
+using UseText = std::function<std::optional<std::string>(const std::string&)>;
+/// An option that is given once.
+void addText(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type);
+/// One that may be given several times: its texts in their order.
+void addTexts(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type);
 /// A colour RRGGBB, each channel then from 0 to 1; nothing where the text is none.
 [[nodiscard]] std::optional<std::array<double, 3>> parseColour(const std::string& text);
 /// All of a text as a finite number; nothing where it is none.

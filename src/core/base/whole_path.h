@@ -7,8 +7,8 @@
 
 namespace voxtact {
 
-/// A path from the root on; links stay. Without a current folder, which may be gone, the path as it is. Without "." and
-/// "..", but for paths that have "..": behind a link it leads elsewhere than back.
+/// A path from the root on, without "."; links stay, and so does a path with "..", which behind a link is not the
+/// folder before. Where the current folder is gone, the path as it is.
 [[nodiscard]] inline std::filesystem::path wholePath(const std::filesystem::path& path) {
     std::error_code failed;
     const std::filesystem::path absolute = std::filesystem::absolute(path, failed);

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-/// What the file menu saves. None of them writes over a file that was read since the window is there, nor over one that
-/// is there already and is not of its kind. To a temporary name, and renamed.
+/// What the file menu saves. Nothing goes over a file that is shown, or was read for what is shown, nor over one that
+/// is there already and is of another kind. Files get a temporary name first, and their own when they are complete.
 namespace voxtact::view {
 
 [[nodiscard]] Result<void> saveSession(const std::filesystem::path& path, const State& state);
