@@ -15,6 +15,8 @@ layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) reado
 };
 layout(push_constant) uniform Search { ClearanceConstants constants; };
 
+#include "open_pairs.glsl"
+
 #define INFINITE uintBitsToFloat(0x7f800000u)
 /// Of a distance in mm: more than rounding does to it.
 const float kInward = 0.99999905;
@@ -118,9 +120,13 @@ void main() {
     }
     const uint pair = constants.firstPair + i;
     const uint at = constants.clearanceWord + constants.pairWords * pair;
+    emptyNext(constants.open, i);
     if (constants.step == 0) {
         begin(at, pair, results[pair]);
     } else if (words[at + VOXTACT_CLEARANCE_ASKED] >= VOXTACT_CLEARANCE_ENDS) {
         search(at, constants.ofLabel == 0 && VOXTACT_HOW_UNDECIDED(results[pair].how) != 0);
+    }
+    if (words[at + VOXTACT_CLEARANCE_ASKED] >= VOXTACT_CLEARANCE_ENDS) {
+        listPair(constants.open, pair);
     }
 }

@@ -13,6 +13,7 @@
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputsWanted = 0;
+layout(constant_id = VOXTACT_CONSTANT_LISTED) const bool kListed = false;
 #include "certified_scene.glsl"
 #ifdef CLEARANCE
 #include "certified_clearance_near.glsl"
@@ -49,6 +50,9 @@ Node nodeOfLane() {
     node.some = node.some && node.number * VOXTACT_RUN_TRIANGLES < constants.triangleCount;
 #else
     node.pair = constants.firstPair + gl_WorkGroupID.y;
+    if (kListed) {
+        node.pair = queues[node.pair];
+    }
     node.number = constants.firstCluster + gl_GlobalInvocationID.x;
     node.some = node.number < constants.endCluster;
 #endif

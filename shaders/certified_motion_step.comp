@@ -20,6 +20,7 @@ layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) bu
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffer Results { PairResult results[]; };
 layout(push_constant) uniform Motion { MotionConstants constants; };
 
+#include "open_pairs.glsl"
 #include "pair_grid.glsl"
 #include "rigid_pose.h"
 
@@ -201,7 +202,7 @@ void main() {
     Search search = Search(words[at + VOXTACT_MOTION_PIECE], words[at + VOXTACT_MOTION_LEVEL],
                            words[at + VOXTACT_MOTION_PHASE], floatAt(result + VOXTACT_MOTION_FREE_UNTIL),
                            floatAt(result + VOXTACT_MOTION_TOUCH_AT));
-    if (search.phase != VOXTACT_MOTION_DONE) {
+    if (constants.what != VOXTACT_MOTION_FIRST_STEP && search.phase != VOXTACT_MOTION_DONE) {
         const uint count = results[pair].countLow;
         const bool touches = (count & ~VOXTACT_MOTION_MET) != 0u;
         take(at, touches, count == 0u, search);
@@ -214,15 +215,19 @@ void main() {
         words[result + VOXTACT_MOTION_FREE_UNTIL] = floatBitsToUint(search.freeUntil);
         words[result + VOXTACT_MOTION_TOUCH_AT] = floatBitsToUint(search.touchAt);
     }
-    if (constants.last != 0u) {
+    if (constants.what == VOXTACT_MOTION_LAST_STEP) {
         end(pair, at, result, search);
         return;
     }
-    const bool done = search.phase == VOXTACT_MOTION_DONE;
-    results[pair].countLow = done ? 1 : 0; // what is done is not looked at
+    emptyNext(constants.open, gl_GlobalInvocationID.x);
+    if (search.phase == VOXTACT_MOTION_DONE) {
+        return;
+    }
+    listPair(constants.open, pair);
+    results[pair].countLow = 0;
     words[constants.closestWord + VOXTACT_CLOSEST_WORDS * pair + VOXTACT_CLOSEST_TAKEN] = 0;
-    // A loop, which is left at once where all are done: a branch would not be, on a processor.
-    [[dont_unroll]] for (uint turn = done ? 1u : 0u; turn < 1u; ++turn) {
+    // A loop, which is left at once where none is set up: a branch would not be, on a processor. The first pose is.
+    [[dont_unroll]] for (uint turn = search.phase == VOXTACT_MOTION_AT_FROM ? 1u : 0u; turn < 1u; ++turn) {
         setUp(pair, at, search);
     }
 }

@@ -3,6 +3,7 @@
 #ifndef VOXTACT_CLEARANCE_WORDS_H
 #define VOXTACT_CLEARANCE_WORDS_H
 
+#include "open_pairs.h"
 #include "shared.h"
 
 // The bits of the cells of some bricks: of each slot the number of its brick and one, or 0; then the slots that are to
@@ -30,10 +31,13 @@
 #define VOXTACT_LABEL_BITS 128
 // From a multiple of 256 bytes on: four words a pair, in the end its ClearanceResult.
 #define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_WORD_LABEL(room) + 4 + 63) / 64 * 64)
-// Where closest points are wanted, behind the clearances, from a multiple of 256 bytes on: so many words a pair, in the
-// end its ClosestResult. `pairs`: as many as there is room for.
-#define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
+// Behind the clearances, from a multiple of 256 bytes on, what open_pairs.h says. `pairs`: as many as there is room for.
+#define VOXTACT_WORD_OPEN_PAIRS(room, pairs)                                                                           \
     (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
+// Where closest points are wanted, behind that, from a multiple of 256 bytes on: so many words a pair, in the end its
+// ClosestResult.
+#define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
+    (VOXTACT_WORD_OPEN_PAIRS(room, pairs) + (VOXTACT_OPEN_PAIRS_WORDS(pairs) + 63) / 64 * 64)
 #define VOXTACT_CLOSEST_WORDS 12
 // Behind all these, and what motion_words.h has there, from a multiple of 256 bytes on, where clearances to labels are
 // wanted: four words for each label of a pair, label by label, and pair by pair.

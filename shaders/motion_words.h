@@ -51,6 +51,10 @@
 #define VOXTACT_MOTION_ON_WAY 1u  // a piece, and the pose in its middle
 #define VOXTACT_MOTION_AT_TO 2u   // the last pose
 #define VOXTACT_MOTION_DONE 3u
+// What a step does.
+#define VOXTACT_MOTION_FIRST_STEP 0u // nothing is looked at yet
+#define VOXTACT_MOTION_NEXT_STEP 1u
+#define VOXTACT_MOTION_LAST_STEP 2u // no look comes after it
 // How a piece is looked at.
 #define VOXTACT_MOTION_ALL 0u   // down to cells
 #define VOXTACT_MOTION_BOXES 1u // it is long: what boxes of some triangles do not exclude is not free

@@ -77,6 +77,20 @@ struct TallyConstants {
     uint rounds; // whose headers it is to count
 };
 
+/// Of the push constants of a pass between two steps of a search: where it lists the pairs of an item that the next step
+/// looks at (open_pairs.h), in words of the transforms' buffer, and how that step's rounds are cut.
+struct OpenPairs {
+    uint list;        // the pairs that are listed
+    uint set;         // how many these are, and the commands of the step's rounds
+    uint nextSet;     // that of the step after it
+    uint slots;       // commands of a kind that a set has room for: pairs of the item
+    uint before;      // pairs of the item before those of the dispatch
+    uint touchPairs;  // that a round of the touch has at most; 0: the step has no touch
+    uint touchGroups; // work groups of the first pass of such a round, for each pair
+    uint lookPairs;   // the same of the rounds that look around
+    uint lookGroups;
+};
+
 /// Push constants of the pass between two steps of a clearance: shaders/certified_clearance_search.comp.
 struct ClearanceConstants {
     uint clearanceWord; // of the words of the transforms' buffer, where those of the pairs are
@@ -95,6 +109,7 @@ struct ClearanceConstants {
     float side;      // mm of a flat unit
     float closed;    // mm: bounds that are so near to each other are within the tolerance
     float maximum;   // mm: not more than `most`
+    OpenPairs open;
 };
 
 #define VOXTACT_NO_WORD 0xffffffffu
@@ -122,7 +137,8 @@ struct MotionConstants {
     uint setupWord;   // where the item's PairGrid is
     uint firstPair;
     uint pairs;
-    uint last; // not 0: no look comes after it
+    uint what; // VOXTACT_MOTION_*_STEP
+    OpenPairs open;
 };
 
 /// Push constants of the pass that makes pairs of poses: shaders/pair_setup.comp.
@@ -206,7 +222,7 @@ struct CertifiedConstants {
     uint triangleCount;
     uint clusterWord; // of the words of the index buffer, where the clusters are: the box of each, lo and hi, those of
                       // the runs, and then the triangles, run by run; VOXTACT_NO_CLUSTERS where the mesh has none there
-    uint firstPair;   // of the round
+    uint firstPair;   // of the round; with VOXTACT_CONSTANT_LISTED the word where its pairs are listed
     uint firstCluster;
     uint endCluster; // in certified_clearance_place, which has no clusters: pairs of the dispatch
     uint queueWord;  // of the words of the transforms' buffer, where the queues begin
@@ -351,6 +367,7 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_STOP_AT_FIRST 5
 #define VOXTACT_CONSTANT_COUNTERS 6
 #define VOXTACT_CONSTANT_CLOSEST 7
+#define VOXTACT_CONSTANT_LISTED 8
 #define VOXTACT_CONSTANT_OUTPUTS 16
 // In place of outputs: where a pair touches is wanted, for its closest points.
 #define VOXTACT_OUTPUT_TOUCH 0x80000000u
@@ -376,7 +393,8 @@ static_assert(sizeof(CertifiedPair) == 224);
 static_assert(sizeof(CertifiedItem) == 80);
 static_assert(sizeof(CertifiedConstants) == 128, "Vulkan's least maxPushConstantsSize");
 static_assert(sizeof(ClosestConstants) == 104);
-static_assert(sizeof(MotionConstants) == 76);
+static_assert(sizeof(ClearanceConstants) == 100);
+static_assert(sizeof(MotionConstants) == 112);
 static_assert(4 * VOXTACT_QUEUES <= VOXTACT_WORK_CLUSTERS && VOXTACT_WORK_CERTAIN < VOXTACT_HEADER_WORDS);
 static_assert(VOXTACT_MARGIN_WORD_LEFT(16) + 4 * VOXTACT_MARGIN_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
 static_assert(VOXTACT_WORD_CELLS % 4 == 0 && VOXTACT_WORD_LEFT(16) % 4 == 0);

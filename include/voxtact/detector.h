@@ -150,16 +150,16 @@ struct ResultsDesc {
     /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
     /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
-    /// For detectors with DetectorDesc::clearance: 16 bytes of device memory a pair, as much of the host's where there
-    /// is a copy, and 288 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
+    /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
+    /// copy, and 288 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
-    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair, as
-    /// these.
+    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair of
+    /// both.
     bool closest = false;
     /// For detectors with DetectorDesc::labelClearances, beside `clearances`, without which it is refused: how many
-    /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, as these.
+    /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of both.
     std::uint32_t labelClearances = 0;
-    /// For detectors with DetectorDesc::motion: 1256 bytes of device memory a pair, 32 of the host's where there is a
+    /// For detectors with DetectorDesc::motion: 1308 bytes of device memory a pair, 32 of the host's where there is a
     /// copy, and 288 bytes more for each of clustersAtOnce.
     bool motions = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,

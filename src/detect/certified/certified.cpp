@@ -79,6 +79,7 @@ Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const Detector
     const ShaderConstant constants[] = {
         {VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
         {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
+        {VOXTACT_CONSTANT_LISTED, desc.motion ? 1U : 0U},
         {VOXTACT_CONSTANT_OUTPUTS, keepsTouch(desc) ? VOXTACT_OUTPUT_TOUCH : outputsConstant(desc.outputs)}};
     static_assert(std::size(kPasses) == kCertifiedPasses);
     const bool outputs = desc.outputs.any();
@@ -157,39 +158,33 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
     return constants;
 }
 
-void CertifiedPass::recordTouch(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                                const shader::CertifiedConstants& given) const {
-    const std::uint32_t room = recorder.results().queueRoom;
-    const RoundLimits limits{.clusters = clustersOfRound(room, desc_.stopAtFirst && !(desc_.margin > 0)),
-                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
-                             .looks = looksOfRound(room)};
-    const std::vector<RoundPass> passes = passesOfRound();
-    shader::CertifiedConstants constants = given;
-    eachRound(meshLooks(item, desc_.margin), limits, [&](const Round& round) {
-        constants.firstPair = given.firstPair + round.firstPair;
-        constants.firstCluster = round.firstCluster;
-        constants.endCluster = round.endCluster;
-        recorder.record(passes, layout, constants, round.pairs);
-    });
+RoundCut CertifiedPass::cutOf(const BatchItem& item, std::uint32_t queueRoom) const noexcept {
+    return {meshLooks(item, desc_.margin),
+            {.clusters = clustersOfRound(queueRoom, desc_.stopAtFirst && !(desc_.margin > 0)),
+             .pairs = context_->limits.maxComputeWorkGroupCount[1],
+             .looks = looksOfRound(queueRoom)}};
 }
 
 void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
     RoundRecorder recorder(*context_, commandBuffer, results, tally_);
+    const std::vector<RoundPass> passes = passesOfRound();
     std::uint32_t firstPair = 0;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     for (const BatchItem& item : batch.items) {
         layout = bindForCompute(*context_, commandBuffer, item, results, desc_.outputs);
         shader::CertifiedConstants constants = constantsOf(batch, item, results);
         constants.firstPair = firstPair;
-        recordTouch(recorder, layout, item, constants);
+        const RoundCut cut = cutOf(item, results.queueRoom);
+        if (motion_) {
+            motion_->record(recorder, layout, item, constants, {passes, cut});
+        } else {
+            recorder.record(passes, layout, constants, cut);
+        }
         if (tolerance_) {
             tolerance_->record(recorder, layout, item, constants);
         }
         if (clearance_) {
             clearance_->record(recorder, layout, item, constants, batch.labels);
-        }
-        if (motion_) {
-            motion_->record(recorder, layout, item, constants, [&] { recordTouch(recorder, layout, item, constants); });
         }
         firstPair += static_cast<std::uint32_t>(item.pairs());
     }

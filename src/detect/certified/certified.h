@@ -38,8 +38,7 @@ class CertifiedPass {
     CertifiedPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
-    void recordTouch(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                     const shader::CertifiedConstants& constants) const;
+    [[nodiscard]] RoundCut cutOf(const BatchItem& item, std::uint32_t queueRoom) const noexcept;
     [[nodiscard]] std::vector<RoundPass> passesOfRound() const;
     [[nodiscard]] shader::CertifiedConstants constantsOf(const Batch& batch, const BatchItem& item,
                                                          const ResultsImpl& results) const;

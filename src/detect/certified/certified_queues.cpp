@@ -67,7 +67,8 @@ VkDeviceSize bytesBeforeLabels(std::uint32_t room, VkDeviceSize pairs, bool clea
     if (closest) {
         return VOXTACT_WORD_CLOSEST(room, pairs) * kWord + pairs * sizeof(ClosestResult);
     }
-    return clearances ? VOXTACT_WORD_CLEARANCES(room) * kWord + pairs * sizeof(ClearanceResult) : queueBytes(room);
+    // Where closest points would begin is the end of what a search for clearances has.
+    return clearances ? VOXTACT_WORD_CLOSEST(room, pairs) * kWord : queueBytes(room);
 }
 
 } // namespace

@@ -71,21 +71,53 @@ struct Round {
     return end;
 }
 
-/// Calls `record` for each round of an item, in order: each pair and cluster is in one of them.
-template <class Record> void eachRound(const MeshLooks& mesh, const RoundLimits& limits, Record&& record) {
-    const double looks = mesh.of(0, mesh.clusters);
-    const bool wholeMesh = mesh.clusters <= limits.clusters && looks <= limits.looks;
-    std::uint32_t atOnce = 1;
-    if (wholeMesh) {
-        atOnce = std::min(limits.clusters / mesh.clusters, limits.pairs);
-        atOnce = looks * atOnce <= limits.looks ? atOnce : static_cast<std::uint32_t>(limits.looks / looks);
+/// How an item is cut into rounds: so many pairs at once if each round has all of the mesh, else one.
+struct RoundCut {
+    MeshLooks mesh;
+    RoundLimits limits;
+
+    [[nodiscard]] bool hasWholeMesh() const noexcept {
+        return mesh.clusters <= limits.clusters && mesh.of(0, mesh.clusters) <= limits.looks;
     }
-    for (std::uint32_t pair = 0; pair < mesh.pairs; pair += std::min(atOnce, mesh.pairs - pair)) {
-        for (std::uint32_t cluster = 0, end = 0; cluster < mesh.clusters; cluster = end) {
-            end = wholeMesh ? mesh.clusters : endOfRound(mesh, limits, cluster);
-            record(Round{pair, std::min(atOnce, mesh.pairs - pair), cluster, end});
+    [[nodiscard]] std::uint32_t pairsAtOnce() const noexcept {
+        if (!hasWholeMesh()) {
+            return 1;
         }
+        const double looks = mesh.of(0, mesh.clusters);
+        const std::uint32_t atOnce = std::min(limits.clusters / mesh.clusters, limits.pairs);
+        return looks * atOnce <= limits.looks ? atOnce : static_cast<std::uint32_t>(limits.looks / looks);
     }
+};
+
+/// Calls `record` for each round of one pair's clusters, in order, with the first and the end.
+template <class Record> void eachClusterRound(const RoundCut& cut, Record&& record) {
+    const bool wholeMesh = cut.hasWholeMesh();
+    for (std::uint32_t cluster = 0, end = 0; cluster < cut.mesh.clusters; cluster = end) {
+        end = wholeMesh ? cut.mesh.clusters : endOfRound(cut.mesh, cut.limits, cluster);
+        record(cluster, end);
+    }
+}
+
+/// Calls `record` for each round of an item, in order: each pair and cluster is in one of them.
+template <class Record> void eachRound(const RoundCut& cut, Record&& record) {
+    const std::uint32_t atOnce = cut.pairsAtOnce();
+    for (std::uint32_t pair = 0; pair < cut.mesh.pairs; pair += std::min(atOnce, cut.mesh.pairs - pair)) {
+        eachClusterRound(cut, [&](std::uint32_t first, std::uint32_t end) {
+            record(Round{pair, std::min(atOnce, cut.mesh.pairs - pair), first, end});
+        });
+    }
+}
+
+/// The most that a round has, of pairs and of the clusters of one.
+struct RoundSize {
+    std::uint32_t pairs = 0;
+    std::uint32_t clusters = 0;
+};
+[[nodiscard]] inline RoundSize sizeOfRounds(const RoundCut& cut) noexcept {
+    RoundSize size{cut.pairsAtOnce(), 0};
+    eachClusterRound(
+        cut, [&](std::uint32_t first, std::uint32_t end) { size.clusters = std::max(size.clusters, end - first); });
+    return size;
 }
 
 } // namespace voxtact

@@ -36,6 +36,11 @@ constexpr std::uint32_t kRoomOfCluster = 16;
 /// Steps that look again at what was left undecided, or at less where it was too much.
 constexpr std::uint32_t kStepsAgain = 6;
 
+/// Of the steps, which begin with 1.
+constexpr bool hasBoxesOnly(std::uint32_t step) noexcept {
+    return step == 1;
+}
+
 float below(double value) {
     const auto nearest = static_cast<float>(value);
     return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, 0.0F);
@@ -120,6 +125,7 @@ void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layou
     shader::ClearanceConstants part = constants;
     for (std::uint32_t done = 0; done < constants.pairs; done += part.pairs) {
         part.firstPair = constants.firstPair + done;
+        part.open.before = done;
         part.pairs = static_cast<std::uint32_t>(
             std::min<std::uint64_t>(constants.pairs - done, std::uint64_t{most} * VOXTACT_COMPUTE_GROUP));
         vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof part, &part);
@@ -127,7 +133,7 @@ void ClearancePass::recordSearch(RoundRecorder& recorder, VkPipelineLayout layou
     }
 }
 
-void ClearancePass::recordBegin(RoundRecorder& recorder,
+void ClearancePass::recordBegin(RoundRecorder& recorder, const OpenPairs& open,
                                 const std::optional<std::array<std::uint32_t, 4>>& label) const {
     const ResultsImpl& results = recorder.results();
     const VkCommandBuffer commandBuffer = recorder.commandBuffer();
@@ -135,6 +141,7 @@ void ClearancePass::recordBegin(RoundRecorder& recorder,
             VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     context_->vk.CmdFillBuffer(commandBuffer, results.transforms.get(), bitsByte(results),
                                VkDeviceSize{VOXTACT_ROOM_BITS(results.queueRoom)} * sizeof(std::uint32_t), 0);
+    open.recordNone(*context_, commandBuffer);
     if (label) {
         cmdUpdateBuffer(*context_, commandBuffer, results.transforms.get(), labelByte(results),
                         std::as_bytes(std::span(*label)));
@@ -144,7 +151,16 @@ void ClearancePass::recordBegin(RoundRecorder& recorder,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void ClearancePass::recordStep(RoundRecorder& recorder, const Search& of, bool boxesOnly) const {
+RoundCut ClearancePass::cutOf(const Search& of, std::uint32_t step) const noexcept {
+    // What a round looks at is bounded on the device: the host does not know how far a pair will look.
+    const std::uint32_t room = of.constants.queueRoom;
+    return {{.pairs = of.search.pairs, .clusters = groupsOf(*of.item.mesh)},
+            {.clusters = hasBoxesOnly(step) ? room : room / kRoomOfCluster,
+             .pairs = context_->limits.maxComputeWorkGroupCount[1],
+             .looks = 0}};
+}
+
+void ClearancePass::recordStep(RoundRecorder& recorder, const Search& of, std::uint32_t step) const {
     using enum ClearanceProgram;
     const auto pass = [&](ClearanceProgram program, std::uint32_t queue) {
         return RoundPass{of.pipelines[static_cast<std::size_t>(program)], queue};
@@ -164,28 +180,18 @@ void ClearancePass::recordStep(RoundRecorder& recorder, const Search& of, bool b
                              pass(Again, VOXTACT_QUEUE_CELLS),
                              pass(Decide, VOXTACT_QUEUE_OPEN),
                              pass(Finish, VOXTACT_QUEUE_LEFT)};
-    // What a round looks at is bounded on the device: the host does not know how far a pair will look.
-    const MeshLooks mesh{.pairs = of.search.pairs, .clusters = groupsOf(*of.item.mesh)};
-    const std::uint32_t room = of.constants.queueRoom;
-    const RoundLimits limits{.clusters = boxesOnly ? room : room / kRoomOfCluster,
-                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
-                             .looks = 0};
-    eachRound(mesh, limits, [&](const Round& round) {
-        shader::CertifiedConstants constants = of.constants;
-        constants.firstPair += round.firstPair;
-        constants.firstCluster = round.firstCluster;
-        constants.endCluster = round.endCluster;
-        recorder.record(boxesOnly ? std::span<const RoundPass>(boxes) : std::span<const RoundPass>(all), of.layout,
-                        constants, round.pairs);
-    });
+    const bool boxesOnly = hasBoxesOnly(step);
+    recorder.record(boxesOnly ? std::span<const RoundPass>(boxes) : std::span<const RoundPass>(all), of.layout,
+                    of.constants, cutOf(of, step), of.open.looks(step));
 }
 
 void ClearancePass::recordAll(RoundRecorder& recorder, const Search& of) const {
     shader::ClearanceConstants search = of.search;
-    queuesBarrier(*context_, recorder.commandBuffer());
-    recordSearch(recorder, of.layout, search);
-    for (search.step = 1; search.step <= search.steps; ++search.step) {
-        recordStep(recorder, of, search.step == 1);
+    for (search.step = 0; search.step <= search.steps; ++search.step) {
+        if (search.step > 0) {
+            recordStep(recorder, of, search.step);
+        }
+        search.open = of.open.listing(search.step + 1, nullptr, cutOf(of, search.step + 1));
         queuesBarrier(*context_, recorder.commandBuffer());
         recordSearch(recorder, of.layout, search);
     }
@@ -197,7 +203,7 @@ void ClearancePass::recordLabels(RoundRecorder& recorder, const Search& all,
     const std::vector<std::int32_t>& values = *map.values;
     context_->vk.CmdBindDescriptorSets(recorder.commandBuffer(), VK_PIPELINE_BIND_POINT_COMPUTE, labelLayout_,
                                        VOXTACT_SET_LABELS, 1, &map.searched.set, 0, nullptr);
-    Search of{*ofLabels_, labelLayout_, all.item, all.constants, all.search};
+    Search of{*ofLabels_, labelLayout_, all.item, all.constants, all.search, all.open};
     of.constants.item = anyOpacity_ ? withAnyOpacity(of.constants.item) : of.constants.item;
     of.search.ofLabel = 1;
     of.search.allWord = anyOpacity_ ? VOXTACT_NO_WORD : all.search.clearanceWord;
@@ -213,7 +219,7 @@ void ClearancePass::recordLabels(RoundRecorder& recorder, const Search& all,
         label[VOXTACT_LABEL_STRIDE] = of.search.pairWords;
         label[VOXTACT_LABEL_NUMBER] = static_cast<std::uint32_t>(found - values.begin());
         label[VOXTACT_LABEL_CERTAIN] = values.size() <= VOXTACT_LABEL_BITS ? 1 : 0;
-        recordBegin(recorder, label);
+        recordBegin(recorder, of.open, label);
         recordAll(recorder, of);
     }
 }
@@ -223,10 +229,10 @@ void ClearancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, con
     if (item.pairs() == 0) {
         return;
     }
-    Search all{pipelines_, layout, item, constants, {}};
+    Search all{pipelines_, layout, item, constants, {}, OpenPairs(recorder.results(), item)};
     all.constants.item = withClearance(all.constants.item, item.volume->impl().grid, desc_.tolerance);
     all.search = searchOf(all.constants, item, desc_);
-    recordBegin(recorder, std::nullopt);
+    recordBegin(recorder, all.open, std::nullopt);
     recordAll(recorder, all);
     if (closest_) {
         closest_->record(recorder, layout, item, all.constants);

@@ -33,6 +33,7 @@ class ClearancePass {
         const BatchItem& item;
         shader::CertifiedConstants constants;
         shader::ClearanceConstants search;
+        OpenPairs open;
     };
 
     ClearancePass(ContextImpl& context, const DetectorDesc& desc) noexcept
@@ -41,10 +42,12 @@ class ClearancePass {
     void recordAll(RoundRecorder& recorder, const Search& of) const;
     void recordLabels(RoundRecorder& recorder, const Search& all, std::span<const std::int32_t> labels) const;
     /// What was known of cells is not known of the next search's; and that one is about `label` (VOXTACT_LABEL_*).
-    void recordBegin(RoundRecorder& recorder, const std::optional<std::array<std::uint32_t, 4>>& label) const;
+    void recordBegin(RoundRecorder& recorder, const OpenPairs& open,
+                     const std::optional<std::array<std::uint32_t, 4>>& label) const;
     void recordSearch(RoundRecorder& recorder, VkPipelineLayout layout,
                       const shader::ClearanceConstants& constants) const;
-    void recordStep(RoundRecorder& recorder, const Search& of, bool boxesOnly) const;
+    [[nodiscard]] RoundCut cutOf(const Search& of, std::uint32_t step) const noexcept;
+    void recordStep(RoundRecorder& recorder, const Search& of, std::uint32_t step) const;
 
     ContextImpl* context_;
     ClearanceSearch desc_;

@@ -72,7 +72,8 @@ static_assert(std::size(kPrograms) == std::tuple_size_v<ClearancePipelines>);
 
 Result<ClearancePipelines> makeClearancePipelines(ContextImpl& context, bool counters, bool closest) {
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, counters ? 1U : 0U},
-                                        {VOXTACT_CONSTANT_CLOSEST, closest ? 1U : 0U}};
+                                        {VOXTACT_CONSTANT_CLOSEST, closest ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_LISTED, 1}};
     ClearancePipelines out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Result<VkPipeline> made = computePipeline(context, kPrograms[i].plain, constants, context.computeLayout,
@@ -84,7 +85,7 @@ Result<ClearancePipelines> makeClearancePipelines(ContextImpl& context, bool cou
 }
 
 Result<ClearancePipelines> makeLabelPipelines(ContextImpl& context, bool counters, VkPipelineLayout layout) {
-    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, counters ? 1U : 0U}};
+    const ShaderConstant constants[] = {{VOXTACT_CONSTANT_COUNTERS, counters ? 1U : 0U}, {VOXTACT_CONSTANT_LISTED, 1}};
     ClearancePipelines out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Result<VkPipeline> made = computePipeline(context, kPrograms[i].ofLabel, constants, layout,

@@ -34,22 +34,20 @@ Result<MarginPasses> MarginPasses::create(ContextImpl& context, const Programs& 
     return passes;
 }
 
-void MarginPasses::record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                          const shader::CertifiedConstants& given, double reach) const {
+RoundCut MarginPasses::cutOf(const BatchItem& item, std::uint32_t queueRoom, double reach) const noexcept {
+    return {meshLooks(item, reach),
+            {.clusters = clustersOfRound(queueRoom, false),
+             .pairs = context_->limits.maxComputeWorkGroupCount[1],
+             .looks = looksOfRound(queueRoom)}};
+}
+
+void MarginPasses::record(RoundRecorder& recorder, VkPipelineLayout layout, const shader::CertifiedConstants& constants,
+                          const RoundCut& cut, const std::optional<ListedPairs>& listed) const {
     std::array<RoundPass, kCount> passes{};
     for (std::size_t i = 0; i < kCount; ++i) {
         passes[i] = {pipelines_[i], kMarginPasses[i].queue};
     }
-    const RoundLimits limits{.clusters = clustersOfRound(given.queueRoom, false),
-                             .pairs = context_->limits.maxComputeWorkGroupCount[1],
-                             .looks = looksOfRound(given.queueRoom)};
-    shader::CertifiedConstants constants = given;
-    eachRound(meshLooks(item, reach), limits, [&](const Round& round) {
-        constants.firstPair = given.firstPair + round.firstPair;
-        constants.firstCluster = round.firstCluster;
-        constants.endCluster = round.endCluster;
-        recorder.record(passes, layout, constants, round.pairs);
-    });
+    recorder.record(passes, layout, constants, cut, listed);
 }
 
 } // namespace voxtact

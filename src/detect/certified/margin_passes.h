@@ -22,10 +22,14 @@ class MarginPasses {
     [[nodiscard]] static Result<MarginPasses> create(ContextImpl& context, const Programs& programs,
                                                      std::span<const ShaderConstant> constants, const char* name);
 
-    /// Records the rounds for the pairs of an item, which is bound: from `constants.firstPair` on. Waits for what was
-    /// dispatched before. `reach`: mm, no point of the mesh is looked at farther from its place.
-    void record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                const shader::CertifiedConstants& constants, double reach) const;
+    /// The rounds of an item in queues with so much room. `reach`: mm, no point of the mesh is looked at farther from
+    /// its place.
+    [[nodiscard]] RoundCut cutOf(const BatchItem& item, std::uint32_t queueRoom, double reach) const noexcept;
+
+    /// Records them for the pairs of that item, which is bound: from `constants.firstPair` on, or those that are
+    /// listed. Waits for what was dispatched before.
+    void record(RoundRecorder& recorder, VkPipelineLayout layout, const shader::CertifiedConstants& constants,
+                const RoundCut& cut, const std::optional<ListedPairs>& listed = {}) const;
 
   private:
     explicit MarginPasses(ContextImpl& context) noexcept : context_(&context) {}

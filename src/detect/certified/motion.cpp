@@ -7,6 +7,7 @@
 #include "detect/batch.h"
 #include "detect/buffer_update.h"
 #include "detect/certified/certified_queues.h"
+#include "detect/certified/open_pairs.h"
 #include "gpu/barriers.h"
 #include "gpu/scene_impl.h"
 #include "motion_words.h"
@@ -128,7 +129,8 @@ Result<MotionPass> MotionPass::create(ContextImpl& context, const DetectorDesc& 
                                           spirv::certified_motion_expand_comp, spirv::certified_motion_large_comp,
                                           spirv::certified_motion_decide_comp, spirv::certified_motion_finish_comp};
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, 1},
-                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U}};
+                                        {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},
+                                        {VOXTACT_CONSTANT_LISTED, 1}};
     Result<MarginPasses> look = MarginPasses::create(context, programs, constants, "motion");
     VOXTACT_TRY(look);
     const Result<VkPipeline> step =
@@ -137,53 +139,57 @@ Result<MotionPass> MotionPass::create(ContextImpl& context, const DetectorDesc& 
     return MotionPass(context, *desc.motion, *look, *step);
 }
 
-void MotionPass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                            const shader::CertifiedConstants& constants, bool last) const {
+void MotionPass::recordStep(RoundRecorder& recorder, VkPipelineLayout layout, shader::MotionConstants step,
+                            const BatchItem& item, std::uint32_t firstPair) const {
     const DeviceFunctions& vk = context_->vk;
     const VkCommandBuffer commandBuffer = recorder.commandBuffer();
     const std::uint64_t most = std::uint64_t{context_->limits.maxComputeWorkGroupCount[0]} * VOXTACT_COMPUTE_GROUP;
-    shader::MotionConstants step = stepOf(constants, item, recorder.results());
-    step.last = last ? 1 : 0;
     queuesBarrier(*context_, commandBuffer);
     vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, step_);
     for (std::size_t done = 0; done < item.pairs(); done += step.pairs) {
-        step.firstPair = constants.firstPair + static_cast<std::uint32_t>(done);
+        step.open.before = static_cast<std::uint32_t>(done);
+        step.firstPair = firstPair + step.open.before;
         step.pairs = static_cast<std::uint32_t>(std::min<std::uint64_t>(item.pairs() - done, most));
         vk.CmdPushConstants(commandBuffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof step, &step);
         vk.CmdDispatch(commandBuffer, (step.pairs + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, 1, 1);
     }
 }
 
-void MotionPass::recordLook(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                            const shader::CertifiedConstants& given) const {
-    constexpr double kBent = 2; // more than how far bent ways get, over how far they go: 1 + pi / 4
-    const Grid& grid = item.volume->impl().grid;
-    shader::CertifiedConstants constants = given;
-    constants.item = withTolerance(given.item, grid, 0);
-    look_.record(recorder, layout, item, constants, kBent * double{VOXTACT_MOTION_FARTHEST} * longestSide(grid));
-}
-
 void MotionPass::record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                        const shader::CertifiedConstants& constants, const std::function<void()>& touch) const {
+                        const shader::CertifiedConstants& constants, const Touch& touch) const {
+    constexpr double kBent = 2; // more than how far bent ways get, over how far they go: 1 + pi / 4
     if (item.pairs() == 0) {
         return;
     }
     const ResultsImpl& results = recorder.results();
     const VkCommandBuffer commandBuffer = recorder.commandBuffer();
+    const OpenPairs open(results, item);
     barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
             VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     cmdUpdateBuffer(*context_, commandBuffer, results.transforms.get(), setupByte(results),
                     std::as_bytes(std::span(&item.volume->impl().pairGrid, 1)));
+    open.recordNone(*context_, commandBuffer);
     barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    const Grid& grid = item.volume->impl().grid;
+    const RoundCut cut =
+        look_.cutOf(item, results.queueRoom, kBent * double{VOXTACT_MOTION_FARTHEST} * longestSide(grid));
+    shader::CertifiedConstants look = constants;
+    look.item = withTolerance(constants.item, grid, 0);
+    shader::MotionConstants between = stepOf(constants, item, results);
     const std::uint32_t steps = stepsFor(*results.motions, item, constants.firstPair, search_.resolution);
-    for (std::uint32_t step = 0; step < steps; ++step) {
-        recordStep(recorder, layout, item, constants, false);
-        touch();
-        recordLook(recorder, layout, item, constants);
+    for (std::uint32_t step = 0; step <= steps; ++step) { // of which the first is the touch at the first poses
+        between.what = step == 0 ? VOXTACT_MOTION_FIRST_STEP : VOXTACT_MOTION_NEXT_STEP;
+        between.open = open.listing(step, &touch.cut, cut);
+        recordStep(recorder, layout, between, item, constants.firstPair);
+        recorder.record(touch.passes, layout, constants, touch.cut, open.touches(step));
+        if (step > 0) {
+            look_.record(recorder, layout, look, cut, open.looks(step));
+        }
     }
-    recordStep(recorder, layout, item, constants, true);
+    between.what = VOXTACT_MOTION_LAST_STEP;
+    recordStep(recorder, layout, between, item, constants.firstPair);
 }
 
 Result<std::vector<std::optional<RigidMotion>>> motionsOf(const Batch& batch, const MotionSearch& search,

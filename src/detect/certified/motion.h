@@ -6,34 +6,39 @@
 #include "detect/results/results_impl.h"
 #include "voxtact/detector.h"
 
-#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace voxtact {
 
-/// The search along motions, after the touch at the first poses: a step looks at the middle of a piece of each
-/// segment's way, by the passes of the touch, and at how far the mesh goes from there, by those with a margin
-/// (shaders/certified_move.h). How many there are follows from the longest way; of segments that are done, a step looks
-/// at nothing.
+/// The search along motions, which begins with the touch at the first poses: a step looks at the middle of a piece of
+/// each segment's way, by the passes of the touch, and at how far the mesh goes from there, by those with a margin
+/// (shaders/certified_move.h). How many there are follows from the longest way; a step has no work groups for segments
+/// that are done.
 class MotionPass {
   public:
+    /// The passes that look at one pose of each pair, made with VOXTACT_CONSTANT_LISTED, and their rounds of the item.
+    struct Touch {
+        std::span<const RoundPass> passes;
+        RoundCut cut;
+    };
+
     /// Expects a checked desc with `motion`.
     [[nodiscard]] static Result<MotionPass> create(ContextImpl& context, const DetectorDesc& desc);
 
     /// Records the search for the segments of an item, which is bound: the pairs from `constants.firstPair` on. Waits
-    /// for what was dispatched before. `touch` records the touch of these pairs.
+    /// for what was dispatched before.
     void record(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                const shader::CertifiedConstants& constants, const std::function<void()>& touch) const;
+                const shader::CertifiedConstants& constants, const Touch& touch) const;
 
   private:
     MotionPass(ContextImpl& context, const MotionSearch& search, const MarginPasses& look, VkPipeline step) noexcept
         : context_(&context), search_(search), look_(look), step_(step) {}
 
-    void recordStep(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                    const shader::CertifiedConstants& constants, bool last) const;
-    void recordLook(RoundRecorder& recorder, VkPipelineLayout layout, const BatchItem& item,
-                    const shader::CertifiedConstants& constants) const;
+    /// `step`: of an item that is bound; all but its pairs are set.
+    void recordStep(RoundRecorder& recorder, VkPipelineLayout layout, shader::MotionConstants step,
+                    const BatchItem& item, std::uint32_t firstPair) const;
 
     ContextImpl* context_;
     MotionSearch search_;

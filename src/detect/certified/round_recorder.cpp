@@ -13,11 +13,41 @@ void queuesBarrier(const ContextImpl& context, VkCommandBuffer commandBuffer) {
 }
 
 void RoundRecorder::record(std::span<const RoundPass> passes, VkPipelineLayout layout,
-                           const shader::CertifiedConstants& given, std::uint32_t pairs) {
+                           const shader::CertifiedConstants& given, const RoundCut& cut,
+                           const std::optional<ListedPairs>& listed) {
+    shader::CertifiedConstants constants = given;
+    const std::uint32_t first = listed ? listed->listWord : given.firstPair;
+    const std::uint32_t atOnce = cut.pairsAtOnce();
+    eachRound(cut, [&](const Round& round) {
+        constants.firstPair = first + round.firstPair;
+        constants.firstCluster = round.firstCluster;
+        constants.endCluster = round.endCluster;
+        RoundPairs of{round.pairs, {}};
+        if (listed) {
+            of.commandWord = listed->commandWord + VOXTACT_COMMAND_WORDS * (round.firstPair / atOnce);
+        }
+        recordRound(passes, layout, constants, of);
+    });
+}
+
+void RoundRecorder::dispatch(const RoundPass& pass, const shader::CertifiedConstants& constants, const RoundPairs& of) {
+    const DeviceFunctions& vk = context_->vk;
+    const bool first = pass.queue == kNoQueue;
+    if (first && !of.commandWord) {
+        const std::uint32_t clusters = constants.endCluster - constants.firstCluster;
+        vk.CmdDispatch(commandBuffer_, (clusters + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, of.pairs, 1);
+        return;
+    }
+    const VkDeviceSize command = first ? *of.commandWord : VkDeviceSize{constants.headerWord} + 4 * pass.queue;
+    vk.CmdDispatchIndirect(commandBuffer_, results_->transforms.get(), command * sizeof(std::uint32_t));
+}
+
+void RoundRecorder::recordRound(std::span<const RoundPass> passes, VkPipelineLayout layout,
+                                const shader::CertifiedConstants& given, const RoundPairs& of) {
     const DeviceFunctions& vk = context_->vk;
     if (rounds_ > 0 && rounds_ % VOXTACT_HEADERS == 0) {
         renewHeaders(layout);
-    } else if (rounds_ > 0) {
+    } else if (rounds_ > 0 || of.commandWord) {
         queuesBarrier(*context_, commandBuffer_);
     }
     shader::CertifiedConstants constants = given;
@@ -29,17 +59,11 @@ void RoundRecorder::record(std::span<const RoundPass> passes, VkPipelineLayout l
         if (pass.pipeline != bound) {
             vk.CmdBindPipeline(commandBuffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pass.pipeline);
         }
-        if (pass.queue == kNoQueue) {
-            const std::uint32_t clusters = constants.endCluster - constants.firstCluster;
-            vk.CmdDispatch(commandBuffer_, (clusters + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, pairs, 1);
-        } else {
-            // The last pass once more, for what had no room, only adds to what the other one adds to.
-            if (pass.pipeline != bound) {
-                queuesBarrier(*context_, commandBuffer_);
-            }
-            const VkDeviceSize command = VkDeviceSize{constants.headerWord} + 4 * pass.queue;
-            vk.CmdDispatchIndirect(commandBuffer_, results_->transforms.get(), command * sizeof(std::uint32_t));
+        // The last pass once more, for what had no room, only adds to what the other one adds to.
+        if (pass.queue != kNoQueue && pass.pipeline != bound) {
+            queuesBarrier(*context_, commandBuffer_);
         }
+        dispatch(pass, constants, of);
         bound = pass.pipeline;
     }
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "detect/certified/certified_rounds.h"
+#include "detect/certified/open_pairs.h"
 #include "detect/results/results_impl.h"
 #include "shared.h"
 
+#include <optional>
 #include <span>
 
 namespace voxtact {
@@ -28,10 +31,11 @@ class RoundRecorder {
                   VkPipeline tally) noexcept
         : context_(&context), commandBuffer_(commandBuffer), results_(&results), tally_(tally) {}
 
-    /// One round of so many pairs from that of `given` on; its headerWord is not looked at. Waits for what was
-    /// dispatched before. Where the last two passes have one pipeline, they do not wait for each other.
+    /// The rounds of an item's pairs, from that of `given` on; its headerWord is not looked at. Waits for what was
+    /// dispatched before. Where the last two passes have one pipeline, they do not wait for each other. `listed`: of
+    /// these pairs, in place of all; then the first pass has VOXTACT_CONSTANT_LISTED.
     void record(std::span<const RoundPass> passes, VkPipelineLayout layout, const shader::CertifiedConstants& given,
-                std::uint32_t pairs);
+                const RoundCut& cut, const std::optional<ListedPairs>& listed = {});
     /// Counts what the rounds did that are not counted yet.
     void finish(VkPipelineLayout layout);
 
@@ -39,6 +43,14 @@ class RoundRecorder {
     [[nodiscard]] const ResultsImpl& results() const noexcept { return *results_; }
 
   private:
+    /// How the first pass of a round knows its pairs: there are so many, or a command of the device says it.
+    struct RoundPairs {
+        std::uint32_t pairs;
+        std::optional<std::uint32_t> commandWord;
+    };
+    void recordRound(std::span<const RoundPass> passes, VkPipelineLayout layout,
+                     const shader::CertifiedConstants& given, const RoundPairs& of);
+    void dispatch(const RoundPass& pass, const shader::CertifiedConstants& constants, const RoundPairs& of);
     void renewHeaders(VkPipelineLayout layout);
     /// Counts what the last `rounds` rounds did; between barriers for compute shaders.
     void recordTally(VkPipelineLayout layout, std::uint32_t rounds);

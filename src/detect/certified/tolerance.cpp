@@ -106,7 +106,7 @@ void TolerancePass::record(RoundRecorder& recorder, VkPipelineLayout layout, con
     const Grid& grid = item.volume->impl().grid;
     constants.item = tolerance_.angle > 0 ? withTolerance(given.item, grid, tolerance_.distance)
                                           : withMargin(given.item, grid, tolerance_.distance);
-    passes_.record(recorder, layout, item, constants, reachOf(item, tolerance_));
+    passes_.record(recorder, layout, constants, passes_.cutOf(item, constants.queueRoom, reachOf(item, tolerance_)));
 }
 
 } // namespace voxtact

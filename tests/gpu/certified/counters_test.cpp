@@ -286,8 +286,14 @@ TEST(RoundsTest, EachClusterOfEachPairIsInOneOfThem) {
         const RoundLimits limits{1 + static_cast<std::uint32_t>(random() % 64),
                                  1 + static_cast<std::uint32_t>(random() % 9), uniform(random, 1, 500)};
         std::vector<int> seen(std::size_t{mesh.pairs} * mesh.clusters);
-        eachRound(mesh, limits, [&](const Round& round) {
+        const RoundCut cut{mesh, limits};
+        const RoundSize size = sizeOfRounds(cut);
+        std::uint32_t most = 0;
+        eachRound(cut, [&](const Round& round) {
             const std::uint32_t clusters = round.endCluster - round.firstCluster;
+            EXPECT_EQ(round.firstPair % size.pairs, 0U) << seed;
+            EXPECT_EQ(round.pairs, std::min(size.pairs, mesh.pairs - round.firstPair)) << seed;
+            most = std::max(most, clusters);
             EXPECT_GE(round.pairs * clusters, 1U);
             EXPECT_LE(round.pairs, limits.pairs);
             if (round.pairs * clusters > 1) {
@@ -300,6 +306,7 @@ TEST(RoundsTest, EachClusterOfEachPairIsInOneOfThem) {
                 }
             }
         });
+        EXPECT_TRUE(mesh.pairs == 0 || most == size.clusters) << "turn " << turn << " of " << seed;
         EXPECT_TRUE(std::ranges::all_of(seen, [](int times) { return times == 1; }))
             << "turn " << turn << " of " << seed;
     }

@@ -213,7 +213,7 @@ TEST_F(MotionTest, IsOneAnswerHoweverItIsFound) {
             scene.poses[i] = multiply(translation({i % 2 == 0 ? 5.0 : -5.0, 3, 1.0 * i}), scene.poses[i - 1]);
         }
         scene.item.world_from_object = scene.poses;
-        for (const std::uint32_t room : {16U, 16384U}) {
+        for (const std::uint32_t room : {16U, 48U, 16384U}) { // one segment a round, or some, or all of them
             found.push_back(detect(device, scene.batch(), kPoses, room).motions);
         }
         // Between items that stay where they are, which take few steps.
