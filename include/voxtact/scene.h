@@ -15,7 +15,7 @@
 ///
 /// Every cmdUpload():
 ///   call it             outside a render pass, on a queue with graphics (or with compute and transfer)
-///   expects             nothing; the object's former contents are discarded
+///   expects             nothing; the object's former contents are discarded, and it is as it was created again
 ///   leaves              the object readable by vertex input and by any shader stage, in every later command
 ///   queries             an active occlusion query is not affected
 ///   bound state         none is lost
@@ -39,7 +39,8 @@ struct WrappedVolume {
     /// value = slope * stored + intercept, where stored is the integer behind a UNORM or SNORM texel, or the float.
     double slope = 1;
     double intercept = 0; ///< in the image's units
-    /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp.
+    /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp. Refused
+    /// where they are no range.
     std::optional<ValueRange> boundaryValues;
     /// As in VolumeOptions. Not to be used before the first Volume::cmdUpdateBricks(), of the whole grid.
     bool bricks = false;
@@ -140,7 +141,8 @@ struct WrappedTransferFunction {
     VkImageView view = VK_NULL_HANDLE;                               ///< 1D, opacity in component r
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while commands execute
     ValueRange domain{0, 255};                                       ///< the values that the table covers
-    /// The same table on the host, where the caller has it: lets Boundary::Auto prove that it may clamp.
+    /// The same table on the host, where the caller has it: lets Boundary::Auto prove that it may clamp. The projection
+    /// `conservative` needs it.
     std::span<const float> table;
 };
 
@@ -163,7 +165,7 @@ class TransferFunction {
     VOXTACT_API TransferFunction& operator=(TransferFunction&&) noexcept;
     VOXTACT_API ~TransferFunction();
 
-    /// Records the copy to the device; see above for what it expects and leaves.
+    /// Records the copy to the device; see above for what it expects and leaves. domain() is that of create() again.
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
@@ -175,7 +177,9 @@ class TransferFunction {
     /// old one: record in the order in which the commands will be executed, and record anew whatever was recorded
     /// before this and is to be submitted after it.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer
-    ///   expects             a table that was uploaded; earlier commands that read it are waited for
+    ///   expects             nothing: a table that was not uploaded is filled as well; earlier commands that read it
+    ///   are
+    ///                       waited for
     ///   leaves              the table readable by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         none is lost

@@ -111,7 +111,7 @@ typedef struct vxt_wrapped_transfer_function {
     size_t struct_size;   ///< sizeof
     VkImageView view;     ///< 1D, opacity in component r
     vxt_range domain;     ///< the values that the table covers; default 0..255
-    const float* table;   ///< the same table on the host, where the caller has it; else null
+    const float* table;   ///< the same table on the host, where the caller has it; else null. `conservative` needs it
     size_t table_size;    ///< entries of `table`
     VkImageLayout layout; ///< while commands execute; default SHADER_READ_ONLY_OPTIMAL
     uint32_t reserved;    ///< 0

@@ -46,7 +46,8 @@ struct TransferFunctionImpl {
     std::vector<float> table{};  ///< the host's copy; empty for a wrapped one without
     Image image{};               ///< empty when wrapped
     Buffer extremes{};           ///< TableExtremes::values(), which begin with the table; empty without a host's table
-    Buffer staging{};            ///< the same
+    Buffer staging{};            ///< the same, as it was created
+    ValueRange stagedDomain{};   ///< of that
     bool uploaded = false;       ///< recorded, or the caller's own
     DescriptorSet descriptors{}; ///< VOXTACT_SET_TRANSFER_FUNCTION: the table, its extremes
 

@@ -103,6 +103,13 @@ void cmdFilled(TransferFunctionImpl& function, VkCommandBuffer commandBuffer) {
                  {static_cast<std::uint32_t>(function.table.size()), 1, 1});
 }
 
+/// What the host knows after an upload: an update may have changed it.
+void restoreStaged(TransferFunctionImpl& function) {
+    function.domain = function.stagedDomain;
+    const auto* first = static_cast<const float*>(function.staging.mapped);
+    std::copy(first, first + function.table.size(), function.table.begin());
+}
+
 Result<void> checkUpdate(const TransferFunctionImpl& function, const TransferFunctionDesc& desc) {
     if (!function.image.image) {
         return refuse("the transfer function is wrapped: its table is the caller's");
@@ -134,6 +141,7 @@ Result<TransferFunction> TransferFunction::create(const Context& context, const 
         auto impl = std::make_unique<TransferFunctionImpl>(
             TransferFunctionImpl{.context = c, .domain = desc.domain, .table = std::move(*table)});
         impl->filtered = *filtered;
+        impl->stagedDomain = desc.domain;
         VOXTACT_TRY(fillTable(*impl, name == nullptr ? "transfer function" : name));
         return TransferFunction(std::move(impl));
     });
@@ -178,6 +186,7 @@ Result<void> TransferFunction::cmdUpload(VkCommandBuffer commandBuffer) {
         live(impl_).context.vk.CmdCopyBuffer(commandBuffer, live(impl_).staging.get(), live(impl_).extremes.get(), 1,
                                              &whole);
         cmdFilled(live(impl_), commandBuffer);
+        restoreStaged(live(impl_));
         return {};
     });
 }

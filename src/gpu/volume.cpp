@@ -3,6 +3,7 @@
 #include "core/base/guard.h"
 #include "core/base/live.h"
 #include "core/base/refuse.h"
+#include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/method/certified_constants.h"
 #include "core/volume/boundary.h"
@@ -129,6 +130,10 @@ Result<void> checkWrapped(const ContextImpl& context, const WrappedVolume& wrapp
     }
     if (!std::isfinite(wrapped.slope) || wrapped.slope == 0 || !std::isfinite(wrapped.intercept)) {
         return refuse("WrappedVolume::slope and intercept must be finite, the slope not zero");
+    }
+    if (wrapped.boundaryValues && !(wrapped.boundaryValues->lo <= wrapped.boundaryValues->hi)) {
+        return refuse("WrappedVolume::boundaryValues " + number(wrapped.boundaryValues->lo) + ":" +
+                      number(wrapped.boundaryValues->hi) + " are no range: the lower end is not the lower one");
     }
     VOXTACT_TRY(checkSampledLayout(wrapped.layout, "WrappedVolume::layout"));
     VOXTACT_TRY(checkGrid(wrapped.grid));

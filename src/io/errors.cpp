@@ -13,10 +13,6 @@ namespace voxtact::io {
 
 namespace {
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 /// What is there in the place of a file; null for a file, and where that is not known.
 const char* kindOfNoFile(std::filesystem::file_type type) {
     switch (type) {
@@ -112,11 +108,13 @@ Result<std::string> readWholeFile(const std::filesystem::path& path) {
     return content;
 }
 
+std::string lowered(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
 std::string lowerEnding(const std::filesystem::path& path) {
-    const auto lowered = [](std::string text) {
-        std::transform(text.begin(), text.end(), text.begin(), lower);
-        return text;
-    };
     const std::string last = lowered(path.extension().string());
     return last == ".gz" ? lowered(path.stem().extension().string()) + last : last;
 }

@@ -36,6 +36,9 @@ namespace voxtact::io {
 /// The whole file.
 [[nodiscard]] Result<std::string> readWholeFile(const std::filesystem::path& path);
 
+/// The letters of ASCII in lower case.
+[[nodiscard]] std::string lowered(std::string text);
+
 /// The end of the file's name in lower case: ".stl"; of "a.nii.gz" it is ".nii.gz".
 [[nodiscard]] std::string lowerEnding(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 // voxtact detect --clearance and --margin.
 #include "cli_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +44,17 @@ class ClearanceTest : public CliTest {
     }
     [[nodiscard]] std::vector<std::map<std::string, std::string>> rows(const Arguments& more) const {
         return rowsOf(output(detect(more)));
+    }
+    /// A number that no voxel has is measured to, with a note.
+    static void expectMeasured(const Arguments& arguments) {
+        const Ran ran = run(arguments);
+        const bool nowhere = std::ranges::any_of(
+            arguments, [](const std::string& argument) { return argument.find("999") != std::string::npos; });
+        EXPECT_EQ(ran.status, 0);
+        EXPECT_EQ(withoutProgress(ran.err), nowhere
+                                                ? "voxtact: note: --to: no voxel of the label map has the label 999; "
+                                                  "clearances to it are infinite\n"
+                                                : "");
     }
 };
 
@@ -130,7 +142,7 @@ TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
     const auto labelled = [&](const Arguments& more) {
         Arguments how{"--clearance", "--labels", path("labels.nii.gz"), "--label-clearance", path("labels.csv")};
         how.insert(how.end(), more.begin(), more.end());
-        output(detect(how));
+        expectMeasured(detect(how));
         EXPECT_EQ(linesOf(readText(path("labels.csv"))).at(0), "pose,mesh,volume,label,name,clearance_lo,clearance_hi");
         return rowsOf(readText(path("labels.csv")));
     };
@@ -305,7 +317,7 @@ TEST_F(ClearanceDeviceTest, TheClearanceToLabelsIsTheDevicesToo) {
         Arguments asked{"--clearance",         "--tolerance",       "0.3",        "--labels",
                         path("labels.nii.gz"), "--label-clearance", path("l.csv")};
         asked.insert(asked.end(), more.begin(), more.end());
-        output(detect(asked));
+        expectMeasured(detect(asked));
         return rowsOf(readText(path("l.csv")));
     };
     std::size_t apart = 0;

@@ -235,7 +235,9 @@ TEST_F(CompareTest, WhatCannotBeDoneIsOneLine) {
     if (VOXTACT_HAS_CHARTS != 0) {
         EXPECT_THAT(refused(2, compare({"--report", path("one.html"), "--output", path("one.html")})),
                     HasSubstr("each needs a file of its own"));
+        EXPECT_THAT(refused(2, compare({"--report", "-"})), HasSubstr("--report: - is standard output"));
     }
+    EXPECT_THAT(refused(2, compare({"--only-pose", "-1"})), HasSubstr("--only-pose: '-1' is not a whole number"));
     EXPECT_EQ(filesInFolder(), 0U);
 }
 

@@ -78,6 +78,7 @@ TEST_F(OutputPathsTest, InputsOfOtherCommands) {
     expectRefused(command({"compare"}, {"--output", path("v.nii")}), "--volume");
     expectRefused(command({"compare", "--localize"}, {"--output", path("m.obj")}), "--mesh");
     expectRefused(command({"bench", "--certified"}, {"--output", path("v.nii")}), "--volume");
+    expectRefused({"info", path("v.nii"), "--output", path("v.nii")}, "PATH");
     expectRefused(command({"render"}, {"--output", path("picture.png")}), "--volume");
     fs::create_directories(path("data/meshes"));
     expectRefused({"bench", "--paper", "--data", path("data"), "--output", path("data/meshes/armadillo_49998.ply")},

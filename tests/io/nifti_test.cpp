@@ -293,6 +293,23 @@ TEST(Nifti, PairsOfBothVersions) {
     NiftiFile file;
     file.pair = true;
     const std::string bytes = file.bytes();
+    // The file that is named is read, and what is beside it, compressed as it is.
+    for (const char value : {'\1', '\2'}) {
+        const bool zipped = value == '\2';
+        const auto write = [&](const std::string& name, const std::string& content) {
+            folder.write(zipped ? name + ".gz" : name, zipped ? compressed(content, Wrapping::Gzip) : content);
+        };
+        file.sform[3] = zipped ? 5 : 0;
+        write("both.hdr", file.bytes());
+        write("both.img", std::string(file.voxels.size(), value));
+    }
+    for (const char* name : {"both.hdr", "both.img", "both.hdr.gz", "both.img.gz"}) {
+        const auto both = io::readVolume(folder / name);
+        ASSERT_TRUE(isOk(both)) << name;
+        const bool zipped = std::string_view(name).ends_with(".gz");
+        EXPECT_EQ(both->voxels[0], std::byte(zipped ? 2 : 1)) << name;
+        EXPECT_EQ(both->grid.origin[0], zipped ? -5 : 0) << name;
+    }
     expectRefused(io::readVolume("p.hdr", std::as_bytes(std::span(bytes))), "p.img': only one file is in memory");
 }
 

@@ -261,6 +261,78 @@ TEST(Volume, TheFirstVoxelOfANrrdIsAtItsAxesMins) {
     EXPECT_EQ(originOf(mins), (Vec3{10.5, 20.5, 30.5})) << "1 mm is taken";
 }
 
+TEST(Volume, TheSpacingOfANrrdIsThatOfItsAxesIfItSaysNoOther) {
+    using testing::Contains;
+    using testing::HasSubstr;
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& fields) {
+        return io::readVolume(folder.write("v.nrrd", plainNrrd("axis mins: 10 20 30\n" + fields))).value();
+    };
+    const VolumeData cells = read("axis maxs: 14 26 38\ncenterings: cell cell cell\n");
+    EXPECT_EQ(cells.grid.spacing, (Vec3{1, 2, 4}));
+    EXPECT_EQ(cells.grid.origin, (Vec3{10.5, 21, 32}));
+    EXPECT_THAT(cells.notes, Contains(HasSubstr("what 'axis mins' and 'axis maxs' say of it is taken")));
+    const VolumeData nodes = read("axis maxs: 13 24 34\ncenterings: node node node\n");
+    EXPECT_EQ(nodes.grid.spacing, (Vec3{1, 2, 4}));
+    EXPECT_EQ(nodes.grid.origin, (Vec3{10, 20, 30}));
+    const auto contradicts = Contains(HasSubstr("do not fit its 'spacings'"));
+    EXPECT_THAT(read("axis maxs: 14 26 38\nspacings: 1 2 4\n").notes, Not(contradicts));
+    const VolumeData other = read("axis maxs: 14 26 38\nspacings: 1 2 5\n");
+    EXPECT_THAT(other.notes, contradicts);
+    EXPECT_EQ(other.grid.spacing, (Vec3{1, 2, 5}));
+    EXPECT_EQ(read("axis maxs: 10 26 38\n").grid.spacing, (Vec3{1, 1, 1})) << "they say nothing";
+}
+
+TEST(Volume, ANrrdsSpaceHasThreeDimensions) {
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& fields) {
+        return io::readVolume(folder.write("v.nrrd", plainNrrd(fields)));
+    };
+    const std::string directions = "space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0)\n";
+    for (const char* space : {"left-posterior-superior-time", "LPST", "scanner-xyz-time"}) {
+        expectRefused(read(std::string("space: ") + space + "\n" + directions), "its space has time, too");
+    }
+    expectRefused(read("space dimension: 4\n" + directions), "its space has 4 dimensions");
+    EXPECT_TRUE(read("space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n").ok());
+}
+
+TEST(Volume, LengthsAreMillimetres) {
+    using testing::Contains;
+    using testing::HasSubstr;
+    const TemporaryFolder folder;
+    const auto nrrd = [&](const std::string& unit) {
+        const std::string quoted = '"' + unit + '"';
+        return io::readVolume(folder.write("v.nrrd", plainNrrd("space: LPS\nspace directions: (1,0,0) (0,2,0) (0,0,3)\n"
+                                                               "space origin: (4,5,6)\nspace units: " +
+                                                               quoted + " " + quoted + " " + quoted + "\n")))
+            .value();
+    };
+    const auto meta = [&](const std::string& unit) {
+        return io::readVolume(folder.write("v.mha", "NDims = 3\nOffset = 4 5 6\nElementSpacing = 1 2 3\n"
+                                                    "TransformMatrix = 1 0 0 0 1 0 0 0 1\nDistanceUnits = " +
+                                                        unit + "\nDimSize = 4 3 2\nElementType = MET_UCHAR\n" +
+                                                        "ElementDataFile = LOCAL\n" + std::string(24, '\1')))
+            .value();
+    };
+    const std::map<std::string, double> units{{"mm", 1},      {"Millimeter", 1},    {"cm", 10},        {"m", 1000},
+                                              {"um", 1e-3},   {"\xC2\xB5m", 1e-3},  {"microns", 1e-3}, {"nm", 1e-6},
+                                              {"inch", 25.4}, {"micrometer", 1e-3}, {"?", 1}};
+    for (const auto& [unit, millimetres] : units) {
+        for (const VolumeData& volume : {nrrd(unit), meta(unit)}) {
+            SCOPED_TRACE(unit);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                EXPECT_DOUBLE_EQ(volume.grid.spacing[axis], static_cast<double>(axis + 1) * millimetres);
+                EXPECT_DOUBLE_EQ(volume.grid.origin[axis], static_cast<double>(axis + 4) * millimetres);
+            }
+            EXPECT_EQ(volume.notes.size(), millimetres == 1 ? 0U : 1U);
+        }
+    }
+    for (const VolumeData& volume : {nrrd("Mm"), meta("Mm")}) {
+        EXPECT_EQ(volume.grid.spacing, (Vec3{1, 2, 3}));
+        EXPECT_THAT(volume.notes, Contains(HasSubstr("'Mm', is none that is known; millimetres are taken")));
+    }
+}
+
 TEST(Volume, WhatAMetaImageHeaderDoesNotSayIsNoted) {
     using testing::HasSubstr;
     const TemporaryFolder folder;

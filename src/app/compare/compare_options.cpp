@@ -66,7 +66,9 @@ void addPoseOptions(CLI::App& parser, CompareOptions& options) {
     addSeed(parser, options.seed);
     parser.get_option("--number")->excludes("--poses");
     parser.get_option("--seed")->excludes("--poses");
-    parser.add_option("--only-pose", options.onlyPose, "this pose alone, by its number from 0")->type_name("K");
+    addWholeNumber(
+        parser, "--only-pose", [&options](std::uint32_t pose) { options.onlyPose = pose; }, {},
+        "this pose alone, by its number from 0", std::nullopt);
 }
 
 } // namespace

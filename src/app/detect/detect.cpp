@@ -103,22 +103,6 @@ std::vector<NamedPath> readPaths(const DetectOptions& options) {
     return inputs;
 }
 
-/// What is written while it is found would be mixed.
-Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
-    const NamedPath* first = nullptr;
-    for (const NamedPath& output : outputs) {
-        if (output.path != "-") {
-            continue;
-        }
-        if (first != nullptr) {
-            return badArgument(output.option + ": - is standard output, where the rows of " + first->option +
-                               " go; give one of the two a file");
-        }
-        first = &output;
-    }
-    return {};
-}
-
 /// No output may be an input, or another output.
 Result<void> checkDetectPaths(const DetectOptions& options) {
     const ExtraOptions& extra = options.extra;
@@ -129,7 +113,6 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
                                          {"--contacts", extra.contacts},
                                          {"--closest", options.distance.closest},
                                          {"--label-clearance", options.distance.labels}};
-    VOXTACT_TRY(checkOneOnStandardOutput(outputs));
     return checkOutputs(outputs, inputs);
 }
 

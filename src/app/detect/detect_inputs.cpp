@@ -22,8 +22,11 @@ Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options,
     }
     for (const LabelWord& word : options.to) {
         const std::optional<std::int32_t> number = labelNumber(word);
-        const Result<std::vector<std::int32_t>> meant =
-            number ? std::vector<std::int32_t>{*number} : labelsOf(labels, word, "--to");
+        Result<std::vector<std::int32_t>> meant = labelsOf(labels, word, "--to");
+        if (number && !meant.ok()) {
+            printNote("--to: no voxel of the label map has the label " + word + "; clearances to it are infinite");
+            meant = std::vector<std::int32_t>{*number};
+        }
         VOXTACT_TRY(meant);
         std::ranges::copy_if(*meant, std::back_inserter(measured), [&measured](std::int32_t label) {
             return std::ranges::find(measured, label) == measured.end();

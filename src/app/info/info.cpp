@@ -80,7 +80,11 @@ Result<void> checkPaths(const InfoOptions& options) {
         }
         (isMesh(path) ? meshes.sources : volumes).push_back(path);
     }
-    std::vector<NamedPath> inputs = inputPaths(volumes, meshes, options.transferFunction, {});
+    std::vector<NamedPath> inputs = inputPaths(volumes, meshes);
+    for (NamedPath& input : inputs) {
+        input.option = "PATH";
+    }
+    addInput(inputs, "--transfer-function", options.transferFunction.path);
     return checkOutputs({{"--output", options.output.path}}, inputs);
 }
 

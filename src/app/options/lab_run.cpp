@@ -109,7 +109,7 @@ Outcome measureOn(const DeviceChoice& choice, const std::function<Result<void>(c
 Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
                               const std::vector<NamedPath>& inputs) {
     VOXTACT_TRY(report.empty() ? Result<void>() : reportPossible());
-    return checkOutputs({{"--output", output}, {"--report", report}}, inputs);
+    return checkOutputs({{"--output", output.empty() ? "-" : output}, {"--report", report}}, inputs);
 }
 
 } // namespace voxtact::app

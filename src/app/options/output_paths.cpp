@@ -112,6 +112,22 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
     return {};
 }
 
+/// What is written while it is found would be mixed.
+Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
+    const NamedPath* first = nullptr;
+    for (const NamedPath& output : outputs) {
+        if (output.path != "-") {
+            continue;
+        }
+        if (first != nullptr) {
+            return badArgument(output.option + ": - is standard output, where the rows of " + first->option +
+                               " go; give one of the two a file");
+        }
+        first = &output;
+    }
+    return {};
+}
+
 } // namespace
 
 std::vector<std::string> namesIn(const fs::path& header) {
@@ -175,6 +191,7 @@ std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const
 }
 
 Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs) {
+    VOXTACT_TRY(checkOneOnStandardOutput(outputs));
     for (const NamedPath& output : outputs) {
         VOXTACT_TRY(checkOutput(output.path));
         if (output.path.empty() || output.path == "-") {

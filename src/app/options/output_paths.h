@@ -35,9 +35,9 @@ void addInput(std::vector<NamedPath>& inputs, const char* option, const std::fil
 /// Names that a header (.hdr, .nhdr, .mhd, .gltf) may mean beside itself, in its folder; no format is read strictly.
 [[nodiscard]] std::vector<std::string> namesIn(const std::filesystem::path& header);
 
-/// Refuses outputs that cannot be written, two that are one file, and one that is an input by whatever name: a
-/// link, another spelling, a file of a DICOM folder, the file of voxels or buffers that a header names. Empty paths are
-/// not looked at.
+/// Refuses outputs that cannot be written, two that are one file or standard output ("-"), and one that is an input by
+/// whatever name: a link, another spelling, a file of a DICOM folder, the file of voxels or buffers that a header
+/// names. Empty paths are not looked at.
 [[nodiscard]] Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs);
 
 } // namespace voxtact::app

@@ -118,7 +118,7 @@ void addNumber(CLI::App& parser, const char* option, const std::function<void(do
 }
 
 void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
-                    const WholeRange& range, const std::string& help, std::uint32_t standard) {
+                    const WholeRange& range, const std::string& help, std::optional<std::uint32_t> standard) {
     const auto parse = [option, store, range](const std::string& text) {
         const auto number = parseNumber<std::uint32_t>(text);
         if (!number || *number < range.least || *number > range.most) {
@@ -127,7 +127,7 @@ void addWholeNumber(CLI::App& parser, const char* option, const std::function<vo
         }
         store(*number);
     };
-    addParsed(parser, option, parse, help, "N", std::to_string(standard).c_str());
+    addParsed(parser, option, parse, help, "N", standard ? std::to_string(*standard).c_str() : "");
 }
 
 void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,

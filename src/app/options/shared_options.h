@@ -71,9 +71,9 @@ struct WholeRange {
     std::uint32_t least = 0;
     std::uint32_t most = UINT32_MAX;
 };
-/// A whole number, as an option.
+/// A whole number, as an option; with a default, or without.
 void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
-                    const WholeRange& range, const std::string& help, std::uint32_t standard);
+                    const WholeRange& range, const std::string& help, std::optional<std::uint32_t> standard);
 /// The same into a variable that holds the default.
 void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
                     const std::string& help);

@@ -4,6 +4,7 @@
 #include "core/base/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
+#include "io/volume/length_unit.h"
 #include "io/volume/volume_container.h"
 
 #include <algorithm>
@@ -163,6 +164,10 @@ Result<std::vector<double>> numbersOf(const fs::path& path, const MetaHeader& he
     return numbers;
 }
 
+LengthUnit unitOf(const MetaHeader& header) {
+    return lengthUnit(header.get("DistanceUnits")).value_or(LengthUnit{});
+}
+
 Result<Grid> gridOf(const fs::path& path, const MetaHeader& header, const std::vector<std::int64_t>& sizes) {
     const std::size_t dimensions = sizes.size();
     const Result<std::vector<double>> matrix = numbersOf(path, header, kMatrices, dimensions * dimensions);
@@ -176,13 +181,14 @@ Result<Grid> gridOf(const fs::path& path, const MetaHeader& header, const std::v
         }
     }
     const std::vector<double>& lengths = spacing->empty() ? *size : *spacing;
+    const double unit = unitOf(header).millimetres;
     Grid grid;
     AffineSteps affine;
     affine.directions = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = static_cast<std::uint32_t>(sizes[axis]);
-        affine.lengths[axis] = lengths.empty() ? 1 : lengths[axis];
-        affine.origin[axis] = origin->empty() ? 0 : (*origin)[axis];
+        affine.lengths[axis] = lengths.empty() ? 1 : lengths[axis] * unit;
+        affine.origin[axis] = origin->empty() ? 0 : (*origin)[axis] * unit;
         for (std::size_t row = 0; row < 3 && !matrix->empty(); ++row) {
             affine.directions[axis][row] = (*matrix)[axis * dimensions + row]; // a row of the file is an axis
         }
@@ -241,12 +247,16 @@ std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid, Sto
         notes.emplace_back(kNoOrigin);
     }
     if (!header.hasAny(kMatrices)) {
-        notes.emplace_back("the file does not say how its axes lie; left, posterior, superior is taken");
+        const char* const letters =
+            header.has("AnatomicalOrientation") ? " ('AnatomicalOrientation' is not asked, as by ITK)" : "";
+        notes.push_back(std::string("the file does not say how its axes lie") + letters +
+                        "; left, posterior, superior is taken");
     }
     if (storedBytes(type) > 1 && !header.hasAny(kByteOrders)) {
         notes.emplace_back("the file does not say its byte order; the least significant byte is taken as the first");
     }
     noteShear(grid, notes);
+    noteUnit(unitOf(header), notes);
     for (const auto& [key, usual] :
          {std::pair{"ElementToIntensityFunctionSlope", "1"}, std::pair{"ElementToIntensityFunctionOffset", "0"}}) {
         double value = 0;

@@ -19,7 +19,7 @@ struct NiftiFiles {
     fs::path image;
 };
 
-/// A pair is named by either of its files; both may be compressed.
+/// A pair is named by either of its files, each of which may be compressed; the other one rather is as that one is.
 NiftiFiles filesOf(const VolumeSource& source, const fs::path& path) {
     const std::string ending = lowerEnding(path);
     if (ending == ".nii" || ending == ".nii.gz") {
@@ -27,15 +27,20 @@ NiftiFiles filesOf(const VolumeSource& source, const fs::path& path) {
     }
     const std::string name = path.string();
     const std::string stem = name.substr(0, name.size() - ending.size());
-    const auto present = [&](const char* plain, const char* upper) {
-        for (const std::string& candidate : {stem + plain, stem + plain + ".gz", stem + upper, stem + upper + ".GZ"}) {
+    const bool zipped = ending.ends_with(".gz");
+    const auto partner = [&](const std::string& plain, const std::string& upper) {
+        const std::string first = stem + plain + (zipped ? ".gz" : "");
+        for (const std::string& candidate :
+             {first, stem + upper + (zipped ? ".GZ" : ""), stem + plain + (zipped ? "" : ".gz"),
+              stem + upper + (zipped ? "" : ".GZ")}) {
             if (source.has(candidate)) {
                 return fs::path(candidate);
             }
         }
-        return fs::path(stem + plain);
+        return fs::path(first);
     };
-    return {present(".hdr", ".HDR"), present(".img", ".IMG")};
+    return ending.starts_with(".hdr") ? NiftiFiles{path, partner(".img", ".IMG")}
+                                      : NiftiFiles{partner(".hdr", ".HDR"), path};
 }
 
 /// The type, or the reason why such voxels are no scalars.

@@ -4,11 +4,13 @@
 #include "core/base/try.h"
 #include "io/errors.h"
 #include "io/text/text_lines.h"
+#include "io/volume/length_unit.h"
 #include "io/volume/nrrd_header.h"
 #include "io/volume/volume_container.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace voxtact::io {
@@ -55,29 +57,25 @@ std::optional<std::vector<std::optional<Vec3>>> vectorsOf(std::string_view text)
     return vectors;
 }
 
-/// What a length in a file is in millimetres; 1 where the file does not say its unit. All axes in space have one.
-Result<double> millimetresPerUnit(const fs::path& path, const NrrdHeader& header, bool inSpace) {
+/// Of the lengths in a file: millimetres where it does not say it. All axes in space have one.
+Result<LengthUnit> unitOf(const fs::path& path, const NrrdHeader& header, bool inSpace) {
     const std::string_view field = inSpace ? "spaceunits" : "units";
     const std::string text = header.get(field);
-    std::optional<double> unit;
+    std::optional<LengthUnit> unit;
     std::size_t axis = 0;
     for (std::size_t at = text.find('"'); at != std::string::npos && axis < 3; at = text.find('"', at), ++axis) {
         const std::size_t end = text.find('"', at + 1);
         if (end == std::string::npos) {
             return damaged(path, field, text);
         }
-        const std::string name = text.substr(at + 1, end - at - 1);
-        const double here = name == "m"                                               ? 1e3
-                            : name == "cm"                                            ? 10
-                            : name == "um" || name == "\xC2\xB5m" || name == "micron" ? 1e-3
-                                                                                      : 1;
+        const LengthUnit here = lengthUnit(std::string_view(text).substr(at + 1, end - at - 1)).value_or(LengthUnit{});
         if (unit && *unit != here) {
             return cannotRead(path, "its axes have different units of length (" + inQuotes(text) + "); write it anew");
         }
         unit = here;
         at = end + 1;
     }
-    return unit.value_or(1);
+    return unit.value_or(LengthUnit{});
 }
 
 /// The signs that take a space to LPS; none where the space is not an anatomical one.
@@ -96,6 +94,19 @@ std::optional<Vec3> signsOf(const std::string& space) {
         }
     }
     return std::nullopt;
+}
+
+/// Refuses a space that has time as well, or another number of dimensions.
+Result<void> checkSpaceDimensions(const fs::path& path, const std::string& space, const NrrdHeader& header) {
+    constexpr std::array<std::string_view, 3> kWithTime{"rast", "last", "lpst"};
+    const std::string dimension = header.get("spacedimension");
+    const bool hasTime =
+        space.ends_with("-time") || std::find(kWithTime.begin(), kWithTime.end(), space) != kWithTime.end();
+    if (hasTime || (!dimension.empty() && trimmed(dimension) != "3")) {
+        return cannotRead(path, "its space has " + (hasTime ? std::string("time, too") : dimension + " dimensions") +
+                                    "; write it anew in one that has 3 dimensions");
+    }
+    return {};
 }
 
 /// The numbers of a field with one for each axis; none where it is not there. An axis that has none says "nan".
@@ -152,45 +163,90 @@ Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, s
     return affine;
 }
 
-/// The centre of the first voxel where the axes begin at `mins`: its border, or with the centering "node" its centre.
-Vec3 firstVoxel(const NrrdHeader& header, const Vec3& mins, const Vec3& lengths, std::vector<std::string>& notes) {
+/// Of each axis whether it begins and ends with the centre of a voxel ("node"), or with a border of it.
+struct Centerings {
+    std::array<bool, 3> node{};
+    bool isSaid = true; ///< else a border is taken
+};
+
+Centerings centeringsOf(const NrrdHeader& header) {
     std::vector<std::string_view> centres;
     const std::string text = header.get(header.get("centers").empty() ? "centerings" : "centers");
     splitTokens(text, centres);
-    Vec3 first{};
-    bool isSaid = true;
+    Centerings found;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string_view centre = axis < centres.size() ? centres[axis] : std::string_view();
-        isSaid = isSaid && (centre == "node" || centre == "cell");
-        first[axis] = mins[axis] + (centre == "node" ? 0 : lengths[axis] / 2);
+        found.node[axis] = centre == "node";
+        found.isSaid = found.isSaid && (centre == "node" || centre == "cell");
     }
-    if (!isSaid) {
-        notes.emplace_back(
-            "the file does not say of each axis whether 'axis mins' is a border or a centre of its first "
-            "voxel ('centerings'); a border is taken, as ITK does");
-    }
-    return first;
+    return found;
 }
 
-/// Without one: a distance for each axis, and where the first voxel begins or has its centre.
+/// The distances between voxels, from one end of each axis to the other.
+std::optional<Vec3> lengthsBetween(const Vec3& mins, const Vec3& maxs, const std::vector<std::int64_t>& sizes,
+                                   const Centerings& centerings) {
+    Vec3 lengths{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        lengths[axis] = (maxs[axis] - mins[axis]) / static_cast<double>(sizes[axis] - (centerings.node[axis] ? 1 : 0));
+        if (!(lengths[axis] > 0) || !std::isfinite(lengths[axis])) {
+            return std::nullopt;
+        }
+    }
+    return lengths;
+}
+
+bool isNearly(const Vec3& a, const Vec3& b) {
+    constexpr double kRounding = 1e-4; // of what is written
+    bool nearly = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        nearly = nearly && std::abs(a[axis] - b[axis]) <= kRounding * std::abs(a[axis]);
+    }
+    return nearly;
+}
+
+/// `ofAxes`: by where the axes begin and end, if they say it.
+Vec3 lengthsOf(const std::optional<Vec3>& spacings, const std::optional<Vec3>& ofAxes,
+               std::vector<std::string>& notes) {
+    if (spacings) {
+        if (ofAxes && !isNearly(*spacings, *ofAxes)) {
+            notes.emplace_back("the file's 'axis mins' and 'axis maxs' do not fit its 'spacings'; these are taken");
+        }
+        return *spacings;
+    }
+    if (ofAxes) {
+        notes.emplace_back("the file does not say its spacing; what 'axis mins' and 'axis maxs' say of it is taken");
+        return *ofAxes;
+    }
+    notes.emplace_back(kNoSpacing);
+    return {1, 1, 1};
+}
+
+/// Without one: a distance for each axis, and where the first voxel begins or has its centre, and where the last one
+/// ends.
 Result<AffineSteps> plainSteps(const fs::path& path, const NrrdHeader& header, const std::vector<std::int64_t>& sizes,
                                std::vector<std::string>& notes) {
     AffineSteps affine;
     affine.directions = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     const Result<std::optional<Vec3>> spacings = perAxis(path, header, "spacings", sizes.size());
+    VOXTACT_TRY(spacings);
     const Result<std::optional<Vec3>> mins = perAxis(path, header, "axismins", sizes.size());
-    if (!spacings.ok() || !mins.ok()) {
-        return spacings.ok() ? mins.error() : spacings.error();
-    }
-    if (*spacings) {
-        affine.lengths = **spacings;
-    } else {
-        notes.emplace_back(kNoSpacing);
-    }
-    if (*mins) {
-        affine.origin = firstVoxel(header, **mins, affine.lengths, notes);
-    } else {
+    VOXTACT_TRY(mins);
+    const Result<std::optional<Vec3>> maxs = perAxis(path, header, "axismaxs", sizes.size());
+    VOXTACT_TRY(maxs);
+    const Centerings centerings = centeringsOf(header);
+    affine.lengths =
+        lengthsOf(*spacings, *mins && *maxs ? lengthsBetween(**mins, **maxs, sizes, centerings) : std::nullopt, notes);
+    if (!*mins) {
         notes.emplace_back(kNoOrigin);
+        return affine;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        affine.origin[axis] = (**mins)[axis] + (centerings.node[axis] ? 0 : affine.lengths[axis] / 2);
+    }
+    if (!centerings.isSaid) {
+        notes.emplace_back(
+            "the file does not say of each axis whether 'axis mins' is a border or a centre of its first "
+            "voxel ('centerings'); a border is taken, as ITK does");
     }
     return affine;
 }
@@ -200,13 +256,14 @@ Result<AffineSteps> plainSteps(const fs::path& path, const NrrdHeader& header, c
 Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std::vector<std::int64_t>& sizes,
                       std::vector<std::string>& notes) {
     const std::string space = withoutBlanks(header.get("space"));
+    VOXTACT_TRY(checkSpaceDimensions(path, space, header));
     const std::optional<Vec3> signs = signsOf(space);
     if (!signs) {
         notes.emplace_back("the file does not say how the patient lies (its 'space' is not an anatomical one); its "
                            "axes are taken as left, posterior, superior");
     }
     const bool inSpace = !space.empty() || !header.get("spacedimension").empty();
-    const Result<double> unit = millimetresPerUnit(path, header, inSpace);
+    const Result<LengthUnit> unit = unitOf(path, header, inSpace);
     Result<AffineSteps> affine = !unit.ok() ? Result<AffineSteps>(unit.error())
                                  : inSpace  ? spaceSteps(path, header, sizes.size(), notes)
                                             : plainSteps(path, header, sizes, notes);
@@ -214,18 +271,16 @@ Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std:
     Grid grid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = static_cast<std::uint32_t>(sizes[axis]);
-        affine->lengths[axis] *= *unit;
+        affine->lengths[axis] *= unit->millimetres;
         const double sign = signs ? (*signs)[axis] : 1;
-        affine->origin[axis] *= *unit * sign;
+        affine->origin[axis] *= unit->millimetres * sign;
         for (Vec3& direction : affine->directions) {
             direction[axis] *= sign;
         }
     }
     VOXTACT_TRY(setSteps(grid, *affine, path));
     noteShear(grid, notes);
-    if (*unit != 1) {
-        notes.push_back("the file's unit of length is " + number(*unit) + " mm; its lengths are taken to millimetres");
-    }
+    noteUnit(*unit, notes);
     return grid;
 }
 

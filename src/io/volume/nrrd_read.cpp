@@ -16,20 +16,21 @@ namespace fs = std::filesystem;
 
 std::optional<StoredType> storedType(const std::string& type) {
     struct Known {
-        std::array<std::string_view, 6> names;
+        std::array<std::string_view, 7> names;
         StoredType type;
     };
     constexpr std::array<Known, 10> kTypes{{
-        {{"signed char", "int8", "int8_t", "", "", ""}, StoredType::Int8},
-        {{"uchar", "unsigned char", "uint8", "uint8_t", "", ""}, StoredType::UInt8},
+        {{"signed char", "int8", "int8_t"}, StoredType::Int8},
+        {{"uchar", "unsigned char", "uint8", "uint8_t"}, StoredType::UInt8},
         {{"short", "short int", "signed short", "signed short int", "int16", "int16_t"}, StoredType::Int16},
-        {{"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t", ""}, StoredType::UInt16},
-        {{"int", "signed int", "int32", "int32_t", "", ""}, StoredType::Int32},
-        {{"uint", "unsigned int", "uint32", "uint32_t", "", ""}, StoredType::UInt32},
-        {{"longlong", "long long", "long long int", "signed long long", "int64", "int64_t"}, StoredType::Int64},
-        {{"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", ""}, StoredType::UInt64},
-        {{"float", "", "", "", "", ""}, StoredType::Float32},
-        {{"double", "", "", "", "", ""}, StoredType::Float64},
+        {{"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}, StoredType::UInt16},
+        {{"int", "signed int", "int32", "int32_t"}, StoredType::Int32},
+        {{"uint", "unsigned int", "uint32", "uint32_t"}, StoredType::UInt32},
+        {{"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"},
+         StoredType::Int64},
+        {{"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}, StoredType::UInt64},
+        {{"float"}, StoredType::Float32},
+        {{"double"}, StoredType::Float64},
     }};
     for (const Known& known : kTypes) {
         for (const std::string_view name : known.names) {

@@ -59,17 +59,30 @@ def check_made(made_of: object, kind: type, by: str) -> None:
         raise TypeError(f"{by} makes one; a {type(made_of).__name__} cannot")
 
 
+def array_of(given: Any, what: str) -> npt.NDArray[Any]:
+    """An array, not copied where it is one. Rows of different lengths are none; what is masked has no value."""
+    if isinstance(given, np.ma.MaskedArray) and np.any(given.mask):
+        raise InvalidArgumentError(f"{what}: some of the masked array is masked and has no value; fill it "
+                                   "(`.filled(value)`)")
+    try:
+        return np.asarray(given)
+    except ValueError:
+        raise InvalidArgumentError(f"{what} is no array: its rows differ in length") from None
+
+
 def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
     """An array of numbers as float64, not copied where it is one. Complex numbers, texts and dates are none."""
     if type(given) is np.ndarray and given.dtype == _FLOAT:
         return given
-    array = np.asarray(given)
+    array = array_of(given, what)
     if array.dtype.kind not in "biufO":
         raise TypeError(f"{what} has the type {array.dtype}; numbers are needed")
     try:
         return array.astype(np.float64, copy=False)
     except OverflowError:
         raise InvalidArgumentError(f"{what} has a number that is too large") from None
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} has what is no number") from None
 
 
 def exact_in_float32(whole: npt.NDArray[Any]) -> bool:
@@ -84,6 +97,10 @@ def listed(given: Any, what: str) -> list[Any]:
     """What is in a sequence. A text is none: it would be its letters."""
     if isinstance(given, (str, bytes)):
         raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed: [{given!r}]")
+    try:
+        iter(given)
+    except TypeError:
+        raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed") from None
     try:
         return list(given)
     except LookupError:  # it has lengths and items, and is no sequence

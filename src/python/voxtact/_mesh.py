@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, Space, check_space, encoded, encoded_text, not_pickled, number, numbers
+from ._common import BUILTIN, Space, array_of, check_space, encoded, encoded_text, not_pickled, number, numbers
 from ._errors import InvalidArgumentError
 
 
@@ -78,8 +78,8 @@ class Mesh:
 def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name: str,
                     notes: Optional[list[str]] = None) -> Mesh:
     said = [] if notes is None else notes
-    places = np.asarray(vertices)
-    corners = np.asarray(faces)
+    places = array_of(vertices, "vertices")
+    corners = array_of(faces, "faces")
     if places.ndim != 2 or places.shape[1] != 3 or places.dtype.kind not in "fiu":
         raise InvalidArgumentError(f"vertices are {places.dtype} of shape {places.shape}; numbers of shape (V, 3) are "
                                    "needed")

@@ -26,11 +26,12 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
                  max_angle: Optional[float], tolerance: float, maximum: float, most_steps: int,
                  triangle_clearances: bool) -> dict[str, Any]:
     """What `Scene.plan` asks the compiled part for; `labels` are the scene's."""
-    if not len(avoid) and avoid_opacity is None:
+    avoided = listed(avoid, "avoid")
+    if not avoided and avoid_opacity is None:
         raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
     if avoid_volume is not None and avoid_opacity is None:
         raise InvalidArgumentError("avoid_volume needs avoid_opacity=: what of it is not to be touched")
-    if labels is None and (len(avoid) or entry_label is not None):
+    if labels is None and (avoided or entry_label is not None):
         raise InvalidArgumentError("plans that are about labels need a scene with labels=")
     if entry_label is not None and entry_radius is not None:
         raise InvalidArgumentError("entry_label and entry_radius both say where entries are; leave out one of them")
@@ -44,7 +45,7 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
     if triangle_clearances:
         wish["triangle_clearances"] = True
     if labels is not None:
-        wish["avoid"] = [labels.number(label) for label in listed(avoid, "avoid")]
+        wish["avoid"] = [labels.number(label) for label in avoided]
     if entry_label is not None and labels is not None:
         wish["entry_label"] = labels.number(entry_label)
     wish["border_entries"] = bool(border_entries)

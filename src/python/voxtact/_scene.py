@@ -24,7 +24,7 @@ from ._arguments import (
     told,
     whole,
 )
-from ._common import encoded_text, exact_in_float32, listed, not_pickled, number, numbers, whole_number
+from ._common import array_of, encoded_text, exact_in_float32, listed, not_pickled, number, numbers, whole_number
 from ._device import Device, best_device, opened
 from ._errors import Error, InvalidArgumentError
 from ._labels import Labels, read_labels
@@ -162,7 +162,7 @@ class Scene:
             corner = whole(box, 6, "box")
             self._core.set_box(corner[:3], corner[3:], number(value, "value"))
         else:
-            given = np.asarray(voxels)
+            given = array_of(voxels, "voxels")
             if given.dtype.kind not in "biuf":
                 given = numbers(given, "voxels")
             if given.ndim != 3:

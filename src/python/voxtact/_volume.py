@@ -14,11 +14,13 @@ from ._common import (
     BUILTIN,
     LPS_FROM_RAS,
     Space,
+    array_of,
     check_space,
     encoded,
     encoded_text,
     exact_in_float32,
     not_pickled,
+    numbers,
     whole_number,
 )
 from ._errors import InvalidArgumentError
@@ -172,7 +174,7 @@ def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
 
 def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64], ...]:
     """Spacing, origin and direction of voxel numbers (x, y, z) -> world."""
-    matrix = np.asarray(affine, dtype=np.float64)
+    matrix = numbers(affine, "affine")
     if matrix.shape != (4, 4):
         raise InvalidArgumentError(f"affine has the shape {matrix.shape}; (4, 4) is needed")
     if not np.isfinite(matrix).all():
@@ -193,7 +195,7 @@ def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64],
 def _volume_of_array(array: Any, affine: npt.ArrayLike, space: Space, axes: Optional[str], name: str,
                      notes: Optional[list[str]] = None) -> Volume:
     said = [] if notes is None else notes
-    voxels = np.asarray(array)
+    voxels = array_of(array, "the array")
     if voxels.ndim != 3:
         raise InvalidArgumentError(f"the array has the shape {voxels.shape}; three dimensions are needed")
     voxels = _in_z_y_x(voxels, axes)

@@ -131,6 +131,16 @@ TEST_F(BadInputTest, WrappedObjectsAreChecked) {
     volume.format = VK_FORMAT_R8G8B8A8_UNORM;
     volume.grid = unitGrid(4);
     EXPECT_THAT(Volume::wrap(context(), volume).error().text, HasSubstr("R8_UNORM"));
+    volume.format = VK_FORMAT_R8_UNORM;
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const ValueRange none : {ValueRange{250, 150}, ValueRange{kInfinity, -kInfinity}, ValueRange{kNaN, kNaN},
+                                  ValueRange{0, kNaN}, ValueRange{kNaN, 0}}) {
+        volume.boundaryValues = none;
+        EXPECT_THAT(Volume::wrap(context(), volume).error().text, HasSubstr("WrappedVolume::boundaryValues"));
+    }
+    volume.boundaryValues = ValueRange{200, 200};
+    EXPECT_TRUE(Volume::wrap(context(), volume).ok());
 }
 
 TEST_F(BadInputTest, ReadingTooEarlyIsAnError) {

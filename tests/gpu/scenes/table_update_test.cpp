@@ -50,6 +50,33 @@ TEST_F(TableUpdateTest, TheExtremesFollow) {
     }
 }
 
+/// An upload after an update has the first table again, and its domain.
+TEST_F(TableUpdateTest, AnUploadTakesItBack) {
+    RawVulkan raw(gpu().device);
+    const Volume volume = upload(makeBytes(unitGrid(8), [](auto...) { return 200.0; }));
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const Mat4 pose = identity();
+    const TransferFunctionDesc first{byteRamp(), kBytes, 256};
+    TransferFunction function = take(TransferFunction::create(context(), first));
+    const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
+    const Batch batch{std::span(&item, 1), {}, 0.5};
+    Results results = take(Results::create(context(), {.maxPairs = 1}));
+    const Detector asking =
+        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::DominantAxis}));
+    const VkCommandBuffer commands = raw.begin();
+    take(function.cmdUpload(commands));
+    take(function.cmdUpdate(commands, {kThousandRamp, {0, 1000}}));
+    EXPECT_EQ(function.domain().hi, 1000);
+    take(function.cmdUpload(commands));
+    EXPECT_EQ(function.domain().hi, kBytes.hi);
+    EXPECT_EQ(function.impl().table, take(sampleTable(first)));
+    take(asking.cmdDetect(commands, batch, results));
+    take(results.cmdReadBack(commands));
+    raw.submitAndWait(commands);
+    EXPECT_TRUE(unpack(take(results.read())[0]).hit);
+    expectExtremes(raw, function, first);
+}
+
 TEST_F(TableUpdateTest, TakesEffectInCommandBufferOrder) {
     RawVulkan raw(gpu().device);
     // The half of the volume below x = 0.5 is 255.
