@@ -157,6 +157,9 @@ TEST_F(DetectTest, NoOverlapIsNoHit) {
     EXPECT_THAT(ran.err, HasSubstr("note: builtin:scalpel:500 does not come near builtin:head:32 at its pose"));
     const auto far = fieldsOf(linesOf(ran.out).at(1));
     EXPECT_EQ(far.at(kHit) + far.at(kCount), "00");
+    // However far it is, it is no larger.
+    writeText(path("far.txt"), "1 0 0 1e300 0 1 0 0 0 0 1 0 0 0 0 1\n");
+    EXPECT_THAT(run(detect({"--poses", path("far.txt")})).err, AllOf(HasSubstr("near"), Not(HasSubstr("mm long"))));
 }
 
 TEST_F(DetectTest, ThresholdAndTransferFunctionDecide) {

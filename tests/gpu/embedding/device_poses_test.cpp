@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Poses in device memory: the pairs that the device makes of them are those of the host, bit for bit.
+#include "certified/counted_fixture.h"
 #include "detect/results/results_impl.h"
 #include "raw_fixture.h"
 #include "shared.h"
@@ -84,7 +85,7 @@ Grid anyGrid(std::mt19937_64& random) {
     return grid;
 }
 
-class DevicePosesTest : public RawGpuTest {
+class DevicePosesTest : public CertifiedTest {
   protected:
     /// A mapped buffer with the poses.
     RawVulkan::HostBuffer write(std::span<const Mat4> poses, const Layout& layout = {}) {

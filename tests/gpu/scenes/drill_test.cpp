@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Drilling: the matter that an instrument touches is taken away ball by ball until the hit is gone, on the device, on
 // the host and in plain data that the oracles look at.
+#include "certified/counted_fixture.h"
 #include "gpu_fixture.h"
 
 #include "oracle/certified_oracle.h"
@@ -37,7 +38,7 @@ void drill(VolumeData& data, const Ball& ball) {
     }
 }
 
-class DrillTest : public GpuTest {
+class DrillTest : public CertifiedTest {
   protected:
     void drillOnDevice(Volume& volume, const std::vector<Ball>& balls) const {
         RawVulkan raw(gpu().device);
