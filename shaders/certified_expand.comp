@@ -26,12 +26,19 @@ shared uint parts;       // of large triangles
 shared uint firstPart;
 shared uint groupsIfLeft; // of certified_finish, for all large triangles
 
-/// Work groups of certified_large that share a triangle: one for every 64 bricks, up to a point.
-uint partsOf(CellBox cells) {
-    const uint kMostParts = 64;
+/// Work groups of certified_large that share a triangle: one for every 32 bricks that it passes through, up to a point,
+/// and none that has no block of bricks. It passes through some for each side of one that its shadows cover, and for
+/// each that its edges cross.
+uint partsOf(CertifiedTriangle triangle, CellBox cells) {
+    const float kMostParts = 64.0;
+    const float kBricksOfPart = 32.0;
+    const float side = float(kBrickSide);
+    const VoxelPoint normal = triangle.normal;
+    const float shadows = 0.5 * (certifiedAbs(normal.x) + certifiedAbs(normal.y) + certifiedAbs(normal.z));
+    const float bricks = shadows / (side * side) + 3.0 * triangle.reach / side;
     const ivec3 size = bricksOf(cells).hi - bricksOf(cells).lo + 1;
-    const float bricks = float(size.x) * float(size.y) * float(size.z);
-    return uint(clamp(bricks * (1.0 / float(VOXTACT_COMPUTE_GROUP)), 1.0, float(kMostParts)));
+    const float blocks = float(size.x) * float(size.y) * float(size.z) / float(VOXTACT_COMPUTE_GROUP);
+    return uint(clamp(min(bricks / kBricksOfPart, blocks), 1.0, kMostParts));
 }
 
 /// A bit for each brick of a small triangle: it may have fragments with an opaque point.
@@ -114,7 +121,7 @@ void main() {
             // Those of pairs that are done, too: certified_finish must find the same, and more will be done by then.
             atomicAdd(groupsIfLeft, groupsOfTriangle(transforms[own.pair], bounds, cells));
             if (wanted) {
-                partsOfLane = bounds.usable ? partsOf(cells) : 1;
+                partsOfLane = bounds.usable ? partsOf(triangleOf(at, bounds.delta), cells) : 1;
                 slot = atomicAdd(parts, partsOfLane);
             }
         } else if (wanted) {

@@ -71,9 +71,12 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
     }
 }
 
-bool planeMisses(Placed triangle, PrecisePlane plane, vec3 centre, float radius) {
+bool misses(Placed triangle, PrecisePlane plane, vec3 centre, float radius) {
     const VoxelPoint at = voxelPoint(centre.x, centre.y, centre.z);
-    return triangle.usable ? certifiedPlaneMisses(triangle.rounded, at, radius) : precisePlaneMisses(plane, at, radius);
+    if (!triangle.usable) {
+        return precisePlaneMisses(plane, at, radius);
+    }
+    return certifiedPlaneMisses(triangle.rounded, at, radius) || certifiedEdgesMiss(triangle.rounded, at, radius);
 }
 
 void decideShare(Share given) {
@@ -118,7 +121,7 @@ void decideShare(Share given) {
             undecided = true;
             break;
         }
-        if (count > 1 && planeMisses(triangle, plane, brickCentre(brick), float(kBrickSide / 2))) {
+        if (count > 1 && misses(triangle, plane, brickCentre(brick), float(kBrickSide / 2))) {
             continue;
         }
         const CellBox inside = within(cells, brick);
@@ -126,7 +129,7 @@ void decideShare(Share given) {
         for (int place = share.first; place < most; place += share.step) {
             ++cellsSeen;
             const ivec3 cell = placeIn(inside, place);
-            if (single || !planeMisses(triangle, plane, vec3(cell) + 0.5, 0.5)) {
+            if (single || !misses(triangle, plane, vec3(cell) + 0.5, 0.5)) {
                 decideCell(triangle, cell, range);
             }
         }

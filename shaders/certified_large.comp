@@ -13,7 +13,13 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #define VOXTACT_CELL_LIST 512
 #include "certified_cells.glsl"
 
+shared uint blocksKept[VOXTACT_COMPUTE_GROUP / 32];
 shared uint bricksKept[VOXTACT_COMPUTE_GROUP / 32];
+
+bool misses(CertifiedTriangle triangle, vec3 centre, float radius) {
+    const VoxelPoint at = voxelPoint(centre.x, centre.y, centre.z);
+    return certifiedPlaneMisses(triangle, at, radius) || certifiedEdgesMiss(triangle, at, radius);
+}
 
 /// Lists those of a brick's cells that need a decision, and puts them into the queue; counts those that are certain
 /// without. False, and nothing is counted, where it has no room.
@@ -29,7 +35,10 @@ bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 bric
     barrier();
     uint certain = 0;
     for (int i = int(lane); i < most; i += VOXTACT_COMPUTE_GROUP) {
-        const int verdict = fragmentVerdict(triangle, placeIn(inside, i), range, false, kWitnesses);
+        const ivec3 cell = placeIn(inside, i);
+        const int verdict = misses(triangle, vec3(cell) + 0.5, 0.5)
+                                ? CERTIFIED_NONE
+                                : fragmentVerdict(triangle, cell, range, true, kWitnesses);
         if (verdict == CERTIFIED_UNDECIDED) {
             list[atomicAdd(listed, 1u)] = uint(i);
         }
@@ -51,6 +60,65 @@ bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 bric
 uint groupsFrom(uvec4 entry, uint brick, uint count) {
     const uint blocks = ((count - 1) / VOXTACT_COMPUTE_GROUP - brick / VOXTACT_COMPUTE_GROUP) / entry.w + 1;
     return groupsOfBricks(min(blocks * VOXTACT_COMPUTE_GROUP - brick % VOXTACT_COMPUTE_GROUP, count - brick));
+}
+
+/// A box of all bricks of a box from one number to another.
+CellBox bricksFrom(CellBox box, int first, int last) {
+    CellBox found = CellBox(placeIn(box, first), placeIn(box, last));
+    if (any(notEqual(found.lo.yz, found.hi.yz))) {
+        found.lo.x = box.lo.x;
+        found.hi.x = box.hi.x;
+    }
+    if (found.lo.z != found.hi.z) {
+        found.lo.y = box.lo.y;
+        found.hi.y = box.hi.y;
+    }
+    return found;
+}
+
+/// Whether the triangle certainly passes through none of a box of bricks.
+bool missesAll(CertifiedTriangle triangle, CellBox bricks) {
+    const vec3 centre = 0.5 * (brickCentre(bricks.lo) + brickCentre(bricks.hi));
+    const vec3 size = vec3(bricks.hi - bricks.lo + 1) * float(kBrickSide / 2);
+    const VoxelPoint at = voxelPoint(centre.x, centre.y, centre.z);
+    const VoxelPoint radius = voxelPoint(size.x, size.y, size.z);
+    return certifiedPlaneMissesBox(triangle, at, radius) || certifiedEdgesMissBox(triangle, at, radius);
+}
+
+/// Of a block of bricks, those that may touch. False where one has no room: it is left, with what is behind it.
+bool putBlock(uvec4 entry, CertifiedTriangle triangle, CellBox cells, int block) {
+    const uint lane = gl_LocalInvocationIndex;
+    const CellBox box = bricksOf(cells);
+    const int count = volumeOf(box);
+    if (lane < VOXTACT_COMPUTE_GROUP / 32) {
+        bricksKept[lane] = 0;
+    }
+    barrier();
+    const int own = block + int(lane);
+    countWork(VOXTACT_WORK_BRICKS, own < count ? 1 : 0);
+    if (own < count) {
+        const ivec3 brick = placeIn(box, own);
+        if (brickMayBeOpaque(brickAt(brick)) &&
+            !(count > 1 && misses(triangle, brickCentre(brick), float(kBrickSide / 2)))) {
+            atomicOr(bricksKept[lane >> 5], 1u << (lane & 31));
+        }
+    }
+    barrier();
+    bool fits = true;
+    for (int word = 0; word < VOXTACT_COMPUTE_GROUP / 32; ++word) {
+        uint left = bricksKept[word];
+        while (fits && left != 0) {
+            const int brick = block + 32 * word + findLSB(left);
+            left &= left - 1;
+            fits = putBrick(entry, triangle, cells, placeIn(box, brick));
+            if (!fits && lane == 0) {
+                leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, uint(brick),
+                      groupsFrom(entry, uint(brick), uint(count)));
+            }
+        }
+    }
+    barrier();
+    return fits;
 }
 
 void main() {
@@ -76,34 +144,25 @@ void main() {
         certainOfGroup = 0;
     }
     bool fits = true;
-    for (int block = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && block < count;
-         block += int(entry.w) * VOXTACT_COMPUTE_GROUP) {
+    const int step = int(entry.w) * VOXTACT_COMPUTE_GROUP; // from one of the part's blocks to the next
+    for (int first = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && first < count; first += VOXTACT_COMPUTE_GROUP * step) {
+        // A look at all bricks of a block, first, and of as many blocks as there are lanes.
         if (lane < VOXTACT_COMPUTE_GROUP / 32) {
-            bricksKept[lane] = 0;
+            blocksKept[lane] = 0;
         }
         barrier();
-        const int own = block + int(lane);
-        countWork(VOXTACT_WORK_BRICKS, own < count ? 1 : 0);
-        if (own < count) {
-            const ivec3 brick = placeIn(box, own);
-            const vec3 centre = brickCentre(brick);
-            if (brickMayBeOpaque(brickAt(brick)) &&
-                !(count > 1 &&
-                  certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), float(kBrickSide / 2)))) {
-                atomicOr(bricksKept[lane >> 5], 1u << (lane & 31));
-            }
+        const int own = first + int(lane) * step;
+        if (own < count && !(count > VOXTACT_COMPUTE_GROUP &&
+                             missesAll(triangle, bricksFrom(box, own, min(own + VOXTACT_COMPUTE_GROUP, count) - 1)))) {
+            atomicOr(blocksKept[lane >> 5], 1u << (lane & 31));
         }
         barrier();
         for (int word = 0; word < VOXTACT_COMPUTE_GROUP / 32; ++word) {
-            uint left = bricksKept[word];
+            uint left = blocksKept[word];
             while (fits && left != 0) {
-                const int brick = block + 32 * word + findLSB(left);
+                const int block = first + (32 * word + findLSB(left)) * step;
                 left &= left - 1;
-                fits = putBrick(entry, triangle, cells, placeIn(box, brick));
-                if (!fits && lane == 0) {
-                    leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, uint(brick),
-                          groupsFrom(entry, uint(brick), uint(count)));
-                }
+                fits = putBlock(entry, triangle, cells, block);
             }
         }
         barrier();

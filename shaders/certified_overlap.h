@@ -30,9 +30,7 @@ EXACT bool certifiedOverlapMayBeAsked(CertifiedTriangle triangle) {
 /// How much farther out than 1/2, as a part of an axis' length, a triangle's shadow on it begins: the shadow is from
 /// the least to the greatest of three places, `size` is the sum of the axis' components.
 EXACT float certifiedShadowGap(float a, float b, float c, float size) {
-    const float least = certifiedMin(a, certifiedMin(b, c));
-    const float greatest = certifiedMax(a, certifiedMax(b, c));
-    return certifiedMax(least, -greatest) - 0.5f * size;
+    return certifiedShadowBegins(a, b, c) - 0.5f * size;
 }
 
 /// Takes one axis into account: a gap beyond the margin separates, and one within it leaves open what cutting leaves.

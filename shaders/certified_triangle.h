@@ -267,6 +267,58 @@ EXACT bool certifiedPlaneMisses(CertifiedTriangle triangle, VoxelPoint centre, f
     return certifiedAbs(distance) > most;
 }
 
+/// The same of a box, whose sides' halves are `radius`.
+EXACT bool certifiedPlaneMissesBox(CertifiedTriangle triangle, VoxelPoint centre, VoxelPoint radius) {
+    const VoxelPoint normal = triangle.normal;
+    const float distance = voxelDot(voxelDifference(centre, triangle.corner0), normal);
+    const float extent = (radius.x + triangle.delta) * certifiedAbs(normal.x) +
+                         (radius.y + triangle.delta) * certifiedAbs(normal.y) +
+                         (radius.z + triangle.delta) * certifiedAbs(normal.z);
+    const float far = triangle.reach + 2.0f * voxelLength(radius);
+    return certifiedAbs(distance) > extent + triangle.reach * triangle.reach * far * CERTIFIED_CLIP_ERROR;
+}
+
+/// From 0 to where the shadow of three places on an axis begins; negative where 0 is in it.
+EXACT float certifiedShadowBegins(float a, float b, float c) {
+    const float least = certifiedMin(a, certifiedMin(b, c));
+    const float greatest = certifiedMax(a, certifiedMax(b, c));
+    return certifiedMax(least, -greatest);
+}
+
+/// Whether one of the three axes at right angles to an edge, and to one of the box's, separates a triangle, whose
+/// corners are relative to a box's centre, from the box.
+EXACT bool certifiedEdgeMisses(VoxelPoint edge, VoxelPoint a, VoxelPoint b, VoxelPoint c, VoxelPoint radius) {
+    const float x = certifiedAbs(edge.x);
+    const float y = certifiedAbs(edge.y);
+    const float z = certifiedAbs(edge.z);
+    return certifiedShadowBegins(edge.z * a.y - edge.y * a.z, edge.z * b.y - edge.y * b.z,
+                                 edge.z * c.y - edge.y * c.z) > radius.y * z + radius.z * y ||
+           certifiedShadowBegins(edge.x * a.z - edge.z * a.x, edge.x * b.z - edge.z * b.x,
+                                 edge.x * c.z - edge.z * c.x) > radius.z * x + radius.x * z ||
+           certifiedShadowBegins(edge.y * a.x - edge.x * a.y, edge.y * b.x - edge.x * b.y,
+                                 edge.y * c.x - edge.x * c.y) > radius.x * y + radius.y * x;
+}
+
+/// Whether such an axis certainly separates the triangle, and pieces of it that are displaced by its delta, from a box,
+/// as certifiedPlaneMissesBox() has it. For large triangles, which may be thin: their box, and their plane, meet far
+/// more. Whatever direction an axis has, what it separates is apart; so only the places on it are to be known. Each is
+/// off by less than 2^-21 of the farthest corner's distance, times the sum of the axis' components.
+EXACT bool certifiedEdgesMissBox(CertifiedTriangle triangle, VoxelPoint centre, VoxelPoint radius) {
+    const VoxelPoint a = voxelDifference(triangle.corner0, centre);
+    const VoxelPoint b = voxelDifference(triangle.corner1, centre);
+    const VoxelPoint c = voxelDifference(triangle.corner2, centre);
+    const float farthest = certifiedMax(voxelLength(a), certifiedMax(voxelLength(b), voxelLength(c)));
+    const float more = triangle.delta + (farthest + triangle.reach) * CERTIFIED_CLIP_ERROR;
+    const VoxelPoint margin = voxelPoint(radius.x + more, radius.y + more, radius.z + more);
+    return certifiedEdgeMisses(voxelDifference(b, a), a, b, c, margin) ||
+           certifiedEdgeMisses(voxelDifference(c, b), a, b, c, margin) ||
+           certifiedEdgeMisses(voxelDifference(a, c), a, b, c, margin);
+}
+
+EXACT bool certifiedEdgesMiss(CertifiedTriangle triangle, VoxelPoint centre, float radius) {
+    return certifiedEdgesMissBox(triangle, centre, voxelPoint(radius, radius, radius));
+}
+
 #include "exact_language.h"
 
 #ifdef __cplusplus

@@ -258,8 +258,8 @@ VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certifi
 
 /// Of an answer of a detector with vxt_detector_desc::clearance_tolerance, in the order of the batch, with closest
 /// points where that had vxt_detector_desc::closest, and with those to labels where that had
-/// vxt_detector_desc::label_clearances; NOT_READY of any other. The time that `clearances` then have is that of the
-/// answer.
+/// vxt_detector_desc::label_clearances; NOT_READY of any other that has pairs. The time that `clearances` then have is
+/// that of the answer.
 VXT_CHECKED vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances);
 
 /// Of an answer of a detector with vxt_detector_desc::motion_resolution, in the order of the batch; none of any other.

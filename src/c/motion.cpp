@@ -118,7 +118,8 @@ vxt_result vxt_pose_between(const double from[16], const double to[16], double p
                             vxt_interpolation interpolation, const double centre[3], double world_from_object[16]) {
     return call([&] {
         const Interpolation how = number<Interpolation>(interpolation);
-        const Vec3 middle = centre == nullptr && how == Interpolation::Screw ? Vec3{} : toVec3(centre, "centre");
+        const bool wantsCentre = how == Interpolation::Slerp;
+        const Vec3 middle = centre == nullptr && !wantsCentre ? Vec3{} : toVec3(centre, "centre");
         writeMat4(world_from_object, take(poseBetween(toMat4(from, "from"), toMat4(to, "to"), parameter, how, middle)),
                   "world_from_object");
     });

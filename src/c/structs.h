@@ -35,6 +35,11 @@ template <class T> T readStruct(const void* given, const T& defaults, const char
             refuse(ErrorCode::Unsupported, std::string(what) + ": reserved is not 0");
         }
     }
+    if constexpr (requires { copy.reserved_too; }) {
+        if (copy.reserved_too != 0) {
+            refuse(ErrorCode::Unsupported, std::string(what) + ": reserved_too is not 0");
+        }
+    }
     return copy;
 }
 

@@ -2,6 +2,8 @@
 #include "cpu/thread_pool.h"
 
 #include <algorithm>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace voxtact::cpu {
@@ -11,6 +13,11 @@ ThreadPool::ThreadPool(std::uint32_t threads) {
         for (std::uint32_t thread = 1; thread < threads; ++thread) {
             workers_.emplace_back([this, thread] { work(thread); });
         }
+    } catch (const std::system_error& error) {
+        stop();
+        throw std::system_error(error.code(), "thread " + std::to_string(workers_.size() + 2) + " of " +
+                                                  std::to_string(threads) +
+                                                  " cannot be started (ask for fewer: threads, --threads)");
     } catch (...) {
         stop();
         throw;

@@ -56,36 +56,48 @@ void cmdReadBack(const ContextImpl& context, VkCommandBuffer commandBuffer, cons
             VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
-/// A picture in one piece, or in bands that take about a fifth of a second each: the first is short, and each of the
-/// next has as many rows as the pace of the one before asks for.
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begun) {
+    return std::max(std::chrono::duration<double>(Clock::now() - begun).count(), 1e-6);
+}
+
+/// A picture in one piece, or in bands that take about a fifth of a second each. A row in the middle is rendered before
+/// them: it is among those that take longest, while the first rows may have nothing in them. Each band has as many rows
+/// as the slower pace of that and of the band before asks for.
 class Bands {
   public:
-    Bands(VkExtent2D extent, bool several)
-        : height_(extent.height), last_(several ? std::min(extent.height, kFirstRows) : extent.height) {}
+    /// In one piece.
+    explicit Bands(VkExtent2D extent) : height_(extent.height), last_(extent.height) {}
+    /// `secondsOfRow`: what a row in the middle took.
+    Bands(VkExtent2D extent, double secondsOfRow) : height_(extent.height), secondsOfRow_(secondsOfRow) {
+        last_ = std::min(height_, rowsFor(secondsOfRow, kMostTimes));
+    }
 
     [[nodiscard]] std::uint32_t first() const noexcept { return first_; }
     [[nodiscard]] std::uint32_t last() const noexcept { return last_; }
     /// After a band is done. False: it was the last.
     [[nodiscard]] bool next() {
-        constexpr double kSeconds = 0.2;
-        constexpr std::uint32_t kMostTimes = 8; // as many rows as before
-        const auto now = Clock::now();
-        const double took = std::max(std::chrono::duration<double>(now - begun_).count(), 1e-6);
-        begun_ = now;
         const std::uint32_t rows = last_ - first_;
-        const double wanted = std::clamp(rows * kSeconds / took, 1.0, static_cast<double>(kMostTimes) * rows);
+        const double pace = std::max(secondsOfRow_, secondsSince(begun_) / rows);
+        begun_ = Clock::now();
         first_ = last_;
-        last_ = height_ - first_ > wanted ? first_ + static_cast<std::uint32_t>(wanted) : height_;
+        last_ = first_ + std::min(height_ - first_, rowsFor(pace, kMostTimes * rows));
         return first_ < height_;
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
-    static constexpr std::uint32_t kFirstRows = 32;
+    static constexpr std::uint32_t kMostTimes = 8; // as many rows as before
+
+    [[nodiscard]] static std::uint32_t rowsFor(double secondsOfRow, std::uint32_t most) {
+        constexpr double kSeconds = 0.2;
+        return static_cast<std::uint32_t>(std::clamp(kSeconds / secondsOfRow, 1.0, static_cast<double>(most)));
+    }
 
     std::uint32_t height_;
     std::uint32_t first_ = 0;
-    std::uint32_t last_;
+    std::uint32_t last_ = 0;
+    double secondsOfRow_ = 0;
     Clock::time_point begun_ = Clock::now();
 };
 
@@ -98,19 +110,23 @@ struct BlockingRenderer::State {
     Submitter submitter;
 
     /// A band of rows: from the first on, before the last.
-    Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last);
-    /// A submission.
-    Result<void> renderBand(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last);
+    Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last,
+                        bool anew);
+    /// A submission. A band from the first row on, or `anew`, discards what was rendered before it.
+    Result<void> renderBand(const Scene& scene, VkExtent2D extent, std::uint32_t first, std::uint32_t last,
+                            bool anew = false);
+    /// How many seconds a row in the middle takes; of no use in the picture.
+    Result<double> pace(const Scene& scene, VkExtent2D extent);
     Result<void> prepare(VkExtent2D extent);
     Result<Picture> read();
 };
 
 Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first,
-                                             std::uint32_t last) {
+                                             std::uint32_t last, bool anew) {
     const VkExtent2D extent = frame->targets.extent();
     constexpr ImageUse kWritten{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    if (first == 0) {
+    if (anew) {
         barrier(context, commandBuffer, frame->image.image.get(),
                 {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kWritten);
     } else {
@@ -128,10 +144,25 @@ Result<void> BlockingRenderer::State::record(VkCommandBuffer commandBuffer, cons
     return {};
 }
 
-Result<void> BlockingRenderer::State::renderBand(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first,
-                                                 std::uint32_t last) {
-    VOXTACT_TRY(record(commandBuffer, scene, first, last));
+Result<void> BlockingRenderer::State::renderBand(const Scene& scene, VkExtent2D extent, std::uint32_t first,
+                                                 std::uint32_t last, bool anew) {
+    // First of all: a submission whose wait failed may still be using the frame.
+    const Result<VkCommandBuffer> commandBuffer = submitter.begin();
+    VOXTACT_TRY(commandBuffer);
+    VOXTACT_TRY(prepare(extent));
+    VOXTACT_TRY(record(*commandBuffer, scene, first, last, anew || first == 0));
     return submitter.submitAndWait();
+}
+
+Result<double> BlockingRenderer::State::pace(const Scene& scene, VkExtent2D extent) {
+    const std::uint32_t middle = extent.height / 2;
+    double seconds = 0;
+    for (int turn = 0; turn < 2; ++turn) { // in the first one the driver compiles
+        const auto begun = Clock::now();
+        VOXTACT_TRY(renderBand(scene, extent, middle, middle + 1, true));
+        seconds = secondsSince(begun);
+    }
+    return seconds;
 }
 
 Result<void> BlockingRenderer::State::prepare(VkExtent2D extent) {
@@ -178,13 +209,14 @@ Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent) 
 Result<Picture> BlockingRenderer::render(const Scene& scene, VkExtent2D extent, const Progress& progress) {
     return guard([&]() -> Result<Picture> {
         State& state = live(state_);
-        Bands bands(extent, progress != nullptr);
+        Bands bands(extent);
+        if (progress && extent.height > 1) {
+            const Result<double> ofRow = state.pace(scene, extent);
+            VOXTACT_TRY(ofRow);
+            bands = Bands(extent, *ofRow);
+        }
         do {
-            // First of all: a submission whose wait failed may still be using the frame.
-            const Result<VkCommandBuffer> commandBuffer = state.submitter.begin();
-            VOXTACT_TRY(commandBuffer);
-            VOXTACT_TRY(state.prepare(extent));
-            VOXTACT_TRY(state.renderBand(*commandBuffer, scene, bands.first(), bands.last()));
+            VOXTACT_TRY(state.renderBand(scene, extent, bands.first(), bands.last()));
             if (progress && !progress(bands.last(), extent.height)) {
                 return Error{ErrorCode::Cancelled, 0, "the picture was cancelled"};
             }

@@ -288,6 +288,12 @@ TEST(CNear, APoseOnTheWayIsTheCppInterfaces) {
     EXPECT_EQ(refused(from.data(), to.data(), 0, nullptr, pose.data()), "centre is null");
     EXPECT_EQ(refused(from.data(), to.data(), 0, centre.data(), nullptr), "world_from_object is null");
     EXPECT_EQ(refused(from.data(), to.data(), 2, centre.data(), pose.data()), "the parameter 2 is outside of 0 to 1");
+    for (const int none : {-1, 2, 77}) {
+        EXPECT_EQ(
+            vxt_pose_between(from.data(), to.data(), 0.3, static_cast<vxt_interpolation>(none), nullptr, pose.data()),
+            VXT_ERROR_INVALID_ARGUMENT);
+        EXPECT_STREQ(vxt_last_error(nullptr), "the interpolation is none of the enumeration's");
+    }
     EXPECT_STREQ(vxt_interpolation_name(VXT_INTERPOLATION_SLERP), "slerp");
 }
 

@@ -2,6 +2,8 @@
 // What --count auto measures, and where it is kept.
 #include "cli_fixture.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -114,6 +116,15 @@ TEST_F(CacheTest, DamagedAndForeignFilesAreReplaced) {
     }
     EXPECT_EQ(runOwn().err, "");
     EXPECT_EQ(filesOf(folder(), "").size(), 1U + filesOf(folder(), "pipelines-").size()) << "nothing is left over";
+}
+
+TEST_F(CacheTest, APipeInTheirPlaceIsNotWaitedFor) {
+    methodOf(runOwn());
+    const fs::path file = speeds();
+    fs::remove(file);
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    EXPECT_FALSE(methodOf(runOwn()).empty());
+    EXPECT_TRUE(fs::is_fifo(file));
 }
 
 TEST_F(CacheTest, PipelinesOfOthersAreNotUsed) {

@@ -243,6 +243,10 @@ TEST_F(ChunksTest, ItCountsWhatIsThereAndWaitsForNoPipe) {
                                HasSubstr("; " + std::to_string(all - 1) + " chunks in ")));
     fs::remove(pipe);
     EXPECT_EQ(run(chunked()).out, plain);
+    const fs::path manifest = pipe.parent_path() / "voxtact-run.json";
+    fs::remove(manifest);
+    ASSERT_EQ(::mkfifo(manifest.c_str(), 0600), 0);
+    EXPECT_THAT(run(chunked()).err, HasSubstr("voxtact-run.json' is damaged"));
 }
 
 TEST_F(ChunksTest, InterruptedItSaysWhatIsThere) {

@@ -187,9 +187,12 @@ Result<void> place(const fs::path& folder, const RunManifest& manifest) {
 }
 
 Result<RunManifest> readManifest(const fs::path& folder) {
-    std::ifstream file(folder / kManifestName, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    std::optional<RunManifest> manifest = manifestOf(text);
+    std::error_code problem;
+    std::optional<RunManifest> manifest;
+    if (fs::is_regular_file(folder / kManifestName, problem)) { // a pipe would wait for who writes it
+        std::ifstream file(folder / kManifestName, std::ios::binary);
+        manifest = manifestOf({std::istreambuf_iterator<char>(file), {}});
+    }
     if (!manifest) {
         return Error{ErrorCode::Format, 0,
                      "'" + (folder / kManifestName).string() +

@@ -100,7 +100,7 @@ Result<void> PoseSource::next(std::size_t most, std::vector<Mat4>& poses) {
         return fileFault(read.error());
     }
     given_ += poses.size();
-    if (count_ && (given_ > *count_ || (poses.empty() && most > 0 && given_ < *count_))) {
+    if (count_ && (given_ > *count_ || (poses.size() < most && given_ < *count_))) {
         return Error{ErrorCode::File, 0, "cannot read '" + path_.string() + "': it changed while it was read"};
     }
     return {};

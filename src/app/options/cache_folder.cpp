@@ -87,6 +87,9 @@ bool CacheFolder::write(const std::string& name, std::string_view content) const
     }
     std::error_code error;
     fs::create_directories(path_, error);
+    if (fs::exists(path_ / name, error) && !fs::is_regular_file(path_ / name, error)) {
+        return false; // a pipe would wait for who reads it
+    }
     const Result<void> written = io::writeFile(path_ / name, [&](std::ostream& out) -> Result<void> {
         out << headOf(content) << content;
         return {};

@@ -207,12 +207,20 @@ double RigidMotion::magnitude(const Box& box) const {
     return most + glm::length(along_) + glm::length(across_);
 }
 
+Result<void> checkInterpolation(Interpolation interpolation) {
+    if (interpolation != Interpolation::Screw && interpolation != Interpolation::Slerp) {
+        return refuse("the interpolation is none of the enumeration's");
+    }
+    return {};
+}
+
 Result<Mat4> poseBetween(const Mat4& from, const Mat4& to, double parameter, Interpolation interpolation,
                          const Vec3& centre) {
     return guard([&]() -> Result<Mat4> {
         if (!(parameter >= 0 && parameter <= 1)) {
             return refuse("the parameter " + number(parameter) + " is outside of 0 to 1");
         }
+        VOXTACT_TRY(checkInterpolation(interpolation));
         const Result<RigidMotion> motion = RigidMotion::between(from, to, interpolation, centre, "the two poses");
         VOXTACT_TRY(motion);
         return motion->at(parameter);

@@ -4,6 +4,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/geometry/rigid_motion.h"
 #include "core/geometry/vec3.h"
 #include "core/geometry/wide_matrix.h"
 #include "core/transfer/table_extremes.h"
@@ -275,10 +276,7 @@ Result<void> checkMotion(const MotionSearch& search) {
         return refuse("the resolution " + number(search.resolution) + " mm is not a number from " +
                       number(kLeastResolution) + " mm on");
     }
-    if (search.interpolation != Interpolation::Screw && search.interpolation != Interpolation::Slerp) {
-        return refuse("the interpolation is none of the enumeration's");
-    }
-    return {};
+    return checkInterpolation(search.interpolation);
 }
 
 Result<void> checkTolerance(double tolerance) {

@@ -219,9 +219,16 @@ template <class Kept, class Mode> class Decider {
         if constexpr (Mode::kCounts) {
             cubes_.begin(triangle);
         }
-        visitBricks(bricks, [&](const std::array<std::int32_t, 3>& brick) {
-            decideBrick(Rounded{*this, triangle}, cells, brick, several);
-        });
+        const bool large = bricks.volume() >= BrickRows::kLeastBricks;
+        const auto decide = [&](const std::array<std::int32_t, 3>& brick) {
+            decideBrick(Rounded{*this, triangle, large}, cells, brick, several);
+        };
+        if (large) {
+            cells_.forBricks(
+                BrickRows(triangle, bricks), bricks, [this] { return !done(); }, decide);
+        } else {
+            visitBricks(bricks, decide);
+        }
     }
 
     /// Those that may have an opaque point, until it is done.
@@ -234,13 +241,15 @@ template <class Kept, class Mode> class Decider {
     struct Rounded {
         Decider& decider;
         const CertifiedTriangle& triangle;
+        bool large;
 
         /// Null: rows are not counted.
         [[nodiscard]] const CertifiedTriangle* counted() const {
             return Mode::kCounts && TriangleCells::mayBeAsked(triangle) ? &triangle : nullptr;
         }
-        [[nodiscard]] bool planeMisses(const VoxelPoint& centre, float radius) const {
-            return shader::certifiedPlaneMisses(triangle, centre, radius);
+        [[nodiscard]] bool misses(const VoxelPoint& centre, float radius) const {
+            return shader::certifiedPlaneMisses(triangle, centre, radius) ||
+                   (large && shader::certifiedEdgesMiss(triangle, centre, radius));
         }
         void decideCell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) const {
             decider.decideCell(triangle, x, y, z, known, !decider.job_.stopAtFirst);
@@ -253,7 +262,7 @@ template <class Kept, class Mode> class Decider {
         shader::PrecisePlane plane;
 
         [[nodiscard]] static const CertifiedTriangle* counted() { return nullptr; }
-        [[nodiscard]] bool planeMisses(const VoxelPoint& centre, float radius) const {
+        [[nodiscard]] bool misses(const VoxelPoint& centre, float radius) const {
             return shader::precisePlaneMisses(plane, centre, radius);
         }
         void decideCell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) const {
@@ -348,7 +357,7 @@ template <class Kept, class Mode> class Decider {
             const VoxelPoint centre{static_cast<float>((brick[0] << kBrickShift) - 1) + kRadius,
                                     static_cast<float>((brick[1] << kBrickShift) - 1) + kRadius,
                                     static_cast<float>((brick[2] << kBrickShift) - 1) + kRadius};
-            if (triangle.planeMisses(centre, kRadius)) {
+            if (triangle.misses(centre, kRadius)) {
                 return;
             }
         }
@@ -377,7 +386,7 @@ template <class Kept, class Mode> class Decider {
                 for (unsigned row = known.row(within, y, z); row != 0; row &= row - 1) {
                     const std::int32_t x = std::countr_zero(row);
                     const VoxelPoint centre = middleOf(cell(x, 0), cell(y, 1), cell(z, 2));
-                    if (single || !triangle.planeMisses(centre, 0.5F)) {
+                    if (single || !triangle.misses(centre, 0.5F)) {
                         triangle.decideCell(cell(x, 0), cell(y, 1), cell(z, 2), known);
                         if (done()) {
                             return;

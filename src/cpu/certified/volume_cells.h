@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cpu/certified/brick_rows.h"
 #include "cpu/certified/certified_pair.h"
 #include "cpu/scene/stored_voxels.h"
 
@@ -33,11 +34,18 @@ template <class Kept> class VolumeCells {
     void forBricks(const BrickBox& bricks, const GoesOn& goesOn, const Visit& visit) const {
         for (std::int32_t z = bricks.lo[2]; z <= bricks.hi[2]; ++z) {
             for (std::int32_t y = bricks.lo[1]; y <= bricks.hi[1]; ++y) {
-                for (std::int32_t x = bricks.lo[0]; x <= bricks.hi[0] && goesOn(); ++x) {
-                    if (occupancy_.mayBeOpaque(occupancy_.brickNumber({x, y, z}))) {
-                        visit(Place{x, y, z});
-                    }
-                }
+                forRow({bricks.lo[0], bricks.hi[0]}, y, z, goesOn, visit);
+            }
+        }
+    }
+    /// The same of those that a large triangle may pass through, in the same order.
+    template <class GoesOn, class Visit>
+    void forBricks(const BrickRows& bricks, const BrickBox& box, const GoesOn& goesOn, const Visit& visit) const {
+        for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
+            const BrickRows::Piece layer = bricks.layer(z);
+            const BrickRows::Span rows = bricks.rows(layer);
+            for (std::int32_t y = rows.first; y <= rows.last && goesOn(); ++y) {
+                forRow(bricks.row(layer, y), y, z, goesOn, visit);
             }
         }
     }
@@ -82,6 +90,16 @@ template <class Kept> class VolumeCells {
     [[nodiscard]] bool vertexProves(const shader::VoxelPoint& vertex, float delta, shader::CertifiedProof* proof) const;
 
   private:
+    template <class GoesOn, class Visit>
+    void forRow(const BrickRows::Span& row, std::int32_t y, std::int32_t z, const GoesOn& goesOn,
+                const Visit& visit) const {
+        for (std::int32_t x = row.first; x <= row.last && goesOn(); ++x) {
+            if (occupancy_.mayBeOpaque(occupancy_.brickNumber({x, y, z}))) {
+                visit(Place{x, y, z});
+            }
+        }
+    }
+
     const VolumeImpl& volume_;
     const CertifiedOccupancy& occupancy_;
     const Kept* voxels_;

@@ -39,7 +39,9 @@ Result<void> checkMotionBatch(const Batch& batch) {
 }
 
 /// Of all segments, in order.
-Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation interpolation) {
+Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation interpolation,
+                                           const Cancellation& cancel) {
+    constexpr std::size_t kBetween = 1024; // looks at the cancellation
     std::vector<RigidMotion> motions;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const BatchItem& item = batch.items[i];
@@ -48,6 +50,9 @@ Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation int
                 RigidMotion::between(item.world_from_object, pose, interpolation, item.mesh->facts().bounds, i);
             VOXTACT_TRY(motion);
             motions.push_back(*motion);
+            if (motions.size() % kBetween == 0) {
+                VOXTACT_TRY(checkNotCancelled(cancel));
+            }
         }
     }
     return motions;
@@ -99,10 +104,10 @@ Result<void> checkShapes(const Batch& batch, std::span<const ShapesOfPoses> shap
 /// Looks at all segments of a batch. `shapes` may be empty: nothing bends.
 Result<MotionAnswer> checkSegments(MotionCheckerImpl& impl, const Batch& batch, std::span<const ShapesOfPoses> shapes) {
     const StopWatch watch;
-    const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl.desc.interpolation);
-    VOXTACT_TRY(motions);
     const Cancellation cancel(batch.cancel);
     VOXTACT_TRY(checkNotCancelled(cancel));
+    const Result<std::vector<RigidMotion>> motions = motionsOf(batch, impl.desc.interpolation, cancel);
+    VOXTACT_TRY(motions);
     const Parts parts = impl.workers.partsOf(batch, impl.desc.touchResolution);
     MotionAnswer answer;
     answer.segments = numberedSegments(batch);

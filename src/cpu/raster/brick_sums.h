@@ -12,6 +12,15 @@ namespace voxtact::cpu {
 struct BrickBox {
     std::array<std::int32_t, 3> lo{};
     std::array<std::int32_t, 3> hi{};
+
+    /// How many they are; of a box that is not empty.
+    [[nodiscard]] std::int64_t volume() const noexcept {
+        std::int64_t count = 1;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            count *= std::int64_t{hi[axis]} - lo[axis] + 1;
+        }
+        return count;
+    }
 };
 
 /// The sum over any box of bricks in eight look-ups: a summed-area table (Crow, "Summed-area tables for texture

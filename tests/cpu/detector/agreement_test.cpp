@@ -38,7 +38,7 @@ std::vector<std::uint64_t> engineCounts(const RandomScene& scene, std::uint32_t 
     return out;
 }
 
-struct Tally {
+struct PixelTally {
     std::size_t cases = 0;
     std::size_t hits = 0;
     std::uint64_t covered = 0;
@@ -56,7 +56,7 @@ struct Tally {
 
 TEST(Agreement, RandomScenes) {
     std::mt19937_64 random(testSeed());
-    Tally tally;
+    PixelTally tally;
     for (std::size_t round = 0; round < randomCases(1500, 4); ++round) {
         const std::uint64_t seed = random();
         std::mt19937_64 local(seed);

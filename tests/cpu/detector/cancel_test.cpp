@@ -232,6 +232,24 @@ TEST(CancelBefore, ACallThatWouldHaveNothingToLookAtIsCancelledToo) {
     EXPECT_TRUE(isCancelled(checker.around(nothing, {1, 1})));
 }
 
+/// Before it looks at any two poses, of which these are no motion.
+TEST(CancelBefore, MotionsAreNotPrepared) {
+    const std::atomic<bool> cancel{true};
+    const cpu::Volume volume = take(cpu::Volume::create(speckles().view()));
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const cpu::TransferFunction function = take(cpu::TransferFunction::create({points, {0, 255}}));
+    MeshData triangle;
+    addTriangle(triangle, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    const cpu::Mesh mesh = take(cpu::Mesh::create(triangle.view()));
+    Mat4 larger = identity();
+    larger[0] = 2;
+    const std::array poses{identity(), larger};
+    const cpu::BatchItem item{&mesh, &volume, &function, poses};
+    cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
+    EXPECT_EQ(checker.check({{&item, 1}, {}, 0.5}).error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(checker.check({{&item, 1}, {}, 0.5, &cancel}).error().code, ErrorCode::Cancelled);
+}
+
 TEST(CancelNot, AFlagThatStaysFalseChangesNothingAndNeitherDoesACancelledCallBefore) {
     const cpu::Volume volume = take(cpu::Volume::create(speckles().view()));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}, 256}));
