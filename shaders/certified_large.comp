@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The projection `conservative`, the cells of large triangles: a work group has a part of one, blocks of as many bricks
-// as it has lanes. The lanes share the bricks, and then the cells of each brick that may touch.
+// as it has lanes. The lanes share the blocks, then the bricks of each block that may touch, and then their cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
@@ -62,26 +62,10 @@ uint groupsFrom(uvec4 entry, uint brick, uint count) {
     return groupsOfBricks(min(blocks * VOXTACT_COMPUTE_GROUP - brick % VOXTACT_COMPUTE_GROUP, count - brick));
 }
 
-/// A box of all bricks of a box from one number to another.
-CellBox bricksFrom(CellBox box, int first, int last) {
-    CellBox found = CellBox(placeIn(box, first), placeIn(box, last));
-    if (any(notEqual(found.lo.yz, found.hi.yz))) {
-        found.lo.x = box.lo.x;
-        found.hi.x = box.hi.x;
-    }
-    if (found.lo.z != found.hi.z) {
-        found.lo.y = box.lo.y;
-        found.hi.y = box.hi.y;
-    }
-    return found;
-}
-
 /// Whether the triangle certainly passes through none of a box of bricks.
-bool missesAll(CertifiedTriangle triangle, CellBox bricks) {
-    const vec3 centre = 0.5 * (brickCentre(bricks.lo) + brickCentre(bricks.hi));
-    const vec3 size = vec3(bricks.hi - bricks.lo + 1) * float(kBrickSide / 2);
-    const VoxelPoint at = voxelPoint(centre.x, centre.y, centre.z);
-    const VoxelPoint radius = voxelPoint(size.x, size.y, size.z);
+bool missesBricks(CertifiedTriangle triangle, CellBox bricks) {
+    const VoxelPoint at = middleOf(bricks);
+    const VoxelPoint radius = radiusOf(bricks);
     return certifiedPlaneMissesBox(triangle, at, radius) || certifiedEdgesMissBox(triangle, at, radius);
 }
 
@@ -145,7 +129,8 @@ void main() {
     }
     bool fits = true;
     const int step = int(entry.w) * VOXTACT_COMPUTE_GROUP; // from one of the part's blocks to the next
-    for (int first = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && first < count; first += VOXTACT_COMPUTE_GROUP * step) {
+    for (int first = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && first < count;
+         first += VOXTACT_COMPUTE_GROUP * step) {
         // A look at all bricks of a block, first, and of as many blocks as there are lanes.
         if (lane < VOXTACT_COMPUTE_GROUP / 32) {
             blocksKept[lane] = 0;
@@ -153,7 +138,7 @@ void main() {
         barrier();
         const int own = first + int(lane) * step;
         if (own < count && !(count > VOXTACT_COMPUTE_GROUP &&
-                             missesAll(triangle, bricksFrom(box, own, min(own + VOXTACT_COMPUTE_GROUP, count) - 1)))) {
+                             missesBricks(triangle, bricksFrom(box, own, min(own + VOXTACT_COMPUTE_GROUP, count) - 1)))) {
             atomicOr(blocksKept[lane >> 5], 1u << (lane & 31));
         }
         barrier();

@@ -2,8 +2,9 @@
 // The projection `conservative` with a margin, the bricks near triangles: a work group has four runs, a lane each
 // triangle. A run's lanes share the bricks near its box; those that may have something opaque within the margin of it go
 // into the queue of large triangles, one an entry. Where the triangles of a run are far from each other, each looks for
-// bricks of its own. A triangle that is near more than a lane looks at is left to certified_margin_finish. What is put
-// twice does no harm: the answer is yes where one says so.
+// bricks of its own. Of a run with a long triangle, which passes through few of the bricks of its box, the lanes share
+// blocks of bricks, and look at each triangle. A triangle that is near more than a lane looks at is left to
+// certified_margin_finish. What is put twice does no harm: the answer is yes where one says so.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define MARGIN
@@ -16,14 +17,20 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_clearance_bits.glsl"
 #endif
 
-#ifdef CLEARANCE
 /// Bricks that a run looks at, and a triangle by itself.
+#ifdef CLEARANCE
 const int kMostBricks = 32768;
 const int kMostBricksOfTriangle = 2048;
 #else
-/// Bricks that a run or a triangle looks at.
 const int kMostBricks = 512;
+const int kMostBricksOfTriangle = 512;
 #endif
+
+/// Voxels: a triangle with a longer side is long.
+const float kLongSide = 64.0;
+/// Bricks of a block, and those of all blocks that the lanes of a run look at.
+const int kBricksOfBlock = 64;
+const int kMostInBlocks = 65536;
 
 const uint kRefused = 2; // beside that the queue is full
 
@@ -32,6 +39,8 @@ shared uint full;         // the queue is
 // Of the lane's triangle, where the run is to look at it.
 shared CertifiedReach reaches[VOXTACT_COMPUTE_GROUP];
 shared float ownCells[VOXTACT_COMPUTE_GROUP]; // of its box; 0: the run is not to
+shared CertifiedTriangle triangles[VOXTACT_COMPUTE_GROUP];
+shared uint longRuns; // a bit for each run of the work group that has a long triangle
 
 /// Bricks that are too many for a lane; also where their number overflows.
 bool areMoreThan(int most, CellBox bricks) {
@@ -91,6 +100,39 @@ void putBricksOfRun(TriangleLane own, CertifiedReach reach, CellBox near, uint w
     countWork(VOXTACT_WORK_BRICKS, seen);
 }
 
+/// Those of some triangles of the lane's run that something in a box of bricks may be within the margin of.
+uint nearOf(TriangleLane own, uint which, CellBox bricks) {
+    const uint first = gl_LocalInvocationIndex / VOXTACT_RUN_TRIANGLES * VOXTACT_RUN_TRIANGLES;
+    uint found = 0;
+    for (uint left = which; left != 0; left &= left - 1) {
+        const int i = findLSB(left);
+        if (!marginBoxFarther(MARGIN_SPACE(own.pair), triangles[first + i], middleOf(bricks), radiusOf(bricks))) {
+            found |= 1u << i;
+        }
+    }
+    return found;
+}
+
+/// The lane's share of the bricks near a run with a long triangle.
+void putBricksOfLongRun(TriangleLane own, CellBox near, uint which) {
+    const int count = volumeOf(near);
+    const int lane = int(gl_LocalInvocationIndex % VOXTACT_RUN_TRIANGLES);
+    uint seen = 0;
+    for (int block = lane * kBricksOfBlock; block < count; block += VOXTACT_RUN_TRIANGLES * kBricksOfBlock) {
+        const int end = min(block + kBricksOfBlock, count);
+        const uint some = nearOf(own, which, bricksFrom(near, block, end - 1));
+        for (int i = some != 0 ? block : end; i < end; ++i) {
+            const ivec3 brick = placeIn(near, i);
+            const uint here = nodeMay(numberOf(brick)) ? nearOf(own, some, CellBox(brick, brick)) : 0;
+            ++seen;
+            if (here != 0) {
+                putLarge(own.pair, own.run, uint(numberOf(brick)), here);
+            }
+        }
+    }
+    countWork(VOXTACT_WORK_BRICKS, seen);
+}
+
 /// What a run's triangles say together: of those that it is to look at.
 struct Together {
     CertifiedReach reach;
@@ -124,6 +166,7 @@ void main() {
     if (lane == 0) {
         groupsIfLeft = 0;
         full = 0;
+        longRuns = 0;
     }
     ownCells[lane] = 0.0;
     barrier();
@@ -142,29 +185,34 @@ void main() {
             } else if (!bounds.usable) {
                 leaveOpen(own.pair, mayHaveAnything() ? 0.0 : VOXTACT_CLEARANCE_FAR);
 #endif
-            } else if (!bounds.usable || areMoreThan(kMostBricks, bricksOf(cells))) {
+            } else if (!bounds.usable) {
                 putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);
             } else {
                 reaches[lane] = certifiedReach(at.voxel[0], at.voxel[1], at.voxel[2]);
                 ownCells[lane] = cellsIn(cells);
+                triangles[lane] = triangleOf(at, bounds.delta);
+                if (triangles[lane].reach > kLongSide) {
+                    atomicOr(longRuns, 1u << lane / VOXTACT_RUN_TRIANGLES);
+                }
             }
         }
     }
     barrier();
     const Together run = togetherOf(own);
-    if (run.which != 0 && run.near) {
+    const bool isLong = (longRuns >> lane / VOXTACT_RUN_TRIANGLES & 1u) != 0;
+    if (run.which != 0 && isLong && !areMoreThan(kMostInBlocks, bricksOf(run.cells))) {
+        putBricksOfLongRun(own, bricksOf(run.cells), run.which);
+    } else if (run.which != 0 && run.near) {
         putBricksOfRun(own, run.reach, bricksOf(run.cells), run.which);
-#ifdef CLEARANCE
     } else if (ownCells[lane] > 0.0 && areMoreThan(kMostBricksOfTriangle, bricksOf(cellsOf(bounds)))) {
         putLarge(own.pair, own.number, 0, VOXTACT_MARGIN_ALL);
-#endif
     } else if (ownCells[lane] > 0.0) {
-        putBricksOfTriangle(own, triangleOf(at, bounds.delta), bricksOf(cellsOf(bounds)));
+        putBricksOfTriangle(own, triangles[lane], bricksOf(cellsOf(bounds)));
     }
-#ifdef CLEARANCE
     if (isCut()) {
         atomicOr(full, 1u); // a lane has many bricks; what was put is decided twice
     }
+#ifdef CLEARANCE
     barrier();
     if (lane == 0 && full != 0 && !leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft)) {
         atomicOr(full, kRefused);

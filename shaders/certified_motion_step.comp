@@ -226,7 +226,8 @@ void main() {
     listPair(constants.open, pair);
     results[pair].countLow = 0;
     words[constants.closestWord + VOXTACT_CLOSEST_WORDS * pair + VOXTACT_CLOSEST_TAKEN] = 0;
-    // A loop, which is left at once where none is set up: a branch would not be, on a processor. The first pose is.
+    // A loop, which is left at once where none is set up: a branch would not be, on a processor. The first pose has
+    // been set up already.
     [[dont_unroll]] for (uint turn = search.phase == VOXTACT_MOTION_AT_FROM ? 1u : 0u; turn < 1u; ++turn) {
         setUp(pair, at, search);
     }

@@ -205,6 +205,31 @@ vec3 brickCentre(ivec3 brick) {
     return vec3((brick << VOXTACT_BRICK_SHIFT) - 1) + float(kBrickSide / 2);
 }
 
+/// A box that has all bricks of a box from one number to another.
+CellBox bricksFrom(CellBox box, int first, int last) {
+    CellBox found = CellBox(placeIn(box, first), placeIn(box, last));
+    if (any(notEqual(found.lo.yz, found.hi.yz))) {
+        found.lo.x = box.lo.x;
+        found.hi.x = box.hi.x;
+    }
+    if (found.lo.z != found.hi.z) {
+        found.lo.y = box.lo.y;
+        found.hi.y = box.hi.y;
+    }
+    return found;
+}
+
+/// Of a box of bricks, in voxel space: its middle, and half its sides.
+VoxelPoint middleOf(CellBox bricks) {
+    const vec3 middle = 0.5 * (brickCentre(bricks.lo) + brickCentre(bricks.hi));
+    return voxelPoint(middle.x, middle.y, middle.z);
+}
+
+VoxelPoint radiusOf(CellBox bricks) {
+    const vec3 radius = vec3(bricks.hi - bricks.lo + 1) * float(kBrickSide / 2);
+    return voxelPoint(radius.x, radius.y, radius.z);
+}
+
 CellBox within(CellBox cells, ivec3 brick) {
     const ivec3 corner = (brick << VOXTACT_BRICK_SHIFT) - 1;
     return CellBox(max(cells.lo, corner), min(cells.hi, corner + kBrickSide - 1));

@@ -31,7 +31,8 @@
 #define VOXTACT_LABEL_BITS 128
 // From a multiple of 256 bytes on: four words a pair, in the end its ClearanceResult.
 #define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_WORD_LABEL(room) + 4 + 63) / 64 * 64)
-// Behind the clearances, from a multiple of 256 bytes on, what open_pairs.h says. `pairs`: as many as there is room for.
+// Behind the clearances, from a multiple of 256 bytes on, what open_pairs.h says. `pairs`: as many as there is room
+// for.
 #define VOXTACT_WORD_OPEN_PAIRS(room, pairs)                                                                           \
     (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
 // Where closest points are wanted, behind that, from a multiple of 256 bytes on: so many words a pair, in the end its

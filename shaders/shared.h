@@ -77,8 +77,8 @@ struct TallyConstants {
     uint rounds; // whose headers it is to count
 };
 
-/// Of the push constants of a pass between two steps of a search: where it lists the pairs of an item that the next step
-/// looks at (open_pairs.h), in words of the transforms' buffer, and how that step's rounds are cut.
+/// Of the push constants of a pass between two steps of a search: where it lists the pairs of an item that the next
+/// step looks at (open_pairs.h), in words of the transforms' buffer, and how that step's rounds are cut.
 struct OpenPairs {
     uint list;        // the pairs that are listed
     uint set;         // how many these are, and the commands of the step's rounds

@@ -15,7 +15,7 @@
 ///
 /// Every cmdUpload():
 ///   call it             outside a render pass, on a queue with graphics (or with compute and transfer)
-///   expects             nothing; the object's former contents are discarded, and it is as it was created again
+///   expects             nothing; the object's former contents are discarded, and those of create() are there again
 ///   leaves              the object readable by vertex input and by any shader stage, in every later command
 ///   queries             an active occlusion query is not affected
 ///   bound state         none is lost
@@ -177,9 +177,8 @@ class TransferFunction {
     /// old one: record in the order in which the commands will be executed, and record anew whatever was recorded
     /// before this and is to be submitted after it.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer
-    ///   expects             nothing: a table that was not uploaded is filled as well; earlier commands that read it
-    ///   are
-    ///                       waited for
+    ///   expects             nothing: a table that was never uploaded is filled as well. Earlier commands that read it
+    ///                       are waited for
     ///   leaves              the table readable by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         none is lost

@@ -12,6 +12,7 @@
 #include "gpu/submit.h"
 #include "shared.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace voxtact {

@@ -108,6 +108,10 @@ TEST_F(OutputPathsTest, FilesThatAHeaderNames) {
                   "--volume");
     writeText(path("v.hdr"), "header");
     writeText(path("v.img"), "voxels");
+    writeText(path("U.HDR"), "header");
+    writeText(path("U.IMG"), "voxels");
+    expectRefused({"detect", "--volume", path("U.HDR"), "--mesh", path("m.obj"), "--output", path("U.IMG")},
+                  "--volume");
     expectRefused({"detect", "--volume", path("v.hdr"), "--mesh", path("m.obj"), "--output", path("v.img")},
                   "--volume");
     expectRefused({"detect", "--volume", path("v.img"), "--mesh", path("m.obj"), "--output", path("v.hdr")},

@@ -327,6 +327,19 @@ TEST(Volume, LengthsAreMillimetres) {
             EXPECT_EQ(volume.notes.size(), millimetres == 1 ? 0U : 1U);
         }
     }
+    // An axis of another kind, and what is taken where no spacing is said.
+    const VolumeData other =
+        io::readVolume(folder.write("v.nrrd", plainNrrd("spacings: 1 2 3\nunits: \"cm\" \"cm\" \"CM\"\n"))).value();
+    EXPECT_EQ(other.grid.spacing, (Vec3{10, 20, 30}));
+    const VolumeData mixed =
+        io::readVolume(folder.write("v.nrrd", plainNrrd("spacings: 1 2 3\nunits: \"mm\" \"mm\" \"s\"\n"))).value();
+    EXPECT_EQ(mixed.grid.spacing, (Vec3{1, 2, 3}));
+    EXPECT_THAT(mixed.notes, Contains(HasSubstr("'s', is none that is known")));
+    expectRefused(io::readVolume(folder.write("v.nrrd", plainNrrd("spacings: 1 2 3\nunits: \"mm\" \"mm\" \"cm\"\n"))),
+                  "its axes have different units of length");
+    const VolumeData unsaid =
+        io::readVolume(folder.write("v.nrrd", plainNrrd("units: \"cm\" \"cm\" \"cm\"\n"))).value();
+    EXPECT_EQ(unsaid.grid.spacing, (Vec3{1, 1, 1}));
     for (const VolumeData& volume : {nrrd("Mm"), meta("Mm")}) {
         EXPECT_EQ(volume.grid.spacing, (Vec3{1, 2, 3}));
         EXPECT_THAT(volume.notes, Contains(HasSubstr("'Mm', is none that is known; millimetres are taken")));

@@ -41,8 +41,8 @@ class ShownSteps {
 [[nodiscard]] Outcome measureOn(const DeviceChoice& choice,
                                 const std::function<Result<void>(const device::Session&)>& measure);
 
-/// checkOutputs() of both, each of them may be empty. Unsupported where there is to be a report, and the program was
-/// built without the library that draws the charts.
+/// checkOutputs() of both; an empty output is standard output, and there may be no report. Unsupported where there is
+/// to be a report, and the program was built without the library that draws the charts.
 [[nodiscard]] Result<void> checkReportPaths(const std::filesystem::path& output, const std::filesystem::path& report,
                                             const std::vector<NamedPath>& inputs);
 

@@ -60,9 +60,16 @@ void addNames(std::string_view line, std::vector<std::string>& names) {
 std::vector<std::string> siblingNames(const fs::path& header, const std::string& ending) {
     const std::string stem = header.stem().string();
     if (ending == ".hdr") {
-        return {stem + ".img", stem + ".img.gz"};
+        return {stem + ".img", stem + ".img.gz", stem + ".IMG", stem + ".IMG.GZ"};
     }
-    return {stem + ".hdr", stem + ".hdr.gz"};
+    return {stem + ".hdr", stem + ".hdr.gz", stem + ".HDR", stem + ".HDR.GZ"};
+}
+
+std::string loweredEnding(const fs::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    return ending;
 }
 
 /// Whether the existing file `output` is read together with the file `input`.
@@ -131,14 +138,12 @@ Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
 } // namespace
 
 std::vector<std::string> namesIn(const fs::path& header) {
-    std::string ending = header.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    const std::string ending = loweredEnding(header);
     if (ending == ".gz") {
         const fs::path inner = header.stem();
-        return inner.extension() == ".hdr" || inner.extension() == ".img"
-                   ? siblingNames(inner, inner.extension().string())
-                   : std::vector<std::string>{};
+        const std::string innerEnding = loweredEnding(inner);
+        return innerEnding == ".hdr" || innerEnding == ".img" ? siblingNames(inner, innerEnding)
+                                                              : std::vector<std::string>{};
     }
     if (ending == ".hdr" || ending == ".img") {
         return siblingNames(header, ending);

@@ -17,8 +17,8 @@ class BrickRows {
     /// For smaller boxes a look at each brick is as fast.
     static constexpr std::int32_t kLeastBricks = 28;
 
-    /// A polygon, what of the triangle is between two planes, and two more. It has seven corners if rounding leaves it
-    /// convex; where each plane cuts as many sides as it can, no more than these.
+    /// What of the triangle is between two pairs of planes: at most seven corners as long as it is convex; kMost if
+    /// rounding makes each plane cut as many sides as it can.
     struct Piece {
         static constexpr std::size_t kMost = 13;
         std::array<std::array<double, 3>, kMost> corners{};

@@ -13,8 +13,9 @@
 namespace voxtact {
 
 /// The search for clearances, after the touch: a step looks at boxes only, and then each at all that is as near as the
-/// pair asks (shaders/certified_clearance*). How many there are follows from the volume alone; of pairs that are done,
-/// a step looks at nothing. Where clearances to labels are wanted, each label is a search more, by the same passes.
+/// pair asks (shaders/certified_clearance*). How many there are follows from the volume alone; a step has no work
+/// groups for pairs that are done. Where clearances to labels are wanted, each label is a search more, by the same
+/// passes.
 class ClearancePass {
   public:
     /// Expects a checked desc with `clearance`.

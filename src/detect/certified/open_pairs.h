@@ -25,8 +25,8 @@ class OpenPairs {
     /// Records that nothing is listed. Before a barrier for the compute stage, behind one for transfers.
     void recordNone(const ContextImpl& context, VkCommandBuffer commandBuffer) const;
 
-    /// What the pass is told that lists the pairs of step `step`, which come from 0 on, one after the other. `touch`:
-    /// how its touch is cut, if it has one. `look`: the rounds that look around.
+    /// What the pass that lists the pairs of a step is told. Steps follow each other by one. `touch`: how the step's
+    /// touch is cut, if it has one. `look`: the rounds that look around.
     [[nodiscard]] shader::OpenPairs listing(std::uint32_t step, const RoundCut* touch, const RoundCut& look) const;
     /// The rounds of that step.
     [[nodiscard]] ListedPairs touches(std::uint32_t step) const noexcept;

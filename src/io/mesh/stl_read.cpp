@@ -122,7 +122,8 @@ Result<MeshFile> readAscii(const MeshSource& source) {
         }
     }
     if (stl.isOpen()) {
-        return cannotRead(source.path, "it is truncated: no line after its last 'solid' begins with 'endsolid'; get the file again");
+        return cannotRead(source.path,
+                          "it is truncated: no line after its last 'solid' begins with 'endsolid'; get the file again");
     }
     return file;
 }

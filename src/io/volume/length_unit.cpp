@@ -23,7 +23,7 @@ constexpr std::array<NamedUnit, 6> kUnits{{
     {10, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}},
     {1e-3, {"um", "\xC2\xB5m", "\xCE\xBCm", "micron", "microns", "micrometer", "micrometers"}},
     {1e-6, {"nm", "nanometer", "nanometers", "nanometre", "nanometres"}},
-    {25.4, {"in", "inch", "inches", "", ""}},
+    {25.4, {"in", "inch", "inches"}},
 }};
 
 } // namespace
@@ -33,8 +33,8 @@ std::optional<LengthUnit> lengthUnit(std::string_view name) {
     if (name.empty() || name == "?" || name == "???") {
         return std::nullopt;
     }
-    // Not of one letter or two: Mm is no mm.
-    const std::string wanted = name.size() > 2 ? lowered(std::string(name)) : std::string(name);
+    // But for Mm, which is not mm, and M.
+    const std::string wanted = name == "Mm" || name == "M" ? std::string(name) : lowered(std::string(name));
     for (const NamedUnit& known : kUnits) {
         if (std::find(known.names.begin(), known.names.end(), wanted) != known.names.end()) {
             return LengthUnit{known.millimetres, {}};

@@ -19,7 +19,8 @@ struct NiftiFiles {
     fs::path image;
 };
 
-/// A pair is named by either of its files, each of which may be compressed; the other one rather is as that one is.
+/// A pair is named by either of its files, each of which may be compressed. Where the other one is there both ways, it
+/// is the one that is as the named one is.
 NiftiFiles filesOf(const VolumeSource& source, const fs::path& path) {
     const std::string ending = lowerEnding(path);
     if (ending == ".nii" || ending == ".nii.gz") {

@@ -69,10 +69,10 @@ Result<LengthUnit> unitOf(const fs::path& path, const NrrdHeader& header, bool i
             return damaged(path, field, text);
         }
         const LengthUnit here = lengthUnit(std::string_view(text).substr(at + 1, end - at - 1)).value_or(LengthUnit{});
-        if (unit && *unit != here) {
+        if (unit && unit->millimetres != here.millimetres) {
             return cannotRead(path, "its axes have different units of length (" + inQuotes(text) + "); write it anew");
         }
-        unit = here;
+        unit = unit && !unit->unknown.empty() ? *unit : here;
         at = end + 1;
     }
     return unit.value_or(LengthUnit{});
@@ -269,9 +269,11 @@ Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std:
                                             : plainSteps(path, header, sizes, notes);
     VOXTACT_TRY(affine);
     Grid grid;
+    // What is taken where nothing is said is in millimetres.
+    const bool isSaid = std::find(notes.begin(), notes.end(), kNoSpacing) == notes.end();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = static_cast<std::uint32_t>(sizes[axis]);
-        affine->lengths[axis] *= unit->millimetres;
+        affine->lengths[axis] *= isSaid ? unit->millimetres : 1;
         const double sign = signs ? (*signs)[axis] : 1;
         affine->origin[axis] *= unit->millimetres * sign;
         for (Vec3& direction : affine->directions) {

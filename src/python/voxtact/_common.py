@@ -66,8 +66,8 @@ def array_of(given: Any, what: str) -> npt.NDArray[Any]:
                                    "(`.filled(value)`)")
     try:
         return np.asarray(given)
-    except ValueError:
-        raise InvalidArgumentError(f"{what} is no array: its rows differ in length") from None
+    except ValueError as error:
+        raise InvalidArgumentError(f"{what} is no array: its rows differ in length, or {error}") from None
 
 
 def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:

@@ -6,6 +6,7 @@
 #include "cpu/scenes/random_scene.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace voxtact::test {
 namespace {
@@ -75,6 +76,65 @@ TEST_F(LongTrianglesTest, AreCountedAsOnTheHost) {
             }
         }
         EXPECT_GT(wanted[0].count, 500U);
+    }
+}
+
+/// A shaft of slivers beside a ball, nearer and farther: the host never says the opposite, and little is left open.
+TEST_F(LongTrianglesTest, AreWithinAMarginAsOnTheHost) {
+    const std::uint64_t seed = testSeed();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    constexpr double kSide = 140;
+    constexpr double kRadius = 25;
+    Grid grid;
+    grid.size = {140, 140, 140};
+    grid.origin = {0.5 - kSide / 2, 0.5 - kSide / 2, 0.5 - kSide / 2};
+    const VolumeData volume =
+        makeVolume<std::uint8_t>(grid, ScalarType::UInt8, [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+            const double from = std::hypot(x - kSide / 2, y - kSide / 2, z - kSide / 2);
+            return std::clamp(128 + 20 * (kRadius - from), 0.0, 255.0);
+        });
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    MeshData shaft;
+    constexpr int kFaces = 20;
+    const auto corner = [](int i, double z) {
+        const double angle = 2 * std::numbers::pi * i / kFaces;
+        return Vec3{std::cos(angle), std::sin(angle), z};
+    };
+    for (int i = 0; i < kFaces; ++i) {
+        addTriangle(shaft, corner(i, -100), corner(i + 1, -100), corner(i + 1, 100));
+        addTriangle(shaft, corner(i, -100), corner(i + 1, 100), corner(i, 100));
+    }
+    std::vector<Mat4> poses;
+    for (int i = 0; i < 12; ++i) { // beside the ball, which the axis passes by
+        poses.push_back(multiply(randomRotation(random), translation({kRadius + 1 + 0.5 * i, 0, 0})));
+    }
+    const Sides sides(context(), queue(), volume.view(), {points, {0, 255}, kDefaultTableSize}, shaft.view(), true);
+    const BatchItem item = sides.item(poses);
+    const cpu::BatchItem hostItem = sides.hostItem(poses);
+    const auto size = static_cast<std::uint32_t>(poses.size());
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    const std::vector<PairClearance> measured = take(meter.measure({{&hostItem, 1}, {}, 0.5})).pairs;
+    DetectorDesc desc{.method = CountingMethod::Compute,
+                      .projection = Projection::Conservative,
+                      .stopAtFirst = true,
+                      .counters = true};
+    for (const double margin : {0.3, 3.0}) {
+        desc.margin = margin;
+        const Answered found = detect(desc, {{&item, 1}, {}, 0.5}, size, 2048);
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            EXPECT_FALSE(found.pairs[i].hit && measured[i].bounds.lo > margin) << margin << ", pose " << i;
+            EXPECT_FALSE(!found.pairs[i].hit && !found.pairs[i].possible && measured[i].bounds.hi < margin)
+                << margin << ", pose " << i;
+        }
+        EXPECT_EQ(found.counters.bricksLeft, 0U);
+    }
+    desc.margin = 0;
+    desc.clearance = ClearanceSearch{.tolerance = 0.05};
+    const Answered near = detect(desc, {{&item, 1}, {}, 0.5}, size, 2048);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        EXPECT_LE(near.clearances[i].bounds.lo, measured[i].bounds.hi) << "pose " << i;
+        EXPECT_GE(near.clearances[i].bounds.hi, measured[i].bounds.lo) << "pose " << i;
     }
 }
 
