@@ -302,8 +302,8 @@ EXACT bool certifiedEdgeMisses(VoxelPoint edge, VoxelPoint a, VoxelPoint b, Voxe
 /// Whether such an axis certainly separates the triangle, and pieces of it that are displaced by its delta, from a box,
 /// as certifiedPlaneMissesBox() has it. For large triangles, which may be thin: their box, and their plane, meet far
 /// more. Whatever direction an axis has, what it separates is apart; so only the places on it are to be known. Each is
-/// off by less than 2^-21 of the farthest corner's distance, times the sum of the axis' components: the margin has eight
-/// times that, and once more what clipping does to a piece.
+/// off by less than 2^-21 of the farthest corner's distance, times the sum of the axis' components: the margin has
+/// eight times that, and once more what clipping does to a piece.
 EXACT bool certifiedEdgesMissBox(CertifiedTriangle triangle, VoxelPoint centre, VoxelPoint radius) {
     const VoxelPoint a = voxelDifference(triangle.corner0, centre);
     const VoxelPoint b = voxelDifference(triangle.corner1, centre);
