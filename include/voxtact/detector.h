@@ -153,11 +153,12 @@ struct ResultsDesc {
     /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
     /// copy, and 288 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
-    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair of
-    /// both.
+    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair,
+    /// of the device's memory and of the host's.
     bool closest = false;
     /// For detectors with DetectorDesc::labelClearances, beside `clearances`, without which it is refused: how many
-    /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of both.
+    /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of
+    /// the device's memory and of the host's.
     std::uint32_t labelClearances = 0;
     /// For detectors with DetectorDesc::motion: 1308 bytes of device memory a pair, 32 of the host's where there is a
     /// copy, and 288 bytes more for each of clustersAtOnce.
