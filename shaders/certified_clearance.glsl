@@ -78,6 +78,15 @@ void refuse(uint pair) {
     atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_OPEN], VOXTACT_CLEARANCE_REFUSED);
 }
 
+/// Flat: a step that looks no farther than this beyond what is known does in place what has no room.
+const float kLeastStep = 1.0;
+
+/// Whether bricks that have no room are better refused: the next step looks less far, and to find them all in place
+/// takes far longer than that.
+bool mayLookLessFar(uint pair) {
+    return clearanceAsked(pair) - clearanceLo(pair) > kLeastStep;
+}
+
 /// What a gap between shadows says at least of a distance.
 float clearanceBelow(float gap, float square, float slack) {
     const float distance = gap * MARGIN_INWARD / sqrt(max(square, MARGIN_LEAST_SQUARE)) - slack;

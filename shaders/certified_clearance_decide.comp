@@ -20,7 +20,7 @@ uvec4 cellOfLane(uint number) {
         return uvec4(kNoPair, 0, 0, 0);
     }
     const uint at = queues[constants.queueWord + VOXTACT_WORD_NEAREST(constants.queueRoom) + number];
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), at)];
+    const uvec4 entry = quads[quadOf(LARGE_WORD, at)];
     const ivec3 corner = (brickOf(int(brickOfEntry(entry.z))) << VOXTACT_BRICK_SHIFT) - 1;
     const uint own = entry.z >> VOXTACT_FIRST_TRIANGLE_SHIFT & (VOXTACT_RUN_TRIANGLES - 1);
     return uvec4(entry.x, triangleAt(entry.y * VOXTACT_RUN_TRIANGLES + own),

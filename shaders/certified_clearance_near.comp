@@ -42,7 +42,7 @@ void main() {
     if (number >= min(queueCount(VOXTACT_QUEUE_LARGE), LARGE_ROOM)) {
         return;
     }
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
+    const uvec4 entry = quads[quadOf(LARGE_WORD, number)];
     if (isDone(entry.x)) {
         return;
     }

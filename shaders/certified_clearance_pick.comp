@@ -17,7 +17,7 @@ void main() {
         return;
     }
     const uint number = queues[nearWord(gl_GlobalInvocationID.x)];
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
+    const uvec4 entry = quads[quadOf(LARGE_WORD, number)];
     const bool whole = (entry.w & VOXTACT_MARGIN_ALL) != 0;
     const bool near = (entry.w & VOXTACT_MARGIN_ALL - 1) != 0 && !isDone(entry.x) &&
                       belowOf(entry.x, entry.w) < clearanceSpace(entry.x).margin;
@@ -27,7 +27,13 @@ void main() {
     }
 #else
     if (near || (whole && !isDone(entry.x))) {
-        queues[nearestWord(reserve(VOXTACT_QUEUE_NEAREST, 1, LARGE_ROOM, 1))] = number;
+        const uint room = VOXTACT_ROOM_NEAREST(constants.queueRoom);
+        const uint place = reserve(VOXTACT_QUEUE_NEAREST, 1, room, 1);
+        if (place < room) {
+            queues[nearestWord(place)] = number;
+        } else {
+            refuse(entry.x);
+        }
     }
 #endif
 }

@@ -92,7 +92,7 @@ void main() {
     if (gl_GlobalInvocationID.x >= queueCount(VOXTACT_QUEUE_NEAR)) {
         return;
     }
-    const uint at = quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), queues[nearWord(gl_GlobalInvocationID.x)]);
+    const uint at = quadOf(LARGE_WORD, queues[nearWord(gl_GlobalInvocationID.x)]);
     const uvec4 entry = quads[at];
     if ((entry.w & VOXTACT_MARGIN_ALL) != 0 || isDone(entry.x)) {
         return;

@@ -89,7 +89,7 @@ void putLarge(TriangleLane own, uint slot, uint count) {
         if (entry < room) {
             // Where not all of the group's have room, none is there.
             const uint pair = firstPart + parts <= room ? own.pair : kNoPair;
-            quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), entry)] = uvec4(pair, own.number, part, count);
+            quads[quadOf(LARGE_WORD, entry)] = uvec4(pair, own.number, part, count);
         }
     }
 }

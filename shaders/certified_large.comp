@@ -107,7 +107,7 @@ bool putBlock(uvec4 entry, CertifiedTriangle triangle, CellBox cells, int block)
 
 void main() {
     const uint lane = gl_LocalInvocationIndex;
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), gl_WorkGroupID.x)];
+    const uvec4 entry = quads[quadOf(LARGE_WORD, gl_WorkGroupID.x)];
     if (entry.x == kNoPair || isDone(entry.x)) {
         return;
     }

@@ -17,8 +17,8 @@
 //
 // What differs between a mesh that stays, one that is turned and one that moves is in a header each, with the same
 // functions: marginMovedSlack(), what marginSlack() is for it; marginGrow(), how far along each axis all that is in a
-// box reaches; marginNear(), what of a triangle is or gets nearest to a point; and, where it does not move on,
-// marginWay(), from there to the point.
+// box reaches; marginLocal(), what of a triangle matters there; marginNear(), what of it is or gets nearest to a point;
+// and, where it does not move on, marginWay(), from there to the point.
 #ifndef VOXTACT_CERTIFIED_MARGIN_H
 #define VOXTACT_CERTIFIED_MARGIN_H
 
@@ -29,11 +29,6 @@
 #else
 #include "certified_margin_still.h"
 #endif
-
-/// By how much more than the margin, flat, a box is away that is dropped for several triangles at once, or that holds
-/// several cells. It is more than the half diagonal of the least box that a cell is halved into: so a decision of each
-/// cell of each triangle drops the same, and no answer depends on what was put together.
-#define MARGIN_FARTHER 0.015625f
 
 #include "exact_language.h"
 
@@ -75,7 +70,7 @@ EXACT MarginTriangle marginTriangle(MarginSpace by, CertifiedTriangle triangle, 
         certifiedMax(voxelLength(about.a), certifiedMax(voxelLength(about.b), voxelLength(about.c))) + reach;
     about.pivot = voxelDifference(by.pivot, origin);
     about.slack = marginMovedSlack(by, about.pivot, triangle.delta, farthest);
-    return about;
+    return marginLocal(by, about, reach);
 }
 
 /// Whether a gap between shadows on a direction whose square is `square` proves that what they are of is farther apart

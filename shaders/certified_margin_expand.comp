@@ -32,7 +32,9 @@ const float kLongSide = 64.0;
 const int kBricksOfBlock = 64;
 const int kMostInBlocks = 65536;
 
+#ifdef CLEARANCE
 const uint kRefused = 2; // beside that the queue is full
+#endif
 
 shared uint groupsIfLeft; // of certified_margin_finish, for all of the work group
 shared uint full;         // the queue is
@@ -62,7 +64,7 @@ void putLarge(uint pair, uint number, uint brick, uint which) {
     const uint entry = reserve(VOXTACT_QUEUE_LARGE, 1, LARGE_ROOM, 1);
 #endif
     if (entry < LARGE_ROOM) {
-        quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), entry)] = uvec4(pair, number, brick, which);
+        quads[quadOf(LARGE_WORD, entry)] = uvec4(pair, number, brick, which);
     } else {
         atomicOr(full, 1u);
     }
@@ -214,7 +216,11 @@ void main() {
     }
 #ifdef CLEARANCE
     barrier();
-    if (lane == 0 && full != 0 && !leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft)) {
+    if (full != 0 && own.some && mayLookLessFar(own.pair)) {
+        atomicOr(full, kRefused); // for all of the work group
+    }
+    barrier();
+    if (lane == 0 && full == 1 && !leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft)) {
         atomicOr(full, kRefused);
     }
     barrier();

@@ -260,7 +260,7 @@ void main() {
 #else
     const uint number = gl_WorkGroupID.x;
 #endif
-    const uvec4 entry = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
+    const uvec4 entry = quads[quadOf(LARGE_WORD, number)];
     if (lane == 0) {
         passedOver = isDone(entry.x) ? 1 : 0;
         full = 0;

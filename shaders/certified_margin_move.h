@@ -94,6 +94,10 @@ EXACT void marginMoves(MarginSpace by, MarginTriangle triangle, VoxelPoint from,
     }
 }
 
+EXACT MarginTriangle marginLocal(MarginSpace, MarginTriangle about, float) {
+    return about;
+}
+
 /// Where the triangle's nearest point gets nearest, another point of it is nearest: it is looked for twice.
 EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
     VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};

@@ -16,6 +16,10 @@
 #define MARGIN_INWARD 0.9999961853027344f
 /// The square of the least length of a direction that says something: smaller squares may be taken for zero.
 #define MARGIN_LEAST_SQUARE 1.0e-18f
+/// By how much more than the margin, flat, a box is away that is dropped for several triangles at once, or that holds
+/// several cells. It is more than the half diagonal of the least box that a cell is halved into: so a decision of each
+/// cell of each triangle drops the same, and no answer depends on what was put together.
+#define MARGIN_FARTHER 0.015625f
 
 #include "exact_language.h"
 
@@ -96,6 +100,9 @@ struct MarginTriangle {
     VoxelPoint a, b, c;
     VoxelPoint pivot; // with TURN
     float slack;      // flat: of distances from it to points of the box
+#ifdef TURN
+    VoxelPoint rim[4]; // flat: corners of a rectangle around what of it a turn may bring to the box
+#endif
 };
 
 /// What is nearest to a point in a triangle, or about that.

@@ -24,6 +24,10 @@ EXACT VoxelPoint marginWay(MarginSpace by, VoxelPoint, VoxelPoint near, VoxelPoi
     return marginFlat(by, voxelDifference(at, near));
 }
 
+EXACT MarginTriangle marginLocal(MarginSpace, MarginTriangle about, float) {
+    return about;
+}
+
 EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint from) {
     VoxelPoint voxels[3] = {triangle.a, triangle.b, triangle.c};
     VoxelPoint corners[3];

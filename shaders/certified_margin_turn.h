@@ -31,6 +31,51 @@ EXACT VoxelPoint marginGrow(MarginSpace by, CertifiedReach reach) {
     return voxelStep(voxelPoint(0.0f, 0.0f, 0.0f), by.grow, outward);
 }
 
+/// What a turn brings to within the margin of a box keeps its distance from the pivot, and so was no farther from there
+/// than a chord. Of a large triangle that is a small part: the whole would be as far turned as its farthest corner.
+/// `reach`: of the box's coordinates, the largest.
+EXACT MarginTriangle marginLocal(MarginSpace by, MarginTriangle given, float reach) {
+    MarginTriangle about = given;
+    PRECISE float near = by.margin + by.size * reach + about.slack * 4.0f + MARGIN_FARTHER * 2.0f;
+    PRECISE float chord = (turnLength(marginFlat(by, about.pivot)) + near) * by.turn.chord;
+    PRECISE float most = (chord + near) * MARGIN_OUTWARD;
+    const VoxelPoint none = voxelPoint(0.0f, 0.0f, 0.0f);
+    const VoxelPoint first = marginFlat(by, about.a);
+    const VoxelPoint offs[3] = {none, voxelDifference(marginFlat(by, about.b), first),
+                                voxelDifference(marginFlat(by, about.c), first)};
+    const VoxelPoint third = voxelDifference(offs[2], offs[1]);
+    VoxelPoint longest = voxelDot(offs[1], offs[1]) >= voxelDot(offs[2], offs[2]) ? offs[1] : offs[2];
+    longest = voxelDot(third, third) > voxelDot(longest, longest) ? third : longest;
+    const VoxelPoint u = voxelStep(none, longest, marginInverse(turnLength(longest)));
+    VoxelPoint aside = none;
+    for (int i = 1; i < 3; ++i) {
+        const VoxelPoint own = voxelStep(offs[i], u, -voxelDot(offs[i], u));
+        aside = voxelDot(own, own) > voxelDot(aside, aside) ? own : aside;
+    }
+    const VoxelPoint v = voxelStep(none, aside, marginInverse(turnLength(aside)));
+    PRECISE float middleU = -voxelDot(first, u);
+    PRECISE float middleV = -voxelDot(first, v);
+    float lo[2] = {0.0f, 0.0f};
+    float hi[2] = {0.0f, 0.0f};
+    for (int i = 1; i < 3; ++i) {
+        const float alongU = voxelDot(offs[i], u);
+        const float alongV = voxelDot(offs[i], v);
+        lo[0] = certifiedMin(lo[0], alongU);
+        hi[0] = certifiedMax(hi[0], alongU);
+        lo[1] = certifiedMin(lo[1], alongV);
+        hi[1] = certifiedMax(hi[1], alongV);
+    }
+    // Where none of it is as near, this is one side of the triangle, which is too much.
+    PRECISE float leastU = certifiedMin(certifiedMax(lo[0], middleU - most), hi[0]);
+    PRECISE float mostU = certifiedMax(certifiedMin(hi[0], middleU + most), lo[0]);
+    PRECISE float leastV = certifiedMin(certifiedMax(lo[1], middleV - most), hi[1]);
+    PRECISE float mostV = certifiedMax(certifiedMin(hi[1], middleV + most), lo[1]);
+    for (int i = 0; i < 4; ++i) {
+        about.rim[i] = voxelStep(voxelStep(first, u, (i & 1) == 0 ? leastU : mostU), v, (i & 2) == 0 ? leastV : mostV);
+    }
+    return about;
+}
+
 /// The way to a point from what is `near` it, which is turned towards it first. Flat.
 EXACT VoxelPoint marginWay(MarginSpace by, VoxelPoint pivot, VoxelPoint near, VoxelPoint at) {
     const VoxelPoint wanted = marginFlat(by, voxelDifference(at, pivot));
@@ -83,6 +128,17 @@ EXACT MarginNear marginNear(MarginSpace by, MarginTriangle triangle, VoxelPoint 
         PRECISE float shadow = voxelDot(near.along, corners[i]) + turnSurplus(by.turn, near.along, own);
         near.shadow = certifiedMax(near.shadow, shadow);
     }
+    const VoxelPoint flatFrom = marginFlat(by, from);
+    const VoxelPoint flatPivot = marginFlat(by, triangle.pivot);
+    float local = -3.0e38f;
+    for (int i = 0; i < 4; ++i) {
+        const VoxelPoint corner = voxelDifference(triangle.rim[i], flatFrom);
+        const VoxelPoint own = voxelDifference(triangle.rim[i], flatPivot);
+        PRECISE float shadow = voxelDot(near.along, corner) + turnSurplus(by.turn, near.along, own);
+        local = certifiedMax(local, shadow);
+    }
+    PRECISE float rounded = local + turnLength(near.along) * triangle.slack;
+    near.shadow = certifiedMin(near.shadow, rounded);
     return near;
 }
 

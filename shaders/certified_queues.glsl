@@ -14,10 +14,16 @@ layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) bu
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Quads { uvec4 quads[]; };
 
 // With a margin all triangles are large, and no cell is left open.
-#ifdef MARGIN
+#if defined(CLEARANCE)
+#define LARGE_WORD VOXTACT_WORD_CLEARANCE_LARGE(constants.queueRoom)
+#define LARGE_ROOM VOXTACT_CLEARANCE_ROOM_LARGE(constants.queueRoom)
+#define LEFT_WORD VOXTACT_WORD_CLEARANCE_LEFT(constants.queueRoom)
+#elif defined(MARGIN)
+#define LARGE_WORD VOXTACT_WORD_LARGE(constants.queueRoom)
 #define LARGE_ROOM VOXTACT_MARGIN_ROOM_LARGE(constants.queueRoom)
 #define LEFT_WORD VOXTACT_MARGIN_WORD_LEFT(constants.queueRoom)
 #else
+#define LARGE_WORD VOXTACT_WORD_LARGE(constants.queueRoom)
 #define LARGE_ROOM VOXTACT_ROOM_LARGE(constants.queueRoom)
 #define LEFT_WORD VOXTACT_WORD_LEFT(constants.queueRoom)
 #endif
@@ -101,6 +107,9 @@ bool leave(uint what, uint number, uint brick, uint groups) {
         seen = atomicCompSwap(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], first, first + groups);
     } while (seen != first);
     const uint entry = atomicAdd(queues[word + 3], 1u);
+    if (entry >= VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom)) {
+        return false; // and its work groups find nothing to do
+    }
 #else
     const uint entry = atomicAdd(queues[word + 3], 1u);
     const uint first = atomicAdd(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], groups);

@@ -67,7 +67,11 @@ Share shareOfGroup(uint group) {
         entryOfGroup = uvec4(0);
     }
     barrier();
+#ifdef CLEARANCE
+    const uint entries = min(queueCount(VOXTACT_QUEUE_LEFT), VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom));
+#else
     const uint entries = queueCount(VOXTACT_QUEUE_LEFT);
+#endif
     for (uint i = lane; i < entries; i += VOXTACT_COMPUTE_GROUP) {
         const uvec4 entry = quads[quadOf(LEFT_WORD, i)];
         if (group - entry.w < entry.z) {
@@ -91,7 +95,7 @@ Share shareOfGroup(uint group) {
     if (what == VOXTACT_LEFT_GROUP) {
         return shareOfTriangles(number, turn);
     }
-    const uvec4 part = quads[quadOf(VOXTACT_WORD_LARGE(constants.queueRoom), number)];
+    const uvec4 part = quads[quadOf(LARGE_WORD, number)];
 #ifdef MARGIN
     if ((part.w & VOXTACT_MARGIN_ALL) == 0) { // one brick of a run: a triangle of it
         if ((part.w >> turn & 1u) == 0) {

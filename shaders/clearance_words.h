@@ -14,12 +14,21 @@
 #define VOXTACT_WORD_BITS_WORDS(room) (VOXTACT_WORD_BITS_WANTED(room) + VOXTACT_ROOM_BITS(room))
 /// Of a slot: a bit for each cell that may have something opaque, x fastest, and as many for those that certainly have.
 #define VOXTACT_BITS_WORDS 32
+// The queue of large triangles, which far from anything has many more entries than with a margin: a brick is listed for
+// all that may be nearer than what is known, whatever part of it is opaque. `room` is a multiple of 16.
+#define VOXTACT_CLEARANCE_ROOM_LARGE(room) ((room)*16)
+#define VOXTACT_WORD_CLEARANCE_LARGE(room)                                                                             \
+    (VOXTACT_WORD_BITS_WORDS(room) + VOXTACT_BITS_WORDS * VOXTACT_ROOM_BITS(room))
+// Its own words, and those of the queue of open cells, have what is left.
+#define VOXTACT_WORD_CLEARANCE_LEFT(room) VOXTACT_WORD_LARGE(room)
+#define VOXTACT_CLEARANCE_ROOM_LEFT(room) (VOXTACT_ROOM_LARGE(room) + VOXTACT_ROOM_CELLS(room) / 4)
 // Numbers of entries of the queue of large triangles: those of VOXTACT_QUEUE_NEAR; and those of VOXTACT_QUEUE_PROBES,
-// and then of VOXTACT_QUEUE_NEAREST.
-#define VOXTACT_WORD_NEAR(room) (VOXTACT_WORD_BITS_WORDS(room) + VOXTACT_BITS_WORDS * VOXTACT_ROOM_BITS(room))
-#define VOXTACT_WORD_NEAREST(room) (VOXTACT_WORD_NEAR(room) + VOXTACT_MARGIN_ROOM_LARGE(room))
+// and then of VOXTACT_QUEUE_NEAREST, which has a work group each, and no more than every device lets there be.
+#define VOXTACT_WORD_NEAR(room) (VOXTACT_WORD_CLEARANCE_LARGE(room) + 4 * VOXTACT_CLEARANCE_ROOM_LARGE(room))
+#define VOXTACT_WORD_NEAREST(room) (VOXTACT_WORD_NEAR(room) + VOXTACT_CLEARANCE_ROOM_LARGE(room))
+#define VOXTACT_ROOM_NEAREST(room) ((room)*3)
 // The queue of open cells, whose words others have with a margin: numbers of cells for certified_clearance_decide.
-#define VOXTACT_WORD_CLEARANCE_OPEN(room) (VOXTACT_WORD_NEAREST(room) + VOXTACT_MARGIN_ROOM_LARGE(room))
+#define VOXTACT_WORD_CLEARANCE_OPEN(room) (VOXTACT_WORD_NEAREST(room) + VOXTACT_CLEARANCE_ROOM_LARGE(room))
 // Of the label that a search is about, four words.
 #define VOXTACT_WORD_LABEL(room) (VOXTACT_WORD_CLEARANCE_OPEN(room) + VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_LABEL_FIRST 0   // where the words of the first pair are

@@ -6,10 +6,12 @@
 #include "core/method/certified_constants.h"
 #include "cpu/batch_check.h"
 #include "cpu/clearance/workers.h"
+#include "cpu/motion/divided_mesh.h"
 #include "cpu/motion/pose_tolerance.h"
 #include "cpu/motion/segment_search.h"
 
 #include <cmath>
+#include <map>
 
 namespace voxtact::cpu {
 
@@ -18,6 +20,8 @@ struct MotionCheckerImpl {
 
     MotionDesc desc;
     Workers workers;
+    /// dividedMesh() of the meshes of the last batch with an angle, by MeshImpl::id.
+    std::map<std::uint64_t, std::unique_ptr<MeshImpl>> divided;
 };
 
 namespace {
@@ -101,6 +105,20 @@ Result<void> checkShapes(const Batch& batch, std::span<const ShapesOfPoses> shap
     return {};
 }
 
+/// Those of a batch's meshes that are not there yet; others go.
+void divideMeshes(const Batch& batch, std::map<std::uint64_t, std::unique_ptr<MeshImpl>>& divided) {
+    std::map<std::uint64_t, std::unique_ptr<MeshImpl>> wanted;
+    for (const BatchItem& item : batch.items) {
+        const MeshImpl& mesh = item.mesh->impl();
+        if (wanted.contains(mesh.id)) {
+            continue;
+        }
+        const auto known = divided.find(mesh.id);
+        wanted[mesh.id] = known != divided.end() ? std::move(known->second) : dividedMesh(mesh);
+    }
+    divided = std::move(wanted);
+}
+
 /// Looks at all segments of a batch. `shapes` may be empty: nothing bends.
 Result<MotionAnswer> checkSegments(MotionCheckerImpl& impl, const Batch& batch, std::span<const ShapesOfPoses> shapes) {
     const StopWatch watch;
@@ -162,13 +180,18 @@ Result<BatchAnswer> MotionChecker::around(const Batch& batch, const PoseToleranc
         VOXTACT_TRY(checkTolerance(tolerance));
         const Cancellation cancel(batch.cancel);
         VOXTACT_TRY(checkNotCancelled(cancel));
+        if (tolerance.angle > 0) {
+            divideMeshes(batch, impl_->divided);
+        }
         BatchAnswer answer;
         answer.pairs = numberedPairs<PairAnswer>(batch);
         Workers& workers = impl_->workers;
-        VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.touchResolution),
-                                        answer.pairs, [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
-                                            PoseToleranceSearch(at, tolerance, impl_->desc.mostSteps, memory).run(pair);
-                                        }));
+        VOXTACT_TRY(workers.forEachPair(
+            batch, cancel, workers.partsOf(batch, impl_->desc.touchResolution), answer.pairs,
+            [&](const PairAt& at, PairAnswer& pair, ThreadMemory& memory) {
+                const MeshImpl* divided = tolerance.angle > 0 ? impl_->divided.at(at.mesh().id).get() : nullptr;
+                PoseToleranceSearch(at, divided, tolerance, impl_->desc.mostSteps, memory).run(pair);
+            }));
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });

@@ -3,6 +3,7 @@
 #include "core/base/infinity.h"
 #include "core/geometry/glm_bridge.h"
 #include "cpu/clearance/workers.h"
+#include "cpu/motion/divided_mesh.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -41,11 +42,12 @@ double magnitudeOf(const PairAt& at) {
 
 } // namespace
 
-PoseToleranceSearch::PoseToleranceSearch(const PairAt& at, const PoseTolerance& tolerance, std::uint64_t mostSteps,
-                                         ThreadMemory& memory)
-    : at_(at), distance_(tolerance.distance), angle_(glm::radians(tolerance.angle)), mostSteps_(mostSteps),
-      memory_(memory), origin_(dvec3(at.world_from_object[12], at.world_from_object[13], at.world_from_object[14]) -
-                               at.part.space.middle) {}
+PoseToleranceSearch::PoseToleranceSearch(const PairAt& at, const MeshImpl* divided, const PoseTolerance& tolerance,
+                                         std::uint64_t mostSteps, ThreadMemory& memory)
+    : at_(at), divided_(divided), distance_(tolerance.distance), angle_(glm::radians(tolerance.angle)),
+      mostSteps_(mostSteps), memory_(memory),
+      origin_(dvec3(at.world_from_object[12], at.world_from_object[13], at.world_from_object[14]) -
+              at.part.space.middle) {}
 
 void PoseToleranceSearch::run(PairAnswer& out) const {
     std::optional<TouchPoint> point;
@@ -58,15 +60,18 @@ void PoseToleranceSearch::run(PairAnswer& out) const {
     sweep.centre = origin_ + at_.part.space.middle;
     // Rounded up: what is turned by exactly so much is among it.
     sweep.turn = std::min(angle_ * (1 + kRounding), glm::pi<double>());
-    sweep.slack = distance_ * (1 + kRounding) + kRelativeError * magnitudeOf(at_);
-    const Found swept = at_.search(memory_,
-                                   {.tolerance = 0,
-                                    .maximum = std::numeric_limits<double>::denorm_min(),
-                                    .enough = kEnough,
-                                    .finest = kFinest,
-                                    .mostSteps = mostSteps_,
-                                    .untilMet = true},
-                                   sweep);
+    const double error = divided_ != nullptr ? kDividedError : kRelativeError;
+    sweep.slack = distance_ * (1 + kRounding) + error * magnitudeOf(at_);
+    PairAt pieces = at_;
+    pieces.shape = divided_ != nullptr ? divided_ : at_.shape;
+    const Found swept = pieces.search(memory_,
+                                      {.tolerance = 0,
+                                       .maximum = std::numeric_limits<double>::denorm_min(),
+                                       .enough = kEnough,
+                                       .finest = kFinest,
+                                       .mostSteps = mostSteps_,
+                                       .untilMet = true},
+                                      sweep);
     if (swept.lo > 0) {
         out = yesOrNo(out, false, false);
         return;

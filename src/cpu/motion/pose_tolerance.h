@@ -12,9 +12,10 @@ namespace voxtact::cpu {
 /// bring a point of the mesh to an opaque one that is near, touches.
 class PoseToleranceSearch {
   public:
-    /// All must live as long as it.
-    PoseToleranceSearch(const PairAt& at, const PoseTolerance& tolerance, std::uint64_t mostSteps,
-                        ThreadMemory& memory);
+    /// All must live as long as it. `divided`: dividedMesh() of the pair's mesh; null where that is, or for a tolerance
+    /// without an angle.
+    PoseToleranceSearch(const PairAt& at, const MeshImpl* divided, const PoseTolerance& tolerance,
+                        std::uint64_t mostSteps, ThreadMemory& memory);
 
     void run(PairAnswer& out) const;
 
@@ -26,6 +27,7 @@ class PoseToleranceSearch {
     [[nodiscard]] bool touchesAt(const glm::dmat3& turn, const glm::dvec3& offset) const;
 
     const PairAt& at_;
+    const MeshImpl* divided_;
     double distance_; ///< mm
     double angle_;    ///< radians
     std::uint64_t mostSteps_;

@@ -3,9 +3,11 @@
 // bricks of a triangle's box are looked at.
 #include "certified/counted_fixture.h"
 #include "certified/sides.h"
-#include "cpu/scenes/random_scene.h"
+#include "cpu/scenes/ball_and_box.h"
+#include "voxtact/samples.h"
 
 #include <cmath>
+#include <iostream>
 #include <numbers>
 
 namespace voxtact::test {
@@ -84,17 +86,7 @@ TEST_F(LongTrianglesTest, AreWithinAMarginAsOnTheHost) {
     const std::uint64_t seed = testSeed();
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    constexpr double kSide = 140;
-    constexpr double kRadius = 25;
-    Grid grid;
-    grid.size = {140, 140, 140};
-    grid.origin = {0.5 - kSide / 2, 0.5 - kSide / 2, 0.5 - kSide / 2};
-    const VolumeData volume =
-        makeVolume<std::uint8_t>(grid, ScalarType::UInt8, [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-            const double from = std::hypot(x - kSide / 2, y - kSide / 2, z - kSide / 2);
-            return std::clamp(128 + 20 * (kRadius - from), 0.0, 255.0);
-        });
-    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const VolumeData volume = makeBall();
     MeshData shaft;
     constexpr int kFaces = 20;
     const auto corner = [](int i, double z) {
@@ -107,14 +99,15 @@ TEST_F(LongTrianglesTest, AreWithinAMarginAsOnTheHost) {
     }
     std::vector<Mat4> poses;
     for (int i = 0; i < 12; ++i) { // beside the ball, which the axis passes by
-        poses.push_back(multiply(randomRotation(random), translation({kRadius + 1 + 0.5 * i, 0, 0})));
+        poses.push_back(multiply(randomRotation(random), translation({kBallRadius + 1 + 0.5 * i, 0, 0})));
     }
-    const Sides sides(context(), queue(), volume.view(), {points, {0, 255}, kDefaultTableSize}, shaft.view(), true);
+    const Sides sides(context(), queue(), volume.view(), {kBallPoints, {0, 255}, kDefaultTableSize}, shaft.view(),
+                      true);
     const BatchItem item = sides.item(poses);
     const cpu::BatchItem hostItem = sides.hostItem(poses);
     const auto size = static_cast<std::uint32_t>(poses.size());
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
-    const std::vector<PairClearance> measured = take(meter.measure({{&hostItem, 1}, {}, 0.5})).pairs;
+    const std::vector<PairClearance> measured = take(meter.measure({{&hostItem, 1}, {}, kBallThreshold})).pairs;
     DetectorDesc desc{.method = CountingMethod::Compute,
                       .projection = Projection::Conservative,
                       .stopAtFirst = true,
@@ -136,6 +129,112 @@ TEST_F(LongTrianglesTest, AreWithinAMarginAsOnTheHost) {
         EXPECT_LE(near.clearances[i].bounds.lo, measured[i].bounds.hi) << "pose " << i;
         EXPECT_GE(near.clearances[i].bounds.hi, measured[i].bounds.lo) << "pose " << i;
     }
+}
+
+/// A box of 12 triangles that may be turned: never against the host, and hardly more is left open, nor much work done.
+TEST_F(LongTrianglesTest, AreAsFarOffAsOnTheHost) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    constexpr double kHalf = 5;
+    constexpr double kLength = 300;
+    constexpr int kPoses = 60;
+    const VolumeData volume = makeBall();
+    const MeshData tool = makeBoxTool(kHalf, kLength);
+    const std::vector<Mat4> poses = posesOfBoxTool(random, kHalf, kLength, 60, kPoses);
+    const Sides sides(context(), queue(), volume.view(), {kBallPoints, {0, 255}, kDefaultTableSize}, tool.view(), true);
+    const BatchItem item = sides.item(poses);
+    const cpu::BatchItem hostItem = sides.hostItem(poses);
+    cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
+    for (const PoseTolerance& tolerance : {PoseTolerance{1, 2}, PoseTolerance{0, 5}, PoseTolerance{5, 30}}) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(tolerance.angle) + " degrees");
+        const std::vector<PairAnswer> host =
+            take(checker.around({{&hostItem, 1}, {}, kBallThreshold}, tolerance)).pairs;
+        const Answered device = detect({.method = CountingMethod::Compute,
+                                        .projection = Projection::Conservative,
+                                        .stopAtFirst = true,
+                                        .counters = true,
+                                        .poseTolerance = tolerance},
+                                       {{&item, 1}, {}, kBallThreshold}, kPoses, 2048);
+        int possible = 0;
+        int hits = 0;
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            SCOPED_TRACE("pose " + std::to_string(i));
+            expectNoContradiction(device.pairs[i], host[i]);
+            possible += device.pairs[i].possible ? 1 : 0;
+            hits += device.pairs[i].hit ? 1 : 0;
+        }
+        std::cout << "  " << tolerance.distance << " mm, " << tolerance.angle << " degrees: " << hits << " yes, "
+                  << possible << " possible of " << kPoses << ", " << device.counters.cellsDecided << " cells decided, "
+                  << device.counters.cellsLeft << " left\n";
+        EXPECT_GT(hits, 0);
+        EXPECT_LE(possible, kPoses / 8);
+    }
+}
+
+/// One triangle reaches a ball where it has to be turned by less than it may be.
+TEST_F(LongTrianglesTest, OneIsTurnedUpToABall) {
+    const VolumeData volume = makeBall();
+    for (const TurnedTriangle& tool : {TurnedTriangle::plane(), TurnedTriangle::rod()}) {
+        const Sides sides(context(), queue(), volume.view(), {kBallPoints, {0, 255}, kDefaultTableSize},
+                          tool.mesh.view(), true);
+        for (const double angle : {2.0, 5.0, 30.0, 80.0}) {
+            const std::vector<Mat4> poses = tool.poses(angle);
+            const BatchItem item = sides.item(poses);
+            const auto count = static_cast<std::uint32_t>(poses.size());
+            const std::vector<PairAnswer> found = detect({.method = CountingMethod::Compute,
+                                                          .projection = Projection::Conservative,
+                                                          .stopAtFirst = true,
+                                                          .poseTolerance = PoseTolerance{0, angle}},
+                                                         {{&item, 1}, {}, kBallThreshold}, count, 2048)
+                                                      .pairs;
+            for (std::size_t i = 0; i < poses.size(); ++i) {
+                SCOPED_TRACE(std::to_string(angle) + " degrees, pose " + std::to_string(i));
+                const bool reached = i < tool.reached();
+                EXPECT_TRUE(found[i].hit || found[i].possible || !reached);
+                // Turned by much, what gets there is not convex.
+                EXPECT_TRUE(angle > 10 || reached || !(found[i].hit || found[i].possible));
+            }
+        }
+    }
+}
+
+/// A shaft of many triangles far from a ball: there are more bricks that may be near than touch, and the search ends
+/// all the same.
+TEST_F(LongTrianglesTest, FarAwayTheClearanceOfAFineShaftIsFound) {
+    constexpr int kFaces = 64;
+    constexpr int kRings = 100;
+    constexpr double kLength = 250;
+    MeshData shaft;
+    const auto corner = [](int i, int ring) {
+        const double angle = 2 * std::numbers::pi * i / kFaces;
+        return Vec3{std::cos(angle), std::sin(angle), kLength * ring / kRings};
+    };
+    for (int ring = 0; ring < kRings; ++ring) {
+        for (int i = 0; i < kFaces; ++i) {
+            addTriangle(shaft, corner(i, ring), corner(i + 1, ring), corner(i + 1, ring + 1));
+            addTriangle(shaft, corner(i, ring), corner(i + 1, ring + 1), corner(i, ring + 1));
+        }
+    }
+    const VolumeData volume = take(makeBuiltinVolume("head:128"));
+    const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
+    const std::array<Mat4, 1> poses{Mat4{-0.826859621, 0.211349227, -0.521185831, 0, -0.385042567, -0.888198603,
+                                         0.250689975, 0, -0.409933395, 0.407964148, 0.815794009, 0, 118.2078, -92.4435,
+                                         60.6299, 1}};
+    const Sides sides(context(), queue(), volume.view(), {points, {0, 255}, kDefaultTableSize}, shaft.view(), true);
+    const BatchItem item = sides.item(poses);
+    const cpu::BatchItem hostItem = sides.hostItem(poses);
+    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
+    const ClearanceBounds wanted = take(meter.measure({{&hostItem, 1}, {}, 0.1})).pairs[0].bounds;
+    const Answered found = detect({.method = CountingMethod::Compute,
+                                   .projection = Projection::Conservative,
+                                   .stopAtFirst = true,
+                                   .counters = true,
+                                   .clearance = ClearanceSearch{}},
+                                  {{&item, 1}, {}, 0.1}, 1, 2048);
+    EXPECT_GT(wanted.lo, 40);
+    EXPECT_EQ(found.clearances[0].end, ClearanceEnd::Closed);
+    EXPECT_LE(found.clearances[0].bounds.lo, wanted.hi);
+    EXPECT_GE(found.clearances[0].bounds.hi, wanted.lo);
 }
 
 } // namespace
