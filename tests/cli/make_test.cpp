@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // voxtact make, and that what it writes is what the builtins are.
-#include "cli_fixture.h"
+#include "child.h"
 
 #include <cmath>
+#include <csignal>
 #include <sstream>
+#include <unistd.h>
 
 namespace voxtact::test {
 namespace {
@@ -141,6 +143,26 @@ TEST_F(MakeTest, PosesOfOnePairOnly) {
     EXPECT_THAT(
         refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--number", "0"}),
         HasSubstr("--number"));
+}
+
+TEST_F(MakeTest, InterruptedItLeavesNoFile) {
+    const Arguments poses{"make",   "poses", "--volume", "builtin:head:16", "--mesh",   "builtin:scalpel:500",
+                          "--seed", "7",     "--number", "2000000",         "--output", path("made.txt")};
+    const Arguments volume{"make", "volume", "builtin:noise:200", path("made.nii.gz")};
+    for (const auto& [command, signal] :
+         {std::pair(poses, SIGINT), std::pair(poses, SIGTERM), std::pair(volume, SIGHUP)}) {
+        Child child(command);
+        for (int i = 0; i < 6000 && filesInFolder() < 1; ++i) {
+            ::usleep(10000);
+        }
+        EXPECT_EQ(filesInFolder(), 1U); // the temporary one
+        child.signal(signal);
+        const Ran ran = child.end();
+        EXPECT_EQ(ran.status, 128 + signal);
+        EXPECT_THAT(ran.err, AllOf(testing::StartsWith("voxtact make " + command[1] + ": interrupted by SIG"),
+                                   testing::EndsWith(": nothing is written\n")));
+        EXPECT_EQ(filesInFolder(), 0U);
+    }
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 #include "app/commands.h"
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
+#include "app/output/interrupt.h"
+#include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -10,7 +12,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <ostream>
+#include <streambuf>
 
 namespace voxtact::app {
 
@@ -49,8 +53,45 @@ struct MakePosesOptions {
     std::filesystem::path path;
 };
 
-Outcome outcomeOf(const Result<void>& result) {
-    return result.ok() ? Outcome() : Outcome(result.error());
+/// What writes a file, which is whole or not there. A signal before it leaves nothing behind either.
+template <class Write> Outcome written(const Write& write) {
+    const InterruptGuard guard;
+    const Result<void> result = write();
+    // Where all went well, the file was complete before the signal.
+    return result.ok() ? Outcome() : interrupted() ? interruptOutcome("nothing is written") : Outcome(result.error());
+}
+
+/// Takes no more once the user interrupts: what writes to it then ends soon.
+class EndingBuffer : public std::streambuf {
+  public:
+    explicit EndingBuffer(std::ostream& out) : out_(out) {}
+
+  protected:
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+        constexpr std::streamsize kPiece = 1 << 20;
+        std::streamsize done = 0;
+        while (done < count && !interrupted() && out_.write(bytes + done, std::min(kPiece, count - done))) {
+            done += std::min(kPiece, count - done);
+        }
+        return done;
+    }
+    int_type overflow(int_type byte) override {
+        const char one = traits_type::to_char_type(byte);
+        return traits_type::eq_int_type(byte, traits_type::eof()) || xsputn(&one, 1) == 1 ? traits_type::not_eof(byte)
+                                                                                          : traits_type::eof();
+    }
+
+  private:
+    std::ostream& out_;
+};
+
+Result<void> writeVolume(const std::filesystem::path& path, const VolumeView& volume) {
+    return io::writeFile(path, [&](std::ostream& file) -> Result<void> {
+        EndingBuffer buffer(file);
+        std::ostream out(&buffer);
+        VOXTACT_TRY(io::writeVolume(out, path, volume));
+        return interrupted() ? Result<void>(Error{ErrorCode::Cancelled, 0, "interrupted"}) : Result<void>();
+    });
 }
 
 /// The source as the loaders want it, or why it is not one of ours.
@@ -67,7 +108,8 @@ Outcome makeMesh(const MakeFileOptions& options) {
         return writable.error();
     }
     const Result<MeshData> mesh = loadMesh(options.source, {});
-    return mesh.ok() ? outcomeOf(io::writeMesh(options.path, mesh->view())) : Outcome(mesh.error());
+    VOXTACT_TRY(mesh);
+    return written([&] { return io::writeMesh(options.path, mesh->view()); });
 }
 
 Outcome makeVolume(const MakeFileOptions& options) {
@@ -76,7 +118,8 @@ Outcome makeVolume(const MakeFileOptions& options) {
         return writable.error();
     }
     const Result<VolumeData> volume = loadVolume(options.source);
-    return volume.ok() ? outcomeOf(io::writeVolume(options.path, volume->view())) : Outcome(volume.error());
+    VOXTACT_TRY(volume);
+    return written([&] { return writeVolume(options.path, volume->view()); });
 }
 
 void writePose(std::ostream& out, const Mat4& pose) {
@@ -100,15 +143,19 @@ Outcome makePoses(const MakePosesOptions& options) {
     const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
     VOXTACT_TRY(mesh);
     const std::vector<Mat4> poses = randomPoses(volume->grid, mesh->view(), options.number, options.seed);
-    return outcomeOf(deliver(options.path, [&](std::ostream& out) -> Result<void> {
+    const auto write = [&](std::ostream& out) -> Result<void> {
         out << "# voxtact make poses: " << options.number << " poses, seed " << options.seed << ", mesh "
             << oneLine(options.meshes.sources.front()) << ", volume " << oneLine(options.volumes.front()) << '\n'
             << "# world_from_object, 16 numbers a line, row by row\n";
         for (const Mat4& pose : poses) {
+            if (interrupted()) {
+                return Error{ErrorCode::Cancelled, 0, "interrupted"};
+            }
             writePose(out, pose);
         }
         return {};
-    }));
+    };
+    return written([&] { return deliver(options.path, write); });
 }
 
 Command addMakeFile(CLI::App& make, const char* name, const char* what, const char* sources, const char* footer,
