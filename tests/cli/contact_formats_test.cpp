@@ -163,12 +163,12 @@ TEST_F(ContactFormatsTest, MarkupsHaveTheContactsAndTheBoxes) {
 }
 
 TEST_F(ContactFormatsTest, NamesThatAreAwkwardInXml) {
-    const std::string name = path("a--b <&> \"c\".stl");
+    const std::string name = path("a--b <&> \"c\" \xEF\xBF\xBE\xEF\xBF\xBF.stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
     output({"detect", "--volume", "builtin:head:32", "--mesh", name, "--count", "cpu", "--contacts", path("c.vtp")});
     const std::string text = readText(path("c.vtp"));
     const std::string comment = text.substr(0, text.find("<VTKFile"));
-    EXPECT_THAT(comment, HasSubstr("a- -b &lt;&amp;&gt;"));
+    EXPECT_THAT(comment, HasSubstr("a- -b &lt;&amp;&gt; &quot;c&quot; \\xef\\xbf\\xbe\\xef\\xbf\\xbf.stl"));
     EXPECT_EQ(comment.find("--", comment.find("<!--") + 4), comment.rfind("-->"));
 }
 

@@ -65,6 +65,9 @@ TEST(TextForMessages, KeepsTextAndEscapesBytes) {
     EXPECT_EQ(escaped("\xED\xA0\x80"), "\\xed\\xa0\\x80") << "a surrogate";
     EXPECT_EQ(escaped("\xF4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond the last character";
     EXPECT_EQ(escaped("\xC2\x9B"), "\\xc2\\x9b") << "a control character";
+    EXPECT_EQ(escaped("\xEF\xBF\xBD\xEF\xBF\xBE\xEF\xBF\xBF"), "\xEF\xBF\xBD\\xef\\xbf\\xbe\\xef\\xbf\\xbf");
+    EXPECT_EQ(inHtml("<a&\"b\">\n\xC3\xA9"), "&lt;a&amp;&quot;b&quot;&gt;\n\xC3\xA9");
+    EXPECT_EQ(inHtml("\x1b\xff\xC3"), "\uFFFD\uFFFD\uFFFD");
 }
 
 TEST(TextForMessages, ShortensInTheMiddleAndBetweenCharacters) {

@@ -90,6 +90,16 @@ TEST_F(OutputTest, NamesWithCommasAreQuoted) {
     EXPECT_EQ(json["rows"][0]["mesh"], name);
 }
 
+TEST_F(OutputTest, TextHasNoControlCharacters) {
+    const std::string name = path("a\x1b[31m\xff.stl");
+    output({"make", "mesh", "builtin:scalpel:500", name});
+    const auto as = [&](const char* format) {
+        return output({"detect", "--volume", "builtin:head:32", "--mesh", name, "--count", "cpu", "--format", format});
+    };
+    EXPECT_THAT(as("text"), HasSubstr("a\\x1b[31m\\xff.stl "));
+    EXPECT_THAT(as("csv"), HasSubstr(name + ","));
+}
+
 TEST_F(OutputTest, FileHoldsWhatStandardOutputWould) {
     EXPECT_EQ(output(detect({"--output", path("out.csv")})), "");
     EXPECT_EQ(readText(path("out.csv")), output(detect()));

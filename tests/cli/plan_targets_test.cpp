@@ -178,5 +178,14 @@ TEST_F(PlanTest, RefusesTargetsThatItCannotTell) {
     EXPECT_THAT(line({"--targets", path("none.txt")}, 1), HasSubstr("none.txt"));
 }
 
+TEST_F(PlanTest, ReportsAreTextWhateverTargetsAreCalled) {
+    writeText(path("targets.txt"), "20 0 30 a\xff<b>\n-5 0 30 c\x1b[31md\n");
+    output(plan({"--targets", path("targets.txt"), "--avoid-opacity", "200:0,201:1", "--report", path("report.html")}));
+    const std::string html = readText(path("report.html"));
+    EXPECT_THAT(html, HasSubstr("Target a\uFFFD&lt;b&gt;, "));
+    EXPECT_THAT(html, HasSubstr("<td>c\uFFFD[31md</td>"));
+    EXPECT_EQ(html.find_first_of("\xff\x1b"), std::string::npos);
+}
+
 } // namespace
 } // namespace voxtact::test

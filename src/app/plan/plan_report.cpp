@@ -2,6 +2,7 @@
 #include "app/plan/plan_colours.h"
 #include "app/plan/plan_run.h"
 #include "app/version.h"
+#include "core/base/escaped.h"
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -19,18 +20,6 @@ constexpr std::size_t kRanked = 25;
 /// Of a picture: more would only hide each other.
 constexpr std::size_t kMostDots = 8000;
 constexpr double kDisc = 240; ///< pixels, the radius of a half of the map
-
-std::string htmlText(const std::string& text) {
-    std::string out;
-    for (const char one : text) {
-        out += one == '&'   ? "&amp;"
-               : one == '<' ? "&lt;"
-               : one == '>' ? "&gt;"
-               : one == '"' ? "&quot;"
-                            : std::string(1, one);
-    }
-    return out;
-}
 
 using Rounding = double (*)(double);
 
@@ -88,7 +77,7 @@ Rounding roundingOf(const std::string& column) {
 
 void writeCell(std::ostream& out, const io::Cell& cell, Rounding round) {
     if (const auto* text = std::get_if<std::string>(&cell)) {
-        out << htmlText(*text);
+        out << inHtml(*text);
     } else if (const auto* real = std::get_if<double>(&cell)) {
         out << (std::isfinite(*real) ? fixed(*real, 2, round) : number(*real));
     } else if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
@@ -132,7 +121,7 @@ void writeRanking(std::ostream& out, const PlanInputs& inputs, std::span<const T
 void writeList(std::ostream& out, const std::vector<std::string>& notes) {
     out << "<ul>\n";
     for (const std::string& note : notes) {
-        out << "<li>" << htmlText(note) << "</li>\n";
+        out << "<li>" << inHtml(note) << "</li>\n";
     }
     out << "</ul>\n";
 }
@@ -186,7 +175,7 @@ void writeTargets(std::ostream& out, const PlanInputs& inputs, std::span<const T
     writeRanking(out, inputs, plans);
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const std::span<const TargetPlan> one = plans.subspan(i, 1);
-        out << "<h2 id=\"target-" << i + 1 << "\">Target " << htmlText(one[0].target.name) << ", "
+        out << "<h2 id=\"target-" << i + 1 << "\">Target " << inHtml(one[0].target.name) << ", "
             << placeText(one[0].target) << "</h2>\n";
         writeList(out, planNotes(inputs, one));
         writeMaps(out, one[0], maximum);
@@ -225,7 +214,7 @@ void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<cons
         out << "<h2>The safest paths</h2>\n";
         writeRanking(out, inputs, plans);
     }
-    out << "<p>voxtact " << htmlText(std::string(programVersion())) << "</p>\n</body></html>\n";
+    out << "<p>voxtact " << inHtml(programVersion()) << "</p>\n</body></html>\n";
 }
 
 } // namespace voxtact::app

@@ -9,7 +9,8 @@ namespace voxtact {
 
 namespace {
 
-/// Bytes of the UTF-8 character that begins here; 0: none does. Neither overlong forms nor surrogates are characters.
+/// Bytes of the UTF-8 character that begins here; 0: none does. Neither overlong forms nor surrogates are characters,
+/// nor U+FFFE and U+FFFF, which XML knows nothing of.
 std::size_t characterAt(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     struct Form {
@@ -33,6 +34,7 @@ std::size_t characterAt(std::string_view text) {
         bool good = form.length == 1 || (byte(1) >= form.secondLeast && byte(1) <= form.secondMost);
         // U+0080 to U+009F are control characters, too.
         good = good && !(byte(0) == 0xC2 && byte(1) < 0xA0);
+        good = good && !(byte(0) == 0xEF && byte(1) == 0xBF && byte(2) >= 0xBE);
         for (std::size_t i = 2; i < form.length; ++i) {
             good = good && byte(i) >= 0x80 && byte(i) <= 0xBF;
         }
@@ -56,6 +58,24 @@ std::string escaped(std::string_view text) {
             out += kDigits[byte >> 4U];
             out += kDigits[byte & 15U];
         }
+        text.remove_prefix(length > 0 ? length : 1);
+    }
+    return out;
+}
+
+std::string inHtml(std::string_view text) {
+    constexpr std::string_view kReplacement = "\uFFFD";
+    std::string out;
+    while (!text.empty()) {
+        const char first = text.front();
+        const bool isSpace = first == '\n' || first == '\t';
+        const std::size_t length = isSpace ? 1 : characterAt(text);
+        out += first == '&'   ? "&amp;"
+               : first == '<' ? "&lt;"
+               : first == '>' ? "&gt;"
+               : first == '"' ? "&quot;"
+               : length > 0   ? text.substr(0, length)
+                              : kReplacement;
         text.remove_prefix(length > 0 ? length : 1);
     }
     return out;

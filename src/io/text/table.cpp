@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/text/table.h"
 
+#include "core/base/escaped.h"
 #include "core/base/text.h"
 
 #include <nlohmann/json.hpp>
@@ -39,7 +40,7 @@ std::string listText(const std::vector<NamedCount>& counts) {
 }
 
 /// As a field of CSV or, where there are words, of text.
-std::string cellText(const Cell& cell, std::string_view nothing, bool words = false) {
+std::string cellText(const Cell& cell, std::string_view nothing, bool words) {
     if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
         return std::to_string(*whole);
     }
@@ -56,6 +57,15 @@ std::string cellText(const Cell& cell, std::string_view nothing, bool words = fa
         return listText(*counts);
     }
     return std::string(nothing);
+}
+
+std::string csvText(const Cell& cell) {
+    return cellText(cell, "", false);
+}
+
+/// A terminal obeys control characters.
+std::string wordText(const Cell& cell) {
+    return escaped(cellText(cell, "-", true));
 }
 
 /// Numbers go to the right of their column.
@@ -126,7 +136,7 @@ void TableWriter::addCsv(const Table& part) {
     }
     for (std::size_t row = 0; row < part.rows; ++row) {
         for (std::size_t column = 0; column < part.columns.size(); ++column) {
-            out_ << (column == 0 ? "" : ",") << csvField(cellText(part.cell(row, column), ""));
+            out_ << (column == 0 ? "" : ",") << csvField(csvText(part.cell(row, column)));
         }
         out_ << '\n';
     }
@@ -138,7 +148,7 @@ void TableWriter::addText(const Table& part) {
         std::size_t& width = widths_[column];
         width = std::max(width, part.columns[column].size());
         for (std::size_t row = 0; row < part.rows; ++row) {
-            width = std::max(width, cellText(part.cell(row, column), "-", true).size());
+            width = std::max(width, wordText(part.cell(row, column)).size());
         }
     }
     const auto writeField = [&](const std::string& field, std::size_t column, bool right) {
@@ -154,7 +164,7 @@ void TableWriter::addText(const Table& part) {
     for (std::size_t row = 0; row < part.rows; ++row) {
         for (std::size_t column = 0; column < part.columns.size(); ++column) {
             const Cell cell = part.cell(row, column);
-            writeField(cellText(cell, "-", true), column, isRight(cell));
+            writeField(wordText(cell), column, isRight(cell));
         }
     }
 }
@@ -206,7 +216,8 @@ void TableWriter::end(std::span<const TableEnd> ends, bool whole) {
         }
         out_ << '#';
         for (const auto& [name, cell] : end.cells) {
-            out_ << ' ' << name << '=' << cellText(cell, "-");
+            out_ << ' ' << name << '='
+                 << (format_ == Format::Text ? escaped(cellText(cell, "-", false)) : cellText(cell, "-", false));
         }
         out_ << '\n';
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/report/report.h"
 
+#include "core/base/escaped.h"
 #include "lab/report/report_assets.h"
 
 #include <nlohmann/json.hpp>
@@ -17,14 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    }
-    return out;
-}
-
 /// JSON inside a script element must not end it.
 std::string inScript(const Json& data) {
     std::string out;
@@ -38,7 +31,7 @@ std::string listItems(const std::vector<std::string>& sentences) {
     std::string out;
     for (const std::string& sentence : sentences) {
         const bool bad = sentence.starts_with("DISAGREEMENT");
-        out += std::string(bad ? "<li class=\"bad\">" : "<li>") + escaped(sentence) + ".</li>\n";
+        out += std::string(bad ? "<li class=\"bad\">" : "<li>") + inHtml(sentence) + ".</li>\n";
     }
     return out;
 }
@@ -64,7 +57,7 @@ Result<void> writeReport(std::ostream& out, ReportKind kind, const Json& data) {
         {"DATA", inScript(data)},
         {"STYLE", std::string(kReportStyle)},
         {"LIBRARY", std::string(kChartLibrary)},
-        {"LICENCE", escaped(kChartLicence)},
+        {"LICENCE", inHtml(kChartLicence)},
         {"COMMON", std::string(kReportCommon)},
         {"SCRIPT", std::string(paper ? kPaperScript : kCompareScript)}};
     // The frame has {{NAME}} where a part belongs.
