@@ -15,7 +15,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kStep = 0.25;    // voxels: what is thinner along the ray may be passed over
+constexpr double kStep = 0.25;    // voxels, along the ray: what is thinner may be passed over
 constexpr double kNearest = 1e-3; // mm: no entry is nearer to the target
 
 /// A ray from a target, in the voxels of a grid.
@@ -49,7 +49,7 @@ struct Outermost {
 /// The largest distance at which `inside(centred voxel)`, looked at in steps from outside.
 template <class Inside> Outermost outermost(const VoxelRay& ray, const Inside& inside) {
     constexpr int kHalvings = 12;
-    const double step = kStep / std::max({std::abs(ray.way.x), std::abs(ray.way.y), std::abs(ray.way.z)});
+    const double step = kStep / glm::length(ray.way);
     const double nearest = std::max(ray.begin, kNearest);
     double outside = ray.end;
     double number = 0;

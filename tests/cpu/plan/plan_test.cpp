@@ -8,6 +8,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <gtest/gtest.h>
 
@@ -313,6 +314,47 @@ TEST(Plan, AvoidsWhatIsOpaqueAndEntersThroughASurface) {
     for (const PlannedPath& path : straighter.paths) {
         EXPECT_LE(*path.angle, 10);
     }
+}
+
+/// A sheet across a diagonal of the voxels: rays are in it for 0.29 voxels or more.
+TEST(Plan, EntersThroughThinSheetsInAllDirections) {
+    Grid grid;
+    grid.size = {40, 40, 40};
+    const VolumeData rising = makeBytes(grid, [](auto x, auto y, auto z) { return x + y + z; });
+    const cpu::Volume volume = take(cpu::Volume::create(rising.view()));
+    cpu::Planner planner = take(cpu::Planner::create({.threads = 1}));
+    const cpu::DirectionGrid directions(642);
+    const dvec3 target(10, 10, 10);
+    std::size_t looked = 0;
+    for (double at = 60; at < 61; at += 0.1) {
+        constexpr double kHalf = 0.25; // of the sheet, in values
+        const std::vector<ControlPoint> peak{{at - kHalf, 0}, {at - kHalf, 1}, {at + kHalf, 1}, {at + kHalf, 0}};
+        const cpu::TransferFunction function = take(cpu::TransferFunction::create({peak, {0, 120}, 65536}));
+        const cpu::PlanObstacle avoided{&volume, &function, 0.5, nullptr, {}};
+        const PlanAnswer answer = take(planner.plan(
+            {.target = {target.x, target.y, target.z},
+             .surface = {.entries = 642, .volume = &volume, .transferFunction = &function, .threshold = 0.5},
+             .obstacles = std::span(&avoided, 1),
+             .needle = {1, 5}}));
+        std::map<std::uint32_t, double> lengths;
+        for (const PlannedPath& path : answer.paths) {
+            lengths[path.entry] = path.length;
+        }
+        for (std::uint32_t number = 0; number < directions.count(); ++number) {
+            const dvec3 direction = directions.direction(number);
+            const double rate = direction.x + direction.y + direction.z; // values for each mm
+            const double outside = (at + kHalf - 30) / rate;
+            const dvec3 there = target + outside * direction;
+            const bool isInside =
+                glm::all(glm::greaterThan(there, dvec3(0))) && glm::all(glm::lessThan(there, dvec3(39)));
+            if (rate > 0 && isInside) {
+                ASSERT_EQ(lengths.count(number), 1U) << at << " in direction " << number;
+                EXPECT_NEAR(lengths[number], outside, 0.01);
+                ++looked;
+            }
+        }
+    }
+    EXPECT_GT(looked, 200U);
 }
 
 TEST(Plan, DoesNotDependOnThreads) {
