@@ -112,7 +112,11 @@ BatchAnswer DeviceSide::detect(const Request& request, std::size_t first, std::s
     request.forPart(first, count, [&](const Request::Item& item, std::span<const Mat4> poses) {
         items.push_back({&onDevice(item.mesh), &volume_, &function_, poses, labels_ ? &*labels_ : nullptr});
     });
-    return take(detector.detect({items, viewOf(question, volume_.grid()), threshold, labels}));
+    Result<BatchAnswer> answer = detector.detect({items, viewOf(question, volume_.grid()), threshold, labels});
+    if (!answer.ok() && answer.error().code == ErrorCode::LimitExceeded && question.outputs.contacts) {
+        answer.error().text += "; ask for fewer by most_contacts, which is " + std::to_string(question.mostContacts);
+    }
+    return take(std::move(answer));
 }
 
 MotionAnswer DeviceSide::move(const Request& request, std::size_t first, std::size_t count, const Question& question,

@@ -23,6 +23,10 @@ PYBIND11_MODULE(_core, module) {
     module.attr("DEFAULT_MOTION_RESOLUTION") = kDefaultMotionResolution;
     module.attr("DEFAULT_MOTION_STEPS") = cpu::MotionDesc().mostSteps;
     module.attr("DEFAULT_TRACKER_STEPS") = cpu::TrackerDesc().mostSteps;
+    module.attr("MOST_TABLE_SIZE") = kMostTableSize;
+    module.attr("MOST_THREADS") = cpu::kMostThreads;
+    module.attr("MOST_SAMPLES_PER_VOXEL") = kMostSamplesPerVoxel;
+    module.attr("MOST_ENTRIES") = kMostEntries;
     module.attr("DEFAULT_PLAN_ENTRIES") = cpu::EntrySurface().entries;
     module.attr("DEFAULT_PLAN_TOLERANCE") = kDefaultPlanTolerance;
     module.attr("DEFAULT_PLAN_MAXIMUM") = kDefaultPlanMaximum;

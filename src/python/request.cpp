@@ -169,6 +169,10 @@ void readOptions(const py::dict& options, const std::function<void(const std::st
 Question questionOf(const py::dict& options) {
     Question question;
     readOptions(options, [&](const std::string& name, const py::handle& value) { read(question, name, value); });
+    if (options.contains("samples_per_voxel") && question.projection != Projection::DominantAxis) {
+        refuseArgument(std::string("samples_per_voxel is for projection='dominant-axis', not for '") +
+                       toString(question.projection) + "'");
+    }
     return question;
 }
 

@@ -149,6 +149,11 @@ def test_clearances_to_labels_are_measured_by_the_device_that_is_asked(device, h
         there.clearance(knife, poses, labels=[70] * 5000, method="compute")
 
 
+def test_more_contacts_than_a_device_has_room_for(device, head, knife):
+    with pytest.raises(vx.LimitExceededError, match="; ask for fewer by most_contacts, which is 4294967295$"):
+        vx.Scene(head, device=device).detect(knife, np.eye(4), contacts=True, most_contacts=2**32 - 1, method="compute")
+
+
 def test_a_motion_is_checked_by_the_device_that_is_asked(device, head, knife):
     host, there = both(device, head)
     poses = random_poses(9, 35)

@@ -138,7 +138,7 @@ def test_labels_by_name(files):
     ({"avoid": [3], "mesh": True, "tip": (0, 0, 0)}, "comes with tip= and axis="),
     ({"avoid": [3], "avoid_volume": "builtin:head:8"}, "needs avoid_opacity"),
     ({"avoid": [3], "entries": 0}, "entries"),
-    ({"avoid": [3], "entries": 2**32}, "a whole number from 0"),
+    ({"avoid": [3], "entries": 2**32}, "a whole number from 1 to 3994242"),
     ({"avoid": [3], "margin": float("nan")}, "margin"),
     ({"avoid": [3], "margin": -1}, "margin"),
     ({"avoid": [3], "needle": (2, 1)}, "needle"),

@@ -108,9 +108,10 @@ def test_texts_that_are_none(ask):
 # Numbers
 
 
-@pytest.mark.parametrize("frame", [-1, 1.5, 2**40, 2**70, True, np.True_, "1", np.array([0])])
+@pytest.mark.parametrize("frame", [-1, 2**40, 2**70, 1.5, True, np.True_, "1", np.array([0])])
 def test_frames_that_are_none(files, frame):
-    with pytest.raises(vx.InvalidArgumentError, match="frame is .*; a whole number from 0") as caught:
+    error, text = (vx.InvalidArgumentError, " from 0 to ") if type(frame) is int else (TypeError, " is needed")
+    with pytest.raises(error, match=f"frame is .*; a whole number{text}") as caught:
         vx.read_volume(files / "volume.nii", frame=frame)
     say(caught)
 
@@ -153,22 +154,38 @@ def test_numbers_that_are_none(scene, what, wrong):
 
 
 WHOLE = {
-    "samples_per_voxel": lambda scene, wrong: scene.detect(cube(), EYE, samples_per_voxel=wrong),
-    "most_contacts": lambda scene, wrong: scene.detect(cube(), EYE, most_contacts=wrong),
-    "most_steps": lambda scene, wrong: scene.clearance(cube(), EYE, most_steps=wrong),
-    "threads": lambda scene, wrong: vx.Scene(scene.volume, threads=wrong),
-    "table_size": lambda scene, wrong: vx.Scene(scene.volume, table_size=wrong),
-    "entries": lambda scene, wrong: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", entries=wrong),
-    "width": lambda scene, wrong: scene.detect(cube(), EYE, projection="view", view=vx.View(EYE, wrong, 5)),
+    "samples_per_voxel": ("1 to 16", lambda scene, wrong: scene.detect(cube(), EYE, projection="dominant-axis", samples_per_voxel=wrong)),
+    "most_contacts": ("0 to 4294967295", lambda scene, wrong: scene.detect(cube(), EYE, most_contacts=wrong)),
+    "most_steps": ("1 to 4294967295", lambda scene, wrong: scene.clearance(cube(), EYE, most_steps=wrong)),
+    "threads": ("0 to 4096", lambda scene, wrong: vx.Scene(scene.volume, threads=wrong)),
+    "table_size": ("2 to 16777216", lambda scene, wrong: vx.Scene(scene.volume, table_size=wrong)),
+    "entries": ("1 to 3994242", lambda scene, wrong: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", entries=wrong)),
+    "width": ("1 to 4294967295", lambda scene, wrong: scene.detect(cube(), EYE, projection="view", view=vx.View(EYE, wrong, 5))),
 }
 
 
 @pytest.mark.parametrize("what", WHOLE)
-@pytest.mark.parametrize("wrong", ["1", True, 1.0, -1, 2**40, None])
+@pytest.mark.parametrize("wrong", ["1", True, np.True_, 1.0, 2j, None, [1, 2]])
 def test_whole_numbers_that_are_none(scene, what, wrong):
-    with pytest.raises(vx.InvalidArgumentError, match=re.escape(f"{what} is {wrong!r}; a whole number from 0")) as caught:
-        WHOLE[what](scene, wrong)
+    with pytest.raises(TypeError, match=re.escape(f"{what} is {wrong!r}; a whole number is needed")) as caught:
+        WHOLE[what][1](scene, wrong)
     say(caught)
+
+
+@pytest.mark.parametrize("what", WHOLE)
+@pytest.mark.parametrize("wrong", [-1, 2**40])
+def test_whole_numbers_beyond_their_limits(scene, what, wrong):
+    limits, ask = WHOLE[what]
+    with pytest.raises(vx.InvalidArgumentError, match=re.escape(f"{what} is {wrong}; a whole number from {limits} is needed")) as caught:
+        ask(scene, wrong)
+    say(caught)
+
+
+def test_samples_of_a_projection_that_has_none(scene):
+    for projection in ("conservative", "view", "two-view"):
+        with pytest.raises(vx.InvalidArgumentError, match=f"samples_per_voxel is for projection='dominant-axis', not for '{projection}'") as caught:
+            scene.detect(cube(), EYE, projection=projection, samples_per_voxel=2)
+        say(caught)
 
 
 def test_an_array_for_a_number_is_told_in_one_line(scene):
@@ -183,23 +200,30 @@ def test_labels_that_are_none(files):
         with pytest.raises(error, match="a label is ") as caught:
             scene.clearance(cube(), EYE, labels=[wrong])
         say(caught)
+    for wrong in ([7.0], [None], [True]):
+        with pytest.raises(TypeError, match="a label of avoid is .*; its number or its name is needed") as caught:
+            scene.plan((3, 4, 4), avoid=wrong)
+        say(caught)
+    with pytest.raises(vx.InvalidArgumentError, match="^avoid names the label -1, which the label map has not") as caught:
+        scene.plan((3, 4, 4), avoid=[-1])
+    say(caught)
 
 
 # Words
 
 
 @pytest.mark.parametrize("ask, text", [
-    (lambda scene: scene.clearance(cube(), EYE, most_steps=0), "at most 0 steps"),
-    (lambda scene: scene.motion(cube(), [EYE, EYE], most_steps=0), "at most 0 steps"),
-    (lambda scene: scene.tracker(cube(), most_steps=0), "at most 0 steps"),
-    (lambda scene: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", most_steps=0), "at most 0 steps"),
-    (lambda scene: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", entries=2**31), "there can be up to"),
-    (lambda scene: scene.detect(cube(), EYE, projection="dominant-axis", samples_per_voxel=17), "samples per voxel is 17"),
+    (lambda scene: scene.clearance(cube(), EYE, most_steps=0), "most_steps is 0; a whole number from 1"),
+    (lambda scene: scene.motion(cube(), [EYE, EYE], most_steps=0), "most_steps is 0; a whole number from 1"),
+    (lambda scene: scene.tracker(cube(), most_steps=0), "most_steps is 0; a whole number from 1"),
+    (lambda scene: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", most_steps=0), "most_steps is 0; a whole number from 1"),
+    (lambda scene: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", entries=2**31), "entries is 2147483648; a whole number from 1 to 3994242"),
+    (lambda scene: scene.detect(cube(), EYE, projection="dominant-axis", samples_per_voxel=17), "samples_per_voxel is 17; a whole number from 1 to 16"),
     (lambda scene: scene.detect(cube(), EYE, contacts=True, max_depth=-1), "the largest depth"),
     (lambda scene: scene.detect(cube(), EYE, contacts=True, yes_no=True), "a yes or no ends"),
     (lambda scene: scene.detect(cube(), EYE, projection="view", view=vx.View(EYE, 10**6, 5)), "1000000x5"),
-    (lambda scene: vx.Scene(scene.volume, threads=5000).clearance(cube(), EYE), "5000 threads .* the most is 4096"),
-    (lambda scene: vx.Scene(scene.volume, table_size=2**31), "the most is 16777216"),
+    (lambda scene: vx.Scene(scene.volume, threads=5000), "threads is 5000; a whole number from 0 to 4096"),
+    (lambda scene: vx.Scene(scene.volume, table_size=2**31), "table_size is 2147483648; a whole number from 2 to 16777216"),
     (lambda scene: vx.Scene(scene.volume, domain=(np.nan, 2)), "domain nan:2 is not finite"),
     (lambda scene: vx.Scene(scene.volume, domain=(0, np.inf)), "domain 0:inf is not finite"),
     (lambda scene: scene.picture(background=(2, 0, 0)), "from 0 to 1"),

@@ -121,14 +121,17 @@ def number(given: Any, what: str) -> float:
     raise TypeError(f"{what} is {shown}; a number is needed")
 
 
-def whole_number(given: Any, what: str) -> int:
-    """A whole number of 32 bits, not negative. Truth values are none."""
+def whole_number(given: Any, what: str, least: int = 0, most: int = 2**32 - 1) -> int:
+    """A whole number in these limits, which hold in 32 bits without a sign. Truth values are none."""
     try:
-        found = -1 if isinstance(given, (bool, np.bool_)) else operator.index(given)
+        if isinstance(given, (bool, np.bool_)):
+            raise TypeError
+        found = operator.index(given)
     except TypeError:
-        found = -1
-    if not 0 <= found < 2**32:
-        raise InvalidArgumentError(f"{what} is {given!r}; a whole number from 0 to {2**32 - 1} is needed")
+        shown = " ".join(repr(given).split())  # an array has lines
+        raise TypeError(f"{what} is {shown}; a whole number is needed") from None
+    if not least <= found <= most:
+        raise InvalidArgumentError(f"{what} is {found}; a whole number from {least} to {most} is needed")
     return found
 
 

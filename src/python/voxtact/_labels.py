@@ -49,12 +49,18 @@ class Labels:
 
     def number(self, label: Union[int, str]) -> int:
         """The number of a label that is given by its number or its name."""
-        if isinstance(label, (bool, np.bool_)):
-            raise TypeError(f"a label is {label!r}; its number or its name is needed")
+        return self._number(label, "a label")
+
+    def _number(self, label: Union[int, str], what: str) -> int:
         if not isinstance(label, str):
-            given = operator.index(label)
+            try:
+                if isinstance(label, (bool, np.bool_)):
+                    raise TypeError
+                given = operator.index(label)
+            except TypeError:
+                raise TypeError(f"{what} is {label!r}; its number or its name is needed") from None
             if not -2**31 <= given < 2**31:
-                raise InvalidArgumentError(f"a label is {given}; labels are from {-2**31} to {2**31 - 1}")
+                raise InvalidArgumentError(f"{what} is {given}; labels are from {-2**31} to {2**31 - 1}")
             return given
         found = [number for number, name in self.names.items() if name == label]
         if len(found) != 1:

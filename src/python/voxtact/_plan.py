@@ -39,15 +39,15 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
         raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
     if mesh is not None and (needle is not None or tip is None or axis is None):
         raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-    wish: dict[str, Any] = {"entries": whole_number(entries, "entries"), "margin": number(margin, "margin"),
+    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, core.MOST_ENTRIES), "margin": number(margin, "margin"),
                                "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
-                               "most_steps": whole_number(most_steps, "most_steps")}
+                               "most_steps": whole_number(most_steps, "most_steps", 1)}
     if triangle_clearances:
         wish["triangle_clearances"] = True
     if labels is not None:
-        wish["avoid"] = [labels.number(label) for label in avoided]
+        wish["avoid"] = [labels._number(label, "a label of avoid") for label in avoided]
     if entry_label is not None and labels is not None:
-        wish["entry_label"] = labels.number(entry_label)
+        wish["entry_label"] = labels._number(entry_label, "entry_label")
     wish["border_entries"] = bool(border_entries)
     if needle is not None:
         wish["needle"] = pair(needle, "needle")

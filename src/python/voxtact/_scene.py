@@ -85,12 +85,12 @@ class Scene:
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = opened(device)
         self._domain = None if domain is None else pair(domain, "domain")
-        self._table_size = whole_number(table_size, "table_size")
+        self._table_size = whole_number(table_size, "table_size", 2, core.MOST_TABLE_SIZE)
         self._closed = False
         self._core = core.Scene(self._volume._core, points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
-                                 whole_number(threads, "threads"))
+                                 whole_number(threads, "threads", 0, core.MOST_THREADS))
 
     # What it is
 
@@ -239,7 +239,8 @@ class Scene:
         if resolution is not _RESOLUTION:
             options["resolution"] = number(resolution, "resolution")
         if samples_per_voxel is not _SAMPLES_PER_VOXEL:
-            options["samples_per_voxel"] = whole_number(samples_per_voxel, "samples_per_voxel")
+            options["samples_per_voxel"] = whole_number(samples_per_voxel, "samples_per_voxel", 1,
+                                                        core.MOST_SAMPLES_PER_VOXEL)
         if max_depth is not _MAX_DEPTH:
             options["max_depth"] = number(max_depth, "max_depth")
         if most_contacts is not _MOST_CONTACTS:
@@ -252,7 +253,7 @@ class Scene:
             if not isinstance(view, tuple) or len(view) != 3:
                 raise TypeError(f"view is a {type(view).__name__}; a voxtact.View is needed")
             matrix, width, height = view
-            options["view"] = (numbers(matrix, "clip_from_world"), whole_number(width, "width"), whole_number(height, "height"))
+            options["view"] = (numbers(matrix, "clip_from_world"), whole_number(width, "width", 1), whole_number(height, "height", 1))
         meshes, matrices = asked(mesh, poses)
         if progress is None:
             return Answer(self._core.detect(meshes, matrices, options, None), self)
@@ -290,10 +291,10 @@ class Scene:
             if self._labels is None:
                 raise InvalidArgumentError("clearances to labels need a scene with labels=")
             every = [int(label) for label in self._labels.values if label != 0]
-            wanted = every if labels is True else [self._labels.number(label) for label in listed(labels, "labels")]
+            wanted = every if labels is True else [self._labels._number(label, "a label") for label in listed(labels, "labels")]
         elif labels_at_any_opacity:
             raise InvalidArgumentError("labels_at_any_opacity is about labels: give labels=, too")
-        steps = whole_number(most_steps, "most_steps")
+        steps = whole_number(most_steps, "most_steps", 1)
         meshes, matrices = asked(mesh, poses)
         with told(progress, pairs_in(meshes, matrices)) as tell:
             if by_device:
@@ -344,7 +345,7 @@ class Scene:
         """
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-        steps = whole_number(most_steps, "most_steps")
+        steps = whole_number(most_steps, "most_steps", 1)
         return Tracker(core.Tracker(self._core, mesh._core, number(maximum, "maximum"), number(resolution, "resolution"), steps), mesh)
 
     def motion(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
@@ -373,7 +374,7 @@ class Scene:
         _check_method(method, "a motion is checked")
         if method == "compute" and most_steps != core.DEFAULT_MOTION_STEPS:
             raise InvalidArgumentError("most_steps is about the host's search: leave it out, or method='compute'")
-        steps = whole_number(most_steps, "most_steps")
+        steps = whole_number(most_steps, "most_steps", 1)
         meshes, matrices = asked(mesh, poses)
         with told(progress, segments_in(meshes, matrices)) as tell:
             return Motion(self._core.motion(meshes, matrices, encoded_text(interpolation, "interpolation"), number(resolution, "resolution"), steps,
