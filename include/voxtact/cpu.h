@@ -308,7 +308,7 @@ struct EntrySurface {
     double threshold = kDefaultThreshold;               ///< 0..1
     const LabelData* labels = nullptr;                  ///< instead of a volume: of a label
     std::int32_t label = 0;                             ///< that one
-    double radius = 0;                                  ///< mm, instead of both: of a ball around the target
+    double radius = 0; ///< mm, instead of both: of a ball around the target; above kNearestEntry
     /// Paths may begin where the image ends within what is opaque, or within the label, too. There it is the image that
     /// was cut, as a scan of a head is at the neck, and nobody knows what lies before the entry.
     bool borderEntries = false;

@@ -29,6 +29,9 @@ inline constexpr double kDefaultPlanMaximum = 10;
 /// mm: how near to each other the bounds of a path are brought, where nothing else is asked for.
 inline constexpr double kDefaultPlanTolerance = 0.05;
 
+/// mm: no entry is as near to the target as that.
+inline constexpr double kNearestEntry = 1e-3;
+
 /// What is certain of a path.
 enum class Safety : std::uint32_t {
     Unsafe,   ///< it comes as near to something as the margin, or touches it

@@ -49,7 +49,7 @@ typedef struct vxt_plan_task {
     double mesh_tip[3];                                        ///< object space: comes to the target
     double mesh_axis[3];          ///< object space: from the tip to where it is held; default 0 0 1
     double entry_threshold;       ///< 0..1: of entry_volume; default 0.1
-    double entry_radius;          ///< of a ball around the target, where neither a volume nor labels are given
+    double entry_radius;          ///< mm, above 0.001: of a ball, where neither a volume nor labels are given
     double needle_diameter;       ///< above 0; default 2
     double needle_length;         ///< from the tip to the other end, at least the diameter; default 200
     double margin;                ///< that is to be kept; default 0

@@ -65,6 +65,14 @@ std::string parseErrorText(const CLI::App& program, const CLI::ParseError& error
         return (command ? "unknown command " : "unknown argument ") + forMessage(unknown.front()) +
                (meant.empty() ? "" : ", did you mean " + meant + "?") + help;
     }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        for (const CLI::Option* option : app->get_options()) {
+            if (const std::size_t count = option->count(); option->get_items_expected_max() == 1 && count > 1) {
+                return option->get_name() + " is given " + (count == 2 ? "twice" : std::to_string(count) + " times") +
+                       "; leave out all but one" + help;
+            }
+        }
+    }
     if (!app->get_subcommands({}).empty()) {
         return "a command is needed" + help;
     }

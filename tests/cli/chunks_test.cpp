@@ -305,6 +305,12 @@ TEST_F(ChunksTest, DamagedChunksAreDoneAgain) {
     output(chunked());
     writeText(files[5], other);
     EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("1 of 12 chunks are damaged"));
+    fs::remove(files[3]);
+    fs::remove(files[8]);
+    EXPECT_THAT(
+        refused(1, {"merge", path("run")}),
+        HasSubstr("1 of 12 chunks are damaged, the first is number 5, and 2 of 12 chunks are missing, the first is "
+                  "number 3; run the same commands"));
 }
 
 TEST_F(ChunksTest, MergeSaysWhatIsMissing) {

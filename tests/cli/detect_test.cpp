@@ -162,6 +162,27 @@ TEST_F(DetectTest, NoOverlapIsNoHit) {
     EXPECT_THAT(run(detect({"--poses", path("far.txt")})).err, AllOf(HasSubstr("near"), Not(HasSubstr("mm long"))));
 }
 
+TEST_F(DetectTest, WhatIsWithinADistanceComesNear) {
+    writeText(path("far.txt"), "1 0 0 300 0 1 0 0 0 0 1 0 0 0 0 1\n");
+    const auto ask = [&](const Arguments& more) {
+        Arguments all{"detect",  "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:500",
+                      "--poses", path("far.txt"), "--count",         "cpu"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    for (const Arguments& asked : {Arguments{"--margin", "400"}, Arguments{"--pose-tolerance", "400,0"}}) {
+        const Ran ran = ask(asked);
+        EXPECT_NE(fieldsOf(linesOf(ran.out).at(1)).at(kHit), "0");
+        EXPECT_EQ(ran.err, "");
+    }
+    EXPECT_THAT(ask({"--margin", "1"}).err, HasSubstr("does not come near"));
+}
+
+TEST_F(DetectTest, LabelsAreOfAFile) {
+    EXPECT_THAT(refused(2, detect({"--labels", "builtin:head:32"})),
+                HasSubstr("--labels takes a file, and 'builtin:head:32' is none; voxtact make volume writes"));
+}
+
 TEST_F(DetectTest, ThresholdAndTransferFunctionDecide) {
     const std::uint64_t standard = onlyCount(detect());
     EXPECT_EQ(onlyCount(detect({"--opacity", "0:0"})), 0U);

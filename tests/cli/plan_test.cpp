@@ -184,7 +184,11 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
                 HasSubstr("did you mean Cortex?"));
     output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
     EXPECT_THAT(refused(1, plan({"--labels", path("coarse.nii.gz"), "--target", "0,0,0", "--avoid", "70"})),
-                HasSubstr("not on the grid of the volume"));
+                HasSubstr("plan: --labels: the label map is not on the grid of the volume"));
+    for (const char* radius : {"1e-9", "0.001"}) {
+        EXPECT_THAT(avoiding({"--target", "0,0,0", "--entry-radius", radius}),
+                    HasSubstr("--entry-radius: '" + std::string(radius) + "' is not a number above 0.001"));
+    }
     EXPECT_EQ(filesInFolder(), 3U);
 }
 

@@ -74,19 +74,19 @@ Result<void> checkChunks(const RunFolder& folder) {
             (state == ChunkState::Missing ? missing : damaged).push_back(chunk);
         }
     }
-    const auto refusal = [&](const std::vector<std::uint64_t>& which, const std::string& what) {
-        const std::string shards = shardsText(folder, which);
-        return Error{
-            ErrorCode::File, 0,
-            "cannot merge " + folderText(folder.path()) + ": " + std::to_string(which.size()) + " of " +
-                std::to_string(folder.manifest().chunks) + " chunks are " + what +
-                (shards.empty() ? ", the first is number " + std::to_string(which.front()) : " (" + shards + ")") +
-                "; run the same commands again with --resume, they do only these"};
-    };
-    if (!damaged.empty()) {
-        return refusal(damaged, "damaged");
+    if (missing.empty() && damaged.empty()) {
+        return {};
     }
-    return missing.empty() ? Result<void>() : Result<void>(refusal(missing, "missing"));
+    const auto text = [&](const std::vector<std::uint64_t>& which, const std::string& what) {
+        const std::string shards = shardsText(folder, which);
+        return std::to_string(which.size()) + " of " + std::to_string(folder.manifest().chunks) + " chunks are " +
+               what + (shards.empty() ? ", the first is number " + std::to_string(which.front()) : " (" + shards + ")");
+    };
+    return Error{
+        ErrorCode::File, 0,
+        "cannot merge " + folderText(folder.path()) + ": " + (damaged.empty() ? "" : text(damaged, "damaged")) +
+            (damaged.empty() || missing.empty() ? "" : ", and ") + (missing.empty() ? "" : text(missing, "missing")) +
+            "; run the same commands again with --resume, they do only these"};
 }
 
 Error changed(const RunFolder& folder, std::uint64_t chunk) {

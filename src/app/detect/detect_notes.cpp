@@ -46,6 +46,12 @@ void FitNotes::look(const Window& window, const Grid& grid) {
     }
 }
 
+void FitNotes::lookAtAnswers(std::span<const Row> rows) {
+    for (const Row& row : rows) {
+        near_[row.job] += row.timed.answer.hit || row.timed.answer.possible ? 1 : 0;
+    }
+}
+
 void FitNotes::addTo(std::vector<std::string>& notes) const {
     std::vector<std::string> sizes;
     std::vector<std::string> places;

@@ -3,6 +3,8 @@
 
 #include "app/detect/pair_window.h"
 
+#include <span>
+
 namespace voxtact::app {
 
 /// What is to be said of a mesh that is a thousand times too small or too large for a volume, or that comes near it at
@@ -12,10 +14,12 @@ class FitNotes {
     /// Both must outlive it.
     FitNotes(const DetectOptions& options, const DetectInputs& inputs);
 
-    /// How many poses of each job bring the mesh's box near the volume; selectPoses() counts.
+    /// Of each job: 0 where no pose brings the mesh's box near the volume; selectPoses() counts.
     [[nodiscard]] std::vector<std::uint64_t>& near() noexcept { return near_; }
     /// Counts the poses, and looks at the size of the mesh at the first pose of each job.
     void look(const Window& window, const Grid& grid);
+    /// What touches, or is within a distance that was asked for, is near wherever the box is.
+    void lookAtAnswers(std::span<const Row> rows);
     /// Once all windows have been looked at.
     void addTo(std::vector<std::string>& notes) const;
 

@@ -62,6 +62,7 @@ Result<void> PairAsker::answer(Window& window, const Grid& grid, DetectOutput& o
     if (!interrupted()) {
         rows.endWindow();
     }
+    fit_.lookAtAnswers(rows.rows());
     VOXTACT_TRY(rows.written());
     progress();
     return {};

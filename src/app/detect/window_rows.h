@@ -4,6 +4,8 @@
 #include "app/detect/detect_output.h"
 #include "app/detect/pair_window.h"
 
+#include <span>
+
 namespace voxtact::app {
 
 /// The rows of a window: every pair, those that are not selected with the answer that nothing touches. They go to the
@@ -25,6 +27,7 @@ class WindowRows {
     /// All that was selected has been answered.
     void endWindow();
 
+    [[nodiscard]] std::span<const Row> rows() const noexcept { return rows_; }
     /// Whether the output took all rows.
     [[nodiscard]] const Result<void>& written() const noexcept { return written_; }
 

@@ -149,6 +149,10 @@ std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
 }
 
 Result<LabelData> loadLabels(const std::filesystem::path& path) {
+    if (std::error_code ignored; path.string().starts_with("builtin:") && !std::filesystem::exists(path, ignored)) {
+        return badArgument("--labels takes a file, and " + forMessage(path.string()) +
+                           " is none; voxtact make volume writes a builtin to one");
+    }
     const Result<VolumeData> volume = readImage(path.string());
     if (!volume.ok()) {
         return fileFault(volume.error());

@@ -3,6 +3,7 @@
 #include "app/plan/plan_run.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/volume/label_grid.h"
 #include "voxtact/io.h"
 #include "voxtact/samples.h"
 
@@ -100,6 +101,7 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         return badArgument("--avoid-volume: --avoid-opacity must say what of it is not to be touched");
     }
     if (!options.avoid.empty()) {
+        VOXTACT_TRY(checkLabelGrid(inputs.labels->labels.grid, inputs.head->volume.grid(), "--labels"));
         cpu::PlanObstacle labels;
         labels.volume = &inputs.head->volume;
         labels.labels = &inputs.labels->labels;

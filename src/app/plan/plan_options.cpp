@@ -62,7 +62,8 @@ void addEntryOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& optio
         ->type_name("LABEL");
     addNumber(
         parser, "--entry-radius", [options](double mm) { options->entryRadius = mm; },
-        "entries are all so far from the target, mm", [](double mm) { return mm > 0; }, "above 0", "none");
+        "entries are all so far from the target, mm", [](double mm) { return mm > kNearestEntry; }, "above 0.001",
+        "none");
     parser.add_flag("--border-entries", options->borderEntries,
                     "paths may begin where the image ends within what is opaque, or within --entry-label, too; without "
                     "it they are left out: there the image was cut, and not the body");

@@ -15,8 +15,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kStep = 0.25;    // voxels, along the ray: what is thinner may be passed over
-constexpr double kNearest = 1e-3; // mm: no entry is nearer to the target
+constexpr double kStep = 0.25; // voxels, along the ray: what is thinner may be passed over
 
 /// A ray from a target, in the voxels of a grid.
 struct VoxelRay {
@@ -50,7 +49,7 @@ struct Outermost {
 template <class Inside> Outermost outermost(const VoxelRay& ray, const Inside& inside) {
     constexpr int kHalvings = 12;
     const double step = kStep / glm::length(ray.way);
-    const double nearest = std::max(ray.begin, kNearest);
+    const double nearest = std::max(ray.begin, kNearestEntry);
     double outside = ray.end;
     double number = 0;
     // Where a step is less than what rounding leaves of the distance, the steps still end.
@@ -161,8 +160,8 @@ Result<void> findEntries(PlanScene& scene, Workers& workers, PlanAnswer& answer)
         const dvec3 direction = scene.grid.direction(entry.number);
         const Outermost found = search.along(direction);
         entry.length = found.distance;
-        entry.isOnBorder = found.distance > kNearest && found.isAtEnd && !scene.task.surface.borderEntries;
-        entry.isThere = found.distance > kNearest && !entry.isOnBorder;
+        entry.isOnBorder = found.distance > kNearestEntry && found.isAtEnd && !scene.task.surface.borderEntries;
+        entry.isThere = found.distance > kNearestEntry && !entry.isOnBorder;
         entry.position = target + entry.length * direction;
     }));
     const std::vector<dvec3> normals = normalsOf(scene);

@@ -78,10 +78,10 @@ Result<void> checkSurface(const EntrySurface& surface) {
                    ? Result<void>()
                    : refuse("the entries' surface: the label map has no label " + std::to_string(surface.label));
     }
-    return surface.radius > 0 && std::isfinite(surface.radius)
+    return surface.radius > kNearestEntry && std::isfinite(surface.radius)
                ? Result<void>()
                : refuse("the entries' surface: neither volume nor labels are given, and the radius " +
-                        number(surface.radius) + " mm is not above 0");
+                        number(surface.radius) + " mm is not above " + number(kNearestEntry));
 }
 
 Result<void> checkInstrument(const PlanTask& task) {

@@ -415,6 +415,7 @@ TEST(Plan, RefusesWhatItCannotUse) {
     EXPECT_NE(refused([](auto& task) { task.needle.diameter = 0; }).find("needle"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.needle.length = 1; }).find("needle"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.surface.radius = 0; }).find("radius"), std::string::npos);
+    EXPECT_NE(refused([](auto& task) { task.surface.radius = 1e-3; }).find("mm is not above 0.001"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.surface.entries = 0; }).find("entries"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.longest = 5; }).find("too long"), std::string::npos);
     EXPECT_NE(refused([](auto& task) { task.steepest = 95; }).find("angle"), std::string::npos);
