@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 /// The host engine (target voxtact::cpu): the same questions answered without a device, by the same pixels and the
@@ -298,6 +299,7 @@ struct PlanObstacle {
     double threshold = kDefaultThreshold;               ///< 0..1
     const LabelData* labels = nullptr;                  ///< on the volume's grid; null: all that is opaque
     std::vector<std::int32_t> avoid{};                  ///< these labels
+    std::string name{};                                 ///< in messages; empty: "obstacle" and its number
 };
 
 /// Where paths may begin: along each direction from the target, the outermost point of something.

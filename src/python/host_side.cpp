@@ -192,28 +192,12 @@ TrackedClearance HostSide::track(cpu::ClearanceTracker& tracker, const Shape& me
     return take(tracker.track({&mesh.onHost(), &volume_, &function_, {&world_from_object, 1}}, threshold));
 }
 
-namespace {
-
-/// Obstacles have no numbers in Python.
-Error inWordsOf(const PlanWish& wish, Error error) {
-    const std::string first = "obstacle 0: ";
-    const std::string second = "obstacle 1: ";
-    if (error.text.starts_with(first) || error.text.starts_with(second)) {
-        const bool isLabels = error.text.starts_with(first) && !wish.avoid.empty();
-        const std::string rest = error.text.substr(first.size());
-        error.text = (rest.starts_with("avoid") ? "" : isLabels ? "avoid: " : "avoid_opacity: ") + rest;
-    }
-    return error;
-}
-
-} // namespace
-
 PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelData* labels) {
     cpu::Planner planner = take(cpu::Planner::create(
         {.threads = threads_, .tolerance = wish.tolerance, .maximum = wish.maximum, .mostSteps = wish.mostSteps}));
     std::vector<cpu::PlanObstacle> obstacles;
     if (!wish.avoid.empty()) {
-        obstacles.push_back({&volume_, nullptr, threshold, labels, wish.avoid});
+        obstacles.push_back({&volume_, nullptr, threshold, labels, wish.avoid, "avoid"});
     }
     std::optional<cpu::Volume> other;
     std::optional<cpu::TransferFunction> opaque;
@@ -222,7 +206,7 @@ PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelDat
             other = take(cpu::Volume::create(wish.avoided->volume->view()));
         }
         opaque = take(cpu::TransferFunction::create(wish.avoided->opacity.desc()));
-        obstacles.push_back({other ? &*other : &volume_, &*opaque, threshold, nullptr, {}});
+        obstacles.push_back({other ? &*other : &volume_, &*opaque, threshold, nullptr, {}, "avoid_opacity"});
     }
     cpu::PlanTask task;
     task.target = wish.target;
@@ -247,10 +231,7 @@ PlanAnswer HostSide::plan(const PlanWish& wish, double threshold, const LabelDat
     task.triangleClearances = wish.triangleClearances;
     task.longest = wish.longest;
     task.steepest = wish.steepest;
-    return interruptibly(task, [&](const cpu::PlanTask& asked) {
-        Result<PlanAnswer> answer = planner.plan(asked);
-        return answer.ok() ? take(std::move(answer)) : throw Failure{inWordsOf(wish, std::move(answer.error()))};
-    });
+    return interruptibly(task, [&](const cpu::PlanTask& asked) { return take(planner.plan(asked)); });
 }
 
 } // namespace voxtact::python

@@ -270,7 +270,7 @@ TEST_F(Plans, RefuseWhatTheCppInterfaceRefuses) {
     cObstacles_[0].avoid = nullptr;
     EXPECT_EQ(refused(), "obstacle: avoid is null");
     cObstacles_[0].avoid_count = 0;
-    EXPECT_THAT(refused(), HasSubstr("obstacle 0: there is a label map, and avoid names no label"));
+    EXPECT_THAT(refused(), HasSubstr("obstacle 0: there is a label map, and none of its labels is to be avoided"));
     cObstacles_[0].labels = nullptr;
     EXPECT_THAT(refused(), HasSubstr("obstacle 0: transferFunction and labels are both null"));
     cObstacles_[1].struct_size = 0;

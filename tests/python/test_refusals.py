@@ -204,7 +204,7 @@ def test_labels_that_are_none(files):
         with pytest.raises(TypeError, match="a label of avoid is .*; its number or its name is needed") as caught:
             scene.plan((3, 4, 4), avoid=wrong)
         say(caught)
-    with pytest.raises(vx.InvalidArgumentError, match="^avoid names the label -1, which the label map has not") as caught:
+    with pytest.raises(vx.InvalidArgumentError, match="^avoid: the label -1 is to be avoided, which the label map has not") as caught:
         scene.plan((3, 4, 4), avoid=[-1])
     say(caught)
 

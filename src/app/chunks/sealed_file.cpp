@@ -21,9 +21,9 @@ constexpr std::size_t kPart = std::size_t{1} << 16U;
 
 /// Of so many characters whatever it says, so that it can be found from the end.
 std::string sealOf(const ContentHash& hash) {
-    constexpr std::size_t kDigits = 20; // of 2^64
+    constexpr std::size_t kLengthDigits = 20; // of 2^64
     std::string length = std::to_string(hash.length());
-    length.insert(0, kDigits - length.size(), '0');
+    length.insert(0, kLengthDigits - length.size(), '0');
     return "\nvoxtact end " + length + " " + hash.hex() + "\n";
 }
 

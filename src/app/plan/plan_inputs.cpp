@@ -79,14 +79,15 @@ Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptio
         Result<cpu::TransferFunction> function = functionOf(how, head.type, head.values, options.volumes.front());
         VOXTACT_TRY(function);
         inputs.avoidedInHead = std::move(*function);
-        inputs.obstacles.push_back({&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}});
+        inputs.obstacles.push_back(
+            {&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}, "--avoid-opacity"});
         return {};
     }
     Result<PlanVolume> avoided = readVolumeOf(options.avoidVolume, how);
     VOXTACT_TRY(avoided);
     inputs.avoided = std::move(*avoided);
     inputs.obstacles.push_back(
-        {&inputs.avoided->volume, &inputs.avoided->transferFunction, how.threshold, nullptr, {}});
+        {&inputs.avoided->volume, &inputs.avoided->transferFunction, how.threshold, nullptr, {}, "--avoid-opacity"});
     return {};
 }
 
@@ -105,6 +106,7 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         cpu::PlanObstacle labels;
         labels.volume = &inputs.head->volume;
         labels.labels = &inputs.labels->labels;
+        labels.name = "--avoid";
         for (const LabelWord& word : options.avoid) {
             const Result<std::vector<std::int32_t>> found = labelsOf(*inputs.labels, word, "--avoid");
             VOXTACT_TRY(found);

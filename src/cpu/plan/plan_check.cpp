@@ -45,11 +45,12 @@ Result<void> checkObstacle(const PlanObstacle& obstacle, const std::string& whic
     VOXTACT_TRY(checkLabels(*obstacle.labels));
     VOXTACT_TRY(checkLabelsOnGrid(*obstacle.labels, obstacle.volume->grid(), which));
     if (obstacle.avoid.empty()) {
-        return refuse(which + ": there is a label map, and avoid names no label of it");
+        return refuse(which + ": there is a label map, and none of its labels is to be avoided");
     }
     for (const std::int32_t label : obstacle.avoid) {
         if (!std::ranges::binary_search(obstacle.labels->values, label)) {
-            return refuse(which + ": avoid names the label " + std::to_string(label) + ", which the label map has not");
+            return refuse(which + ": the label " + std::to_string(label) +
+                          " is to be avoided, which the label map has not");
         }
     }
     return checkThreshold(obstacle.threshold, which);
@@ -130,7 +131,8 @@ Result<void> checkTask(const PlanTask& task) {
         return refuse("there are no obstacles: nothing is to be avoided");
     }
     for (std::size_t i = 0; i < task.obstacles.size(); ++i) {
-        VOXTACT_TRY(checkObstacle(task.obstacles[i], "obstacle " + std::to_string(i)));
+        const PlanObstacle& obstacle = task.obstacles[i];
+        VOXTACT_TRY(checkObstacle(obstacle, obstacle.name.empty() ? "obstacle " + std::to_string(i) : obstacle.name));
     }
     VOXTACT_TRY(checkSurface(task.surface));
     VOXTACT_TRY(checkInstrument(task));

@@ -176,9 +176,9 @@ TEST(PlanObstacles, LabelsThatAreNotThereAreRefused) {
     scene.obstacle.avoid = {5, 7};
     EXPECT_EQ(refused(), "");
     scene.obstacle.avoid = {5, 6};
-    EXPECT_EQ(refused(), "obstacle 0: avoid names the label 6, which the label map has not");
+    EXPECT_EQ(refused(), "obstacle 0: the label 6 is to be avoided, which the label map has not");
     scene.obstacle.avoid.clear();
-    EXPECT_EQ(refused(), "obstacle 0: there is a label map, and avoid names no label of it");
+    EXPECT_EQ(refused(), "obstacle 0: there is a label map, and none of its labels is to be avoided");
     scene.obstacle.avoid = {5};
     scene.task.surface = {.entries = 12, .labels = &scene.labels, .label = 6};
     EXPECT_EQ(refused(), "the entries' surface: the label map has no label 6");
