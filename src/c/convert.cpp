@@ -33,7 +33,10 @@ Vec3 toVec3(const double* vector, const char* what) {
     return {first[0], first[1], first[2]};
 }
 
-Grid toGrid(const vxt_grid& grid) noexcept {
+Grid toGrid(const vxt_grid& grid) {
+    if (grid.reserved != 0) {
+        refuse(ErrorCode::Unsupported, "grid: reserved is not 0");
+    }
     Grid out;
     std::copy_n(grid.size, 3, out.size.begin());
     std::copy_n(grid.spacing, 3, out.spacing.begin());

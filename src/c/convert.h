@@ -13,7 +13,7 @@ template <class To, class From> To number(From from) noexcept {
     return static_cast<To>(static_cast<std::uint32_t>(from));
 }
 
-[[nodiscard]] Grid toGrid(const vxt_grid& grid) noexcept;
+[[nodiscard]] Grid toGrid(const vxt_grid& grid);
 /// Refuses what checkGrid() refuses, and null.
 [[nodiscard]] Grid checkedGrid(const vxt_grid* grid);
 [[nodiscard]] vxt_grid fromGrid(const Grid& grid) noexcept;

@@ -92,6 +92,15 @@ TEST_F(CStructs, ReservedMembersAreZero) {
     EXPECT_EQ(vxt_host_detector_create(&desc, &detector), VXT_ERROR_UNSUPPORTED);
     EXPECT_EQ(detector, nullptr);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("reserved"));
+    // Of a struct in another one, too.
+    const VolumeData volume = makeBytes(unitGrid(4), [](auto...) { return 255.0; });
+    vxt_volume_view view = cVolume(volume);
+    view.grid.reserved = 1;
+    vxt_host_volume* made = nullptr;
+    EXPECT_EQ(vxt_host_volume_create(&view, &made), VXT_ERROR_UNSUPPORTED);
+    EXPECT_EQ(made, nullptr);
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("grid: reserved"));
+    EXPECT_EQ(vxt_check_grid(&view.grid), VXT_ERROR_UNSUPPORTED);
 }
 
 TEST_F(CStructs, ItemsOfALaterHeaderStandFartherApart) {

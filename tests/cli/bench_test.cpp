@@ -184,6 +184,8 @@ TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
     const Json cut = json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
                            "--opacity", "40:0,80:1", "--number", "100000", "--time-limit", "0.01"});
     EXPECT_LT(cut["rows"].size(), 6 * sizes.size()) << "all sizes, 100000 poses in 10 ms";
+    EXPECT_THAT(result["notes"].dump(), Not(HasSubstr("are left out")));
+    EXPECT_THAT(cut["notes"].dump(), HasSubstr(" are left out, as they do not fit in --time-limit"));
 }
 
 TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {

@@ -36,6 +36,22 @@ Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<con
     return {};
 }
 
+/// Which batches no engine had the time for, one sentence for each engine that ended early.
+void noteEnded(const BenchRun& run) {
+    for (const Engine& engine : run.engines) {
+        std::uint64_t largest = 0;
+        for (const BenchRow& row : run.result.rows) {
+            const bool own = row.engine.name == engine.facts.name && row.engine.projection == engine.facts.projection;
+            largest = own ? std::max(largest, row.pairs) : largest;
+        }
+        if (largest < run.settings.number) {
+            run.result.notes.push_back(engine.facts.name + " " + engine.facts.projection + ": batches of more than " +
+                                       std::to_string(largest) + (largest == 1 ? " pose" : " poses") +
+                                       " are left out, as they do not fit in --time-limit");
+        }
+    }
+}
+
 } // namespace
 
 std::vector<std::uint32_t> batchSizes(std::uint32_t most) {
@@ -66,6 +82,9 @@ Result<void> benchBatches(const BenchRun& run) {
     }
     // After a disagreement nothing more is measured.
     std::erase_if(run.result.rows, [](const BenchRow& row) { return row.wall.empty(); });
+    if (run.result.disagreement.empty()) {
+        noteEnded(run);
+    }
     return {};
 }
 
