@@ -46,13 +46,19 @@ EXACT MarginTriangle marginLocal(MarginSpace by, MarginTriangle given, float rea
     const VoxelPoint third = voxelDifference(offs[2], offs[1]);
     VoxelPoint longest = voxelDot(offs[1], offs[1]) >= voxelDot(offs[2], offs[2]) ? offs[1] : offs[2];
     longest = voxelDot(third, third) > voxelDot(longest, longest) ? third : longest;
-    const VoxelPoint u = voxelStep(none, longest, marginInverse(turnLength(longest)));
+    // The two must be of length 1 and at right angles, or places are not what their coordinates say: so what rounding
+    // leaves along the first is taken away once more, and a width that is rounding itself is none.
+    const float square = voxelDot(longest, longest);
+    const VoxelPoint u = voxelStep(none, longest, marginInverse(sqrt(square)));
     VoxelPoint aside = none;
     for (int i = 1; i < 3; ++i) {
-        const VoxelPoint own = voxelStep(offs[i], u, -voxelDot(offs[i], u));
+        const VoxelPoint once = voxelStep(offs[i], u, -voxelDot(offs[i], u));
+        const VoxelPoint own = voxelStep(once, u, -voxelDot(once, u));
         aside = voxelDot(own, own) > voxelDot(aside, aside) ? own : aside;
     }
-    const VoxelPoint v = voxelStep(none, aside, marginInverse(turnLength(aside)));
+    const float width = voxelDot(aside, aside);
+    PRECISE float leastWidth = square * TURN_LEAST_SQUARE;
+    const VoxelPoint v = voxelStep(none, aside, width > leastWidth ? marginInverse(sqrt(width)) : 0.0f);
     PRECISE float middleU = -voxelDot(first, u);
     PRECISE float middleV = -voxelDot(first, v);
     float lo[2] = {0.0f, 0.0f};

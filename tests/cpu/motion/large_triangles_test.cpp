@@ -89,7 +89,7 @@ TEST(LargeTriangles, OneIsTurnedUpToABall) {
     const cpu::Volume volume = take(cpu::Volume::create(makeBall().view()));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({kBallPoints, {0, 255}, 256}));
     cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
-    for (const TurnedTriangle& tool : {TurnedTriangle::plane(), TurnedTriangle::rod()}) {
+    for (const TurnedTriangle& tool : TurnedTriangle::all()) {
         const cpu::Mesh mesh = take(cpu::Mesh::create(tool.mesh.view()));
         for (const double angle : {2.0, 5.0, 30.0, 80.0}) {
             const std::vector<Mat4> poses = tool.poses(angle);

@@ -59,18 +59,20 @@ struct TurnedTriangle {
 
     static TurnedTriangle plane() {
         TurnedTriangle made{{}, {0, 1, 2.5, 4}};
-        addTriangle(made.mesh, {-300, -300, 0}, {300, -300, 0}, {0, 400, 0});
+        addTriangle(made.mesh, {-600, -600, 0}, {600, -600, 0}, {0, 800, 0});
         return made;
     }
-    static TurnedTriangle rod() {
+    /// Along x, so wide at the origin.
+    static TurnedTriangle rod(double width) {
         TurnedTriangle made{{}, {0}};
-        addTriangle(made.mesh, {0, -1, 0}, {0, 1, 0}, {300, 0, 0});
+        addTriangle(made.mesh, {300, 0, 0}, {0, -width / 2, 0}, {0, width / 2, 0});
         return made;
     }
+    static std::vector<TurnedTriangle> all() { return {plane(), rod(2), rod(0.02), rod(1e-3), rod(1e-5)}; }
 
     /// It touches the ball where it is turned by `angle` degrees, from the first reached() of them.
     [[nodiscard]] std::vector<Mat4> poses(double angle) const {
-        constexpr double kFar = 100;
+        constexpr double kFar = 200;
         std::vector<Mat4> out;
         for (const double part : {0.5, 0.8, 0.95, 1.5, 2.0}) {
             const double rise = part * angle * std::numbers::pi / 180 + std::asin(kBallRadius / kFar);

@@ -6,6 +6,7 @@
 #include "cpu/scenes/ball_and_box.h"
 #include "voxtact/samples.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -174,7 +175,7 @@ TEST_F(LongTrianglesTest, AreAsFarOffAsOnTheHost) {
 /// One triangle reaches a ball where it has to be turned by less than it may be.
 TEST_F(LongTrianglesTest, OneIsTurnedUpToABall) {
     const VolumeData volume = makeBall();
-    for (const TurnedTriangle& tool : {TurnedTriangle::plane(), TurnedTriangle::rod()}) {
+    for (const TurnedTriangle& tool : TurnedTriangle::all()) {
         const Sides sides(context(), queue(), volume.view(), {kBallPoints, {0, 255}, kDefaultTableSize},
                           tool.mesh.view(), true);
         for (const double angle : {2.0, 5.0, 30.0, 80.0}) {
@@ -196,6 +197,56 @@ TEST_F(LongTrianglesTest, OneIsTurnedUpToABall) {
             }
         }
     }
+}
+
+/// Slivers down to what rounding leaves of a width, which has no direction then.
+TEST_F(LongTrianglesTest, SliversAreTurnedAsOnTheHost) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const VolumeData volume = makeBall();
+    cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
+    const std::array tolerances{PoseTolerance{0.5, 3}, PoseTolerance{0, 8}, PoseTolerance{2, 20}};
+    int hits = 0;
+    for (std::size_t number = 0; number < 36; ++number) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", sliver " + std::to_string(number));
+        const double length = uniform(random, 60, 400);
+        const double width = std::pow(10, uniform(random, -6, number % 4 == 0 ? 0.5 : -2));
+        const Mat4 place = multiply(randomRotation(random), translation({uniform(random, -60, 60), 0, 0}));
+        std::array<Vec3, 3> corners{Vec3{0, 0, 0}, Vec3{length, width * uniform(random, -1, 1), 0},
+                                    Vec3{length * std::array{0.0, 0.5, 1.0}[number % 3], width, 0}};
+        std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(random() % 3));
+        MeshData sliver;
+        addTriangle(sliver, transformPoint(place, corners[0]), transformPoint(place, corners[1]),
+                    transformPoint(place, corners[2]));
+        std::vector<Mat4> poses;
+        for (int i = 0; i < 40; ++i) {
+            const Vec3 on = transformPoint(place, {uniform(random, 0, length), 0, 0});
+            const Mat4 turn = randomRotation(random);
+            const Mat4 way = randomRotation(random);
+            const Vec3 to = transformPoint(way, {kBallRadius + uniform(random, 0, 30), 0, 0});
+            const Vec3 from = transformPoint(turn, on);
+            poses.push_back(multiply(translation({to[0] - from[0], to[1] - from[1], to[2] - from[2]}), turn));
+        }
+        const Sides sides(context(), queue(), volume.view(), {kBallPoints, {0, 255}, kDefaultTableSize}, sliver.view(),
+                          true);
+        const PoseTolerance& tolerance = tolerances[number % tolerances.size()];
+        const BatchItem item = sides.item(poses);
+        const cpu::BatchItem hostItem = sides.hostItem(poses);
+        const std::vector<PairAnswer> host =
+            take(checker.around({{&hostItem, 1}, {}, kBallThreshold}, tolerance)).pairs;
+        const std::vector<PairAnswer> device = detect({.method = CountingMethod::Compute,
+                                                       .projection = Projection::Conservative,
+                                                       .stopAtFirst = true,
+                                                       .poseTolerance = tolerance},
+                                                      {{&item, 1}, {}, kBallThreshold}, 40, 2048)
+                                                   .pairs;
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            SCOPED_TRACE("pose " + std::to_string(i));
+            expectNoContradiction(device[i], host[i]);
+            hits += host[i].hit ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hits, 100);
 }
 
 /// A shaft of many triangles far from a ball: there are more bricks that may be near than touch, and the search ends
