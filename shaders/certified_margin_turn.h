@@ -32,8 +32,8 @@ EXACT VoxelPoint marginGrow(MarginSpace by, CertifiedReach reach) {
 }
 
 /// What a turn brings to within the margin of a box keeps its distance from the pivot, and so was no farther from there
-/// than a chord. Of a large triangle that is a small part: the whole would be as far turned as its farthest corner.
-/// `reach`: of the box's coordinates, the largest.
+/// than a chord. Of a large triangle that is a small part: taken whole, it would seem to be turned as far as its
+/// farthest corner. `reach`: of the box's coordinates, the largest.
 EXACT MarginTriangle marginLocal(MarginSpace by, MarginTriangle given, float reach) {
     MarginTriangle about = given;
     PRECISE float near = by.margin + by.size * reach + about.slack * 4.0f + MARGIN_FARTHER * 2.0f;

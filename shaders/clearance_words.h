@@ -19,7 +19,7 @@
 #define VOXTACT_CLEARANCE_ROOM_LARGE(room) ((room)*16)
 #define VOXTACT_WORD_CLEARANCE_LARGE(room)                                                                             \
     (VOXTACT_WORD_BITS_WORDS(room) + VOXTACT_BITS_WORDS * VOXTACT_ROOM_BITS(room))
-// Its own words, and those of the queue of open cells, have what is left.
+// What is left lies in the words that both queues have without clearances.
 #define VOXTACT_WORD_CLEARANCE_LEFT(room) VOXTACT_WORD_LARGE(room)
 #define VOXTACT_CLEARANCE_ROOM_LEFT(room) (VOXTACT_ROOM_LARGE(room) + VOXTACT_ROOM_CELLS(room) / 4)
 // Numbers of entries of the queue of large triangles: those of VOXTACT_QUEUE_NEAR; and those of VOXTACT_QUEUE_PROBES,
@@ -73,5 +73,11 @@
 // on.
 #define VOXTACT_BELOW_SHIFT (VOXTACT_RUN_TRIANGLES + 1)
 #define VOXTACT_BELOW_PARTS 256.0
+
+#ifdef __cplusplus
+static_assert(VOXTACT_WORD_CLEARANCE_LARGE(16) % 4 == 0 && VOXTACT_WORD_CLEARANCE_LEFT(16) % 4 == 0);
+static_assert(VOXTACT_WORD_CLEARANCE_LEFT(16) + 4 * VOXTACT_CLEARANCE_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
+static_assert(VOXTACT_ROOM_NEAREST(16) <= VOXTACT_CLEARANCE_ROOM_LARGE(16));
+#endif
 
 #endif

@@ -151,7 +151,7 @@ struct ResultsDesc {
     /// so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
-    /// copy, and 288 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
+    /// copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
     /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair,
     /// of the device's memory and of the host's.
@@ -161,7 +161,7 @@ struct ResultsDesc {
     /// the device's memory and of the host's.
     std::uint32_t labelClearances = 0;
     /// For detectors with DetectorDesc::motion: 1308 bytes of device memory a pair, 32 of the host's where there is a
-    /// copy, and 288 bytes more for each of clustersAtOnce.
+    /// copy, and 648 bytes more for each of clustersAtOnce.
     bool motions = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's

@@ -57,7 +57,7 @@ struct MakePosesOptions {
 template <class Write> Outcome written(const Write& write) {
     const InterruptGuard guard;
     const Result<void> result = write();
-    // Where all went well, the file was complete before the signal.
+    // Where all went well, the file is complete: nothing asks about signals while a mesh is written.
     return result.ok() ? Outcome() : interrupted() ? interruptOutcome("nothing is written") : Outcome(result.error());
 }
 

@@ -19,7 +19,7 @@ namespace {
 using glm::dvec3;
 using Corners = std::array<std::uint32_t, 3>;
 
-/// The longest side of a piece, of how far from the origin it is; and in any case, of how far the mesh reaches.
+/// The longest side of a piece, of how far from the origin all of it is; and in any case, of how far the mesh reaches.
 constexpr double kOfDistance = 1.0 / 16;
 constexpr double kOfReach = 1.0 / 64;
 /// Where that makes more, pieces are larger.
@@ -89,6 +89,9 @@ class Division {
         const std::uint32_t to = piece[(longest + 1) % 3];
         const std::uint32_t third = piece[(longest + 2) % 3];
         const std::uint32_t middle = middleOf(from, to);
+        if (at(middle) == at(from) || at(middle) == at(to)) {
+            return false; // floats have none between them
+        }
         waiting_.push_back({from, middle, third});
         waiting_.push_back({middle, to, third});
         divided_ = true;

@@ -10,6 +10,7 @@
 #include "cpu/motion/pose_tolerance.h"
 #include "cpu/motion/segment_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -107,16 +108,16 @@ Result<void> checkShapes(const Batch& batch, std::span<const ShapesOfPoses> shap
 
 /// Those of a batch's meshes that are not there yet; others go.
 void divideMeshes(const Batch& batch, std::map<std::uint64_t, std::unique_ptr<MeshImpl>>& divided) {
-    std::map<std::uint64_t, std::unique_ptr<MeshImpl>> wanted;
     for (const BatchItem& item : batch.items) {
         const MeshImpl& mesh = item.mesh->impl();
-        if (wanted.contains(mesh.id)) {
-            continue;
+        if (!divided.contains(mesh.id)) {
+            divided.emplace(mesh.id, dividedMesh(mesh));
         }
-        const auto known = divided.find(mesh.id);
-        wanted[mesh.id] = known != divided.end() ? std::move(known->second) : dividedMesh(mesh);
     }
-    divided = std::move(wanted);
+    std::erase_if(divided, [&batch](const auto& known) {
+        return std::ranges::none_of(batch.items,
+                                    [&](const BatchItem& item) { return item.mesh->impl().id == known.first; });
+    });
 }
 
 /// Looks at all segments of a batch. `shapes` may be empty: nothing bends.

@@ -60,8 +60,10 @@ void PoseToleranceSearch::run(PairAnswer& out) const {
     sweep.centre = origin_ + at_.part.space.middle;
     // Rounded up: what is turned by exactly so much is among it.
     sweep.turn = std::min(angle_ * (1 + kRounding), glm::pi<double>());
-    const double error = divided_ != nullptr ? kDividedError : kRelativeError;
-    sweep.slack = distance_ * (1 + kRounding) + error * magnitudeOf(at_);
+    const double magnitude = magnitudeOf(at_);
+    const double ofMesh = magnitude - glm::length(dvec3(toGlm(at_.world_from_object)[3])); // what is divided
+    sweep.slack = distance_ * (1 + kRounding) + kRelativeError * magnitude +
+                  (divided_ != nullptr ? kDividedError * (ofMesh + kRelativeError * magnitude) : 0);
     PairAt pieces = at_;
     pieces.shape = divided_ != nullptr ? divided_ : at_.shape;
     const Found swept = pieces.search(memory_,
