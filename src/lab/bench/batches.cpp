@@ -36,7 +36,7 @@ Result<void> measureSize(const BenchRun& run, KnownPoses& poses, std::vector<con
     return {};
 }
 
-/// Which batches no engine had the time for, one sentence for each engine that ended early.
+/// A note for each engine that ended early: which batches it had no time for.
 void noteEnded(const BenchRun& run) {
     for (const Engine& engine : run.engines) {
         std::uint64_t largest = 0;

@@ -39,7 +39,8 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
         raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
     if mesh is not None and (needle is not None or tip is None or axis is None):
         raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, core.MOST_ENTRIES), "margin": number(margin, "margin"),
+    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, core.MOST_ENTRIES),
+                               "margin": number(margin, "margin"),
                                "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
                                "most_steps": whole_number(most_steps, "most_steps", 1)}
     if triangle_clearances:
