@@ -25,9 +25,9 @@ struct WideMatrix {
 #define PAIR_DOUBLE_ERROR wideBits(0x3cf00000u, 0u) // 2^-48
 /// The smallest normal float. Devices may take what is smaller for zero, wherever they load or compute it.
 #define PAIR_LEAST_NORMAL wideBits(0x38100000u, 0u) // 2^-126
-/// Such losses of a coordinate of a vertex relative to the reference: it, the reference, their difference; one more
-/// for what that adds to the computed error.
-#define PAIR_LOST_NORMALS wideBits(0x40100000u, 0u) // 4
+/// Four such losses of a coordinate of a vertex relative to the reference: it, the reference, their difference; one
+/// more for what that adds to the computed error.
+#define PAIR_LOST_NORMALS wideBits(0x38300000u, 0u) // 2^-124
 /// Elements below the smallest normal float lose more than their relative error.
 #define PAIR_LEAST_ERROR wideBits(0x38700000u, 0u) // 2^-120
 /// Parts of a place are not smaller: all their bits are normal floats, and so is every sum of them.
@@ -147,19 +147,24 @@ struct PairReference {
 /// The point of object space that comes to the volume's centre, rounded to float: what is near the volume is then near
 /// the reference, however far the object's origin is. The origin where there is no such point.
 EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
-    const Wide first = wideMultiply(m.element[0], pairMinor(m, 0, 0));
-    const Wide second = wideMultiply(m.element[4], pairMinor(m, 0, 1));
-    const Wide third = wideMultiply(m.element[8], pairMinor(m, 0, 2));
-    const Wide determinant = wideAdd(wideAdd(first, second), third);
+    // Of the determinant, and of what it divides.
+    Wide sum[4];
+    ROLLED for (uint axis = 0; axis < 4; ++axis) {
+        sum[axis] = PAIR_ZERO;
+        ROLLED for (uint i = 0; i < 3; ++i) {
+            const uint row = axis == 3 ? 0u : i;
+            const uint column = axis == 3 ? i : axis;
+            Wide by = m.element[4 * column];
+            if (axis < 3) {
+                by = wideSubtract(wideMultiply(PAIR_HALF, grid.size[row]), m.element[12 + row]);
+            }
+            sum[axis] = wideAdd(sum[axis], wideMultiply(pairMinor(m, row, column), by));
+        }
+    }
     PairReference reference;
     bool near = true;
     ROLLED for (uint axis = 0; axis < 3; ++axis) {
-        Wide sum = PAIR_ZERO;
-        ROLLED for (uint row = 0; row < 3; ++row) {
-            const Wide way = wideSubtract(wideMultiply(PAIR_HALF, grid.size[row]), m.element[12 + row]);
-            sum = wideAdd(sum, wideMultiply(pairMinor(m, row, axis), way));
-        }
-        const Wide place = wideDivide(sum, determinant);
+        const Wide place = wideDivide(sum[axis], sum[3]);
         near = near && wideLess(wideAbs(place), PAIR_FARTHEST_REFERENCE);
         reference.bits[axis] = wideToFloatBits(place);
     }
@@ -169,10 +174,18 @@ EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
     return reference;
 }
 
-/// What a + b is rounded by.
-EXACT Wide wideLost(Wide a, Wide b, Wide sum) {
-    const Wide ofB = wideSubtract(sum, a);
-    return wideAdd(wideSubtract(b, ofB), wideSubtract(a, wideSubtract(sum, ofB)));
+/// A sum, and what it was rounded by: both together are a + b.
+struct PairSum {
+    Wide sum;
+    Wide lost;
+};
+
+EXACT PairSum pairSum(Wide a, Wide b) {
+    PairSum found;
+    found.sum = wideAdd(a, b);
+    const Wide ofB = wideSubtract(found.sum, a);
+    found.lost = wideAdd(wideSubtract(b, ofB), wideSubtract(a, wideSubtract(found.sum, ofB)));
+    return found;
 }
 
 /// A number in parts that a float holds each: their sum is exact where what is left is zero.
@@ -194,118 +207,145 @@ EXACT PairParts pairParts(Wide value, Wide low) {
             rest = wideSubtract(rest, wideOfFloatBits(bits)); // exact: they are near each other
         }
         if (i == 0) {
-            const Wide sum = wideAdd(rest, low);
-            lost = wideLost(rest, low, sum);
-            rest = sum;
+            const PairSum both = pairSum(rest, low);
+            lost = both.lost;
+            rest = both.sum;
         }
     }
     parts.left = wideAdd(wideAbs(rest), wideAbs(lost));
     return parts;
 }
 
-/// A column of `place` of a CertifiedPair, and by how much it may be off along any axis.
+/// An element of `place` of a CertifiedPair: value + low, the second the smaller by far, and by how much it may be off.
 struct PairPlace {
-    PairParts row[3];
+    Wide value;
+    Wide low;
     Wide error;
 };
 
-EXACT PairPlace alignedPlace(PairGrid grid, WideMatrix world_from_object, uint column) {
+EXACT PairPlace alignedPlace(PairGrid grid, WideMatrix world_from_object, uint row, uint column) {
+    Wide parts[2];
+    parts[0] = wideMultiply(grid.sign[row], world_from_object.element[4 * column + grid.axis[row]]);
+    parts[1] = PAIR_ZERO;
     PairPlace place;
     place.error = PAIR_ZERO;
-    ROLLED for (uint row = 0; row < 3; ++row) {
-        const Wide along = wideMultiply(grid.sign[row], world_from_object.element[4 * column + grid.axis[row]]);
-        if (column < 3) {
-            place.row[row] = pairParts(along, PAIR_ZERO);
-            place.error = wideMost(place.error, place.row[row].left);
-        } else {
-            const Wide from = wideAdd(along, grid.lessOrigin[row]);
-            const Wide lost = wideLost(along, grid.lessOrigin[row], from);
-            const Wide at = wideAdd(from, grid.halfSpacing[row]);
-            const Wide lostToo = wideLost(from, grid.halfSpacing[row], at);
-            const Wide low = wideAdd(lostToo, lost);
-            const Wide left = wideLost(lostToo, lost, low);
-            place.row[row] = pairParts(at, low);
-            place.error = wideMost(place.error, wideAdd(place.row[row].left, wideAbs(left)));
+    ROLLED for (uint term = column == 3 ? 0u : 2u; term < 2; ++term) {
+        Wide more = grid.lessOrigin[row];
+        if (term == 1) {
+            more = grid.halfSpacing[row];
         }
+        ROLLED for (uint i = 0; i < 2; ++i) {
+            const PairSum both = pairSum(parts[i], more);
+            parts[i] = both.sum;
+            more = both.lost;
+        }
+        place.error = wideAdd(place.error, wideAbs(more));
     }
+    place.value = parts[0];
+    place.low = parts[1];
     return place;
 }
 
-EXACT PairPlace obliquePlace(PairGrid grid, PairRows rows, uint column) {
-    const Wide centre = column == 3 ? PAIR_HALF : PAIR_ZERO;
-    PairPlace place;
-    place.error = PAIR_ZERO;
-    ROLLED for (uint row = 0; row < 3; ++row) {
-        place.row[row] = pairParts(wideAdd(rows.value.element[4 * column + row], centre), PAIR_ZERO);
-        Wide error = wideMultiplyAdd(PAIR_DOUBLE_ERROR, wideAdd(rows.magnitude.element[4 * column + row], centre),
-                                     place.row[row].left);
-        ROLLED for (uint k = 0; k < 3; ++k) {
-            error = wideAdd(error, wideMultiply(grid.share[4 * row + k], rows.magnitude.element[4 * column + k]));
-        }
-        if (column == 3) {
-            error = wideAdd(error, grid.share[4 * row + 3]);
-        }
-        place.error = wideMost(place.error, error);
+EXACT PairPlace obliquePlace(PairGrid grid, PairRows rows, uint row, uint column) {
+    const bool last = column == 3;
+    Wide value = rows.value.element[4 * column + row];
+    Wide magnitude = rows.magnitude.element[4 * column + row];
+    Wide error = PAIR_ZERO;
+    if (last) {
+        value = wideAdd(value, PAIR_HALF);
+        magnitude = wideAdd(magnitude, PAIR_HALF);
+        error = grid.share[4 * row + 3];
     }
+    error = wideMultiplyAdd(PAIR_DOUBLE_ERROR, magnitude, error);
+    ROLLED for (uint k = 0; k < 3; ++k) {
+        error = wideMultiplyAdd(grid.share[4 * row + k], rows.magnitude.element[4 * column + k], error);
+    }
+    PairPlace place;
+    place.value = value;
+    place.low = PAIR_ZERO;
+    place.error = error;
     return place;
+}
+
+/// voxel_from_reference of a CertifiedPair, and what its coordinates may be off by.
+struct PairFloats {
+    uint bits[12]; // 4 * row + column
+    Wide worst[4]; // of any row
+    bool fits;     // in floats: an element that is infinite or NaN has no relative error
+};
+
+EXACT PairFloats pairFloats(PairRows rows, PairReference reference) {
+    PairFloats floats;
+    floats.fits = true;
+    ROLLED for (uint column = 0; column < 4; ++column) {
+        floats.worst[column] = PAIR_ZERO;
+    }
+    ROLLED for (uint row = 0; row < 3; ++row) {
+        // Where the reference comes to, by the columns before it.
+        Wide place = rows.value.element[12 + row];
+        Wide magnitude = rows.magnitude.element[12 + row];
+        Wide lost = PAIR_ZERO;
+        ROLLED for (uint column = 0; column < 4; ++column) {
+            Wide element = place;
+            Wide size = magnitude;
+            Wide error = lost;
+            if (column < 3) {
+                element = rows.value.element[4 * column + row];
+                size = rows.magnitude.element[4 * column + row];
+                error = PAIR_ZERO;
+                const Wide at = wideOfFloatBits(reference.bits[column]);
+                place = wideMultiplyAdd(element, at, place);
+                magnitude = wideMultiplyAdd(size, wideAbs(at), magnitude);
+                lost = wideMultiplyAdd(PAIR_LOST_NORMALS, wideAbs(element), lost);
+            }
+            const uint bits = wideToFloatBits(element);
+            floats.bits[4 * row + column] = bits;
+            floats.fits = floats.fits && (bits & PAIR_INFINITE_FLOAT) != PAIR_INFINITE_FLOAT;
+            error = wideMultiplyAdd(PAIR_DOUBLE_ERROR, size, error);
+            error = wideMultiplyAdd(PAIR_FLOAT_ERROR, wideAbs(element), error);
+            floats.worst[column] = wideMost(floats.worst[column], error);
+        }
+    }
+    return floats;
 }
 
 /// What the projection `conservative` starts from.
 EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object) {
     const PairRows rows = pairRows(grid, world_from_object);
     const PairReference reference = pairReference(grid, rows.value);
+    const PairFloats floats = pairFloats(rows, reference);
     CertifiedPair pair;
-    Wide worst[4];
-    ROLLED for (uint column = 0; column < 4; ++column) {
-        worst[column] = PAIR_ZERO;
-    }
-    bool fits = true; // in floats: an element that is infinite or NaN has no relative error
-    ROLLED for (uint row = 0; row < 3; ++row) {
-        Wide place = rows.value.element[12 + row];
-        Wide magnitude = rows.magnitude.element[12 + row];
-        Wide lost = PAIR_ZERO;
-        ROLLED for (uint column = 0; column < 3; ++column) {
-            const Wide element = rows.value.element[4 * column + row];
-            const Wide size = rows.magnitude.element[4 * column + row];
-            const Wide at = wideOfFloatBits(reference.bits[column]);
-            place = wideAdd(place, wideMultiply(element, at));
-            magnitude = wideAdd(magnitude, wideMultiply(size, wideAbs(at)));
-            lost = wideAdd(lost, wideMultiply(wideMultiply(PAIR_LOST_NORMALS, PAIR_LEAST_NORMAL), wideAbs(element)));
-            const uint bits = wideToFloatBits(element);
-            fits = fits && (bits & PAIR_INFINITE_FLOAT) != PAIR_INFINITE_FLOAT;
-            pair.voxel_from_reference[row][column] = wideFloatOf(bits);
-            worst[column] = wideMost(worst[column], wideMultiplyAdd(PAIR_FLOAT_ERROR, wideAbs(element),
-                                                                    wideMultiply(PAIR_DOUBLE_ERROR, size)));
-        }
-        const uint bits = wideToFloatBits(place);
-        fits = fits && (bits & PAIR_INFINITE_FLOAT) != PAIR_INFINITE_FLOAT;
-        pair.voxel_from_reference[row][3] = wideFloatOf(bits);
-        worst[3] = wideMost(worst[3], wideAdd(wideMultiplyAdd(PAIR_FLOAT_ERROR, wideAbs(place),
-                                                              wideMultiply(PAIR_DOUBLE_ERROR, magnitude)),
-                                              lost));
-    }
-    // Of the places, and then all of them as a share of the others.
+    // By how much places are off, and then all of it as a share of what coordinates are.
     Wide share = PAIR_ZERO;
     Wide beyond = PAIR_ZERO;
     ROLLED for (uint column = 0; column < 4; ++column) {
-        const PairPlace at =
-            grid.aligned != 0u ? alignedPlace(grid, world_from_object, column) : obliquePlace(grid, rows, column);
+        Wide off = PAIR_ZERO;
         ROLLED for (uint row = 0; row < 3; ++row) {
-            ROLLED for (uint part = 0; part < 3; ++part) {
-                pair.place[3 * part + row][column] = at.row[row].part[part];
+            PairPlace place;
+            if (grid.aligned != 0u) {
+                place = alignedPlace(grid, world_from_object, row, column);
+            } else {
+                place = obliquePlace(grid, rows, row, column);
             }
+            const PairParts parts = pairParts(place.value, place.low);
+            ROLLED for (uint part = 0; part < 3; ++part) {
+                pair.place[3 * part + row][column] = parts.part[part];
+            }
+            off = wideMost(off, wideAdd(place.error, parts.left));
+            pair.voxel_from_reference[row][column] = wideFloatOf(floats.bits[4 * row + column]);
         }
-        uint bits = floatBitsAbove(wideToFloatBits(wideAdd(worst[column], PAIR_LEAST_ERROR)));
-        if (column == 3 && !fits) {
+        uint bits = floatBitsAbove(wideToFloatBits(wideAdd(floats.worst[column], PAIR_LEAST_ERROR)));
+        if (column == 3 && !floats.fits) {
             bits = PAIR_INFINITE_FLOAT;
         }
         pair.error[column] = wideFloatOf(bits);
-        const Wide error = column == 3 ? wideAdd(at.error, beyond) : at.error;
-        if (column < 3) {
+        if (column == 3) {
+            off = wideAdd(off, beyond);
+        } else {
             pair.reference[column] = wideFloatOf(reference.bits[column]);
-            beyond = wideAdd(beyond, wideMultiply(at.error, wideAbs(wideOfFloatBits(reference.bits[column]))));
+            beyond = wideMultiplyAdd(off, wideAbs(wideOfFloatBits(reference.bits[column])), beyond);
         }
-        share = wideMost(share, wideDivide(error, wideOfFloatBits(bits)));
+        share = wideMost(share, wideDivide(off, wideOfFloatBits(bits)));
     }
     const Wide more = wideMultiplyAdd(PAIR_A_LITTLE_MORE, share, PAIR_LEAST_NORMAL);
     pair.reference[3] = wideLess(PAIR_ZERO, share) ? wideFloatOf(floatBitsAbove(wideToFloatBits(more))) : 0.0f;

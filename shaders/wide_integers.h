@@ -2,6 +2,9 @@
 // Double precision by 32-bit integers, for shaders: hardly any phone has it, and those GPUs that do need not round like
 // the host. IEEE 754 binary64, rounded to the nearest, ties to even, denormals and infinities as they should be; a NaN
 // is the positive quiet one. One text for GLSL and C++, where tests compare it with `double`.
+//
+// Nothing branches: both sides of a choice are computed. Programs have these functions dozens of times, and what a
+// driver's compiler needs for a program grows faster than the number of its branches.
 #ifndef VOXTACT_WIDE_INTEGERS_H
 #define VOXTACT_WIDE_INTEGERS_H
 
@@ -21,8 +24,12 @@ inline void umulExtended(uint a, uint b, uint& high, uint& low) {
     high = static_cast<uint>(product >> 32U);
     low = static_cast<uint>(product);
 }
+inline uint wideChoice(bool first, uint a, uint b) {
+    return first ? a : b;
+}
 #else
 #define wideLeadingZeros(word) uint(31 - findMSB(word))
+#define wideChoice(first, a, b) mix(b, a, first) // a ternary operator would branch
 #endif
 
 /// The bits of a number.
@@ -37,73 +44,83 @@ struct WideWord {
     uint low;
 };
 
-/// A number that is neither zero, infinite nor NaN: significand / 2^62 * 2^(exponent - 1023).
+/// A number that is neither infinite nor NaN: significand / 2^62 * 2^(exponent - 1023).
 struct WideParts {
     uint sign;            // in the first bit
     int exponent;         // as it is stored; less than 1 for denormals
-    WideWord significand; // its first bit is bit 62
+    WideWord significand; // its first bit is bit 62; 0 for zero
 };
 
-EXACT Wide wideBits(uint high, uint low) {
-    Wide wide;
-    wide.low = low;
-    wide.high = high;
-    return wide;
+#ifdef __cplusplus
+inline Wide wideBits(uint high, uint low) {
+    return {low, high};
+}
+inline WideWord wideWord(uint high, uint low) {
+    return {high, low};
+}
+#else
+#define wideBits(high, low) Wide(low, high)
+#define wideWord WideWord
+#endif
+
+EXACT WideWord wordChoice(bool first, WideWord a, WideWord b) {
+    return wideWord(wideChoice(first, a.high, b.high), wideChoice(first, a.low, b.low));
 }
 
-EXACT WideWord wideWord(uint high, uint low) {
-    WideWord word;
-    word.high = high;
-    word.low = low;
-    return word;
+EXACT Wide wideEither(bool first, Wide a, Wide b) {
+    return wideBits(wideChoice(first, a.high, b.high), wideChoice(first, a.low, b.low));
 }
 
 EXACT WideWord wordSum(WideWord a, WideWord b) {
     const uint low = a.low + b.low;
-    return wideWord(a.high + b.high + (low < a.low ? 1u : 0u), low);
+    return wideWord(a.high + b.high + uint(low < a.low), low);
 }
 
 EXACT WideWord wordDifference(WideWord a, WideWord b) {
-    return wideWord(a.high - b.high - (a.low < b.low ? 1u : 0u), a.low - b.low);
+    return wideWord(a.high - b.high - uint(a.low < b.low), a.low - b.low);
 }
 
 EXACT bool wordLess(WideWord a, WideWord b) {
-    return a.high < b.high || (a.high == b.high && a.low < b.low);
+    const bool less = a.high < b.high;
+    const bool same = a.high == b.high;
+    const bool lower = a.low < b.low;
+    const bool sameAndLower = same && lower;
+    return less || sameAndLower;
+}
+
+EXACT bool wordIsZero(WideWord a) {
+    return (a.high | a.low) == 0u;
 }
 
 /// By 0 to 63 bits.
 EXACT WideWord wordLeft(WideWord a, uint bits) {
-    if (bits == 0u) {
-        return a;
-    }
-    return bits < 32u ? wideWord((a.high << bits) | (a.low >> (32u - bits)), a.low << bits)
-                      : wideWord(a.low << (bits - 32u), 0u);
+    const uint by = bits & 31u;
+    const uint low = a.low << by;
+    const uint high = (a.high << by) | ((a.low >> 1) >> (31u - by));
+    const bool whole = bits >= 32u;
+    return wideWord(wideChoice(whole, low, high), wideChoice(whole, 0u, low));
 }
 
 /// By any number of bits; what is lost sets the last bit.
 EXACT WideWord wordRight(WideWord a, uint bits) {
-    if (bits == 0u) {
-        return a;
-    }
-    if (bits >= 64u) {
-        return wideWord(0u, (a.high | a.low) != 0u ? 1u : 0u);
-    }
-    uint lost;
-    WideWord result;
-    if (bits < 32u) {
-        lost = a.low << (32u - bits);
-        result = wideWord(a.high >> bits, (a.high << (32u - bits)) | (a.low >> bits));
-    } else {
-        lost = bits == 32u ? a.low : (a.low | (a.high << (64u - bits)));
-        result = wideWord(0u, a.high >> (bits - 32u));
-    }
-    result.low |= lost != 0u ? 1u : 0u;
+    const uint by = bits & 31u;
+    const uint high = a.high >> by;
+    const uint low = (a.low >> by) | ((a.high << 1) << (31u - by));
+    const uint beyond = (a.low << 1) << (31u - by);
+    const bool whole = bits >= 32u;
+    const bool all = bits >= 64u;
+    const uint kept = wideChoice(all, 0u, wideChoice(whole, high, low));
+    const uint lost = wideChoice(all, a.high | a.low, beyond | wideChoice(whole, low, 0u));
+    WideWord result = wideWord(wideChoice(whole, 0u, high), kept);
+    result.low |= uint(lost != 0u);
     return result;
 }
 
 /// Of a number that is not zero.
 EXACT uint wordLeadingZeros(WideWord a) {
-    return a.high == 0u ? 32u + wideLeadingZeros(a.low) : wideLeadingZeros(a.high);
+    const uint ofLow = 32u + wideLeadingZeros(a.low);
+    const uint ofHigh = wideLeadingZeros(a.high);
+    return wideChoice(a.high == 0u, ofLow, ofHigh);
 }
 
 EXACT WideWord wordProduct(uint a, uint b) {
@@ -121,16 +138,20 @@ EXACT uint wideExponent(Wide a) {
     return (a.high >> 20) & 0x7ffu;
 }
 
+EXACT WideWord wideSize(Wide a) {
+    return wideWord(a.high & 0x7fffffffu, a.low);
+}
+
 EXACT bool wideIsZero(Wide a) {
-    return ((a.high & 0x7fffffffu) | a.low) == 0u;
+    return wordIsZero(wideSize(a));
 }
 
 EXACT bool wideIsInfinite(Wide a) {
-    return (a.high & 0x7fffffffu) == 0x7ff00000u && a.low == 0u;
+    return (((a.high & 0x7fffffffu) ^ 0x7ff00000u) | a.low) == 0u;
 }
 
 EXACT bool wideIsNan(Wide a) {
-    return wideExponent(a) == 0x7ffu && ((a.high & 0xfffffu) | a.low) != 0u;
+    return ((a.high & 0x7fffffffu) | uint(a.low != 0u)) > 0x7ff00000u;
 }
 
 EXACT Wide wideNan() {
@@ -141,31 +162,41 @@ EXACT Wide wideInfinity(uint sign) {
     return wideBits(sign | 0x7ff00000u, 0u);
 }
 
-EXACT WideParts wideParts(Wide a) {
+/// The significand as it is stored, its first bit, if it has one, in bit 62.
+EXACT WideWord wideStored(Wide a) {
+    const uint first = wideChoice(wideExponent(a) == 0u, 0u, 0x40000000u);
+    return wideWord(first | ((a.high & 0xfffffu) << 10) | (a.low >> 22), a.low << 10);
+}
+
+/// The exponent of what wideStored() has.
+EXACT int wideScale(Wide a) {
     const uint stored = wideExponent(a);
-    const WideWord fraction = wideWord((a.high & 0xfffffu) | (stored == 0u ? 0u : 0x100000u), a.low);
-    const uint shift = wordLeadingZeros(fraction) - 1u;
+    return int(stored + uint(stored == 0u));
+}
+
+/// Of a number that is neither infinite nor NaN.
+EXACT WideParts wideParts(Wide a) {
+    const WideWord stored = wideStored(a);
+    const uint shift = (wordLeadingZeros(stored) - 1u) & 63u;
     WideParts parts;
     parts.sign = wideSign(a);
-    parts.exponent = (stored == 0u ? 1 : int(stored)) + 10 - int(shift);
-    parts.significand = wordLeft(fraction, shift);
+    parts.exponent = wideScale(a) - int(shift);
+    parts.significand = wordLeft(stored, shift);
     return parts;
 }
 
+/// The nearest number to one that is not zero.
 EXACT Wide wideOfParts(WideParts parts) {
-    if (parts.exponent >= 0x7ff) {
-        return wideInfinity(parts.sign);
-    }
     const bool normal = parts.exponent > 0;
-    const WideWord all = normal ? parts.significand : wordRight(parts.significand, uint(1 - parts.exponent));
+    const WideWord all = wordRight(parts.significand, wideChoice(normal, 0u, uint(1 - parts.exponent)));
     const uint beyond = all.low & 0x3ffu;
     const WideWord rounded = wordSum(all, wideWord(0u, 0x200u));
     WideWord bits = wideWord(rounded.high >> 10, (rounded.high << 22) | (rounded.low >> 10));
-    if (beyond == 0x200u) {
-        bits.low &= ~1u;
-    }
+    bits.low &= ~uint(beyond == 0x200u);
     // The first bit of a normal significand adds one to the exponent, and so does what was carried.
-    return wideBits(parts.sign | ((normal ? uint(parts.exponent - 1) << 20 : 0u) + bits.high), bits.low);
+    const uint exponent = wideChoice(normal, uint(parts.exponent - 1) << 20, 0u);
+    const Wide found = wideBits(parts.sign | (exponent + bits.high), bits.low);
+    return wideEither(parts.exponent >= 0x7ff, wideInfinity(parts.sign), found);
 }
 
 EXACT Wide wideNegated(Wide a) {
@@ -176,190 +207,146 @@ EXACT Wide wideAbs(Wide a) {
     return wideBits(a.high & 0x7fffffffu, a.low);
 }
 
-/// Of two numbers that are neither zero, infinite nor NaN.
-EXACT Wide wideSumOfParts(WideParts a, WideParts b) {
-    const bool swap = a.exponent < b.exponent || (a.exponent == b.exponent && wordLess(a.significand, b.significand));
-    WideParts large = a;
-    WideParts small = b;
-    if (swap) {
-        large = b;
-        small = a;
-    }
-    const WideWord other = wordRight(small.significand, uint(large.exponent - small.exponent));
-    if (large.sign == small.sign) {
-        large.significand = wordSum(large.significand, other);
-        if (large.significand.high >= 0x80000000u) {
-            large.significand = wordRight(large.significand, 1u);
-            large.exponent += 1;
-        }
-        return wideOfParts(large);
-    }
-    large.significand = wordDifference(large.significand, other);
-    if ((large.significand.high | large.significand.low) == 0u) {
-        return wideBits(0u, 0u);
-    }
-    const uint shift = wordLeadingZeros(large.significand) - 1u;
-    large.significand = wordLeft(large.significand, shift);
-    large.exponent -= int(shift);
-    return wideOfParts(large);
-}
-
 EXACT Wide wideAdd(Wide a, Wide b) {
-    if (wideIsNan(a) || wideIsNan(b)) {
-        return wideNan();
-    }
-    if (wideIsInfinite(a)) {
-        return wideIsInfinite(b) && wideSign(a) != wideSign(b) ? wideNan() : a;
-    }
-    if (wideIsInfinite(b)) {
-        return b;
-    }
-    if (wideIsZero(a) && wideIsZero(b)) {
-        return wideBits(a.high & b.high, 0u);
-    }
-    if (wideIsZero(a)) {
-        return b;
-    }
-    return wideIsZero(b) ? a : wideSumOfParts(wideParts(a), wideParts(b));
+    const bool swap = wordLess(wideSize(a), wideSize(b));
+    const Wide large = wideEither(swap, b, a);
+    const Wide small = wideEither(swap, a, b);
+    const bool differ = wideSign(a) != wideSign(b);
+    const WideWord other = wordRight(wideStored(small), uint(wideScale(large) - wideScale(small)));
+    const WideWord less = wordDifference(wideWord(0u, 0u), other);
+    const WideWord sum = wordSum(wideStored(large), wordChoice(differ, less, other));
+    const bool carried = sum.high >= 0x80000000u;
+    const uint shift = (wordLeadingZeros(sum) - 1u) & 63u;
+    WideParts parts;
+    parts.sign = wideSign(large);
+    parts.exponent = wideScale(large) + int(wideChoice(carried, 1u, 0u - shift));
+    const WideWord halved = wideWord(sum.high >> 1, (sum.high << 31) | (sum.low >> 1) | (sum.low & 1u));
+    parts.significand = wordChoice(carried, halved, wordLeft(sum, shift));
+    const Wide none = wideBits(a.high & b.high & 0x80000000u, 0u);
+    const Wide found = wideEither(wordIsZero(sum), none, wideOfParts(parts));
+    // The larger of the two is infinite or NaN if any is.
+    const uint opposed = uint(wideIsInfinite(small)) & uint(differ);
+    const bool nan = (uint(wideIsNan(large)) | opposed) != 0u;
+    const Wide special = wideEither(nan, wideNan(), large);
+    return wideEither(wideExponent(large) == 0x7ffu, special, found);
 }
 
 EXACT Wide wideSubtract(Wide a, Wide b) {
     return wideAdd(a, wideNegated(b));
 }
 
-EXACT Wide wideMultiply(Wide a, Wide b) {
-    const uint sign = wideSign(a) ^ wideSign(b);
-    if (wideIsNan(a) || wideIsNan(b)) {
-        return wideNan();
-    }
-    if (wideIsInfinite(a) || wideIsInfinite(b)) {
-        return wideIsZero(a) || wideIsZero(b) ? wideNan() : wideInfinity(sign);
-    }
-    if (wideIsZero(a) || wideIsZero(b)) {
-        return wideBits(sign, 0u);
-    }
-    const WideParts first = wideParts(a);
-    const WideParts second = wideParts(b);
-    const WideWord x = first.significand;
-    const WideWord y = wordLeft(second.significand, 1u);
+/// A product or a quotient, `found` but for zero, infinity and NaN, each said by a bit. What is zero and infinite at
+/// once is no number.
+EXACT Wide wideSpecial(Wide found, uint zero, uint infinite, uint nan) {
+    const Wide finite = wideEither(zero != 0u, wideBits(wideSign(found), 0u), found);
+    const Wide number = wideEither(infinite != 0u, wideInfinity(wideSign(found)), finite);
+    return wideEither((nan | (zero & infinite)) != 0u, wideNan(), number);
+}
+
+/// Of two numbers that are neither zero, infinite nor NaN.
+EXACT Wide wideProductOfParts(WideParts a, WideParts b) {
+    const WideWord x = a.significand;
+    const WideWord y = wordLeft(b.significand, 1u);
     // The high word of x * y, by words of 32 bits; none of the sums overflows.
     const WideWord lows = wordProduct(x.low, y.low);
     const WideWord mixed = wordSum(wordProduct(x.low, y.high), wideWord(0u, lows.high));
     const WideWord middle = wordSum(wordProduct(x.high, y.low), wideWord(0u, mixed.low));
+    WideWord high = wordSum(wordSum(wordProduct(x.high, y.high), wideWord(0u, mixed.high)), wideWord(0u, middle.high));
+    high.low |= uint((middle.low | lows.low) != 0u);
+    const uint shift = uint(high.high < 0x40000000u);
     WideParts result;
-    result.sign = sign;
-    result.exponent = first.exponent + second.exponent - 1022;
-    result.significand =
-        wordSum(wordSum(wordProduct(x.high, y.high), wideWord(0u, mixed.high)), wideWord(0u, middle.high));
-    result.significand.low |= (middle.low | lows.low) != 0u ? 1u : 0u;
-    if (result.significand.high < 0x40000000u) {
-        result.significand = wordLeft(result.significand, 1u);
-        result.exponent -= 1;
-    }
+    result.sign = a.sign ^ b.sign;
+    result.exponent = a.exponent + b.exponent - 1022 - int(shift);
+    result.significand = wordLeft(high, shift);
     return wideOfParts(result);
+}
+
+EXACT Wide wideMultiply(Wide a, Wide b) {
+    const uint zero = uint(wideIsZero(a)) | uint(wideIsZero(b));
+    const uint infinite = uint(wideIsInfinite(a)) | uint(wideIsInfinite(b));
+    const uint nan = uint(wideIsNan(a)) | uint(wideIsNan(b));
+    return wideSpecial(wideProductOfParts(wideParts(a), wideParts(b)), zero, infinite, nan);
 }
 
 /// Of two numbers that are neither zero, infinite nor NaN.
 EXACT Wide wideQuotientOfParts(WideParts a, WideParts b) {
     // 54 bits of the quotient, the first of them one, a bit a round; the remainder is less than twice the divisor.
     const WideWord divisor = wordRight(b.significand, 10u);
-    WideWord rest = wordRight(a.significand, 10u);
-    WideParts result;
-    result.sign = a.sign ^ b.sign;
-    result.exponent = a.exponent - b.exponent + 1023;
-    if (wordLess(rest, divisor)) {
-        rest = wordLeft(rest, 1u);
-        result.exponent -= 1;
-    }
+    const WideWord dividend = wordRight(a.significand, 10u);
+    const uint shift = uint(wordLess(dividend, divisor));
+    WideWord rest = wordLeft(dividend, shift);
     WideWord quotient = wideWord(0u, 0u);
     ROLLED for (int round = 0; round < 54; ++round) {
+        const bool fits = !wordLess(rest, divisor);
         quotient = wordLeft(quotient, 1u);
-        if (!wordLess(rest, divisor)) {
-            rest = wordDifference(rest, divisor);
-            quotient.low |= 1u;
-        }
-        rest = wordLeft(rest, 1u);
+        quotient.low |= uint(fits);
+        rest = wordLeft(wordChoice(fits, wordDifference(rest, divisor), rest), 1u);
     }
+    WideParts result;
+    result.sign = a.sign ^ b.sign;
+    result.exponent = a.exponent - b.exponent + 1023 - int(shift);
     result.significand = wordLeft(quotient, 9u);
-    result.significand.low |= (rest.high | rest.low) != 0u ? 1u : 0u;
+    result.significand.low |= uint(!wordIsZero(rest));
     return wideOfParts(result);
 }
 
 EXACT Wide wideDivide(Wide a, Wide b) {
-    const uint sign = wideSign(a) ^ wideSign(b);
-    if (wideIsNan(a) || wideIsNan(b) || (wideIsInfinite(a) && wideIsInfinite(b)) || (wideIsZero(a) && wideIsZero(b))) {
-        return wideNan();
-    }
-    if (wideIsInfinite(a) || wideIsZero(b)) {
-        return wideInfinity(sign);
-    }
-    if (wideIsInfinite(b) || wideIsZero(a)) {
-        return wideBits(sign, 0u);
-    }
-    return wideQuotientOfParts(wideParts(a), wideParts(b));
+    const uint zero = uint(wideIsZero(a)) | uint(wideIsInfinite(b));
+    const uint infinite = uint(wideIsInfinite(a)) | uint(wideIsZero(b));
+    const uint nan = uint(wideIsNan(a)) | uint(wideIsNan(b));
+    return wideSpecial(wideQuotientOfParts(wideParts(a), wideParts(b)), zero, infinite, nan);
+}
+
+/// Whether two numbers can be compared; NaN cannot.
+EXACT bool wideOrdered(Wide a, Wide b) {
+    return (uint(wideIsNan(a)) | uint(wideIsNan(b))) == 0u;
 }
 
 EXACT bool wideLess(Wide a, Wide b) {
-    if (wideIsNan(a) || wideIsNan(b) || (wideIsZero(a) && wideIsZero(b))) {
-        return false;
-    }
-    if (wideSign(a) != wideSign(b)) {
-        return wideSign(a) != 0u;
-    }
-    const bool less = wordLess(wideWord(a.high, a.low), wideWord(b.high, b.low));
-    const bool more = wordLess(wideWord(b.high, b.low), wideWord(a.high, a.low));
-    return wideSign(a) != 0u ? more : less;
+    // As words that grow with the numbers; -0 is the same as 0.
+    const Wide x = wideEither(wideIsZero(a), wideBits(0u, 0u), a);
+    const Wide y = wideEither(wideIsZero(b), wideBits(0u, 0u), b);
+    const uint flipX = 0u - (x.high >> 31);
+    const uint flipY = 0u - (y.high >> 31);
+    const bool less = wordLess(wideWord(x.high ^ (flipX | 0x80000000u), x.low ^ flipX),
+                               wideWord(y.high ^ (flipY | 0x80000000u), y.low ^ flipY));
+    return (uint(less) & uint(wideOrdered(a, b))) != 0u;
 }
 
 /// Whether a >= b.
 EXACT bool wideAtLeast(Wide a, Wide b) {
-    return !(wideIsNan(a) || wideIsNan(b) || wideLess(a, b));
+    return (uint(!wideLess(a, b)) & uint(wideOrdered(a, b))) != 0u;
 }
 
 /// The bits of the nearest float.
 EXACT uint wideToFloatBits(Wide a) {
     const uint sign = wideSign(a);
-    if (wideIsNan(a)) {
-        return 0x7fc00000u;
-    }
-    if (wideIsInfinite(a)) {
-        return sign | 0x7f800000u;
-    }
-    if (wideIsZero(a)) {
-        return sign;
-    }
     const WideParts parts = wideParts(a);
     const int exponent = parts.exponent - 896;
-    if (exponent >= 0xff) {
-        return sign | 0x7f800000u;
-    }
     const bool normal = exponent > 0;
-    const uint all = wordRight(parts.significand, normal ? 32u : uint(33 - exponent)).low;
+    const uint all = wordRight(parts.significand, 32u + wideChoice(normal, 0u, uint(1 - exponent))).low;
     uint bits = (all + 0x40u) >> 7;
-    if ((all & 0x7fu) == 0x40u) {
-        bits &= ~1u;
-    }
-    return sign | ((normal ? uint(exponent - 1) << 23 : 0u) + bits);
+    bits &= ~uint((all & 0x7fu) == 0x40u);
+    bits += wideChoice(normal, uint(exponent - 1) << 23, 0u);
+    bits = wideChoice(exponent >= 0xff, 0x7f800000u, bits);
+    bits = wideChoice(wideIsZero(a), 0u, bits);
+    return wideChoice(wideIsNan(a), 0x7fc00000u, sign | bits);
 }
 
 /// The number that the bits of a float are, exactly.
 EXACT Wide wideOfFloatBits(uint bits) {
     const uint sign = bits & 0x80000000u;
-    const uint stored = (bits >> 23) & 0xffu;
+    const uint size = bits & 0x7fffffffu;
     const uint fraction = bits & 0x7fffffu;
-    if (stored == 0xffu) {
-        return fraction != 0u ? wideNan() : wideInfinity(sign);
-    }
-    if (stored == 0u && fraction == 0u) {
-        return wideBits(sign, 0u);
-    }
-    const WideWord significand = wideWord(0u, fraction | (stored == 0u ? 0u : 0x800000u));
-    const uint shift = wordLeadingZeros(significand) - 1u;
-    WideParts parts;
-    parts.sign = sign;
-    parts.exponent = (stored == 0u ? 1 : int(stored)) + 896 + 39 - int(shift);
-    parts.significand = wordLeft(significand, shift);
-    return wideOfParts(parts);
+    // What is smaller than the smallest normal float is a normal number here.
+    const uint shift = (wideLeadingZeros(fraction) - 8u) & 31u;
+    const bool denormal = size < 0x800000u;
+    const uint significand = wideChoice(denormal, fraction << shift, fraction);
+    const uint exponent = wideChoice(denormal, 0u - shift, size >> 23) + 896u;
+    const Wide finite = wideBits(sign | ((exponent << 20) + (significand >> 3)), significand << 29);
+    const Wide special = wideEither(size > 0x7f800000u, wideNan(), wideInfinity(sign));
+    const Wide found = wideEither(size >= 0x7f800000u, special, finite);
+    return wideEither(size == 0u, wideBits(sign, 0u), found);
 }
 
 #include "exact_language.h"

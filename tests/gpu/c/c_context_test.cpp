@@ -16,6 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST_F(CGpuTest, AContextHasErrorsOfItsOwn) {
+    context_ = newContext();
     const Owned<vxt_context> other = newContext();
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
@@ -43,6 +44,7 @@ TEST_F(CGpuTest, AContextHasErrorsOfItsOwn) {
 }
 
 TEST_F(CGpuTest, ObjectsOutliveTheContextThatMadeThem) {
+    context_ = newContext();
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem of(sides, scene);

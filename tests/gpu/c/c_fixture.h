@@ -7,6 +7,8 @@
 #include "support/scenes.h"
 #include "voxtact/voxtact_vulkan.h"
 
+#include <memory>
+
 /// The Vulkan half of the C interface as its tests want it.
 namespace voxtact::test {
 
@@ -105,7 +107,9 @@ class CGpuTest : public GpuTest {
         queue_.lock = queue().lock;
         queue_.unlock = queue().unlock;
         queue_.user = queue().user;
-        context_ = newContext();
+        // One for all tests of a run: so they share its pipelines, which take most of the time on lavapipe.
+        static const std::shared_ptr<vxt_context> shared = newContext();
+        context_ = shared;
     }
     [[nodiscard]] Owned<vxt_context> newContext() const {
         const ContextDesc cpp = gpu().device.contextDesc();
@@ -148,7 +152,7 @@ class CGpuTest : public GpuTest {
     }
 
     vxt_queue queue_ = vxt_queue_init();
-    Owned<vxt_context> context_{nullptr, vxt_context_destroy};
+    std::shared_ptr<vxt_context> context_;
 };
 
 } // namespace voxtact::test
