@@ -132,6 +132,21 @@ struct TransferFunctionDesc {
 /// kMostTableSize (LimitExceeded). Returns the table.
 [[nodiscard]] VOXTACT_API Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc);
 
+/// What a threshold makes of a transfer function and of the values of a volume. Where nothing is opaque nothing
+/// touches, which is a true answer to what was hardly meant.
+struct OpacityFacts {
+    bool reaches = false; ///< some values are opaque by the control points: of at least the threshold
+    bool any = false;     ///< some value of the data is, by the table
+    double spacing = 0;   ///< of the table's entries, in the image's units
+    std::vector<ValueRange>
+        lost{}; ///< values that the points make opaque and the table does not, as none of its entries
+                ///< is among them; only those within its domain, and where the data have values
+};
+/// `data`: the least and the largest value, as checkVolume() returns them. Refuses what sampleTable() refuses. O(points
+/// + entries).
+[[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
+                                                            double threshold = kDefaultThreshold);
+
 /// A triangle mesh somebody else owns, in object space. Three floats a vertex, three indices a triangle.
 struct MeshView {
     std::span<const float> positions;       ///< x, y, z of each vertex, object space

@@ -179,12 +179,13 @@ struct ResultsDesc {
 }
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
-/// One cmdDetect() at a time: recording a second one before the first has completed on the device is a race, unless
-/// both are in the same queue with a barrier between them.
+/// One cmdDetect() at a time: a second one waits by itself for the first where both are of the same queue, and takes
+/// its place; of another queue it must not run before the first has completed, by a semaphore or a fence of yours.
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
-    /// Allocates the buffers. Refuses no pairs, more than the device's limits allow (which limit, how large),
+    /// Allocates the buffers. Refuses no pairs, more of them than the device's limits allow, with queues where these or
+    /// clearances or motions are asked for (LimitExceeded: which limit, how large),
     /// timestamps on a queue family that has none, and an `into` that is too small or begins where no descriptor may.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes as Python sees them. Arguments are read with the interpreter's lock, and the work is done without.
 #include "arrays.h"
+#include "core/base/text.h"
 #include "failure.h"
 #include "lock.h"
 #include "scene.h"
@@ -39,6 +40,35 @@ OpacityDesc opacityOf(const Image& volume, const py::object& points, const py::o
     return opacity;
 }
 
+std::string rangeText(const ValueRange& range) {
+    return number(range.lo) + (range.lo < range.hi ? " to " + number(range.hi) : "");
+}
+
+void warn(const std::string& text) {
+    constexpr int kCaller = 2; // of the method of the package
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), kCaller) != 0) {
+        throw py::error_already_set();
+    }
+}
+
+/// Where nothing is opaque, or less than the points say. Of points that are refused somebody else speaks.
+void warnOfOpacity(const Image& volume, const OpacityDesc& opacity, double threshold) {
+    const Result<OpacityFacts> facts =
+        checkOpacity({opacity.points, opacity.domain, opacity.tableSize}, volume.range(), threshold);
+    if (!facts.ok()) {
+        return;
+    }
+    if (!facts->reaches) {
+        warn("no opacity reaches the threshold " + number(threshold) + ": nothing touches");
+    } else if (!facts->any && facts->lost.empty()) {
+        warn("none of the volume's values, " + rangeText(volume.range()) + ", is opaque: nothing touches");
+    }
+    for (const ValueRange& lost : facts->lost) {
+        warn("the entries of the table, " + number(facts->spacing) + " apart, pass over the opaque values " +
+             rangeText(lost) + ": nothing touches them; table_size and domain bring them nearer to each other");
+    }
+}
+
 /// What Python is told of the way: (done, all).
 Progress progressOf(const py::object& callback, std::size_t all) {
     if (callback.is_none()) {
@@ -51,6 +81,7 @@ std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object
                                  std::uint32_t tableSize, double threshold, std::shared_ptr<LabelData> labels,
                                  std::shared_ptr<Device> device, std::uint32_t threads) {
     OpacityDesc opacity = opacityOf(*volume, points, domain, tableSize);
+    warnOfOpacity(*volume, opacity, threshold);
     SceneDesc desc{std::move(volume), std::move(opacity), threshold, std::move(labels), std::move(device), threads};
     const Unlocked unlocked;
     return std::make_shared<Scene>(std::move(desc));
@@ -58,6 +89,7 @@ std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object
 
 void setOpacity(Scene& scene, const py::object& points, const py::object& domain, std::uint32_t tableSize) {
     OpacityDesc opacity = opacityOf(*scene.desc().volume, points, domain, tableSize);
+    warnOfOpacity(*scene.desc().volume, opacity, scene.desc().threshold);
     const Unlocked unlocked;
     scene.setOpacity(std::move(opacity));
 }
@@ -170,6 +202,7 @@ std::shared_ptr<Plan> plan(Scene& scene, const Doubles& target, const py::dict& 
     if (!points.is_none()) {
         const Image& volume = avoided != nullptr ? *avoided : *scene.desc().volume;
         OpacityDesc opacity = opacityOf(volume, points, domain, scene.desc().opacity.tableSize);
+        warnOfOpacity(volume, opacity, scene.desc().threshold);
         wish.avoided = PlanAvoided{std::move(avoided), std::move(opacity)};
     }
     const Unlocked unlocked;

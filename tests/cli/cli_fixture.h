@@ -67,7 +67,8 @@ class CliTest : public testing::Test {
     /// The refusal that the contract asks for: the status, nothing on standard output, one line on standard error
     /// (and progress) that begins with "voxtact COMMAND: ". Returns that line.
     static std::string refused(int status, const Arguments& arguments, const RunOptions& options = {});
-    /// A good run: status 0, and nothing on standard error but progress. Returns standard output.
+    /// A good run: status 0, and nothing on standard error but progress and, with the opacity "0:0", the note that
+    /// nothing is opaque. Returns standard output.
     static std::string output(const Arguments& arguments, const RunOptions& options = {});
 
   private:

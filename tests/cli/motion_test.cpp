@@ -122,6 +122,7 @@ TEST_F(MotionTest, ByADevice) {
     }
     EXPECT_THAT(refused(2, motion({"--count", "compute", "--threads", "2"})), HasSubstr("--threads is of the host"));
     EXPECT_THAT(refused(2, motion({"--device", "0"})), HasSubstr("unless --count compute says so"));
+    EXPECT_THAT(refused(2, motion({"--validate"})), HasSubstr("--validate: motions are checked by the host"));
     EXPECT_THAT(refused(2, motion({"--count", "query"})), HasSubstr("cpu, compute"));
 }
 

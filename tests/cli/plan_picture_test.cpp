@@ -54,6 +54,15 @@ class PlanPictureTest : public CliDeviceTest {
     }
 };
 
+TEST_F(PlanPictureTest, WithoutAnythingToShowOfTheEntries) {
+    // Two paths, none of them safe, and no triangle between neighbours: neither entries nor an instrument to draw.
+    output({"plan", "--volume", "builtin:head:32", "--target", "20,0,30", "--avoid-opacity", "100:0,160:1", "--entries",
+            "42", "--max-angle", "5", "--output", path("rows.csv"), "--picture", path("none.png"), "--size", "96x64"});
+    const PngPicture seen = readPng(path("none.png"));
+    EXPECT_EQ(seen.width, 96); // one half: there is no path to cut along
+    EXPECT_EQ(seen.height, 64);
+}
+
 TEST_F(PlanPictureTest, ShowsEntriesAndTheBestPath) {
     output(asked({"--picture", path("best.png"), "--size", "400x360", "--report", path("page.html"), "--validate"}));
     const PngPicture seen = readPng(path("best.png"));

@@ -69,9 +69,11 @@ TEST_F(PlanTest, WritesASurfaceAndFacts) {
     EXPECT_THAT(html, HasSubstr("<h1>Paths to (20.00, 0.00, 30.00)</h1>"));
     EXPECT_THAT(html, testing::EndsWith("</body></html>\n"));
     EXPECT_THAT(html, testing::Not(HasSubstr("http")));
-    const std::string json = output({"plan", "--volume", "builtin:head:32", "--target", "20,0,30", "--avoid-opacity",
-                                     "200:0,201:1", "--entries", "12", "--format", "json", "--timing"});
-    for (const char* name : {"\"margin\": 0.0", "\"targets\": 1", "\"target\":\"1\"", "\"entries_per_s\""}) {
+    const std::string json =
+        output({"plan", "--volume", "builtin:head:32", "--target", "20,0,30", "--avoid-opacity", "200:0,201:1",
+                "--max-clearance", "1", "--entries", "12", "--format", "json", "--timing"});
+    for (const char* name :
+         {"\"margin\": 0.0", "\"targets\": 1", "\"clearance_hi\":\"inf\"", "\"target\":\"1\"", "\"entries_per_s\""}) {
         EXPECT_THAT(json, HasSubstr(name));
     }
 }

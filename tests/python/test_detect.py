@@ -2,6 +2,7 @@
 """Answers: their arrays, and that they are those of the program for the same files."""
 import csv
 import os
+import warnings
 
 import numpy as np
 import pytest
@@ -311,3 +312,26 @@ def test_plots(scene, knife):
     axes = scene.detect(knife, random_poses(9, 14)).plot()
     assert axes.get_xlabel() == "pose"
     assert scene.clearance(knife, random_poses(9, 14), maximum=3).plot().get_ylabel() == "mm"
+
+
+def test_what_is_hardly_meant_to_be_opaque_is_warned_of():
+    values = np.full((8, 8, 8), 40, np.int16)
+    values[0, 0, 0] = 32767
+    ct = vx.read_volume(values, affine=np.eye(4))
+    with pytest.warns(UserWarning, match="entries of the table, .* apart, pass over the opaque values 155 to 245") as said:
+        scene = vx.Scene(np.where(values == 40, np.int16(200), values), opacity=[(150, 0), (200, 1), (250, 0)])
+    assert said[0].filename == __file__
+    with pytest.warns(UserWarning, match="no opacity reaches the threshold 0.1"):
+        scene.opacity = [(0, 0), (1, 0.05)]
+    with pytest.warns(UserWarning, match="none of the volume's values, 40 to 32767, is opaque") as said:
+        vx.Scene(ct, opacity=[(0, 1), (10, 1), (20, 0)])
+    assert said[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        scene = vx.Scene(ct, opacity=[(20, 0), (40, 1)])
+        with pytest.raises(UserWarning):
+            scene.opacity = [(0, 0), (1, 0)]
+        assert np.array_equal(scene.opacity, [(20, 0), (40, 1)])
+        scene.plan((4, 4, 4), avoid_opacity=[(20, 0), (40, 1)], entries=42)
+        with pytest.raises(UserWarning):
+            scene.plan((4, 4, 4), avoid_opacity=[(50000, 0), (60000, 1)], entries=42)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_run.h"
 #include "app/options/inputs.h"
+#include "app/options/opacity_notes.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -95,9 +96,13 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
 VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,
                            const VolumeData& data, const ValueRange& values) {
     const auto [width, height] = options.view.size;
-    const ValueRange domain = usedDomain(options.transferFunction, data.type, values, options.jobs.volumes[volume]);
+    const std::string& source = options.jobs.volumes[volume];
+    const TransferFunctionOptions& function = options.transferFunction;
+    const ValueRange domain = usedDomain(function, data.type, values, source);
+    std::vector<ControlPoint> points = inputs.points.empty() ? defaultRamp(domain) : inputs.points;
+    printOpacityNotes({points, domain, function.tableSize}, values, function.threshold, source);
     return {.domain = domain,
-            .points = inputs.points.empty() ? defaultRamp(domain) : inputs.points,
+            .points = std::move(points),
             .view = {inputs.clip_from_world ? *inputs.clip_from_world : framingCamera(data.grid, width, height), width,
                      height}};
 }

@@ -139,7 +139,7 @@ struct VolumeSettings {
     View view;
 };
 
-/// `values`: smallest and largest voxel. Says so where some lie outside the domain.
+/// `values`: smallest and largest voxel. Says so where some lie outside the domain, and where nothing is opaque.
 [[nodiscard]] VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,
                                          const VolumeData& data, const ValueRange& values);
 

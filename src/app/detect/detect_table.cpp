@@ -18,19 +18,14 @@ io::Cell verdictOf(const PairAnswer& answer) {
                              : io::NumberWord{0, "no"};
 }
 
-/// JSON has no infinity: it is a word there.
-io::Cell millimetres(double value) {
-    return std::isinf(value) ? io::Cell(std::string("inf")) : io::Cell(value);
-}
-
 } // namespace
 
 void DetectColumns::addClearance() {
     columns_.push_back({"clearance_lo", [](const Row& row) {
-                            return row.clearance ? millimetres(roundedOutward(row.clearance->bounds).lo) : io::Cell();
+                            return row.clearance ? io::Cell(roundedOutward(row.clearance->bounds).lo) : io::Cell();
                         }});
     columns_.push_back({"clearance_hi", [](const Row& row) {
-                            return row.clearance ? millimetres(roundedOutward(row.clearance->bounds).hi) : io::Cell();
+                            return row.clearance ? io::Cell(roundedOutward(row.clearance->bounds).hi) : io::Cell();
                         }});
 }
 

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/motion/motion_output.h"
 #include "app/motion/motion_run.h"
+#include "app/options/opacity_notes.h"
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
@@ -181,6 +182,10 @@ Result<void> checkEngine(const MotionOptions& options) {
     if (!isOnDevice(options) && !options.device.wanted.empty()) {
         return badArgument("--device: motions are checked by the host unless --count compute says so");
     }
+    if (!isOnDevice(options) && options.device.validate) {
+        return badArgument("--validate: motions are checked by the host, which uses no Vulkan, unless --count compute "
+                           "says so");
+    }
     return {};
 }
 
@@ -221,8 +226,10 @@ Result<void> SegmentChecker::setVolume(std::uint32_t number) {
     const TransferFunctionOptions& how = options_.transferFunction;
     const ValueRange domain = usedDomain(how, data->type, *values, source);
     const std::vector<ControlPoint> points = inputs_.points.empty() ? defaultRamp(domain) : inputs_.points;
+    const TransferFunctionDesc function{points, domain, how.tableSize};
+    printOpacityNotes(function, *values, how.threshold, source);
     volume_ = number;
-    return engine_.setVolume(data->view(), {points, domain, how.tableSize});
+    return engine_.setVolume(data->view(), function);
 }
 
 Result<void> SegmentChecker::checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const {

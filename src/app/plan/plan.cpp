@@ -12,7 +12,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <sstream>
 
@@ -199,10 +201,12 @@ Outcome runPlan(const CLI::App& parser, PlanOptions options) {
         }
     }
     VOXTACT_TRY(deliverPlans(options, inputs, *plans, png));
+    std::vector<std::string> notes = inputs.notes;
     if (options.summary) {
-        for (const std::string& note : planNotes(inputs, *plans)) {
-            printNote(note);
-        }
+        std::ranges::move(planNotes(inputs, *plans), std::back_inserter(notes));
+    }
+    for (const std::string& note : notes) {
+        printNote(note);
     }
     return {};
 }

@@ -170,7 +170,7 @@ Outcome runPlanChunks(const CLI::App& parser, const PlanOptions& options, const 
         }
         return parts.commit();
     };
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = inputs.notes;
     Outcome outcome = doChunks(std::move(run), doTargets, paths, notes);
     for (const std::string& note : notes) {
         if (outcome.status == kExitDone) {

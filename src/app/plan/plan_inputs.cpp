@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "app/options/opacity_notes.h"
 #include "app/output/text_for_messages.h"
 #include "app/plan/plan_run.h"
 #include "core/base/text.h"
@@ -7,28 +8,40 @@
 #include "voxtact/io.h"
 #include "voxtact/samples.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace voxtact::app {
 
 namespace {
 
+constexpr const char* kAvoidOpacity = "--avoid-opacity";
+
+/// `who`: what its points are given by. What is to be said of it goes to `notes`.
 Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, ScalarType type, const ValueRange& values,
-                                         const std::string& source) {
-    const Result<std::vector<ControlPoint>> points = loadControlPoints(how);
+                                         const std::string& source, std::string_view who,
+                                         std::vector<std::string>& notes) {
+    Result<std::vector<ControlPoint>> points = loadControlPoints(how);
     VOXTACT_TRY(points);
     const ValueRange domain = usedDomain(how, type, values, source);
-    return cpu::TransferFunction::create({points->empty() ? defaultRamp(domain) : *points, domain, how.tableSize});
+    if (points->empty()) {
+        *points = defaultRamp(domain);
+    }
+    const TransferFunctionDesc desc{*points, domain, how.tableSize};
+    std::ranges::move(opacityNotes(desc, values, how.threshold, source, who), std::back_inserter(notes));
+    return cpu::TransferFunction::create(desc);
 }
 
 /// `kept`: where the image itself goes; null: it is not needed.
-Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how,
-                                std::optional<VolumeData>* kept = nullptr) {
+Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how, std::string_view who,
+                                std::vector<std::string>& notes, std::optional<VolumeData>* kept = nullptr) {
     Result<VolumeData> data = loadVolume(source);
     VOXTACT_TRY(data);
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
     Result<cpu::Volume> volume = cpu::Volume::create(data->view());
     VOXTACT_TRY(volume);
-    Result<cpu::TransferFunction> function = functionOf(how, data->type, *values, source);
+    Result<cpu::TransferFunction> function = functionOf(how, data->type, *values, source, who, notes);
     VOXTACT_TRY(function);
     const ScalarType type = data->type;
     if (kept != nullptr) {
@@ -76,18 +89,18 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
 Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptions& how, PlanInputs& inputs) {
     if (options.avoidVolume.empty()) {
         const PlanVolume& head = *inputs.head;
-        Result<cpu::TransferFunction> function = functionOf(how, head.type, head.values, options.volumes.front());
+        Result<cpu::TransferFunction> function =
+            functionOf(how, head.type, head.values, options.volumes.front(), kAvoidOpacity, inputs.notes);
         VOXTACT_TRY(function);
         inputs.avoidedInHead = std::move(*function);
-        inputs.obstacles.push_back(
-            {&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}, "--avoid-opacity"});
+        inputs.obstacles.push_back({&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}, kAvoidOpacity});
         return {};
     }
-    Result<PlanVolume> avoided = readVolumeOf(options.avoidVolume, how);
+    Result<PlanVolume> avoided = readVolumeOf(options.avoidVolume, how, kAvoidOpacity, inputs.notes);
     VOXTACT_TRY(avoided);
     inputs.avoided = std::move(*avoided);
     inputs.obstacles.push_back(
-        {&inputs.avoided->volume, &inputs.avoided->transferFunction, how.threshold, nullptr, {}, "--avoid-opacity"});
+        {&inputs.avoided->volume, &inputs.avoided->transferFunction, how.threshold, nullptr, {}, kAvoidOpacity});
     return {};
 }
 
@@ -158,8 +171,8 @@ Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     if (options.labels.empty() && !options.labelNames.empty()) {
         return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
     }
-    Result<PlanVolume> head = readVolumeOf(options.volumes.front(), options.transferFunction,
-                                           options.picture.empty() ? nullptr : &inputs->shown);
+    Result<PlanVolume> head = readVolumeOf(options.volumes.front(), options.transferFunction, "the transfer function",
+                                           inputs->notes, options.picture.empty() ? nullptr : &inputs->shown);
     VOXTACT_TRY(head);
     inputs->head = std::move(*head);
     if (!options.labels.empty()) {

@@ -96,11 +96,12 @@ class PlanPainter {
         begin(size, directionTo(glm::normalize(eye)), {});
         addEntries([](const Vec3&) { return true; });
         VOXTACT_TRY(addInstrument());
-        return paint(size, "entries to " + targetText() + ", " + areaText(),
-                     {{toColour(planColour(unsafe(), 1)), "unsafe"},
-                      {toColour(planColour(possible(), 1)), "not certain"},
-                      {look_.meshColours.back(), shown_.best == nullptr ? "" : "best path"}},
-                     false);
+        std::vector<Swatch> swatches{{toColour(planColour(unsafe(), 1)), "unsafe"},
+                                     {toColour(planColour(possible(), 1)), "not certain"}};
+        if (shown_.best != nullptr) {
+            swatches.push_back({look_.meshColours.back(), "best path"});
+        }
+        return paint(size, "entries to " + targetText() + ", " + areaText(), std::move(swatches), false);
     }
     /// From beside, with what is before the path away.
     [[nodiscard]] Result<Picture> cut(VkExtent2D size) {
@@ -199,7 +200,6 @@ class PlanPainter {
         if (!scene_.room) {
             return picture;
         }
-        std::erase_if(swatches, [](const Swatch& swatch) { return swatch.text.empty(); });
         Annotation annotation{title, std::move(swatches), {}, scene_.clip_from_world};
         if (withLegend || shown_.best == nullptr) {
             annotation.legend = clearanceLegend(options_.maximum);

@@ -101,6 +101,7 @@ struct PlanInputs {
     std::vector<cpu::PlanObstacle> obstacles; ///< refer to what is above
     std::vector<PlanTarget> targets;          ///< of different names; never none
     cpu::PlanTask task;                       ///< refers to all of these; its target is the first
+    std::vector<std::string> notes;           ///< to be said once all has gone well: an error is one line
 };
 
 void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options);

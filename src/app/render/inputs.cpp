@@ -2,6 +2,7 @@
 #include "app/render/inputs.h"
 
 #include "app/options/inputs.h"
+#include "app/options/opacity_notes.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -152,13 +153,21 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
+/// Where nothing is to be shown to touch, nobody needs to know.
+Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
+    if (!options.show.what.empty()) {
+        printOpacityNotes(inputs.transferFunction(options), inputs.values, options.transferFunction.threshold,
+                          options.volumes.front());
+    }
+    return {};
+}
+
 Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
     if (!options.show.isClearance()) {
         return {};
     }
     const TransferFunctionDesc function = inputs.transferFunction(options);
     const double threshold = options.transferFunction.threshold;
-    VOXTACT_TRY(noteWhereNothingIsOpaque(function, threshold));
     Result<MeshClearance> measured = measureMeshes({inputs.volume, inputs.meshes, inputs.poses, function, threshold},
                                                    shownMaximum(options), options.progress);
     VOXTACT_TRY(measured);
@@ -170,7 +179,7 @@ Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
 
 Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
     RenderInputs inputs;
-    for (const auto read : {readMeshes, readVolume, setCuts, setLook, setClearance}) {
+    for (const auto read : {readMeshes, readVolume, setCuts, setLook, noteOpacity, setClearance}) {
         VOXTACT_TRY(read(options, inputs));
     }
     return inputs;

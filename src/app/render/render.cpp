@@ -50,7 +50,6 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
     if (!options.show.what.empty() && !inputs.clearance) {
         const TransferFunctionDesc function = inputs.transferFunction(options);
-        VOXTACT_TRY(noteWhereNothingIsOpaque(function, scene.threshold));
         if (options.show.what == "triangles") {
             Result<std::vector<std::vector<std::uint32_t>>> found = touchingTriangles(
                 {inputs.volume, inputs.meshes, inputs.poses, function, scene.threshold}, options.progress);

@@ -32,16 +32,6 @@ Result<void> uploadTriangles(const ShownPairs& pairs, bool progress, const devic
 
 } // namespace
 
-Result<void> noteWhereNothingIsOpaque(const TransferFunctionDesc& transferFunction, double threshold) {
-    const Result<std::vector<float>> table = sampleTable(transferFunction);
-    VOXTACT_TRY(table);
-    if (*std::ranges::max_element(*table) < static_cast<float>(threshold)) {
-        printNote("no opacity of the transfer function reaches the threshold " + number(threshold) +
-                  ": nothing touches");
-    }
-    return {};
-}
-
 Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress) {
     const Result<cpu::Volume> volume = cpu::Volume::create(pairs.volume.view());
     VOXTACT_TRY(volume);
@@ -115,7 +105,6 @@ Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs
         }
         return objects;
     }
-    VOXTACT_TRY(noteWhereNothingIsOpaque(pairs.transferFunction, pairs.threshold));
     if (options.what == "triangles") {
         VOXTACT_TRY(uploadTriangles(pairs, progress, session, renderer, objects));
         return objects;

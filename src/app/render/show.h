@@ -32,10 +32,8 @@ void addShowOptions(CLI::App& parser, ShowOptions& options);
 [[nodiscard]] Result<void> checkShowOptions(const ShowOptions& options);
 
 /// The triangles that touch for certain, by the projection conservative on the host: of each mesh at each pose, mesh by
-/// mesh. Where nothing can touch, a note says so.
+/// mesh.
 [[nodiscard]] Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress);
-/// Says where nothing can touch.
-[[nodiscard]] Result<void> noteWhereNothingIsOpaque(const TransferFunctionDesc& transferFunction, double threshold);
 
 /// What MeshPaints refer to. Must outlive the picture.
 struct ShowObjects {

@@ -121,6 +121,24 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     return {};
 }
 
+/// Whoever asks for queues must not find at the first batch that there are none.
+Result<void> checkQueueRoom(const ContextImpl& context, const ResultsImpl& results, const ResultsDesc& desc) {
+    const bool wanted = desc.clustersAtOnce ? *desc.clustersAtOnce != 0 : desc.clearances || desc.motions;
+    if (results.queueRoom != 0 || !wanted) {
+        return {};
+    }
+    const VkDeviceSize bytes = firstQueueByte(results) + bytesFromQueues(kLeastQueueRoom, desc);
+    const bool ofBuffer = bytesFor(context) == context.limits.maxStorageBufferRange;
+    return Error{ErrorCode::LimitExceeded, 0,
+                 std::to_string(desc.maxPairs) + " pairs with the queues of the projection conservative" +
+                     (desc.motions      ? " and motions"
+                      : desc.clearances ? " and clearances"
+                                        : "") +
+                     " need a buffer of " + std::to_string(bytes) + " bytes or more, the device's " +
+                     (ofBuffer ? "maxStorageBufferRange" : "maxMemoryAllocationSize") + " is " +
+                     std::to_string(bytesFor(context))};
+}
+
 VkDeviceSize transformBytes(const ResultsImpl& results, const ResultsDesc& desc) {
     return firstQueueByte(results) + (results.queueRoom == 0 ? 0 : bytesFromQueues(results.queueRoom, desc));
 }
@@ -195,6 +213,7 @@ Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const Res
     auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = context, .maxPairs = desc.maxPairs});
     impl->maxTransforms = transformsFor(context, desc.maxPairs);
     impl->queueRoom = queueRoomFor(desc, bytesFor(context), firstQueueByte(*impl));
+    VOXTACT_TRY(checkQueueRoom(context, *impl, desc));
     impl->clearances = desc.clearances && impl->queueRoom > 0;
     impl->closest = desc.closest && impl->clearances;
     impl->labelRoom = impl->clearances ? desc.labelClearances : 0;

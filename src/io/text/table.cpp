@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 
 namespace voxtact::io {
@@ -79,7 +80,7 @@ Json toJson(const Cell& cell) {
         return *whole;
     }
     if (const auto* real = std::get_if<double>(&cell)) {
-        return *real;
+        return std::isinf(*real) ? Json(number(*real)) : Json(*real);
     }
     if (const auto* text = std::get_if<std::string>(&cell)) {
         return *text;

@@ -30,8 +30,9 @@ struct NamedCount {
     std::uint64_t count = 0;
 };
 
-/// Nothing: an empty field in CSV, null in JSON, "-" in text. Named counts: "name:count;name:count" in CSV and text,
-/// where names with one of , ; : or quotes are in quotes, quotes in them doubled; an array of objects in JSON.
+/// JSON has no infinity: it is a word there, as in CSV. Nothing: an empty field in CSV, null in JSON, "-" in text.
+/// Named counts: "name:count;name:count" in CSV and text, where names with one of , ; : or quotes are in quotes, quotes
+/// in them doubled; an array of objects in JSON.
 using Cell = std::variant<std::monostate, std::uint64_t, double, std::string, NumberWord, std::vector<NamedCount>>;
 using NamedCells = std::vector<std::pair<std::string, Cell>>;
 

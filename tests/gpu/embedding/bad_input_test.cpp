@@ -3,15 +3,18 @@
 #include "gpu/context_impl.h"
 #include "gpu_fixture.h"
 #include "interception.h"
+#include "motion_words.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <optional>
 
 namespace voxtact::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class BadInputTest : public GpuTest {
@@ -108,6 +111,22 @@ TEST_F(BadInputTest, MorePairsThanABufferHolds) {
     EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
     EXPECT_THAT(results.error().text, HasSubstr("maxStorageBufferRange"));
     EXPECT_FALSE(Results::create(context(), {.maxPairs = 0}).ok());
+}
+
+TEST_F(BadInputTest, MorePairsThanThereIsRoomForBesideTheQueues) {
+    // The pairs themselves fit, what motions need of each does not.
+    const std::uint32_t pairs = context().impl().limits.maxStorageBufferRange / sizeof(shader::MotionState);
+    for (const std::optional<std::uint32_t> clusters :
+         {std::optional<std::uint32_t>(16), std::optional<std::uint32_t>()}) {
+        const Result<Results> results =
+            Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters, .motions = true});
+        ASSERT_FALSE(results.ok());
+        EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
+        EXPECT_THAT(results.error().text,
+                    AllOf(HasSubstr(std::to_string(pairs) + " pairs with the queues of the projection conservative and "
+                                                            "motions need a buffer of "),
+                          HasSubstr(" is " + std::to_string(context().impl().limits.maxStorageBufferRange))));
+    }
 }
 
 TEST_F(BadInputTest, HostDataIsChecked) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What is said of transfer functions under which nothing, or less than was meant, is opaque.
+#include "app/options/opacity_notes.h"
+#include "cli_fixture.h"
+
+namespace voxtact::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::vector<std::string> notes(const std::vector<ControlPoint>& points, const ValueRange& domain,
+                               const ValueRange& data) {
+    return app::opacityNotes({points, domain, kDefaultTableSize}, data, kDefaultThreshold, "ct.nii");
+}
+
+const std::vector<ControlPoint> kVessels{{150, 0}, {200, 1}, {250, 0}};
+
+TEST(OpacityNotes, WhatIsSeenNeedsNone) {
+    EXPECT_THAT(notes(kVessels, {-1024, 3071}, {-1000, 3000}), IsEmpty());
+    // Who makes the table says what is wrong with it.
+    EXPECT_THAT(notes({}, {0, 255}, {0, 255}), IsEmpty());
+}
+
+TEST(OpacityNotes, PointsBelowTheThreshold) {
+    EXPECT_THAT(notes({{0, 0}, {255, 0.05}}, {0, 255}, {0, 255}),
+                ElementsAre("no opacity of the transfer function reaches the threshold 0.1: nothing touches"));
+}
+
+TEST(OpacityNotes, BetweenTwoEntries) {
+    const std::vector<std::string> found = notes(kVessels, {-1000, 32767}, {-1000, 32767});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0], AllOf(HasSubstr("ct.nii: the entries of the table, 131.9"),
+                                HasSubstr("pass over what the transfer function makes opaque at 155 to 245:"),
+                                HasSubstr("--tf-size and --tf-domain")));
+    // The same where more is opaque, which is seen.
+    std::vector<ControlPoint> more = kVessels;
+    more.insert(more.end(), {{1000, 0}, {2000, 1}});
+    EXPECT_EQ(notes(more, {-1000, 32767}, {-1000, 32767}), found);
+}
+
+TEST(OpacityNotes, NoValueOfTheVolume) {
+    EXPECT_THAT(notes({{300, 0}, {400, 1}}, {0, 255}, {0, 255}),
+                ElementsAre("ct.nii: none of its values, 0 to 255, is opaque under the transfer function: nothing "
+                            "touches"));
+    EXPECT_THAT(notes({{300, 0}, {400, 1}}, {-1024, 3071}, {7, 7}),
+                ElementsAre(HasSubstr("none of its values, 7, is")));
+}
+
+class OpacityNotesTest : public CliTest {
+  protected:
+    void SetUp() override {
+        writeText(path("poses.txt"), "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1\n");
+    }
+    [[nodiscard]] std::string said(const Arguments& more) const {
+        Arguments all{more.front(),          "--volume", "builtin:head:16", "--mesh",
+                      "builtin:scalpel:500", "--poses",  path("poses.txt")};
+        all.insert(all.end(), more.begin() + 1, more.end());
+        const Ran ran = run(all);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.err;
+    }
+};
+
+TEST_F(OpacityNotesTest, AreSaidByWhatAnswers) {
+    const auto isSaid =
+        HasSubstr("builtin:head:16: none of its values, 0 to 243, is opaque under the transfer function");
+    const Arguments hounsfield{"--opacity", "300:0,400:1"};
+    for (Arguments command : {Arguments{"detect"}, Arguments{"detect", "--margin", "5"}, Arguments{"motion"}}) {
+        EXPECT_THAT(said(command), Not(isSaid));
+        command.insert(command.end(), hounsfield.begin(), hounsfield.end());
+        EXPECT_THAT(said(command), isSaid) << command.front();
+    }
+    EXPECT_THAT(said({"detect", "--opacity", "100:0,110:1,120:0", "--tf-domain", "0:25500"}),
+                HasSubstr("makes opaque at 101 to 119"));
+    const Ran plan = run({"plan", "--volume", "builtin:head:16", "--target", "20,0,30", "--entries", "42",
+                          "--avoid-opacity", "300:0,400:1"});
+    EXPECT_EQ(plan.status, 0);
+    EXPECT_THAT(plan.err, AllOf(HasSubstr("is opaque under --avoid-opacity"), Not(HasSubstr("under the transfer"))));
+}
+
+} // namespace
+} // namespace voxtact::test
