@@ -3,7 +3,8 @@
 """Runs the shell examples of the manual, so that what a reader copies works.
 
   examples.py run PROGRAM PAGE.md       every ```sh block of a page, in order, in one temporary folder
-  examples.py options PROGRAM PAGE.md…  every option in the pages is in a --help, and every option of --help in a page
+  examples.py options PROGRAM PAGE.md…  every option in the pages is in a --help, and every option of --help in a page;
+                                        in that of WHOLE, where a page says that it has them all
 
 An HTML comment before a block, which no reader sees, says what there is to know about it:
 
@@ -38,6 +39,7 @@ FILES = {
     "poses.txt": ["poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--count", "8", "--seed",
                   "7", "--output"],
 }
+WHOLE = {"render.md": "render"}
 SUBCOMMANDS = ("detect", "motion", "merge", "plan", "compare", "bench", "render", "view", "info", "devices", "make")
 
 
@@ -204,15 +206,21 @@ def options(program, pages):
     known |= {"--help", "--version"}
     told, failures = set(), 0
     for page in pages:
+        here = set()
         # Options in backquotes; those of other programs stand in blocks, or behind their program's name.
         for number, line in enumerate(page.read_text().splitlines(), 1):
             for code in re.findall(r"`([^`]*)`", line):
                 mine = code.startswith(("--", "voxtact "))
                 for option in re.findall(r"(?<![\w-])--[a-z][a-z-]*", code) if mine else []:
-                    told.add(option)
+                    here.add(option)
                     if option not in known:
                         print(f"{page.name}:{number}: FAILED: no voxtact command has {option}")
                         failures += 1
+        if page.name in WHOLE:
+            for option in sorted(options_in(help_of(program, WHOLE[page.name])) - here - {"--help"}):
+                print(f"FAILED: {option} of voxtact {WHOLE[page.name]} is not in {page.name}")
+                failures += 1
+        told |= here
     for option in sorted(known - told - {"--help"}):
         print(f"FAILED: {option} is in a --help and in none of {', '.join(page.name for page in pages)}")
         failures += 1
