@@ -15,7 +15,8 @@
 /// of a segment is about all of them, those in between included.
 namespace voxtact {
 
-/// Which motion.
+/// Which motion. Exactly half a turn goes counter-clockwise about the direction of its axis whose largest coordinate in
+/// the world is positive, of equal ones the first. Where rounding leaves a little less, it is the way that is shorter.
 enum class Interpolation : std::uint32_t {
     /// About and along one axis, both at constant speed, by no more than half a turn (Chasles, 1830).
     Screw,

@@ -3,6 +3,9 @@
 #include "cli_fixture.h"
 
 #include <cmath>
+#include <iomanip>
+#include <regex>
+#include <sstream>
 
 namespace voxtact::test {
 namespace {
@@ -56,6 +59,40 @@ TEST_F(MotionTest, HasARowForEachSegment) {
     EXPECT_LE(std::stod(coarse[2][4]), touchAt);
     EXPECT_GE(std::stod(coarse[2][5]), freeUntil);
     EXPECT_LE(std::stod(coarse[2][5]) - std::stod(coarse[2][4]), 2.0 / 40 + 1e-12);
+}
+
+/// The last digits decide which way round it goes.
+TEST_F(MotionTest, HalfTurnsAreNoted) {
+    const std::string start = "1 0 0 0  0 1 0 0  0 0 1 300  0 0 0 1\n";
+    const auto turned = [](double degrees) {
+        const double angle = degrees / 180 * 3.14159265358979323846;
+        std::ostringstream text;
+        text << std::setprecision(17) << std::cos(angle) << ' ' << -std::sin(angle) << " 0 0  " << std::sin(angle)
+             << ' ' << std::cos(angle) << " 0 0  0 0 1 300  0 0 0 1\n";
+        return text.str();
+    };
+    const auto notes = [&](const std::string& poses, const Arguments& more = {}) {
+        writeText(path("turns.txt"), poses);
+        Arguments all = motion(more);
+        all[6] = path("turns.txt");
+        const Ran ran = run(all);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return withoutProgress(ran.err);
+    };
+    EXPECT_EQ(notes(start + turned(179.999) + start), "");
+    EXPECT_EQ(
+        notes(start + start + turned(180.00005) + start),
+        "voxtact: note: segments that turn by 180 degrees to within 0.0001: 2, the first of them 1; the poses' last "
+        "digits decide which way round they go, and a pose in between would say it\n");
+    EXPECT_THAT(notes(start + start + turned(180), {"--resume", path("run"), "--chunk", "1"}),
+                HasSubstr("to within 0.0001: 1, the first of them 1;"));
+}
+
+TEST_F(MotionTest, TimesAreAsShortAsThoseOfDetect) {
+    const std::string last = linesOf(output(motion({"--timing"}))).back();
+    // A nanosecond, and a tenth.
+    EXPECT_TRUE(std::regex_match(last, std::regex(R"(# segments=3 wall_ms=\d+(\.\d{1,6})? segments_per_s=\d+(\.\d)?)")))
+        << last;
 }
 
 TEST_F(MotionTest, WhatIsMissingIsSaidBeforeTheFirstRow) {

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numbers>
 #include <span>
 
 namespace voxtact::app {
@@ -29,7 +30,8 @@ constexpr const char* kMotionFooter =
   x,y,z,triangle,label   a point of that touch, world mm, LPS; the triangle; with --labels the label there
 
 --interpolation screw turns about and moves along one axis; slerp moves the middle of the mesh's box straight and turns
-about it. Nothing is sampled: a thin plate that crosses a thin sheet is found. By the host, in double precision; with
+about it; by no more than half a turn, and where it is just that, a note says so, since rounding decides which way round
+it goes. Nothing is sampled: a thin plate that crosses a thin sheet is found. By the host, in double precision; with
 --count compute by a device, in single precision: hundredths of a voxel.
 
 With --resume the run is done in chunks, whose files are in that folder: ended at any moment, the same command goes on
@@ -43,6 +45,9 @@ Examples:
 
 /// More only wait for each other.
 constexpr std::uint32_t kMostThreads = 1024;
+
+/// Radians, 0.0001 degrees: so far from half a turn poses may be of which a file has six digits behind the point.
+constexpr double kHalfTurnRounding = 1e-4 / 180 * std::numbers::pi;
 
 Interpolation interpolationOf(const MotionOptions& options) {
     return options.interpolation == "slerp" ? Interpolation::Slerp : Interpolation::Screw;
@@ -232,19 +237,23 @@ Result<void> SegmentChecker::setVolume(std::uint32_t number) {
     return engine_.setVolume(data->view(), function);
 }
 
-Result<void> SegmentChecker::checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const {
+Result<std::vector<bool>> SegmentChecker::checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const {
+    std::vector<bool> halfTurns;
     for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
         const std::uint64_t number = firstPose + i;
-        VOXTACT_TRY(
+        const Result<RigidMotion> motion =
             RigidMotion::between(poses[i], poses[i + 1], interpolationOf(options_), {},
-                                 "--poses: poses " + std::to_string(number) + " and " + std::to_string(number + 1)));
+                                 "--poses: poses " + std::to_string(number) + " and " + std::to_string(number + 1));
+        VOXTACT_TRY(motion);
+        halfTurns.push_back(motion->angle() >= std::numbers::pi - kHalfTurnRounding);
     }
-    return {};
+    return halfTurns;
 }
 
 Result<void> SegmentChecker::check(std::uint32_t mesh, std::span<const Mat4> poses, std::uint64_t firstPose,
                                    const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
-    VOXTACT_TRY(checkRigid(poses, firstPose));
+    const Result<std::vector<bool>> halfTurns = checkRigid(poses, firstPose);
+    VOXTACT_TRY(halfTurns);
     std::vector<MotionRow> rows;
     for (std::size_t first = 0; first + 1 < poses.size() && !interrupted();) {
         const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(pace_.size(), poses.size() - 1 - first));
@@ -258,33 +267,14 @@ Result<void> SegmentChecker::check(std::uint32_t mesh, std::span<const Mat4> pos
         pace_.took(count, answer->wallMilliseconds);
         rows.clear();
         for (SegmentMotion motion : answer->segments) {
+            const bool halfTurn = (*halfTurns)[first + motion.pose];
             motion.pose += static_cast<std::uint32_t>(firstPose + first);
-            rows.push_back({mesh, volume_, motion});
+            rows.push_back({mesh, volume_, motion, halfTurn});
         }
         VOXTACT_TRY(visit(rows));
         first += count;
     }
     return {};
-}
-
-void MotionEnds::add(std::span<const MotionRow> rows) {
-    for (const MotionRow& row : rows) {
-        grazing += row.motion.end == MotionEnd::Grazes ? 1 : 0;
-        cut += row.motion.end == MotionEnd::Budget ? 1 : 0;
-    }
-}
-
-void MotionEnds::addTo(std::vector<std::string>& notes) const {
-    if (grazing > 0) {
-        notes.push_back("segments that graze: " + std::to_string(grazing) +
-                        "; their free_until and touch_at are farther apart than "
-                        "--resolution-mm, or there is no touch_at");
-    }
-    if (cut > 0) {
-        notes.push_back("segments that took too many steps: " + std::to_string(cut) +
-                        "; they are free until free_until, and the rest of them "
-                        "is not looked at");
-    }
 }
 
 Command addMotion(CLI::App& program) {

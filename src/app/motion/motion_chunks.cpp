@@ -75,8 +75,7 @@ class MotionChunks {
             return {};
         }
         VOXTACT_TRY(file->close());
-        ends_.grazing += ends.grazing;
-        ends_.cut += ends.cut;
+        ends_.add(ends);
         return file->commit();
     }
     [[nodiscard]] const MotionEnds& ends() const noexcept { return ends_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/motion/motion_output.h"
 
+#include "app/detect/extra_outputs.h"
 #include "app/output/standard_streams.h"
 #include "core/base/try.h"
 
@@ -42,9 +43,10 @@ Result<void> MotionOutput::pass() {
 Result<void> MotionOutput::finish(double wallMilliseconds) {
     io::TableEnd timing{"timing"};
     if (options_.timing) {
+        const double perSecond = 1000 * static_cast<double>(rows_) / wallMilliseconds;
         timing.cells = {{"segments", rows_},
-                        {"wall_ms", wallMilliseconds},
-                        {"segments_per_s", 1000 * static_cast<double>(rows_) / wallMilliseconds}};
+                        {"wall_ms", rounded(wallMilliseconds, 1e6)},
+                        {"segments_per_s", rounded(wallMilliseconds > 0 ? perSecond : 0, 10)}};
     }
     writer_.end({&timing, 1});
     if (!file_) {

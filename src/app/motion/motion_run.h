@@ -70,7 +70,8 @@ class SegmentChecker {
     /// More segments than are checked before their rows are written.
     static constexpr std::uint32_t kMostAtOnce = 256;
 
-    [[nodiscard]] Result<void> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
+    /// Whether each segment is half a turn.
+    [[nodiscard]] Result<std::vector<bool>> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
 
     const MotionOptions& options_;
     const MotionInputs& inputs_;
@@ -80,12 +81,15 @@ class SegmentChecker {
     double milliseconds_ = 0;
 };
 
-/// How many segments ended with less than was asked for.
+/// How many segments ended with less than was asked for, and how many may not go the way that was meant.
 struct MotionEnds {
     std::uint64_t grazing = 0;
     std::uint64_t cut = 0;
+    std::uint64_t halfTurns = 0;
+    std::uint32_t firstHalfTurn = 0; ///< its segment
 
     void add(std::span<const MotionRow> rows);
+    void add(const MotionEnds& more);
     void addTo(std::vector<std::string>& notes) const;
 };
 

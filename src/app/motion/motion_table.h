@@ -18,6 +18,7 @@ struct MotionRow {
     std::uint32_t mesh = 0; ///< numbers in their lists
     std::uint32_t volume = 0;
     SegmentMotion motion;
+    bool halfTurn = false; ///< within rounding, so that this alone decides which way round it goes
 };
 
 /// What the rows are about.

@@ -256,6 +256,35 @@ TEST(Motion, GoesFromTheFirstPoseToTheSecond) {
 }
 
 /// How far a floor is below a tip, by how much the pose may be off.
+/// Which way round is written down (voxtact/motion.h): counter-clockwise about the direction of the axis whose largest
+/// coordinate is positive.
+TEST(Motion, HalfATurnGoesTheWayThatIsSaid) {
+    const double half = std::sqrt(0.5);
+    const std::pair<Vec3, Vec3> axes[] = {{{0, 0, 1}, {0, 0, 1}},
+                                          {{0, 0, -1}, {0, 0, 1}},
+                                          {{0, -1, 0}, {0, 1, 0}},
+                                          {{-1, 0, 0}, {1, 0, 0}},
+                                          {{-0.6, 0, 0.8}, {-0.6, 0, 0.8}},
+                                          {{0.6, 0, -0.8}, {-0.6, 0, 0.8}},
+                                          {{-half, half, 0}, {half, -half, 0}}};
+    for (const auto& [given, taken] : axes) {
+        // 2 a aT - 1 turns by 180 degrees about a; it is symmetric, and so says nothing of the way.
+        Mat4 to = identity();
+        for (std::size_t column = 0; column < 3; ++column) {
+            for (std::size_t row = 0; row < 3; ++row) {
+                to[4 * column + row] = 2 * given[column] * given[row] - (column == row ? 1 : 0);
+            }
+        }
+        for (const Interpolation interpolation : {Interpolation::Screw, Interpolation::Slerp}) {
+            const Mat4 quarter = take(poseBetween(identity(), to, 0.5, interpolation));
+            // Of a quarter of a turn about a, the part that is not symmetric is cross(a, .).
+            EXPECT_NEAR((quarter[6] - quarter[9]) / 2, taken[0], 1e-12);
+            EXPECT_NEAR((quarter[8] - quarter[2]) / 2, taken[1], 1e-12);
+            EXPECT_NEAR((quarter[1] - quarter[4]) / 2, taken[2], 1e-12);
+        }
+    }
+}
+
 TEST(PoseTolerance, OfATipAboveAFloor) {
     const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorImage(), kFloorPoints, kFloorDomain,
                     kFloorEntries);
