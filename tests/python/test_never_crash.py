@@ -95,9 +95,7 @@ def test_what_is_made_of_nothing():
 
 
 def test_pickling_and_copying_are_refused_by_name(scene, knife, head):
-    answer = scene.detect(knife, np.eye(4))
-    for thing in (head, knife, scene, vx.read_labels(head), answer, scene.clearance(knife, np.eye(4)),
-                  scene.motion(knife, random_poses(2, 1))):
+    for thing in (head, knife, scene, vx.read_labels(head)):
         for way in (pickle.dumps, copy.copy, copy.deepcopy):
             with pytest.raises(TypeError, match=f"voxtact.{type(thing).__name__} cannot be pickled"):
                 way(thing)

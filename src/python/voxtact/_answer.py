@@ -2,19 +2,22 @@
 """What scenes answer: numpy arrays, made when they are looked at."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Optional
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import check_made, not_pickled
+from ._common import Kept, check_made, members_of, no_truth, restored
 from ._errors import NotReadyError
 
 if TYPE_CHECKING:
     from ._scene import Scene
 
 _OUTPUTS = ("triangles", "contacts", "bounds", "labels")
+_MEMBERS = ("hit", "possible", "count", "exact", "item", "pose", "method", "projection", "counters", "milliseconds",
+            "device_milliseconds", "contacts_found", *_OUTPUTS)
+_CLEARANCE_MEMBERS = ("lo", "hi", "end", "closest", "labels", "item", "pose", "milliseconds")
 _ENDS = np.array(["closed", "beyond", "rounding", "budget"])
 
 
@@ -78,7 +81,7 @@ class Answer:
     """What `Scene.detect` found: a row for each pair of a mesh and a pose, in the order in which they were given."""
 
     __slots__ = ("_core", "_scene", "_later")
-    _core: core.Answer
+    _core: Union[core.Answer, Kept]
     _scene: Optional[Scene]
     _later: Optional[dict[str, core.Answer]]
 
@@ -176,13 +179,16 @@ class Answer:
         """What the engine took."""
         return self._core.milliseconds / 1000
 
-    def _output(self, name: str) -> core.Answer:
+    def _output(self, name: str) -> Union[core.Answer, Kept]:
         """The answer that has an output; asks again where it was not asked for."""
         if self._core.outputs[_OUTPUTS.index(name)]:
             return self._core
         if self._later is None:
             self._later = {}
         if name not in self._later:
+            if isinstance(self._core, Kept):
+                raise NotReadyError(f"an answer that was pickled or copied knows no scene: detect({name}=True) asks for its "
+                                    f"{name} in the same go, and looking at them before keeps them, too")
             if self._scene is None:
                 raise NotReadyError(f"answers of within() and around() have no {name}: ask detect(), which is about touching")
             again = self._scene._core.again(self._core, name)
@@ -206,15 +212,23 @@ class Answer:
         more = f", {possible} possibly" if possible else ""
         return f"<voxtact.Answer: {hits} of {len(self)} poses touch{more}; {self.projection}, {self.method}>"
 
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
+    def __bool__(self) -> NoReturn:
+        no_truth(self, ".hit, or .hit.any()")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        members = members_of(self._core, _MEMBERS)
+        later = self._later or {}
+        for name, answer in later.items():
+            members.update(members_of(answer, (name, "contacts_found") if name == "contacts" else (name,)))
+        members["outputs"] = tuple(known or name in later for known, name in zip(self._core.outputs, _OUTPUTS))
+        return restored, (Answer, {"_core": Kept(len(self), members), "_scene": None, "_later": None})
 
 
 class Clearance:
     """What `Scene.clearance` found: a row for each pair, in order; to labels, a column for each."""
 
     __slots__ = ("_core",)
-    _core: core.Clearances
+    _core: Union[core.Clearances, Kept]
 
     def __init__(self, made_of: core.Clearances) -> None:
         check_made(made_of, core.Clearances, "Scene.clearance()")
@@ -288,5 +302,8 @@ class Clearance:
             return f"<voxtact.Clearance of {len(self)} poses{to}>"
         return f"<voxtact.Clearance of {len(self)} poses{to}: the least is {self.lo.min():.4g} to {self.hi.min():.4g} mm>"
 
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
+    def __bool__(self) -> NoReturn:
+        no_truth(self, ".lo and .hi")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Clearance, {"_core": Kept(len(self), members_of(self._core, _CLEARANCE_MEMBERS))})

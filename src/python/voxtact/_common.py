@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 import os
+from collections.abc import Iterable
 from typing import Any, Literal, NoReturn, Union
 
 import numpy as np
@@ -47,10 +48,51 @@ def encoded_text(given: str, what: str) -> bytes:
 
 
 def not_pickled(of: object) -> NoReturn:
-    """What `__reduce__` of each class does."""
+    """What `__reduce__` of each class does that stays in its process."""
     name = type(of).__name__
     raise TypeError(f"a voxtact.{name} cannot be pickled or copied: it is made of memory of this process; "
                     "make another one from the same file or arrays")
+
+
+def no_truth(of: object, ask: str) -> NoReturn:
+    """What `__bool__` of each answer does: an object that has rows would be true, whatever is in them."""
+    raise TypeError(f"a voxtact.{type(of).__name__} is neither true nor false: it has a row for each of what was asked; "
+                    f"look at {ask}")
+
+
+class Kept:
+    """What an answer of the compiled part holds, once it has been pickled or copied: the same members."""
+
+    __slots__ = ("_length", "_members")
+
+    def __init__(self, length: int, members: dict[str, Any]) -> None:
+        self._length = length
+        self._members = members
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return object.__getattribute__(self, "_members")[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+    def __len__(self) -> int:
+        return self._length
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Kept, (self._length, self._members)
+
+
+def members_of(made: Any, names: Iterable[str]) -> dict[str, Any]:
+    """What there is to keep of an answer of the compiled part."""
+    return {name: getattr(made, name) for name in names}
+
+
+def restored(kind: type, slots: dict[str, Any]) -> Any:
+    """An object of a class with these slots: what pickle calls."""
+    made: Any = object.__new__(kind)
+    for name, value in slots.items():
+        setattr(made, name, value)
+    return made
 
 
 def check_made(made_of: object, kind: type, by: str) -> None:

@@ -2,19 +2,20 @@
 """Motions between poses, and what scenes answer about them."""
 from __future__ import annotations
 
-from typing import Any, Literal, NoReturn, Optional
+from typing import Any, Literal, NoReturn, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import check_made, encoded_text, not_pickled, numbers
+from ._common import Kept, check_made, encoded_text, members_of, no_truth, numbers, restored
 from ._errors import InvalidArgumentError
 from ._mesh import Mesh
 
 #: "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns about it.
 Interpolation = Literal["screw", "slerp"]
 
+_MEMBERS = ("hit", "possible", "free_until", "end", "touches", "item", "pose", "milliseconds")
 _ENDS = np.array(["decided", "grazes", "budget"])
 
 
@@ -52,7 +53,7 @@ class Motion:
     """
 
     __slots__ = ("_core",)
-    _core: core.Motions
+    _core: Union[core.Motions, Kept]
 
     def __init__(self, made_of: core.Motions) -> None:
         check_made(made_of, core.Motions, "Scene.motion()")
@@ -128,5 +129,8 @@ class Motion:
         first = f"; the first in segment {int(np.argmax(self.hit))}" if hits else ""
         return f"<voxtact.Motion: {hits} of {len(self)} segments touch{more}{first}>"
 
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
+    def __bool__(self) -> NoReturn:
+        no_truth(self, ".hit, or .hit.any()")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Motion, {"_core": Kept(len(self), members_of(self._core, _MEMBERS))})

@@ -11,11 +11,13 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._arguments import Opacity, pair
-from ._common import check_made, listed, not_pickled, number, numbers, whole_number
+from ._common import Kept, check_made, listed, members_of, no_truth, number, numbers, restored, whole_number
 from ._errors import InvalidArgumentError, NotReadyError
 from ._labels import Labels
 from ._mesh import Mesh
 
+_MEMBERS = ("paths", "triangles", "safe", "triangle_clearance", "area", "safe_area", "no_surface", "on_border", "too_long",
+            "too_oblique", "milliseconds")
 _UNSAFE, _SAFE, _POSSIBLE = range(3)
 
 
@@ -64,15 +66,15 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
 class Plan:
     """What `Scene.plan` found: a row for each path, in the order of the directions."""
 
-    __slots__ = ("_core", "_labels", "_with_clearances")
-    _core: core.Plan
-    _labels: Optional[Labels]
+    __slots__ = ("_core", "_names", "_with_clearances")
+    _core: Union[core.Plan, Kept]
+    _names: dict[int, str]
     _with_clearances: bool
 
     def __init__(self, made_of: core.Plan, labels: Optional[Labels], with_clearances: bool) -> None:
         check_made(made_of, core.Plan, "Scene.plan()")
         self._core = made_of
-        self._labels = labels
+        self._names = {} if labels is None else labels.names
         self._with_clearances = with_clearances
 
     @property
@@ -168,8 +170,7 @@ class Plan:
         if path["obstacle"] == 1:
             return "opaque"
         label = int(path["label"])
-        names = {} if self._labels is None else self._labels.names
-        return names.get(label, str(label))
+        return self._names.get(label, str(label))
 
     def __len__(self) -> int:
         return len(self._core)
@@ -181,5 +182,9 @@ class Plan:
         what = "" if best is None else f"; the best keeps {self.paths['lo'][best]:.4g} mm"
         return f"<voxtact.Plan: {int(self.safe.sum())} of {len(self)} paths are safe{more}{what}>"
 
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
+    def __bool__(self) -> NoReturn:
+        no_truth(self, ".safe, or .safe.any()")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Plan, {"_core": Kept(len(self), members_of(self._core, _MEMBERS)), "_names": dict(self._names),
+                                 "_with_clearances": self._with_clearances})

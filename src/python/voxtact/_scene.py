@@ -2,6 +2,7 @@
 """Scenes, which are asked."""
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any, Literal, NoReturn, Optional, Union
 
@@ -273,7 +274,7 @@ class Scene:
             mm: what is farther is not measured; `lo` is then the maximum, and `hi` infinite
         labels
             measures to the opaque part of each of these labels, by number or name, instead (True: all but 0): a column for each. The
-            scene's label map must be on its volume's grid
+            scene's label map must be on its volume's grid. Clearances to a label that no voxel has are infinite; that is warned of
         labels_at_any_opacity
             to all of each label, be it opaque or not
         most_steps
@@ -292,6 +293,10 @@ class Scene:
                 raise InvalidArgumentError("clearances to labels need a scene with labels=")
             every = [int(label) for label in self._labels.values if label != 0]
             wanted = every if labels is True else [self._labels._number(label, "a label") for label in listed(labels, "labels")]
+            if absent := sorted(set(wanted).difference(every, (0,))):
+                warnings.warn(f"labels: no voxel of the label map has the label{'s' if len(absent) > 1 else ''} "
+                              f"{', '.join(map(str, absent))}; clearances to {'them' if len(absent) > 1 else 'it'} are infinite",
+                              stacklevel=2)
         elif labels_at_any_opacity:
             raise InvalidArgumentError("labels_at_any_opacity is about labels: give labels=, too")
         steps = whole_number(most_steps, "most_steps", 1)
@@ -360,7 +365,7 @@ class Scene:
             a mesh at poses, (N,4,4), N at least 2; or a list of (mesh, poses) alone
         interpolation
             "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns
-            about it. Both by no more than half a turn, at constant speed
+            about it. Both by no more than half a turn, at constant speed; of just half a turn rounding decides which way round
         resolution
             mm, from 1e-6 on: how far the mesh moves at most from the end of what is free to a touch
         most_steps

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: MIT
+"""What all answers have in common: pickled and copied they are the same, and none of them is true or false."""
+import concurrent.futures
+import copy
+import multiprocessing
+import pickle
+
+import numpy as np
+import pytest
+
+import voxtact as vx
+from conftest import placed, random_poses
+
+WAYS = [lambda of: pickle.loads(pickle.dumps(of)), copy.copy, copy.deepcopy]
+#: Of each kind, all that is known of it.
+MEMBERS = {
+    vx.Answer: ("hit", "possible", "count", "exact", "item", "pose", "device_seconds", "seconds", "method", "projection",
+                "triangles", "contacts", "contacts_found", "bounds", "labels"),
+    vx.Clearance: ("lo", "hi", "end", "labels", "item", "pose", "seconds"),
+    vx.Motion: ("hit", "possible", "free_until", "touch_at", "touches", "end", "item", "pose", "seconds"),
+    vx.Plan: ("safe", "possible", "clearance", "entries", "paths", "best", "triangles", "triangle_safe",
+              "triangle_clearance", "area", "safe_area", "left_out", "seconds"),
+}
+
+
+@pytest.fixture(scope="module")
+def labelled(head):
+    return vx.Scene(head, opacity=[(40, 0), (80, 1)], labels=vx.read_labels(head, names={70: "Cortex", 120: "Skull"}))
+
+
+@pytest.fixture(scope="module")
+def answers(labelled, knife):
+    poses = random_poses(6, 1, 100.0)
+    return [labelled.detect([(knife, poses[:4]), (knife, poses[4:])], triangles=True, contacts=True, bounds=True, labels=True),
+            labelled.clearance(knife, poses), labelled.clearance(knife, poses, labels=["Skull", 70]),
+            labelled.motion(knife, poses), labelled.plan((20, 0, 30), avoid=["Skull"], entries=100, triangle_clearances=True)]
+
+
+def same(a, b):
+    assert type(a) is type(b)
+    if isinstance(a, np.ndarray):
+        assert a.dtype == b.dtype and a.shape == b.shape
+        for name in a.dtype.names or [...]:  # of rows NaN is not NaN
+            np.testing.assert_array_equal(a[name], b[name])
+    else:
+        assert a == b
+
+
+@pytest.mark.parametrize("way", WAYS, ids=["pickle", "copy", "deepcopy"])
+def test_a_copy_is_the_same(answers, way):
+    assert 0 < answers[0].hit.sum() < 6 and len(answers[0].contacts), "the poses say nothing"
+    for answer in answers:
+        for found in (way(answer), way(way(answer))):
+            assert type(found) is type(answer) and len(found) == len(answer) and repr(found) == repr(answer)
+            for name in MEMBERS[type(answer)]:
+                same(getattr(found, name), getattr(answer, name))
+    same(way(answers[1]).closest, answers[1].closest)
+    with pytest.raises(vx.NotReadyError, match="no closest points"):
+        way(answers[2]).closest
+    plan = answers[4]
+    assert [way(plan).nearest_name(row) for row in range(len(plan))] == [plan.nearest_name(row) for row in range(len(plan))]
+
+
+def test_a_copy_has_what_was_looked_at_and_no_scene(scene, knife):
+    poses = random_poses(6, 3, 60.0)
+    answer = scene.detect(knife, poses)
+    with pytest.raises(vx.NotReadyError, match=r"pickled or copied knows no scene: detect\(contacts=True\)"):
+        copy.copy(answer).contacts
+    contacts = answer.contacts
+    assert len(contacts)
+    found = pickle.loads(pickle.dumps(answer))
+    same(found.contacts, contacts)
+    assert found.contacts_found == answer.contacts_found
+    with pytest.raises(vx.NotReadyError, match=r"detect\(bounds=True\)"):
+        found.bounds
+    with pytest.raises(vx.NotReadyError, match="nothing was counted"):
+        found.counters
+    plan = scene.plan((20, 0, 30), avoid_opacity="100:0,160:1", entries=42)
+    with pytest.raises(vx.NotReadyError, match="triangle_clearances=True"):
+        copy.copy(plan).triangle_clearance
+
+
+def test_a_deep_copy_keeps_its_numbers(scene, knife):
+    answer = scene.clearance(knife, placed((0, 0, 300)))
+    found = copy.deepcopy(answer)
+    before = float(answer.lo[0])
+    found.lo[0] = -1
+    assert answer.lo[0] == before
+
+
+def work(number):
+    scene = vx.Scene("builtin:head:16", opacity=[(40, 0), (80, 1)], threads=1)
+    mesh, pose = vx.read_mesh("builtin:scalpel:300"), placed((0, 0, 50.0 + number), (0, 0, 80))
+    return scene.detect(mesh, pose), scene.clearance(mesh, pose), scene.motion(mesh, pose)
+
+
+def test_workers_can_return_them():
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as workers:
+        for number, (answer, left, way) in enumerate(workers.map(work, range(2))):
+            here = work(number)
+            same(answer.count, here[0].count)
+            same(left.lo, here[1].lo)
+            same(way.free_until, here[2].free_until)
+
+
+def test_none_is_true_or_false(answers):
+    asked = {vx.Answer: ".hit", vx.Clearance: ".lo and .hi", vx.Motion: ".hit", vx.Plan: ".safe"}
+    for answer in [*answers, copy.copy(answers[0])]:
+        with pytest.raises(TypeError) as caught:
+            bool(answer)
+        assert str(caught.value).startswith(f"a voxtact.{type(answer).__name__} is neither true nor false: it has a row ")
+        assert f"look at {asked[type(answer)]}" in str(caught.value)
+
+
+def test_labels_that_no_voxel_has_are_warned_of(labelled, knife, recwarn):
+    pose = placed((0, 0, 300))
+    labelled.clearance(knife, pose, labels=[0, 70, "Skull"])
+    labelled.clearance(knife, pose, labels=True)
+    assert not recwarn.list
+    with pytest.warns(UserWarning, match="^labels: no voxel of the label map has the label 254; clearances to it are infinite$"):
+        left = labelled.clearance(knife, pose, labels=[254, 70, 254])
+    assert np.isinf(left.lo[0, 0]) and np.isfinite(left.lo[0, 1])
+    with pytest.warns(UserWarning, match="has the labels 253, 254; clearances to them are infinite") as caught:
+        labelled.clearance(knife, pose, labels=[254, 253], labels_at_any_opacity=True)
+    assert caught[0].filename == __file__
