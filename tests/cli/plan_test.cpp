@@ -155,6 +155,14 @@ TEST_F(PlanTest, ReportsSayNoMoreThanIsCertain) {
     EXPECT_GT(found, 10U);
 }
 
+TEST_F(PlanTest, SaysOnceThatValuesGoBeyondTheDomain) {
+    const Ran ran = run(
+        plan({"--target", "20,0,30", "--avoid-opacity", "100:0,160:1", "--tf-domain", "0:200", "--progress", "never"}));
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_EQ(linesOf(ran.err).size(), 1U) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("builtin:head:32: its values"));
+}
+
 TEST_F(PlanTest, RefusesWhatItCannotUse) {
     const auto line = [&](const Arguments& more) { return refused(2, plan(more)); };
     const Arguments avoid{"--avoid-opacity", "200:0,201:1"};
@@ -175,6 +183,8 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--margin", "-1"}), HasSubstr("--margin"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--surface", "a.stl"}), HasSubstr("must be .ply"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--report", "a.pdf"}), HasSubstr("must be .html"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--progress", "always"}),
+                HasSubstr("--progress: 'always' is not known"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--threshold", "1", "--opacity", "0:0,1:0"}),
                 HasSubstr("meets the surface of entries"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--max-length", "1"}), HasSubstr("too long"));
@@ -185,8 +195,9 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
     EXPECT_THAT(refused(2, plan({"--labels", path("labels.nii.gz"), "--avoid", "Skin", "--target", "Cortx"})),
                 HasSubstr("did you mean Cortex?"));
     output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
-    EXPECT_THAT(refused(1, plan({"--labels", path("coarse.nii.gz"), "--target", "0,0,0", "--avoid", "70"})),
-                HasSubstr("plan: --labels: the label map is not on the grid of the volume"));
+    EXPECT_THAT(
+        refused(1, plan({"--labels", path("coarse.nii.gz"), "--target", "0,0,0", "--avoid", "70"})),
+        HasSubstr("plan: --labels: '" + path("coarse.nii.gz") + "': the label map is not on the grid of the volume"));
     for (const char* radius : {"1e-9", "0.001"}) {
         EXPECT_THAT(avoiding({"--target", "0,0,0", "--entry-radius", radius}),
                     HasSubstr("--entry-radius: '" + std::string(radius) + "' is not a number above 0.001"));

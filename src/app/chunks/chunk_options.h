@@ -26,7 +26,7 @@ struct ChunkOptions {
     std::filesystem::path folder; ///< empty: the run is not in chunks
     std::optional<Shard> shard;
     std::optional<std::uint32_t> most;      ///< rows a chunk
-    const char* rows = "rows";              ///< what these are, for --help
+    const char* rows = "rows";              ///< what these are, for --help and progress
     std::uint32_t standard = kDefaultChunk; ///< where `most` is not given
 
     [[nodiscard]] bool asked() const { return !folder.empty(); }

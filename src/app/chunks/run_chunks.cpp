@@ -67,7 +67,7 @@ class Doing {
     Doing(const ChunkedRun& run, const RunFolder& folder, const DoChunk& doChunk, ChunkDealer& dealing)
         : run_(run), folder_(folder), doChunk_(doChunk), dealing_(dealing),
           // Of all that this process may do, or see others do.
-          progress_(run.progress && dealing.leads(), run.command + ": rows", rowsOf(run)) {}
+          progress_(run.progress && dealing.leads(), run.command + ": " + run.options.rows, rowsOf(run)) {}
 
     [[nodiscard]] Result<void> all() {
         while (!interrupted()) {

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/detect/detect_run.h"
 #include "app/output/interrupt.h"
+#include "app/output/progress.h"
 #include "app/output/standard_streams.h"
 #include "app/output/target_path.h"
 #include "app/output/text_for_messages.h"
@@ -78,12 +79,14 @@ Result<void> checkOptions(const PlanOptions& options) {
 }
 
 /// Of all targets, one after the other.
-Result<std::vector<TargetPlan>> planAll(const PlanInputs& inputs, cpu::Planner& planner) {
+Result<std::vector<TargetPlan>> planAll(const PlanOptions& options, const PlanInputs& inputs, cpu::Planner& planner) {
+    Progress progress(options.progress, "voxtact plan: targets", inputs.targets.size());
     std::vector<TargetPlan> plans;
     for (std::size_t target = 0; target < inputs.targets.size() && !interrupted(); ++target) {
         Result<TargetPlan> plan = planFor(inputs, target, planner);
         VOXTACT_TRY(plan);
         plans.push_back(std::move(*plan));
+        progress.update(plans.size());
     }
     return plans;
 }
@@ -183,7 +186,7 @@ Outcome runPlan(const CLI::App& parser, PlanOptions options) {
     if (options.chunks.asked()) {
         return runPlanChunks(parser, options, inputs, *planner);
     }
-    const Result<std::vector<TargetPlan>> plans = planAll(inputs, *planner);
+    const Result<std::vector<TargetPlan>> plans = planAll(options, inputs, *planner);
     if (interrupted()) {
         return interruptOutcome("nothing is written");
     }

@@ -155,9 +155,9 @@ Outcome runPlanChunks(const CLI::App& parser, const PlanOptions& options, const 
                    options.chunks,
                    {std::move(facts), outputsOf(options, inputs), 0},
                    ChunkCut({inputs.targets.size()}, options.chunks.chunk()),
-                   false};
+                   options.progress};
     const auto doTargets = [&](const ChunkRange& range, const ChunkFiles& files,
-                               const std::function<void(std::uint64_t)>& /*rows*/) -> Result<void> {
+                               const std::function<void(std::uint64_t)>& progress) -> Result<void> {
         ChunkParts parts(options, inputs);
         VOXTACT_TRY(parts.open(files));
         for (std::uint64_t target = range.first; target < range.first + range.count; ++target) {
@@ -167,6 +167,7 @@ Outcome runPlanChunks(const CLI::App& parser, const PlanOptions& options, const 
             }
             VOXTACT_TRY(plan);
             VOXTACT_TRY(parts.write(*plan));
+            progress(target - range.first + 1);
         }
         return parts.commit();
     };

@@ -18,12 +18,11 @@ namespace {
 constexpr const char* kAvoidOpacity = "--avoid-opacity";
 
 /// `who`: what its points are given by. What is to be said of it goes to `notes`.
-Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, ScalarType type, const ValueRange& values,
-                                         const std::string& source, std::string_view who,
+Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, const ValueRange& domain,
+                                         const ValueRange& values, const std::string& source, std::string_view who,
                                          std::vector<std::string>& notes) {
     Result<std::vector<ControlPoint>> points = loadControlPoints(how);
     VOXTACT_TRY(points);
-    const ValueRange domain = usedDomain(how, type, values, source);
     if (points->empty()) {
         *points = defaultRamp(domain);
     }
@@ -41,7 +40,8 @@ Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctio
     VOXTACT_TRY(values);
     Result<cpu::Volume> volume = cpu::Volume::create(data->view());
     VOXTACT_TRY(volume);
-    Result<cpu::TransferFunction> function = functionOf(how, data->type, *values, source, who, notes);
+    Result<cpu::TransferFunction> function =
+        functionOf(how, usedDomain(how, data->type, *values, source), *values, source, who, notes);
     VOXTACT_TRY(function);
     const ScalarType type = data->type;
     if (kept != nullptr) {
@@ -89,8 +89,9 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
 Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptions& how, PlanInputs& inputs) {
     if (options.avoidVolume.empty()) {
         const PlanVolume& head = *inputs.head;
-        Result<cpu::TransferFunction> function =
-            functionOf(how, head.type, head.values, options.volumes.front(), kAvoidOpacity, inputs.notes);
+        // That values go beyond it was said when the volume was read.
+        Result<cpu::TransferFunction> function = functionOf(how, tableDomain(how, head.type, head.values), head.values,
+                                                            options.volumes.front(), kAvoidOpacity, inputs.notes);
         VOXTACT_TRY(function);
         inputs.avoidedInHead = std::move(*function);
         inputs.obstacles.push_back({&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}, kAvoidOpacity});
@@ -115,7 +116,8 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         return badArgument("--avoid-volume: --avoid-opacity must say what of it is not to be touched");
     }
     if (!options.avoid.empty()) {
-        VOXTACT_TRY(checkLabelGrid(inputs.labels->labels.grid, inputs.head->volume.grid(), "--labels"));
+        VOXTACT_TRY(checkLabelGrid(inputs.labels->labels.grid, inputs.head->volume.grid(),
+                                   "--labels: " + forMessage(options.labels.string())));
         cpu::PlanObstacle labels;
         labels.volume = &inputs.head->volume;
         labels.labels = &inputs.labels->labels;

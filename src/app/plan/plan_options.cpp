@@ -129,6 +129,7 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
     options->chunks.standard = 1;
     addChunkOptions(parser, options->chunks);
     addOutputOptions(parser, options->output);
+    addProgressOption(parser, options->progress);
 }
 
 } // namespace voxtact::app

@@ -51,6 +51,7 @@ struct PlanOptions {
     std::uint32_t threads = 0;
     bool summary = false;
     bool timing = false;
+    bool progress = true;
     std::filesystem::path byTarget; ///< a CSV file to write; empty: none
     std::filesystem::path surface;  ///< a .ply file to write; empty: none
     std::filesystem::path heatMap;  ///< a volume to write; empty: none

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "app/detect/extra_outputs.h"
 #include "app/plan/plan_run.h"
 #include "app/version.h"
 
@@ -174,9 +175,10 @@ io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans,
                  {"margin", inputs.task.margin},
                  {"targets", std::uint64_t{inputs.targets.size()}}};
     if (timing) {
+        const double perSecond = 1000 * static_cast<double>(out.rows) / milliseconds;
         out.timing = {{"entries", std::uint64_t{out.rows}},
-                      {"wall_ms", milliseconds},
-                      {"entries_per_s", 1000 * static_cast<double>(out.rows) / milliseconds}};
+                      {"wall_ms", rounded(milliseconds, 1e6)},
+                      {"entries_per_s", rounded(milliseconds > 0 ? perSecond : 0, 10)}};
     }
     return out;
 }
