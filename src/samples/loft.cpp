@@ -84,7 +84,8 @@ Result<void> checkTriangleCount(const std::string& shape, std::uint32_t triangle
     } else {
         return {};
     }
-    return refuse(shape + " with " + std::to_string(triangles) + " triangles is not possible: " + why);
+    return refuse(shape + " with " + std::to_string(triangles) + (triangles == 1 ? " triangle" : " triangles") +
+                  " is not possible: " + why);
 }
 
 MeshData toMesh(Surface surface, std::string name) {

@@ -194,7 +194,8 @@ TEST_F(ClearanceTest, RefusesALabelMapOnAnotherGrid) {
     output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
     EXPECT_THAT(
         refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance", path("other.csv")})),
-        HasSubstr("the label map is not on the grid of the volume"));
+        HasSubstr("--label-clearance: '" + path("coarse.nii.gz") +
+                  "': the label map is not on the grid of the volume"));
 }
 
 TEST_F(ClearanceTest, RefusesWhatDoesNotGoTogether) {
@@ -358,7 +359,7 @@ TEST_F(ClearanceDeviceTest, TheClearanceToLabelsIsTheDevicesToo) {
     output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
     EXPECT_THAT(refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance",
                                    path("other.csv"), "--count", "compute"})),
-                HasSubstr("the label map is not on the grid of the volume"));
+                HasSubstr("--label-clearance: '" + path("coarse.nii.gz") + "': the label map is not on the grid"));
     EXPECT_FALSE(std::filesystem::exists(path("other.csv")));
 }
 

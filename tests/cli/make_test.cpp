@@ -75,6 +75,17 @@ TEST_F(MakeTest, EndingsThatAreNone) {
     EXPECT_EQ(filesInFolder(), 0U);
 }
 
+TEST_F(MakeTest, WhatCannotBeMadeIsNamedAsItWasGiven) {
+    EXPECT_EQ(
+        refused(2, {"make", "mesh", "builtin:scalpel:1", path("one.stl")}),
+        "voxtact make mesh: SOURCE 'builtin:scalpel:1': a scalpel with 1 triangle is not possible: the shape needs "
+        "at least 86\n");
+    EXPECT_THAT(refused(2, {"make", "mesh", "builtin:ellipsoid:2", path("two.stl")}), HasSubstr("with 2 triangles is"));
+    EXPECT_THAT(refused(2, {"make", "volume", "builtin:head:0", path("none.nii")}),
+                AllOf(HasSubstr("make volume: SOURCE 'builtin:head:0': "), Not(HasSubstr("--volume"))));
+    EXPECT_EQ(filesInFolder(), 0U);
+}
+
 TEST_F(MakeTest, PosesSayWhereTheyComeFrom) {
     const auto lines = linesOf(makePoses({"--number", "3", "--seed", "18446744073709551615"}));
     ASSERT_EQ(lines.size(), 5U);

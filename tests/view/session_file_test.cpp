@@ -205,6 +205,8 @@ TEST(ViewSession, WhatIsWrongIsNamed) {
         {"/method/count", "guess", "method.count: "},
         {"/method/projection", "guess", "method.projection: "},
         {"/camera/half_height", 0, "camera.half_height: "},
+        {"/camera/azimuth", 1e308, "camera.azimuth: is not from -1e9 to 1e9 degrees"},
+        {"/camera/elevation", -1e308, "camera.elevation: is not from -1e9 to 1e9 degrees"},
         {"/camera/target/1", -1e300, "camera.target: is farther away than 1e12 mm"},
         {"/camera/target", Json::array({1, 2}), "camera.target: "},
         {"/cursor", "here", "cursor: "},

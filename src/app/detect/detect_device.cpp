@@ -94,6 +94,7 @@ Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
     const std::string& source = options_.jobs.volumes[number];
     const Result<VolumeData> data = loadVolume(source);
     VOXTACT_TRY(data);
+    VOXTACT_TRY(checkMeasuredGrid(options_, inputs_, data->grid));
     const QueueAccess queue = session_.device.queueAccess();
     Result<Volume> volume = Volume::upload(session_.context, queue, data->view(),
                                            {.name = source.c_str(), .bricks = rowOf(desc_.projection).certified});

@@ -65,6 +65,7 @@ class HostEngine : public PairEngine {
 Result<HostVolume> HostEngine::make(std::uint32_t number) const {
     const Result<VolumeData> data = loadVolume(options_.jobs.volumes[number]);
     VOXTACT_TRY(data);
+    VOXTACT_TRY(checkMeasuredGrid(options_, inputs_, data->grid));
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
     Result<cpu::Volume> volume = cpu::Volume::create(data->view());

@@ -3,8 +3,10 @@
 #include "app/options/inputs.h"
 #include "app/options/opacity_notes.h"
 #include "app/output/standard_streams.h"
+#include "app/output/text_for_messages.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/volume/label_grid.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
@@ -91,6 +93,14 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
     }
     VOXTACT_TRY(readLabels(options, inputs));
     return inputs;
+}
+
+Result<void> checkMeasuredGrid(const DetectOptions& options, const DetectInputs& inputs, const Grid& volume) {
+    if (options.distance.labels.empty()) {
+        return {};
+    }
+    return checkLabelGrid(inputs.labels->grid, volume,
+                          "--label-clearance: " + forMessage(options.extra.labels.string()));
 }
 
 VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,

@@ -132,6 +132,10 @@ struct KeptBounds {
 /// Meshes, poses, camera, control points and labels; volumes are read one at a time, later.
 [[nodiscard]] Result<DetectInputs> readDetectInputs(const DetectOptions& options);
 
+/// Refuses a volume on another grid than the label map, where clearances to its labels are asked for.
+[[nodiscard]] Result<void> checkMeasuredGrid(const DetectOptions& options, const DetectInputs& inputs,
+                                             const Grid& volume);
+
 /// What a volume is looked at with.
 struct VolumeSettings {
     ValueRange domain;

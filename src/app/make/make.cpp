@@ -5,16 +5,19 @@
 #include "app/output/interrupt.h"
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
+#include "app/output/text_for_messages.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "lab/measure/poses.h"
 #include "voxtact/io.h"
+#include "voxtact/samples.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <ostream>
 #include <streambuf>
+#include <string_view>
 
 namespace voxtact::app {
 
@@ -94,12 +97,22 @@ Result<void> writeVolume(const std::filesystem::path& path, const VolumeView& vo
     });
 }
 
-/// The source as the loaders want it, or why it is not one of ours.
+constexpr std::string_view kBuiltin = "builtin:";
+
+/// Why a source is not one of ours.
 Result<void> requireBuiltin(const std::string& source) {
-    if (!source.starts_with("builtin:")) {
+    if (!source.starts_with(kBuiltin)) {
         return badArgument("'" + source + "' is not builtin:NAME[:SIZE]");
     }
     return {};
+}
+
+std::string_view nameOf(const std::string& source) {
+    return std::string_view(source).substr(kBuiltin.size());
+}
+
+Error notMade(const std::string& source, const Error& error) {
+    return badArgument("SOURCE " + forMessage(source) + ": " + error.text);
 }
 
 Outcome makeMesh(const MakeFileOptions& options) {
@@ -107,8 +120,10 @@ Outcome makeMesh(const MakeFileOptions& options) {
     if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
         return writable.error();
     }
-    const Result<MeshData> mesh = loadMesh(options.source, {});
-    VOXTACT_TRY(mesh);
+    const Result<MeshData> mesh = makeBuiltinMesh(nameOf(options.source));
+    if (!mesh.ok()) {
+        return notMade(options.source, mesh.error());
+    }
     return written([&] { return io::writeMesh(options.path, mesh->view()); });
 }
 
@@ -117,8 +132,10 @@ Outcome makeVolume(const MakeFileOptions& options) {
     if (const Result<void> writable = checkOutputs({{"OUTPUT", options.path}}, {}); !writable.ok()) {
         return writable.error();
     }
-    const Result<VolumeData> volume = loadVolume(options.source);
-    VOXTACT_TRY(volume);
+    const Result<VolumeData> volume = makeBuiltinVolume(nameOf(options.source));
+    if (!volume.ok()) {
+        return notMade(options.source, volume.error());
+    }
     return written([&] { return writeVolume(options.path, volume->view()); });
 }
 

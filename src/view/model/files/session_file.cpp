@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -24,6 +25,8 @@ constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
 /// mm; of a camera farther away the matrices cannot be used.
 constexpr double kFarthest = 1e12;
+/// Of angles beyond, doubles have no fractions of a degree left that would be meant.
+constexpr double kMostDegrees = 1e9;
 
 /// Row by row, as pose files have them.
 Mat4 readPose(SessionReader& reader, const std::string& name, const Json& json) {
@@ -244,6 +247,12 @@ void readCamera(SessionReader& reader, Document& document) {
     Camera camera;
     camera.target = reader.numbers<3>("camera.target", *target);
     camera.direction = {reader.number("camera.azimuth", 0.0), reader.number("camera.elevation", 0.0)};
+    for (const auto& [name, degrees] : {std::pair("camera.azimuth", camera.direction.azimuth),
+                                        std::pair("camera.elevation", camera.direction.elevation)}) {
+        if (!(std::abs(degrees) <= kMostDegrees)) {
+            reader.refuse(name, "is not from -1e9 to 1e9 degrees");
+        }
+    }
     camera.halfHeight = reader.number("camera.half_height", camera.halfHeight);
     if (!(camera.halfHeight > 0) || !std::isfinite(camera.halfHeight)) {
         reader.refuse("camera.half_height", "is not a positive number");
