@@ -208,6 +208,7 @@ TEST(ViewSession, WhatIsWrongIsNamed) {
         {"/camera/azimuth", 1e308, "camera.azimuth: is not from -1e9 to 1e9 degrees"},
         {"/camera/elevation", -1e308, "camera.elevation: is not from -1e9 to 1e9 degrees"},
         {"/camera/target/1", -1e300, "camera.target: is farther away than 1e12 mm"},
+        {"/camera/target/2", 1e11, "camera.target: is farther away than 1e8 times camera.half_height"},
         {"/camera/target", Json::array({1, 2}), "camera.target: "},
         {"/cursor", "here", "cursor: "},
     };

@@ -25,6 +25,8 @@ constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
 /// mm; of a camera farther away the matrices cannot be used.
 constexpr double kFarthest = 1e12;
+/// The same of a camera that sees so little there.
+constexpr double kFarthestInHeights = 1e8;
 /// Of angles beyond, doubles have no fractions of a degree left that would be meant.
 constexpr double kMostDegrees = 1e9;
 
@@ -261,6 +263,8 @@ void readCamera(SessionReader& reader, Document& document) {
     for (const double place : camera.target) {
         if (!(std::abs(place) <= kFarthest)) {
             reader.refuse("camera.target", "is farther away than 1e12 mm");
+        } else if (std::abs(place) > kFarthestInHeights * camera.halfHeight) {
+            reader.refuse("camera.target", "is farther away than 1e8 times camera.half_height");
         }
     }
     document.camera = camera;
