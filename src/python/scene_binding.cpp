@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scenes as Python sees them. Arguments are read with the interpreter's lock, and the work is done without.
 #include "arrays.h"
-#include "core/base/text.h"
 #include "failure.h"
 #include "lock.h"
 #include "scene.h"
@@ -38,6 +37,10 @@ OpacityDesc opacityOf(const Image& volume, const py::object& points, const py::o
     opacity.points = points.is_none() ? std::vector<ControlPoint>{{opacity.domain.lo, 0}, {opacity.domain.hi, 1}}
                                       : pointsOf(points.cast<Doubles>());
     return opacity;
+}
+
+std::string number(double value) {
+    return py::str("{:g}").format(value);
 }
 
 std::string rangeText(const ValueRange& range) {

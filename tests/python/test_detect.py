@@ -318,8 +318,9 @@ def test_what_is_hardly_meant_to_be_opaque_is_warned_of():
     values = np.full((8, 8, 8), 40, np.int16)
     values[0, 0, 0] = 32767
     ct = vx.read_volume(values, affine=np.eye(4))
-    with pytest.warns(UserWarning, match="entries of the table, .* apart, pass over the opaque values 155 to 245") as said:
-        scene = vx.Scene(np.where(values == 40, np.int16(200), values), opacity=[(150, 0), (200, 1), (250, 0)])
+    vessel = vx.read_volume(np.where(values == 40, np.int16(200), values), affine=np.eye(4))
+    with pytest.warns(UserWarning, match="entries of the table, .* apart, pass over the opaque values 200 to 245") as said:
+        scene = vx.Scene(vessel, opacity=[(150, 0), (200, 1), (250, 0)])
     assert said[0].filename == __file__
     with pytest.warns(UserWarning, match="no opacity reaches the threshold 0.1"):
         scene.opacity = [(0, 0), (1, 0.05)]
