@@ -138,12 +138,12 @@ struct OpacityFacts {
     bool reaches = false; ///< some values are opaque by the control points: of at least the threshold
     bool any = false;     ///< some value of the data is, by the table
     double spacing = 0;   ///< of the table's entries, in the image's units
-    std::vector<ValueRange>
-        lost{}; ///< values that the points make opaque and the table does not, as none of its entries
-                ///< is among them; only those within its domain, and where the data have values
+    /// Values that the points make opaque and the table does not, as none of its entries is among them; only where the
+    /// data have values, within the domain, and not of its very ends alone.
+    std::vector<ValueRange> lost{};
 };
-/// `data`: the least and the largest value, as checkVolume() returns them. Refuses what sampleTable() refuses. O(points
-/// + entries).
+/// `data`: the least and the largest value, as checkVolume() returns them. Refuses what sampleTable() refuses, data
+/// that are empty or NaN, and a threshold outside [0,1]. O(points + entries log(points)).
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 

@@ -184,8 +184,8 @@ struct ResultsDesc {
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
-    /// Allocates the buffers. Refuses no pairs, more of them than the device's limits allow, with queues where these or
-    /// clearances or motions are asked for (LimitExceeded: which limit, how large),
+    /// Allocates the buffers. Refuses zero pairs, more pairs than the device's limits allow, counting the queues where
+    /// they, clearances or motions are asked for (LimitExceeded: which limit, how large),
     /// timestamps on a queue family that has none, and an `into` that is too small or begins where no descriptor may.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;

@@ -15,8 +15,9 @@
 /// of a segment is about all of them, those in between included.
 namespace voxtact {
 
-/// Which motion. Exactly half a turn goes counter-clockwise about the direction of its axis whose largest coordinate in
-/// the world is positive, of equal ones the first. Where rounding leaves a little less, it is the way that is shorter.
+/// Which motion. A turn of exactly 180 degrees goes counter-clockwise about that direction of its axis whose coordinate
+/// of the largest magnitude in the world is positive (of equal magnitudes the first). Where rounding makes it slightly
+/// less, the way is the shorter one.
 enum class Interpolation : std::uint32_t {
     /// About and along one axis, both at constant speed, by no more than half a turn (Chasles, 1830).
     Screw,

@@ -5,6 +5,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/transfer/threshold.h"
 #include "oracle/certified_cut.h"
 #include "oracle/certified_sample.h"
 
@@ -49,9 +50,7 @@ Result<Scene> prepare(const OraclePair& pair, double resolution) {
     VOXTACT_TRY(range);
     Result<std::vector<float>> entries = sampleTable(pair.transferFunction);
     VOXTACT_TRY(entries);
-    if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
-        return refuse("the threshold " + number(pair.threshold) + " is outside [0, 1]");
-    }
+    VOXTACT_TRY(checkThreshold(pair.threshold));
     VOXTACT_TRY(checkAffine(pair.world_from_object, "the pose"));
     if (!(resolution > 0) || !std::isfinite(resolution)) {
         return refuse("the resolution is " + number(resolution) + ", it must be finite and positive");

@@ -5,6 +5,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/transfer/threshold.h"
 #include "oracle/certified_sample.h"
 
 #include <algorithm>
@@ -246,9 +247,7 @@ Result<OracleClearance> measure(const OraclePair& pair, double resolution, std::
         VOXTACT_TRY(range);
         Result<std::vector<float>> entries = sampleTable(pair.transferFunction);
         VOXTACT_TRY(entries);
-        if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
-            return refuse("the threshold " + number(pair.threshold) + " is outside [0, 1]");
-        }
+        VOXTACT_TRY(checkThreshold(pair.threshold));
         return Measurer(pair, *range, std::move(*entries)).run(resolution, mostBoxes, counts);
     });
 }

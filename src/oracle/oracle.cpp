@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/projection.h"
+#include "core/transfer/threshold.h"
 #include "oracle/oracle_raster.h"
 #include "oracle/oracle_sample.h"
 
@@ -73,9 +74,7 @@ Result<void> checkPair(const OraclePair& pair) {
     VOXTACT_TRY(checkMesh(pair.mesh));
     VOXTACT_TRY(checkVolume(pair.volume));
     VOXTACT_TRY(checkView(viewOf(pair)));
-    if (!(pair.threshold >= 0 && pair.threshold <= 1)) {
-        return refuse("the threshold " + number(pair.threshold) + " is outside [0, 1]");
-    }
+    VOXTACT_TRY(checkThreshold(pair.threshold));
     return checkAffine(pair.world_from_object, "the pose");
 }
 

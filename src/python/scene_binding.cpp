@@ -54,20 +54,21 @@ void warn(const std::string& text) {
     }
 }
 
-/// Where nothing is opaque, or less than the points say. Of points that are refused somebody else speaks.
-void warnOfOpacity(const Image& volume, const OpacityDesc& opacity, double threshold) {
+/// Where nothing is opaque, or less than the points say. Of points that are refused somebody else speaks. `who`: the
+/// argument that they are from.
+void warnOfOpacity(const Image& volume, const OpacityDesc& opacity, double threshold, const std::string& who) {
     const Result<OpacityFacts> facts =
         checkOpacity({opacity.points, opacity.domain, opacity.tableSize}, volume.range(), threshold);
     if (!facts.ok()) {
         return;
     }
     if (!facts->reaches) {
-        warn("no opacity reaches the threshold " + number(threshold) + ": nothing touches");
+        warn(who + ": none reaches the threshold " + number(threshold) + ": nothing touches");
     } else if (!facts->any && facts->lost.empty()) {
-        warn("none of the volume's values, " + rangeText(volume.range()) + ", is opaque: nothing touches");
+        warn(who + ": none of the volume's values, " + rangeText(volume.range()) + ", is opaque: nothing touches");
     }
     for (const ValueRange& lost : facts->lost) {
-        warn("the entries of the table, " + number(facts->spacing) + " apart, pass over the opaque values " +
+        warn(who + ": the entries of the table, " + number(facts->spacing) + " apart, pass over the opaque values " +
              rangeText(lost) + ": nothing touches them; table_size and domain bring them nearer to each other");
     }
 }
@@ -84,7 +85,7 @@ std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object
                                  std::uint32_t tableSize, double threshold, std::shared_ptr<LabelData> labels,
                                  std::shared_ptr<Device> device, std::uint32_t threads) {
     OpacityDesc opacity = opacityOf(*volume, points, domain, tableSize);
-    warnOfOpacity(*volume, opacity, threshold);
+    warnOfOpacity(*volume, opacity, threshold, "opacity");
     SceneDesc desc{std::move(volume), std::move(opacity), threshold, std::move(labels), std::move(device), threads};
     const Unlocked unlocked;
     return std::make_shared<Scene>(std::move(desc));
@@ -92,7 +93,7 @@ std::shared_ptr<Scene> makeScene(std::shared_ptr<Image> volume, const py::object
 
 void setOpacity(Scene& scene, const py::object& points, const py::object& domain, std::uint32_t tableSize) {
     OpacityDesc opacity = opacityOf(*scene.desc().volume, points, domain, tableSize);
-    warnOfOpacity(*scene.desc().volume, opacity, scene.desc().threshold);
+    warnOfOpacity(*scene.desc().volume, opacity, scene.desc().threshold, "opacity");
     const Unlocked unlocked;
     scene.setOpacity(std::move(opacity));
 }
@@ -205,7 +206,7 @@ std::shared_ptr<Plan> plan(Scene& scene, const Doubles& target, const py::dict& 
     if (!points.is_none()) {
         const Image& volume = avoided != nullptr ? *avoided : *scene.desc().volume;
         OpacityDesc opacity = opacityOf(volume, points, domain, scene.desc().opacity.tableSize);
-        warnOfOpacity(volume, opacity, scene.desc().threshold);
+        warnOfOpacity(volume, opacity, scene.desc().threshold, "avoid_opacity");
         wish.avoided = PlanAvoided{std::move(avoided), std::move(opacity)};
     }
     const Unlocked unlocked;

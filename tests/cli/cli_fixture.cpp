@@ -192,10 +192,13 @@ std::string CliTest::refused(int status, const Arguments& arguments, const RunOp
 std::string CliTest::output(const Arguments& arguments, const RunOptions& options) {
     const Ran ran = run(arguments, options);
     EXPECT_EQ(ran.status, 0) << ran.err;
-    const bool nothing = std::ranges::find(arguments, "0:0") != arguments.end();
-    EXPECT_EQ(withoutProgress(ran.err), nothing ? "voxtact: note: no opacity of the transfer function reaches the "
-                                                  "threshold 0.1: nothing touches\n"
-                                                : "");
+    const std::string err = withoutProgress(ran.err);
+    if (options.note.empty()) {
+        EXPECT_EQ(err, "");
+    } else {
+        EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+        EXPECT_THAT(err, testing::AllOf(testing::StartsWith("voxtact: note: "), testing::HasSubstr(options.note)));
+    }
     return ran.out;
 }
 

@@ -19,6 +19,7 @@ struct RunOptions {
     std::map<std::string, std::string> environment{}; ///< set beside the tests' own
     std::string output{};                             ///< a file for standard output: /dev/full. Empty: captured
     bool closedPipe = false;                          ///< standard output is a pipe that nobody reads
+    std::string note{};                               ///< for output(): what the only note says; empty: there is none
 };
 
 struct Ran {
@@ -67,8 +68,7 @@ class CliTest : public testing::Test {
     /// The refusal that the contract asks for: the status, nothing on standard output, one line on standard error
     /// (and progress) that begins with "voxtact COMMAND: ". Returns that line.
     static std::string refused(int status, const Arguments& arguments, const RunOptions& options = {});
-    /// A good run: status 0, and nothing on standard error but progress and, with the opacity "0:0", the note that
-    /// nothing is opaque. Returns standard output.
+    /// A good run: status 0, and nothing on standard error but progress and RunOptions::note. Returns standard output.
     static std::string output(const Arguments& arguments, const RunOptions& options = {});
 
   private:

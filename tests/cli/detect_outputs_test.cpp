@@ -143,7 +143,8 @@ TEST_F(DetectOutputsTest, WhatIsNotThereIsEmpty) {
     EXPECT_TRUE(row.at("min_x").is_null());
     EXPECT_EQ(row.at("hit"), 0);
     // A run without any contact still makes its files.
-    output(detect({"--opacity", "0:0", "--contacts", path("none.ply"), "--triangles", path("none.csv")}));
+    output(detect({"--opacity", "0:0", "--contacts", path("none.ply"), "--triangles", path("none.csv")}),
+           {.note = "nothing touches"});
     EXPECT_THAT(readText(path("none.ply")), AllOf(HasSubstr("element vertex 0\n"), testing::EndsWith("end_header\n")));
     EXPECT_EQ(readText(path("none.csv")), "pose,triangle,count\n");
 }

@@ -86,6 +86,9 @@ TEST_F(MotionTest, HalfTurnsAreNoted) {
         "digits decide which way round they go, and a pose in between would say it\n");
     EXPECT_THAT(notes(start + start + turned(180), {"--resume", path("run"), "--chunk", "1"}),
                 HasSubstr("to within 0.0001: 1, the first of them 1;"));
+    // Segments, however many meshes and volumes there are rows for.
+    EXPECT_THAT(notes(start + turned(180), {"--mesh", "builtin:scalpel:500", "--volume", "builtin:sphere:16"}),
+                HasSubstr("to within 0.0001: 1, the first of them 0;"));
 }
 
 TEST_F(MotionTest, TimesAreAsShortAsThoseOfDetect) {

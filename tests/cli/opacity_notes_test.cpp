@@ -82,5 +82,23 @@ TEST_F(OpacityNotesTest, AreSaidByWhatAnswers) {
     EXPECT_THAT(plan.err, AllOf(HasSubstr("is opaque under --avoid-opacity"), Not(HasSubstr("under the transfer"))));
 }
 
+TEST_F(OpacityNotesTest, AreSaidOnceAndWithWhatTheyExplain) {
+    // Two volumes, one transfer function.
+    const Ran two = run({"detect", "--volume", "builtin:head:16", "--volume", "builtin:sphere:16", "--mesh",
+                         "builtin:scalpel:500", "--opacity", "0:0"});
+    EXPECT_EQ(two.err,
+              "voxtact: note: no opacity of the transfer function reaches the threshold 0.1: nothing touches\n");
+    const Arguments plan{"plan", "--volume", "builtin:head:16", "--target", "20,0,30", "--entries", "42"};
+    Arguments nowhere = plan;
+    nowhere.insert(nowhere.end(), {"--opacity", "300:0,400:1", "--avoid-opacity", "100:0,160:1"});
+    EXPECT_THAT(refused(2, nowhere),
+                AllOf(HasSubstr("meets the surface of entries"), HasSubstr("; builtin:head:16: none of")));
+    Arguments report = plan;
+    report.insert(report.end(),
+                  {"--avoid-opacity", "300:0,400:1", "--output", path("o.csv"), "--report", path("p.html")});
+    output(report, {.note = "is opaque under --avoid-opacity"});
+    EXPECT_THAT(readText(path("p.html")), HasSubstr("is opaque under --avoid-opacity"));
+}
+
 } // namespace
 } // namespace voxtact::test

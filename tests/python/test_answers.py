@@ -123,3 +123,11 @@ def test_labels_that_no_voxel_has_are_warned_of(labelled, knife, recwarn):
     with pytest.warns(UserWarning, match="has the labels 253, 254; clearances to them are infinite") as caught:
         labelled.clearance(knife, pose, labels=[254, 253], labels_at_any_opacity=True)
     assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("way", WAYS, ids=["pickle", "copy", "deepcopy"])
+def test_a_copy_says_what_the_answer_said_of_what_it_has_not(labelled, knife, way):
+    within = labelled.within(knife, np.eye(4), margin=1.0)
+    for answer in (within, way(within), way(way(within))):
+        with pytest.raises(vx.NotReadyError, match=r"answers of within\(\) and around\(\) have no triangles"):
+            answer.triangles

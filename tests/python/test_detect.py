@@ -322,7 +322,7 @@ def test_what_is_hardly_meant_to_be_opaque_is_warned_of():
     with pytest.warns(UserWarning, match="entries of the table, .* apart, pass over the opaque values 200 to 245") as said:
         scene = vx.Scene(vessel, opacity=[(150, 0), (200, 1), (250, 0)])
     assert said[0].filename == __file__
-    with pytest.warns(UserWarning, match="no opacity reaches the threshold 0.1"):
+    with pytest.warns(UserWarning, match="opacity: none reaches the threshold 0.1"):
         scene.opacity = [(0, 0), (1, 0.05)]
     with pytest.warns(UserWarning, match="none of the volume's values, 40 to 32767, is opaque") as said:
         vx.Scene(ct, opacity=[(0, 1), (10, 1), (20, 0)])
@@ -330,9 +330,11 @@ def test_what_is_hardly_meant_to_be_opaque_is_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         scene = vx.Scene(ct, opacity=[(20, 0), (40, 1)])
+        with pytest.raises(vx.InvalidArgumentError, match="threshold"):
+            vx.Scene(ct, opacity=[(20, 0), (40, 1)], threshold=2)
         with pytest.raises(UserWarning):
             scene.opacity = [(0, 0), (1, 0)]
         assert np.array_equal(scene.opacity, [(20, 0), (40, 1)])
-        scene.plan((4, 4, 4), avoid_opacity=[(20, 0), (40, 1)], entries=42)
-        with pytest.raises(UserWarning):
+        scene.plan((4, 4, 4), avoid_opacity=[(20, 0), (40, 1)], entries=42, border_entries=True)
+        with pytest.raises(UserWarning, match="^avoid_opacity: none of the volume's values"):
             scene.plan((4, 4, 4), avoid_opacity=[(50000, 0), (60000, 1)], entries=42)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -107,7 +108,25 @@ TEST(OpacityFacts, AreThoseOfEveryValue) {
     }
 }
 
+TEST(OpacityFacts, OpacitiesAreComparedAsSamplesAre) {
+    // In single precision it is the threshold itself.
+    EXPECT_TRUE(isAll(facts({{0, 0.099999999}}, {0, 255}, {0, 255})));
+    EXPECT_FALSE(facts({{0, 0.09999999}}, {0, 255}, {0, 255}).reaches);
+    // The table ends half an entry before the domain: what is opaque at its very end is of no entry's making.
+    const OpacityFacts end = facts({{0, 0}, {255, 1}}, {0, 255}, {0, 255}, 256, 1);
+    EXPECT_TRUE(end.reaches && !end.any && end.lost.empty());
+    // A peak that is just as high.
+    EXPECT_EQ(facts({{-327, 0}, {-100, 0.1}, {-22, 0}}, {-1000, 32767}, {-1000, 1000}).lost.size(), 1U);
+}
+
 TEST(OpacityFacts, RefusesWhatATableRefuses) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(checkOpacity({kVessels, {0, 255}, 256}, {kNan, 255}).ok());
+    EXPECT_FALSE(checkOpacity({kVessels, {0, 255}, 256}, {0, kNan}).ok());
+    EXPECT_FALSE(checkOpacity({kVessels, {0, 255}, 256}, {1, 0}).ok());
+    for (const double threshold : {-0.1, 1.1, kNan}) {
+        EXPECT_FALSE(checkOpacity({kVessels, {0, 255}, 256}, {0, 255}, threshold).ok());
+    }
     EXPECT_FALSE(checkOpacity({{}, {0, 255}, 256}, {0, 255}).ok());
     EXPECT_FALSE(checkOpacity({kVessels, {0, 0}, 256}, {0, 255}).ok());
     EXPECT_FALSE(checkOpacity({kVessels, {0, 255}, 1}, {0, 255}).ok());

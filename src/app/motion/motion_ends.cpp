@@ -9,7 +9,7 @@ void MotionEnds::add(std::span<const MotionRow> rows) {
     for (const MotionRow& row : rows) {
         grazing += row.motion.end == MotionEnd::Grazes ? 1 : 0;
         cut += row.motion.end == MotionEnd::Budget ? 1 : 0;
-        if (row.halfTurn) {
+        if (row.halfTurn && row.mesh == 0 && row.volume == 0) { // once for all meshes and volumes
             firstHalfTurn = halfTurns == 0 ? row.motion.pose : std::min(firstHalfTurn, row.motion.pose);
             ++halfTurns;
         }

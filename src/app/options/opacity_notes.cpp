@@ -4,6 +4,8 @@
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
 
+#include <set>
+
 namespace voxtact::app {
 
 namespace {
@@ -39,8 +41,11 @@ std::vector<std::string> opacityNotes(const TransferFunctionDesc& function, cons
 
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,
                        const std::string& source, std::string_view who) {
+    static std::set<std::string> said;
     for (const std::string& note : opacityNotes(function, data, threshold, source, who)) {
-        printNote(note);
+        if (said.insert(note).second) {
+            printNote(note);
+        }
     }
 }
 

@@ -17,7 +17,7 @@ namespace voxtact::app {
                                                     double threshold, const std::string& source,
                                                     std::string_view who = "the transfer function");
 
-/// Says it on standard error.
+/// Says it on standard error, and each note once, however many volumes it is true of. One thread at a time.
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,
                        const std::string& source, std::string_view who = "the transfer function");
 

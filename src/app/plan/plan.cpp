@@ -238,12 +238,16 @@ Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::Pl
     cpu::PlanTask task = inputs.task;
     task.target = inputs.targets[target].at;
     Result<PlanAnswer> answer = planner.plan(task);
-    if (!answer.ok() && inputs.targets.size() > 1) {
+    if (!answer.ok()) {
         Error error = answer.error();
-        error.text = "target " + forMessage(inputs.targets[target].name) + ": " + error.text;
+        if (inputs.targets.size() > 1) {
+            error.text = "target " + forMessage(inputs.targets[target].name) + ": " + error.text;
+        }
+        for (const std::string& note : inputs.notes) { // they may be why
+            error.text += "; " + note;
+        }
         return error;
     }
-    VOXTACT_TRY(answer);
     return TargetPlan{inputs.targets[target], std::move(*answer)};
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <numeric>
 #include <ostream>
 #include <sstream>
@@ -199,7 +200,9 @@ void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<cons
         << (several ? std::to_string(plans.size()) + " targets" : placeText(plans.front().target))
         << "</h1>\n<p>World millimetres, LPS. A safe path certainly keeps more than " << number(inputs.task.margin)
         << " mm.</p>\n";
-    writeList(out, planNotes(inputs, plans));
+    std::vector<std::string> notes = inputs.notes;
+    std::ranges::move(planNotes(inputs, plans), std::back_inserter(notes));
+    writeList(out, notes);
     if (!png.empty()) {
         out << "<p><img alt=\"the best path, from outside and cut open\" style=\"max-width:100%\" "
                "src=\"data:image/png;base64,"

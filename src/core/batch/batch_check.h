@@ -6,6 +6,7 @@
 #include "core/base/try.h"
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
+#include "core/transfer/threshold.h"
 
 #include <array>
 #include <limits>
@@ -82,9 +83,7 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
 template <class Batch, class Side>
 Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPerVoxel, const Batch& batch,
                                  const Side& side) {
-    if (!(batch.threshold >= 0 && batch.threshold <= 1)) {
-        return refuse("the threshold " + number(batch.threshold) + " is outside [0, 1]");
-    }
+    VOXTACT_TRY(checkThreshold(batch.threshold));
     const ProjectionRow& row = rowOf(projection);
     if (row.camera) {
         VOXTACT_TRY(detail::checkView(batch.view, side));

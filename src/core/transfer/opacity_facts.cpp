@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/guard.h"
 #include "core/base/infinity.h"
 #include "core/base/try.h"
+#include "core/transfer/table_extremes.h"
+#include "core/transfer/threshold.h"
 #include "voxtact/data.h"
 
 #include <algorithm>
@@ -12,16 +15,21 @@ namespace {
 
 /// The values that the points make opaque, from the least.
 std::vector<ValueRange> opaqueBands(std::span<const ControlPoint> points, double threshold) {
+    // As samples are compared with it.
+    const auto isOpaque = [least = static_cast<float>(threshold)](const ControlPoint& point) {
+        return static_cast<float>(point.opacity) >= least;
+    };
     std::vector<ValueRange> bands;
-    bool opaque = points.front().opacity >= threshold;
+    bool opaque = isOpaque(points.front());
     double from = -kInfinity;
     for (std::size_t i = 1; i < points.size(); ++i) {
         const ControlPoint& a = points[i - 1];
         const ControlPoint& b = points[i];
-        if ((b.opacity >= threshold) == opaque) {
+        if (isOpaque(b) == opaque) {
             continue;
         }
-        const double at = a.value + (b.value - a.value) * (threshold - a.opacity) / (b.opacity - a.opacity);
+        const double share = (threshold - a.opacity) / (b.opacity - a.opacity);
+        const double at = std::clamp(a.value + (b.value - a.value) * share, a.value, b.value);
         if (opaque) {
             bands.push_back({from, at});
         }
@@ -34,63 +42,73 @@ std::vector<ValueRange> opaqueBands(std::span<const ControlPoint> points, double
     return bands;
 }
 
-/// A table over its domain.
-class Table {
+/// A table over its domain, as values look it up.
+class LookUp {
   public:
-    Table(std::span<const float> entries, const ValueRange& domain) : entries_(entries), domain_(domain) {}
+    LookUp(std::span<const float> table, const ValueRange& domain) : table_(table), extremes_(table), domain_(domain) {}
 
     /// The largest opacity of the values of a range.
-    [[nodiscard]] double most(const ValueRange& values) const {
+    [[nodiscard]] float most(const ValueRange& values) const {
         const double first = entry(values.lo);
         const double last = entry(values.hi);
-        double found = std::max(at(first), at(last));
-        for (auto i = static_cast<std::size_t>(std::ceil(first)); static_cast<double>(i) <= last; ++i) {
-            found = std::max(found, double{entries_[i]});
-        }
-        return found;
+        const float ends = std::max(at(first), at(last));
+        const double inner = std::ceil(first);
+        return inner > std::floor(last) ? ends : std::max(ends, greatest(inner, std::floor(last)));
     }
     /// Of the entries in a range and of those next to it: where none is opaque, no value of it is.
-    [[nodiscard]] double mostAbout(const ValueRange& values) const {
-        const auto first = static_cast<std::ptrdiff_t>(entry(values.lo));
-        const auto last = static_cast<std::ptrdiff_t>(std::ceil(entry(values.hi)));
-        return *std::max_element(entries_.begin() + first, entries_.begin() + last + 1);
+    [[nodiscard]] float mostAbout(const ValueRange& values) const {
+        return greatest(std::floor(entry(values.lo)), std::ceil(entry(values.hi)));
     }
 
   private:
     [[nodiscard]] double entry(double value) const {
-        const auto size = static_cast<double>(entries_.size());
+        const auto size = static_cast<double>(table_.size());
         return std::clamp((value - domain_.lo) / (domain_.hi - domain_.lo) * size - 0.5, 0.0, size - 1);
     }
-    [[nodiscard]] double at(double entry) const {
+    [[nodiscard]] float greatest(double first, double last) const {
+        return extremes_.greatest(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+    }
+    [[nodiscard]] float at(double entry) const {
         const auto below = static_cast<std::size_t>(entry);
-        const std::size_t above = std::min(below + 1, entries_.size() - 1);
+        const std::size_t above = std::min(below + 1, table_.size() - 1);
         const double weight = entry - static_cast<double>(below);
-        return (1 - weight) * double{entries_[below]} + weight * double{entries_[above]};
+        return static_cast<float>((1 - weight) * double{table_[below]} + weight * double{table_[above]});
     }
 
-    std::span<const float> entries_;
+    std::span<const float> table_;
+    TableExtremes extremes_;
     ValueRange domain_;
 };
+
+/// Whether the data have values in a band, which is more of the domain than one of its ends: these have no entry.
+bool isMet(const ValueRange& band, const ValueRange& domain, const ValueRange& data) {
+    return band.lo < domain.hi && band.hi > domain.lo && band.lo <= data.hi && band.hi >= data.lo;
+}
 
 } // namespace
 
 Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data, double threshold) {
-    const Result<std::vector<float>> sampled = sampleTable(desc);
-    VOXTACT_TRY(sampled);
-    const Table table(*sampled, desc.domain);
-    const double least = double{static_cast<float>(threshold)}; // as samples are compared with it
-    const std::vector<ValueRange> bands = opaqueBands(desc.points, threshold);
-    OpacityFacts facts;
-    facts.reaches = !bands.empty();
-    facts.any = table.most(data) >= least;
-    facts.spacing = (desc.domain.hi - desc.domain.lo) / static_cast<double>(desc.tableSize);
-    for (const ValueRange& band : bands) {
-        const ValueRange within{std::max(band.lo, desc.domain.lo), std::min(band.hi, desc.domain.hi)};
-        if (within.lo <= within.hi && within.lo <= data.hi && data.lo <= within.hi && table.mostAbout(within) < least) {
-            facts.lost.push_back(within);
+    return guard([&]() -> Result<OpacityFacts> {
+        const Result<std::vector<float>> table = sampleTable(desc);
+        VOXTACT_TRY(table);
+        VOXTACT_TRY(checkThreshold(threshold));
+        if (!(data.lo <= data.hi)) {
+            return refuse("the data's values are from " + number(data.lo) + " to " + number(data.hi));
         }
-    }
-    return facts;
+        const auto least = static_cast<float>(threshold);
+        const LookUp lookUp(*table, desc.domain);
+        const std::vector<ValueRange> bands = opaqueBands(desc.points, threshold);
+        OpacityFacts facts;
+        facts.reaches = !bands.empty();
+        facts.any = lookUp.most(data) >= least;
+        facts.spacing = (desc.domain.hi - desc.domain.lo) / static_cast<double>(desc.tableSize);
+        for (const ValueRange& band : bands) {
+            if (isMet(band, desc.domain, data) && lookUp.mostAbout(band) < least) {
+                facts.lost.push_back({std::max(band.lo, desc.domain.lo), std::min(band.hi, desc.domain.hi)});
+            }
+        }
+        return facts;
+    });
 }
 
 } // namespace voxtact

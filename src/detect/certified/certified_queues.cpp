@@ -88,10 +88,11 @@ std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDevice
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
     const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, kMostQueueRoom / kClustersOfPair));
     std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
-    while (room >= kLeastQueueRoom && first + bytesFromQueues(room, desc) > bytes) {
-        room /= 2;
+    while (room > kLeastQueueRoom && first + bytesFromQueues(room, desc) > bytes) {
+        room = std::max(room / 2, kLeastQueueRoom);
     }
-    return room >= kLeastQueueRoom ? room / kStep * kStep : 0;
+    const bool fits = room >= kLeastQueueRoom && first + bytesFromQueues(room, desc) <= bytes;
+    return fits ? room / kStep * kStep : 0;
 }
 
 void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {

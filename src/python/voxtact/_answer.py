@@ -186,12 +186,13 @@ class Answer:
         if self._later is None:
             self._later = {}
         if name not in self._later:
-            if isinstance(self._core, Kept):
+            core = self._core
+            if isinstance(core, Kept) and core.of_scene:
                 raise NotReadyError(f"an answer that was pickled or copied knows no scene: detect({name}=True) asks for its "
                                     f"{name} in the same go, and looking at them before keeps them, too")
-            if self._scene is None:
+            if self._scene is None or isinstance(core, Kept):
                 raise NotReadyError(f"answers of within() and around() have no {name}: ask detect(), which is about touching")
-            again = self._scene._core.again(self._core, name)
+            again = self._scene._core.again(core, name)
             if again is None:
                 raise NotReadyError(f"the scene has changed since this answer: detect({name}=True) asks for its {name} "
                                     "in the same go")
@@ -220,6 +221,7 @@ class Answer:
         later = self._later or {}
         for name, answer in later.items():
             members.update(members_of(answer, (name, "contacts_found") if name == "contacts" else (name,)))
+        members["of_scene"] = self._core.of_scene if isinstance(self._core, Kept) else self._scene is not None
         members["outputs"] = tuple(known or name in later for known, name in zip(self._core.outputs, _OUTPUTS))
         return restored, (Answer, {"_core": Kept(len(self), members), "_scene": None, "_later": None})
 

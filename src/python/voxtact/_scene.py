@@ -365,7 +365,7 @@ class Scene:
             a mesh at poses, (N,4,4), N at least 2; or a list of (mesh, poses) alone
         interpolation
             "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns
-            about it. Both by no more than half a turn, at constant speed; of just half a turn rounding decides which way round
+            about it. Both by no more than half a turn, at constant speed; near half a turn rounding may decide which way round
         resolution
             mm, from 1e-6 on: how far the mesh moves at most from the end of what is free to a touch
         most_steps

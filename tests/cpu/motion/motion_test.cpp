@@ -255,18 +255,14 @@ TEST(Motion, GoesFromTheFirstPoseToTheSecond) {
     EXPECT_EQ(take(poseBetween(identity(), rounded, 1)), rounded);
 }
 
-/// How far a floor is below a tip, by how much the pose may be off.
-/// Which way round is written down (voxtact/motion.h): counter-clockwise about the direction of the axis whose largest
-/// coordinate is positive.
+/// Which way round is written down (voxtact/motion.h): counter-clockwise about the direction of the axis whose
+/// coordinate of the largest magnitude is positive.
 TEST(Motion, HalfATurnGoesTheWayThatIsSaid) {
     const double half = std::sqrt(0.5);
-    const std::pair<Vec3, Vec3> axes[] = {{{0, 0, 1}, {0, 0, 1}},
-                                          {{0, 0, -1}, {0, 0, 1}},
-                                          {{0, -1, 0}, {0, 1, 0}},
-                                          {{-1, 0, 0}, {1, 0, 0}},
-                                          {{-0.6, 0, 0.8}, {-0.6, 0, 0.8}},
-                                          {{0.6, 0, -0.8}, {-0.6, 0, 0.8}},
-                                          {{-half, half, 0}, {half, -half, 0}}};
+    const std::pair<Vec3, Vec3> axes[] = {{{0, 0, 1}, {0, 0, 1}},           {{0, 0, -1}, {0, 0, 1}},
+                                          {{0, -1, 0}, {0, 1, 0}},          {{-1, 0, 0}, {1, 0, 0}},
+                                          {{-0.6, 0, 0.8}, {-0.6, 0, 0.8}}, {{0.6, 0, -0.8}, {-0.6, 0, 0.8}},
+                                          {{-0.8, 0, 0.6}, {0.8, 0, -0.6}}, {{-half, half, 0}, {half, -half, 0}}};
     for (const auto& [given, taken] : axes) {
         // 2 a aT - 1 turns by 180 degrees about a; it is symmetric, and so says nothing of the way.
         Mat4 to = identity();
@@ -285,6 +281,7 @@ TEST(Motion, HalfATurnGoesTheWayThatIsSaid) {
     }
 }
 
+/// How far a floor is below a tip, by how much the pose may be off.
 TEST(PoseTolerance, OfATipAboveAFloor) {
     const Held held(oneTriangle({0, 0, 0}, {0.3, 0, 5}, {0, 0.3, 5}), floorImage(), kFloorPoints, kFloorDomain,
                     kFloorEntries);
