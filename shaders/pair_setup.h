@@ -334,14 +334,20 @@ EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object)
             off = wideMost(off, wideAdd(place.error, parts.left));
             pair.voxel_from_reference[row][column] = wideFloatOf(floats.bits[4 * row + column]);
         }
-        uint bits = floatBitsAbove(wideToFloatBits(wideAdd(floats.worst[column], PAIR_LEAST_ERROR)));
+        if (column == 3) {
+            off = wideAdd(off, beyond);
+        }
+        // Off in voxels is the product of the matrices itself, where the grid is oblique.
+        Wide worst = wideAdd(floats.worst[column], PAIR_LEAST_ERROR);
+        if (grid.aligned == 0u) {
+            worst = wideAdd(worst, off);
+        }
+        uint bits = floatBitsAbove(wideToFloatBits(worst));
         if (column == 3 && !floats.fits) {
             bits = PAIR_INFINITE_FLOAT;
         }
         pair.error[column] = wideFloatOf(bits);
-        if (column == 3) {
-            off = wideAdd(off, beyond);
-        } else {
+        if (column < 3) {
             pair.reference[column] = wideFloatOf(reference.bits[column]);
             beyond = wideMultiplyAdd(off, wideAbs(wideOfFloatBits(reference.bits[column])), beyond);
         }
