@@ -64,6 +64,9 @@ TEST(OpacityFacts, BetweenTwoEntries) {
     EXPECT_TRUE(facts(more, kWithImplant, {300, 32767}).lost.empty());
     EXPECT_TRUE(facts(more, kWithImplant, {-1000, 154}).lost.empty());
     EXPECT_TRUE(facts({{0, 0}, {10, 1}, {20, 0}}, {100, 355}, {0, 355}).lost.empty());
+    // No entry is at 10.2, but one at 10.5 is opaque, and what is before that gets a share of it.
+    EXPECT_TRUE(isAll(facts({{10.1, 0}, {10.2, 1}, {10.3, 1}, {10.4, 0}, {10.45, 0}, {10.5, 1}, {20, 1}, {21, 0}},
+                            {0, 256}, {0, 256})));
 }
 
 /// The table says what is seen: every value is asked for, of the table as a sampler has it.
