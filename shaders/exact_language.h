@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The words of the headers that are one text for GLSL and C++. Each includes this twice, before its functions and after
-// them: the second time the words are taken away again, so that nobody else meets them. ROLLED loops stay loops in a
-// shader that defines SMALL_PROGRAM, which is to compile soon rather than to run fast.
+// them: the second time the words are taken away again, so that nobody else meets them. ROLLED loops, which have few
+// rounds, stay loops in a shader that defines SMALL_PROGRAM, which is to compile soon rather than to run fast; in C++
+// they are unrolled, so that what they fill stays in registers.
 #ifndef EXACT
 
 #ifdef __cplusplus
@@ -10,7 +11,13 @@
 #define OUT(type) type&
 #define INOUT(type) type&
 #define ARRAY(type, name, count) type(&name)[count]
+#if defined(__clang__)
+#define ROLLED _Pragma("clang loop unroll_count(4)")
+#elif defined(__GNUC__)
+#define ROLLED _Pragma("GCC unroll 4")
+#else
 #define ROLLED
+#endif
 #else
 #define EXACT
 #define PRECISE precise

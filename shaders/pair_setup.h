@@ -229,17 +229,19 @@ EXACT PairPlace alignedPlace(PairGrid grid, WideMatrix world_from_object, uint r
     parts[1] = PAIR_ZERO;
     PairPlace place;
     place.error = PAIR_ZERO;
-    ROLLED for (uint term = column == 3 ? 0u : 2u; term < 2; ++term) {
-        Wide more = grid.lessOrigin[row];
-        if (term == 1) {
-            more = grid.halfSpacing[row];
+    if (column == 3) {
+        ROLLED for (uint term = 0; term < 2; ++term) {
+            Wide more = grid.lessOrigin[row];
+            if (term == 1) {
+                more = grid.halfSpacing[row];
+            }
+            ROLLED for (uint i = 0; i < 2; ++i) {
+                const PairSum both = pairSum(parts[i], more);
+                parts[i] = both.sum;
+                more = both.lost;
+            }
+            place.error = wideAdd(place.error, wideAbs(more));
         }
-        ROLLED for (uint i = 0; i < 2; ++i) {
-            const PairSum both = pairSum(parts[i], more);
-            parts[i] = both.sum;
-            more = both.lost;
-        }
-        place.error = wideAdd(place.error, wideAbs(more));
     }
     place.value = parts[0];
     place.low = parts[1];
