@@ -3,8 +3,8 @@
 // the host. IEEE 754 binary64, rounded to the nearest, ties to even, denormals and infinities as they should be; a NaN
 // is the positive quiet one. One text for GLSL and C++, where tests compare it with `double`.
 //
-// Nothing branches: both sides of a choice are computed. Programs have these functions dozens of times, and what a
-// driver's compiler needs for a program grows faster than the number of its branches.
+// Nothing branches, but for the rounds of a division: both sides of a choice are computed. Programs have these
+// functions dozens of times, and without branches lavapipe makes them in half the time.
 #ifndef VOXTACT_WIDE_INTEGERS_H
 #define VOXTACT_WIDE_INTEGERS_H
 

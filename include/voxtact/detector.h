@@ -179,8 +179,8 @@ struct ResultsDesc {
 }
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
-/// One cmdDetect() at a time: a second one waits by itself for the first where both are of the same queue, and takes
-/// its place; of another queue it must not run before the first has completed, by a semaphore or a fence of yours.
+/// One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers; in
+/// another queue it must not run before the first one has completed, which a semaphore or a fence of yours ensures.
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:

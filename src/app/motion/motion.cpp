@@ -30,8 +30,8 @@ constexpr const char* kMotionFooter =
   x,y,z,triangle,label   a point of that touch, world mm, LPS; the triangle; with --labels the label there
 
 --interpolation screw turns about and moves along one axis; slerp moves the middle of the mesh's box straight and turns
-about it; by no more than half a turn, and where it is just that, a note says so, since rounding decides which way round
-it goes. Nothing is sampled: a thin plate that crosses a thin sheet is found. By the host, in double precision; with
+about it. Both turn by no more than half a turn; near half a turn rounding may decide which way round, and a note says
+so. Nothing is sampled: a thin plate that crosses a thin sheet is found. By the host, in double precision; with
 --count compute by a device, in single precision: hundredths of a voxel.
 
 With --resume the run is done in chunks, whose files are in that folder: ended at any moment, the same command goes on
@@ -46,7 +46,7 @@ Examples:
 /// More only wait for each other.
 constexpr std::uint32_t kMostThreads = 1024;
 
-/// Radians, 0.0001 degrees: so far from half a turn poses may be of which a file has six digits behind the point.
+/// Radians, 0.0001 degrees: poses that a file has with six decimals may be this far from half a turn.
 constexpr double kHalfTurnRounding = 1e-4 / 180 * std::numbers::pi;
 
 Interpolation interpolationOf(const MotionOptions& options) {
