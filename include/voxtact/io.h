@@ -36,6 +36,14 @@ struct VolumeReadOptions {
     ReadProgress progress{};
 };
 
+/// Degrees by which an sform of NIfTI may be sheared: what is sheared by more comes from a registration, and places the
+/// voxels in a template, not in the patient.
+inline constexpr double kMostShear = 0.1;
+/// Degrees: how far two of the axes are from a right angle, at most. Expects a grid that checkGrid() accepts.
+[[nodiscard]] VOXTACT_API double shearDegrees(const Grid& grid) noexcept;
+/// The note of a volume whose axes are not at right angles, to more than a hundredth of a degree; otherwise empty.
+[[nodiscard]] VOXTACT_API std::string shearNote(const Grid& grid);
+
 /// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,
 /// .mhd), or a folder with one DICOM series: one slice a file, or enhanced multi-frame. World is LPS, in millimetres;
 /// left-handed directions are kept. Voxels keep their type where it is one of ScalarType; other integers become int16,
@@ -44,7 +52,7 @@ struct VolumeReadOptions {
 /// are applied, which may make floats.
 ///
 /// NIfTI: the place is that of nibabel's `affine`: the sform, else the qform, else the centre; a qform that differs
-/// from the sform is noted, and an sform with a shear of more than 0.1 degrees is refused. Lengths in metres and
+/// from the sform is noted, and an sform with a shear of more than kMostShear is refused. Lengths in metres and
 /// micrometres become millimetres. NRRD and MetaImage: shears are kept, and noted.
 ///
 /// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and

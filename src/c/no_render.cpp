@@ -11,7 +11,7 @@ using namespace voxtact::c;
 
 namespace {
 
-constexpr const char* kWhy =
+constexpr const char* kNoPictures =
     "this library was built without voxtact::render and makes no pictures; build it with VOXTACT_BUILD_RENDER";
 
 /// No array, and 0.
@@ -29,7 +29,7 @@ const char* vxt_look_name(size_t) {
 }
 
 vxt_result vxt_look_create(const char*, const vxt_range*, vxt_look** look) {
-    return absent(kWhy, look);
+    return absent(kNoPictures, look);
 }
 
 const vxt_control_point* vxt_look_opacity(const vxt_look*, size_t* count) {
@@ -43,19 +43,19 @@ const vxt_colour_point* vxt_look_colours(const vxt_look*, size_t* count) {
 void vxt_look_destroy(vxt_look*) {}
 
 vxt_result vxt_direction_named(const char*, vxt_view_direction*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 vxt_result vxt_view_from(const vxt_view_direction*, const vxt_grid*, const vxt_box*, uint32_t, uint32_t, vxt_view*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 vxt_result vxt_clip_side(const char*, const double*, const vxt_grid*, const vxt_view_direction*, vxt_clip_plane*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 vxt_result vxt_lighting_named(const char*, const vxt_grid*, vxt_lighting*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 void vxt_mesh_colour(size_t, double colour[3]) {
@@ -69,31 +69,31 @@ double vxt_paint_through(vxt_paint) {
 }
 
 vxt_result vxt_split_at_creases(const vxt_mesh_view*, double, vxt_mesh_data** data) {
-    return absent(kWhy, data);
+    return absent(kNoPictures, data);
 }
 
 vxt_result vxt_renderer_create(const vxt_context*, VkFormat, vxt_renderer** renderer) {
-    return absent(kWhy, renderer);
+    return absent(kNoPictures, renderer);
 }
 
 void vxt_renderer_destroy(vxt_renderer*) {}
 
 vxt_result vxt_render_function_create(const vxt_renderer*, const vxt_render_function_desc*,
                                       vxt_render_function** function) {
-    return absent(kWhy, function);
+    return absent(kNoPictures, function);
 }
 
 vxt_result vxt_render_function_upload(const vxt_renderer*, const vxt_queue*, const vxt_render_function_desc*,
                                       vxt_render_function** function) {
-    return absent(kWhy, function);
+    return absent(kNoPictures, function);
 }
 
 vxt_result vxt_render_function_cmd_upload(vxt_render_function*, VkCommandBuffer) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 vxt_result vxt_render_function_cmd_update(vxt_render_function*, VkCommandBuffer, const vxt_render_function_desc*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 uint32_t vxt_render_function_visible(const vxt_render_function*) {
@@ -103,20 +103,20 @@ uint32_t vxt_render_function_visible(const vxt_render_function*) {
 void vxt_render_function_destroy(vxt_render_function*) {}
 
 vxt_result vxt_mesh_normals_create(const vxt_renderer*, const vxt_mesh_view*, vxt_mesh_normals** normals) {
-    return absent(kWhy, normals);
+    return absent(kNoPictures, normals);
 }
 
 vxt_result vxt_mesh_normals_upload(const vxt_renderer*, const vxt_queue*, const vxt_mesh_view*,
                                    vxt_mesh_normals** normals) {
-    return absent(kWhy, normals);
+    return absent(kNoPictures, normals);
 }
 
 vxt_result vxt_mesh_normals_cmd_upload(vxt_mesh_normals*, VkCommandBuffer) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 vxt_result vxt_mesh_normals_cmd_update(vxt_mesh_normals*, VkCommandBuffer, const vxt_mesh_view*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 void vxt_mesh_normals_release_staging(vxt_mesh_normals*) {}
@@ -124,27 +124,27 @@ void vxt_mesh_normals_release_staging(vxt_mesh_normals*) {}
 void vxt_mesh_normals_destroy(vxt_mesh_normals*) {}
 
 vxt_result vxt_render_bricks_create(const vxt_renderer*, const vxt_volume*, vxt_render_bricks** bricks) {
-    return absent(kWhy, bricks);
+    return absent(kNoPictures, bricks);
 }
 
 void vxt_render_bricks_destroy(vxt_render_bricks*) {}
 
 vxt_result vxt_painted_triangles_create(const vxt_renderer*, uint32_t, const uint32_t*, size_t,
                                         vxt_painted_triangles** painted) {
-    return absent(kWhy, painted);
+    return absent(kNoPictures, painted);
 }
 
 vxt_result vxt_painted_triangles_upload(const vxt_renderer*, const vxt_queue*, uint32_t, const uint32_t*, size_t,
                                         vxt_painted_triangles** painted) {
-    return absent(kWhy, painted);
+    return absent(kNoPictures, painted);
 }
 
 vxt_result vxt_painted_triangles_wrap(const vxt_renderer*, const vxt_buffer_range*, vxt_painted_triangles** painted) {
-    return absent(kWhy, painted);
+    return absent(kNoPictures, painted);
 }
 
 vxt_result vxt_painted_triangles_cmd_upload(vxt_painted_triangles*, VkCommandBuffer) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 void vxt_painted_triangles_release_staging(vxt_painted_triangles*) {}
@@ -152,20 +152,20 @@ void vxt_painted_triangles_release_staging(vxt_painted_triangles*) {}
 void vxt_painted_triangles_destroy(vxt_painted_triangles*) {}
 
 vxt_result vxt_painted_vertices_create(const vxt_renderer*, const double*, size_t, vxt_painted_vertices** painted) {
-    return absent(kWhy, painted);
+    return absent(kNoPictures, painted);
 }
 
 vxt_result vxt_painted_vertices_upload(const vxt_renderer*, const vxt_queue*, const double*, size_t,
                                        vxt_painted_vertices** painted) {
-    return absent(kWhy, painted);
+    return absent(kNoPictures, painted);
 }
 
 vxt_result vxt_painted_vertices_wrap(const vxt_renderer*, const vxt_buffer_range*, vxt_painted_vertices** painted) {
-    return absent(kWhy, painted);
+    return absent(kNoPictures, painted);
 }
 
 vxt_result vxt_painted_vertices_cmd_upload(vxt_painted_vertices*, VkCommandBuffer) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 void vxt_painted_vertices_release_staging(vxt_painted_vertices*) {}
@@ -173,28 +173,28 @@ void vxt_painted_vertices_release_staging(vxt_painted_vertices*) {}
 void vxt_painted_vertices_destroy(vxt_painted_vertices*) {}
 
 vxt_result vxt_render_targets_create(const vxt_renderer*, uint32_t, uint32_t, vxt_render_targets** targets) {
-    return absent(kWhy, targets);
+    return absent(kNoPictures, targets);
 }
 
 void vxt_render_targets_destroy(vxt_render_targets*) {}
 
 vxt_result vxt_renderer_cmd_render(const vxt_renderer*, VkCommandBuffer, const vxt_picture_scene*,
                                    const vxt_picture_target*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 vxt_result vxt_picture_create(vxt_picture** picture) {
-    return absent(kWhy, picture);
+    return absent(kNoPictures, picture);
 }
 
 vxt_result vxt_picture_get(const vxt_picture*, vxt_picture_view*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 void vxt_picture_destroy(vxt_picture*) {}
 
 vxt_result vxt_blocking_renderer_create(const vxt_context*, const vxt_queue*, vxt_blocking_renderer** renderer) {
-    return absent(kWhy, renderer);
+    return absent(kNoPictures, renderer);
 }
 
 const vxt_renderer* vxt_blocking_renderer_renderer(const vxt_blocking_renderer*) {
@@ -203,7 +203,7 @@ const vxt_renderer* vxt_blocking_renderer_renderer(const vxt_blocking_renderer*)
 
 vxt_result vxt_blocking_renderer_render(vxt_blocking_renderer*, const vxt_picture_scene*, uint32_t, uint32_t,
                                         vxt_picture_progress, void*, vxt_picture*) {
-    return absent(kWhy);
+    return absent(kNoPictures);
 }
 
 void vxt_blocking_renderer_destroy(vxt_blocking_renderer*) {}

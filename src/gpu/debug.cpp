@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/debug.h"
 
+#include <array>
+#include <cstdio>
+
 namespace voxtact {
 
-void detail::nameObject(ContextImpl& context, VkObjectType type, std::uint64_t handle, const char* name) {
+void detail::nameObject(ContextImpl& context, VkObjectType type, std::uint64_t handle, const char* name) noexcept {
     if (context.vk.SetDebugUtilsObjectNameEXT == nullptr) {
         return;
     }
-    const std::string text = std::string("voxtact ") + (name == nullptr ? "object" : name);
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "voxtact %s", name == nullptr ? "object" : name);
     VkDebugUtilsObjectNameInfoEXT info{};
     info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
     info.objectType = type;
     info.objectHandle = handle;
-    info.pObjectName = text.c_str();
+    info.pObjectName = text.data();
     // A name that cannot be set is no reason to fail.
     static_cast<void>(context.vk.SetDebugUtilsObjectNameEXT(context.device, &info));
 }

@@ -6,8 +6,8 @@
 namespace voxtact {
 
 namespace detail {
-void nameObject(ContextImpl& context, VkObjectType type, std::uint64_t handle, const char* name);
-template <class Handle> std::uint64_t handleBits(Handle handle) {
+void nameObject(ContextImpl& context, VkObjectType type, std::uint64_t handle, const char* name) noexcept;
+template <class Handle> std::uint64_t handleBits(Handle handle) noexcept {
     if constexpr (std::is_pointer_v<Handle>) {
         return reinterpret_cast<std::uint64_t>(handle);
     } else {
@@ -16,8 +16,10 @@ template <class Handle> std::uint64_t handleBits(Handle handle) {
 }
 } // namespace detail
 
-/// Names an object "voxtact NAME" for captures and validation messages. Nothing without VK_EXT_debug_utils.
-template <class Handle> void nameObject(ContextImpl& context, VkObjectType type, Handle handle, const char* name) {
+/// Names an object "voxtact NAME" for captures and validation messages; a long name is cut. Nothing without
+/// VK_EXT_debug_utils. Takes no memory: what is named may have no owner yet.
+template <class Handle>
+void nameObject(ContextImpl& context, VkObjectType type, Handle handle, const char* name) noexcept {
     detail::nameObject(context, type, detail::handleBits(handle), name);
 }
 

@@ -178,7 +178,7 @@ Result<std::size_t> ByteReader::read(std::byte* to, std::size_t length) {
         return wasCancelled(path_);
     }
     if (stored_->failed) {
-        return cannotRead(path_, "reading stopped before its end", ErrorCode::File);
+        return readingStopped(path_);
     }
     return got;
 }
@@ -209,11 +209,11 @@ Result<std::uint64_t> ByteReader::skip(std::uint64_t length) {
     return done;
 }
 
-std::optional<std::string> ByteReader::line(std::size_t longest) {
+Result<std::optional<std::string>> ByteReader::line(std::size_t longest) {
     std::string text;
     lineEnded_ = false;
     if (stored_->left() == 0) {
-        return std::nullopt;
+        return std::optional<std::string>();
     }
     while (!lineEnded_ && text.size() < longest) {
         stored_->fill(1);
@@ -228,7 +228,10 @@ std::optional<std::string> ByteReader::line(std::size_t longest) {
         text.append(reinterpret_cast<const char*>(ready.data()), length);
         stored_->ready = stored_->ready.subspan(length + (lineEnded_ ? 1 : 0));
     }
-    return text;
+    if (stored_->failed) {
+        return readingStopped(path_);
+    }
+    return std::optional(std::move(text));
 }
 
 Result<std::vector<std::byte>> ByteReader::take(std::uint64_t needed) {

@@ -45,7 +45,7 @@ class ByteReader {
     /// How many were skipped: fewer only where the bytes end.
     [[nodiscard]] Result<std::uint64_t> skip(std::uint64_t length);
     /// A line without its line feed, up to `longest` bytes of it; none at the end. Only where nothing is packed.
-    [[nodiscard]] std::optional<std::string> line(std::size_t longest);
+    [[nodiscard]] Result<std::optional<std::string>> line(std::size_t longest);
     /// Whether the last line that was read ended in a line feed.
     [[nodiscard]] bool lineEnded() const noexcept { return lineEnded_; }
     /// `needed` bytes, for the voxels: refused where fewer follow. Memory grows as they arrive, so that a header that

@@ -36,6 +36,10 @@ Error cannotRead(const std::filesystem::path& path, std::string_view reason, Err
     return Error{code, 0, "cannot read '" + path.string() + "': " + std::string(reason)};
 }
 
+Error readingStopped(const std::filesystem::path& path) {
+    return cannotRead(path, "reading stopped before its end", ErrorCode::File);
+}
+
 Error cannotWrite(const std::filesystem::path& path, std::string_view reason, ErrorCode code) {
     return Error{code, 0, "cannot write '" + path.string() + "': " + std::string(reason)};
 }
@@ -103,7 +107,7 @@ Result<std::string> readWholeFile(const std::filesystem::path& path) {
     std::string content(*size, '\0');
     std::ifstream file(path, std::ios::binary);
     if (!file.read(content.data(), static_cast<std::streamsize>(content.size()))) {
-        return cannotRead(path, "reading stopped before its end", ErrorCode::File);
+        return readingStopped(path);
     }
     return content;
 }

@@ -50,7 +50,11 @@ Grid gridOf(const Doubles& spacing, const Doubles& origin, const Doubles& direct
 
 std::shared_ptr<Image> wrapImage(const py::array& array, const Doubles& spacing, const Doubles& origin,
                                  const Doubles& direction, std::string name, std::vector<std::string> notes) {
-    return std::make_shared<Image>(array, gridOf(spacing, origin, direction), std::move(name), std::move(notes));
+    const Grid grid = gridOf(spacing, origin, direction);
+    if (std::string note = io::shearNote(grid); !note.empty()) {
+        notes.push_back(std::move(note));
+    }
+    return std::make_shared<Image>(array, grid, std::move(name), std::move(notes));
 }
 
 py::array_t<double> directionInPython(const Grid& grid) {
@@ -93,6 +97,7 @@ void defineImage(py::module_& module) {
         .def_property_readonly("spacing", [](const Image& image) { return vectorInPython(image.data().grid.spacing); })
         .def_property_readonly("origin", [](const Image& image) { return vectorInPython(image.data().grid.origin); })
         .def_property_readonly("direction", [](const Image& image) { return directionInPython(image.data().grid); })
+        .def_property_readonly("shear", [](const Image& image) { return io::shearDegrees(image.data().grid); })
         .def_property_readonly("world_from_index",
                                [](const Image& image) { return matrixInPython(worldFromIndex(image.data().grid)); })
         .def_property_readonly("type", [](const Image& image) { return toString(image.data().type); })

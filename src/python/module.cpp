@@ -9,6 +9,7 @@
 #include "process.h"
 #include "scene.h"
 #include "tracker.h"
+#include "voxtact/io.h"
 
 #include <pybind11/pybind11.h>
 
@@ -16,6 +17,7 @@ PYBIND11_MODULE(_core, module) {
     using namespace voxtact;
     module.doc() = "The compiled part of voxtact. Import voxtact instead: this has neither checks nor promises.";
     module.attr("__version__") = VOXTACT_VERSION;
+    module.attr("MOST_SHEAR") = io::kMostShear;
     module.attr("DEFAULT_THRESHOLD") = kDefaultThreshold;
     module.attr("DEFAULT_TOLERANCE") = kDefaultTolerance;
     module.attr("DEFAULT_TABLE_SIZE") = kDefaultTableSize;

@@ -21,6 +21,16 @@ static_assert(VOXTACT_SET_VOLUME == 0 && PICTURE_SET_BRICKS + 1 == kBoundSets);
 static_assert(VOXTACT_SET_TRANSFER_FUNCTION == VOXTACT_SET_VOLUME + 1 && PICTURE_SET_PAINT + 1 == kBoundSets);
 static_assert(PICTURE_SET_TARGETS == VOXTACT_SET_TRANSFER_FUNCTION + 1);
 
+/// Whether a format takes the floats that a fragment shader gives. Formats of integers do not; that they cannot be
+/// blended either tells them apart from all but the floats of 32 bits, which some devices do not blend.
+bool takesFloats(const ContextImpl& context, VkFormat format) {
+    VkFormatProperties properties{};
+    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
+    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0 ||
+           format == VK_FORMAT_R32_SFLOAT || format == VK_FORMAT_R32G32_SFLOAT ||
+           format == VK_FORMAT_R32G32B32_SFLOAT || format == VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
 Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
     VkFormatProperties properties{};
     context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
@@ -48,6 +58,12 @@ Result<void> checkFormats(const ContextImpl& context, VkFormat colour) {
                  VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT,
                  "the pre-integrated table"}}) {
         VOXTACT_TRY(checkFormat(context, needed.format, needed.features, needed.use));
+    }
+    if (!takesFloats(context, colour)) {
+        return Error{ErrorCode::Unsupported, 0,
+                     "RendererDesc::colorFormat is VkFormat " + std::to_string(colour) +
+                         ", whose pixels are integers; a picture's are floats, or fractions as those of "
+                         "R8G8B8A8_UNORM"};
     }
     return {};
 }

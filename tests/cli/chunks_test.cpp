@@ -246,7 +246,7 @@ TEST_F(ChunksTest, ItCountsWhatIsThereAndWaitsForNoPipe) {
     const fs::path manifest = pipe.parent_path() / "voxtact-run.json";
     fs::remove(manifest);
     ASSERT_EQ(::mkfifo(manifest.c_str(), 0600), 0);
-    EXPECT_THAT(run(chunked()).err, HasSubstr("voxtact-run.json' is damaged"));
+    EXPECT_THAT(run(chunked()).err, HasSubstr("voxtact-run.json': it is not a file"));
 }
 
 TEST_F(ChunksTest, InterruptedItSaysWhatIsThere) {

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "io_test_support.h"
 
+#include <cerrno>
 #include <clocale>
+#include <functional>
+#include <istream>
 #include <limits>
+#include <new>
+#include <streambuf>
+#include <system_error>
+#include <utility>
 
 namespace voxtact::test {
 namespace {
@@ -72,6 +79,72 @@ TEST(Poses, RefusalsNameTheLine) {
     expectRefused(io::readPoses(folder.write("nothing.txt", "")), "it holds no pose");
     expectRefused(io::readPoses(folder / "absent.txt"), "absent.txt': there is no such file");
     expectRefused(io::readPoses(folder.path()), "it is a folder, not a file");
+}
+
+/// Some text, and then what `fail` throws, once.
+class FailingBuffer : public std::streambuf {
+  public:
+    FailingBuffer(std::string text, std::function<void()> fail) : text_(std::move(text)), fail_(std::move(fail)) {}
+
+  protected:
+    int_type underflow() override {
+        if (gptr() == nullptr) {
+            setg(text_.data(), text_.data(), text_.data() + text_.size());
+            return traits_type::to_int_type(text_.front());
+        }
+        if (const auto fail = std::exchange(fail_, {})) {
+            fail();
+        }
+        return traits_type::eof();
+    }
+
+  private:
+    std::string text_;
+    std::function<void()> fail_;
+};
+
+TEST(Poses, WhatCannotBeReadIsNotTheEnd) {
+    const std::error_code problem(EIO, std::generic_category());
+    // At the end of a line, and within one.
+    for (const std::string& text : {kIdentity + kIdentity, kIdentity + "1 0 0", std::string("1")}) {
+        FailingBuffer buffer(text, [&] { throw std::ios_base::failure("underflow", problem); });
+        std::istream stream(&buffer);
+        Result<io::PoseReader> reader = io::PoseReader::over(stream, "standard input");
+        ASSERT_TRUE(isOk(reader));
+        std::vector<Mat4> poses;
+        const Result<bool> more = reader->read(9, poses);
+        expectRefused(more, "cannot read 'standard input': " + problem.message());
+        EXPECT_EQ(more.error().code, ErrorCode::File);
+        const std::size_t before = poses.size();
+        // Whatever comes behind it.
+        expectRefused(reader->read(9, poses), "reading stopped before its end");
+        EXPECT_EQ(poses.size(), before);
+    }
+}
+
+TEST(Poses, NoMemoryIsNotTheEnd) {
+    FailingBuffer buffer(kIdentity + "1 0", [] { throw std::bad_alloc(); });
+    std::istream stream(&buffer);
+    Result<io::PoseReader> reader = io::PoseReader::over(stream, "a");
+    ASSERT_TRUE(isOk(reader));
+    std::vector<Mat4> poses;
+    const Result<bool> more = reader->read(9, poses);
+    ASSERT_FALSE(more.ok());
+    EXPECT_EQ(more.error().code, ErrorCode::OutOfMemory);
+}
+
+TEST(TextFiles, OneThatOpensAndCannotBeRead) {
+    const std::filesystem::path file = "/proc/self/mem"; // nothing is at address 0
+    if (!std::filesystem::exists(file)) {
+        GTEST_SKIP() << "no " << file;
+    }
+    const std::string why = std::generic_category().message(EIO);
+    expectRefused(io::readPoses(file), why, file);
+    expectRefused(io::readPoints(file), why, file);
+    expectRefused(io::readLabelNames(file), why, file);
+    expectRefused(io::readCamera(file), why, file);
+    expectRefused(io::readTransferFunction(file), why, file);
+    expectRefused(io::readColours(file), why, file);
 }
 
 TEST(Camera, AnyNumberOfLines) {

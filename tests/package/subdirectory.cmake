@@ -33,7 +33,7 @@ endif()
 # The consumer's -Werror is not for voxtact, which has its own here. And a shared voxtact may leave no symbol open. The
 # install rules and the other libraries are for the tests that come after.
 step(${configure} "-DCMAKE_CXX_COMPILER_LAUNCHER=${launcher}" -DVOXTACT_WARNINGS_AS_ERRORS=ON -DVOXTACT_INSTALL=ON
-     -DVOXTACT_BUILD_CPU=ON -DVOXTACT_BUILD_RENDER=ON -DVOXTACT_BUILD_SAMPLES=ON -DVOXTACT_BUILD_C=ON
+     -DVOXTACT_BUILD_CPU=ON -DVOXTACT_BUILD_IO=ON -DVOXTACT_BUILD_RENDER=ON -DVOXTACT_BUILD_SAMPLES=ON -DVOXTACT_BUILD_C=ON
      -DCMAKE_SHARED_LINKER_FLAGS=-Wl,--no-undefined)
 step("${CMAKE_COMMAND}" --build "${BUILD}")
 run_consumers("${BUILD}")

@@ -184,6 +184,28 @@ def test_nibabel_scaling_units_and_frames(tmp_path):
     assert any("from meter to mm" in note for note in volume.notes)
 
 
+def test_shears_are_refused_as_of_the_file_or_noted(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    voxels = noise(shape=(6, 7, 8))
+    for shear, accepted in (0.0, True), (0.001, True), (0.1, False):  # 0.057 and 5.7 degrees
+        affine = np.eye(4)
+        affine[0, 1] = shear
+        image = nibabel.Nifti1Image(voxels, affine)
+        image.set_qform(None, 0)
+        image.set_sform(affine, 1)
+        path = tmp_path / "sheared.nii"
+        nibabel.save(image, path)
+        notes = vx.read_volume(voxels, affine=affine, axes="xyz").notes
+        assert any("sheared by" in note for note in notes) == (shear > 0)
+        if accepted:
+            same_place(vx.read_volume(nibabel.load(path)), vx.read_volume(path))
+            continue
+        with pytest.raises(vx.Error, match="shears the image by 5.7"):
+            vx.read_volume(path)
+        with pytest.raises(vx.InvalidArgumentError, match="shears it by 5.71 degrees.*hand over its array"):
+            vx.read_volume(nibabel.load(path))
+
+
 def test_vtk(nifti):
     vtk_util = pytest.importorskip("vtkmodules.util.numpy_support")
     from vtkmodules.vtkCommonDataModel import vtkImageData

@@ -4,6 +4,7 @@
 #include "app/chunks/content_hash.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "io/text/small_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,6 @@
 #include <charconv>
 #include <chrono>
 #include <fcntl.h>
-#include <fstream>
 #include <sys/file.h>
 #include <system_error>
 #include <thread>
@@ -28,6 +28,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kManifestFormat = 2;
 constexpr const char* kManifestName = "voxtact-run.json";
+constexpr std::uintmax_t kMostManifest = std::uintmax_t{1} << 30U;
 constexpr const char* kLockName = "run.lock";
 constexpr std::string_view kShardName = "shard-";
 constexpr std::string_view kShardEnding = ".lock";
@@ -187,12 +188,11 @@ Result<void> place(const fs::path& folder, const RunManifest& manifest) {
 }
 
 Result<RunManifest> readManifest(const fs::path& folder) {
-    std::error_code problem;
-    std::optional<RunManifest> manifest;
-    if (fs::is_regular_file(folder / kManifestName, problem)) { // a pipe would wait for who writes it
-        std::ifstream file(folder / kManifestName, std::ios::binary);
-        manifest = manifestOf({std::istreambuf_iterator<char>(file), {}});
+    const Result<std::string> text = io::readSmallFile(folder / kManifestName, kMostManifest);
+    if (!text.ok()) {
+        return cannotUse(folder / kManifestName, text.error().text);
     }
+    std::optional<RunManifest> manifest = manifestOf(*text);
     if (!manifest) {
         return Error{ErrorCode::Format, 0,
                      "'" + (folder / kManifestName).string() +

@@ -134,6 +134,9 @@ Result<PairJobs> readJobs(const std::filesystem::path& path) {
         }
         VOXTACT_TRY(addJob({path, number}, line, all));
     }
+    if (file.bad()) { // which getline() takes for the end
+        return cannotRead("reading stopped before its end");
+    }
     if (all.jobs.empty()) {
         return Error{ErrorCode::Format, 0,
                      "cannot use '" + path.string() + "': it holds no job; a job is a line mesh,volume,poses"};

@@ -38,8 +38,8 @@ void MotionEnds::addTo(std::vector<std::string>& notes) const {
     }
     if (cut > 0) {
         notes.push_back("segments that took too many steps: " + std::to_string(cut) +
-                        "; they are free until free_until, and the rest of them "
-                        "is not looked at");
+                        "; they are free until free_until, and of the rest of them nothing "
+                        "is known but the touch at touch_at, where there is one");
     }
 }
 

@@ -2,14 +2,14 @@
 #include "app/options/cache_folder.h"
 
 #include "app/version.h"
+#include "io/text/small_file.h"
 #include "voxtact/io.h"
 
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <ostream>
+#include <utility>
 
 namespace voxtact::app {
 
@@ -66,19 +66,16 @@ CacheFolder::CacheFolder(const std::string& wanted) {
 }
 
 std::optional<std::string> CacheFolder::read(const std::string& name) const {
-    std::error_code error;
-    const fs::path path = path_ / name;
-    if (!on() || !fs::is_regular_file(path, error) || fs::file_size(path, error) > kMostBytes || error) {
+    if (!on()) {
         return std::nullopt;
     }
-    std::ifstream file(path, std::ios::binary);
-    std::string head;
-    std::getline(file, head);
-    std::string content{std::istreambuf_iterator<char>(file), {}};
-    if (file.bad() || head + "\n" != headOf(content)) {
+    const Result<std::string> file = io::readSmallFile(path_ / name, kMostBytes);
+    if (!file.ok()) {
         return std::nullopt;
     }
-    return content;
+    const std::size_t head = file->find('\n') + 1; // 0 where there is none
+    std::string content = file->substr(head);
+    return file->substr(0, head) == headOf(content) ? std::optional(std::move(content)) : std::nullopt;
 }
 
 bool CacheFolder::write(const std::string& name, std::string_view content) const {

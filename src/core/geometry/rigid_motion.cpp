@@ -104,7 +104,8 @@ Result<RigidMotion> RigidMotion::between(const Mat4& from, const Mat4& to, Inter
         return refuse(which + (std::isfinite(off)
                                    ? ": the motion from one to the other is not rigid (scale, shear or a "
                                      "mirror image); give poses of one scale"
-                                   : ": they cannot be inverted; give poses of full rank"));
+                                   : ": they cannot be inverted in double precision; give poses of full rank and "
+                                     "of an ordinary scale"));
     }
     const dquat half = glm::normalize(glm::quat_cast(rotation));
     const dvec3 sine = (half.w < 0 ? -1.0 : 1.0) * dvec3(half.x, half.y, half.z);

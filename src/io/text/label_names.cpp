@@ -31,35 +31,28 @@ std::optional<std::string> parseLabel(std::string_view token, std::int32_t& labe
 
 Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path) {
     return guard([&]() -> Result<std::vector<LabelName>> {
-        Result<LineReader> lines = LineReader::open(path);
-        VOXTACT_TRY(lines);
         std::vector<LabelName> names;
         std::unordered_map<std::int32_t, std::size_t> places;
-        std::vector<std::string_view> tokens;
-        while (const auto line = lines->next()) {
-            splitTokens(*line, tokens);
-            if (tokens.empty()) {
-                continue;
-            }
+        VOXTACT_TRY(forWords(path, [&](const auto& words, std::uint64_t line) -> Result<void> {
             LabelName entry;
-            if (const auto reason = parseLabel(tokens[0], entry.label)) {
-                return badLine(path, lines->lineNumber(), *reason);
+            if (const auto reason = parseLabel(words[0], entry.label)) {
+                return badLine(path, line, *reason);
             }
-            if (tokens.size() < 2) {
-                return badLine(path, lines->lineNumber(),
-                               "the label " + std::to_string(entry.label) + " has no name (number name)");
+            if (words.size() < 2) {
+                return badLine(path, line, "the label " + std::to_string(entry.label) + " has no name (number name)");
             }
-            entry.name = tokens[1];
+            entry.name = words[1];
             const auto [place, fresh] = places.try_emplace(entry.label, names.size());
             if (!fresh && names[place->second].name != entry.name) {
-                return badLine(path, lines->lineNumber(),
+                return badLine(path, line,
                                "the label " + std::to_string(entry.label) + " has another name already, '" +
                                    oneLine(names[place->second].name) + "'");
             }
             if (fresh) {
                 names.push_back(std::move(entry));
             }
-        }
+            return {};
+        }));
         if (names.empty()) {
             return cannotRead(path, "it names no label; a label is a line 'number name'");
         }

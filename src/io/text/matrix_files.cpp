@@ -52,7 +52,6 @@ Result<Mat4> parsePose(const std::vector<std::string_view>& tokens, const std::f
 } // namespace
 
 struct PoseReader::State {
-    std::filesystem::path name;
     LineReader lines;
     std::vector<std::string_view> tokens{};
     bool any = false;
@@ -62,20 +61,19 @@ struct PoseReader::State {
 };
 
 Result<std::optional<Mat4>> PoseReader::State::next() {
-    while (const auto line = lines.next()) {
-        splitTokens(*line, tokens);
-        if (tokens.empty()) {
-            continue;
+    do {
+        const Result<std::optional<std::string_view>> line = lines.next();
+        VOXTACT_TRY(line);
+        if (!line->has_value()) {
+            return any ? Result(std::optional<Mat4>())
+                       : cannotRead(lines.name(), "it holds no pose; a pose is a line of 16 numbers, row by row");
         }
-        const Result<Mat4> pose = parsePose(tokens, name, lines.lineNumber());
-        VOXTACT_TRY(pose);
-        any = true;
-        return std::optional(*pose);
-    }
-    if (!any) {
-        return cannotRead(name, "it holds no pose; a pose is a line of 16 numbers, row by row");
-    }
-    return std::optional<Mat4>();
+        splitTokens(**line, tokens);
+    } while (tokens.empty());
+    const Result<Mat4> pose = parsePose(tokens, lines.name(), lines.lineNumber());
+    VOXTACT_TRY(pose);
+    any = true;
+    return std::optional(*pose);
 }
 
 PoseReader::PoseReader(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -87,13 +85,13 @@ Result<PoseReader> PoseReader::open(const std::filesystem::path& path) {
     return guard([&]() -> Result<PoseReader> {
         Result<LineReader> lines = LineReader::open(path);
         VOXTACT_TRY(lines);
-        return PoseReader(std::make_unique<State>(State{path, std::move(*lines)}));
+        return PoseReader(std::make_unique<State>(State{std::move(*lines)}));
     });
 }
 
 Result<PoseReader> PoseReader::over(std::istream& stream, const std::string& name) {
     return guard([&]() -> Result<PoseReader> {
-        return PoseReader(std::make_unique<State>(State{name, LineReader::over(stream)}));
+        return PoseReader(std::make_unique<State>(State{LineReader::over(stream, name)}));
     });
 }
 
@@ -123,23 +121,20 @@ Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
 
 Result<Mat4> readCamera(const std::filesystem::path& path) {
     return guard([&]() -> Result<Mat4> {
-        Result<LineReader> lines = LineReader::open(path);
-        VOXTACT_TRY(lines);
         Mat4 clip_from_world{};
         std::size_t count = 0;
-        std::vector<std::string_view> tokens;
-        while (const auto line = lines->next()) {
-            splitTokens(*line, tokens);
-            for (const std::string_view token : tokens) {
+        VOXTACT_TRY(forWords(path, [&](const auto& words, std::uint64_t line) -> Result<void> {
+            for (const std::string_view word : words) {
                 if (count == kElements) {
-                    return badLine(path, lines->lineNumber(), "more than 16 numbers, a camera has 16 (row by row)");
+                    return badLine(path, line, "more than 16 numbers, a camera has 16 (row by row)");
                 }
-                if (const auto reason = parseNumber(token, clip_from_world[columnMajor(count)])) {
-                    return badLine(path, lines->lineNumber(), *reason);
+                if (const auto reason = parseNumber(word, clip_from_world[columnMajor(count)])) {
+                    return badLine(path, line, *reason);
                 }
                 ++count;
             }
-        }
+            return {};
+        }));
         if (count != kElements) {
             return cannotRead(path, std::to_string(count) + (count == 1 ? " number" : " numbers") +
                                         ", a camera has 16 (row by row)");

@@ -9,31 +9,25 @@ namespace voxtact::io {
 
 Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path) {
     return guard([&]() -> Result<std::vector<NamedPoint>> {
-        Result<LineReader> lines = LineReader::open(path);
-        VOXTACT_TRY(lines);
         std::vector<NamedPoint> points;
-        std::vector<std::string_view> tokens;
-        while (const auto line = lines->next()) {
-            splitTokens(*line, tokens);
-            if (tokens.empty()) {
-                continue;
-            }
+        VOXTACT_TRY(forWords(path, [&](const auto& words, std::uint64_t line) -> Result<void> {
             NamedPoint point;
-            point.line = lines->lineNumber();
-            if (tokens.size() != 3 && tokens.size() != 4) {
+            point.line = line;
+            if (words.size() != 3 && words.size() != 4) {
                 return badLine(
-                    path, point.line,
+                    path, line,
                     "a point is three numbers x y z, and may have a name of one word behind them; this has " +
-                        std::to_string(tokens.size()) + (tokens.size() == 1 ? " word" : " words"));
+                        std::to_string(words.size()) + (words.size() == 1 ? " word" : " words"));
             }
             for (std::size_t axis = 0; axis < point.position.size(); ++axis) {
-                if (const auto reason = parseNumber(tokens[axis], point.position[axis])) {
-                    return badLine(path, point.line, *reason);
+                if (const auto reason = parseNumber(words[axis], point.position[axis])) {
+                    return badLine(path, line, *reason);
                 }
             }
-            point.name = tokens.size() == 4 ? tokens[3] : std::string_view();
+            point.name = words.size() == 4 ? words[3] : std::string_view();
             points.push_back(std::move(point));
-        }
+            return {};
+        }));
         if (points.empty()) {
             return cannotRead(path, "it has no point; a point is a line 'x y z' or 'x y z name'");
         }

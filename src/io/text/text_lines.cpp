@@ -7,6 +7,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <ios>
+#include <utility>
 
 namespace voxtact::io {
 
@@ -24,28 +26,71 @@ std::string inQuotes(std::string_view token) {
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
     VOXTACT_TRY(readableFile(path));
-    LineReader reader;
-    reader.file_ = std::make_unique<std::ifstream>(path, std::ios::binary);
-    reader.stream_ = reader.file_.get();
+    auto file = std::make_unique<std::filebuf>();
+    if (file->open(path, std::ios::in | std::ios::binary) == nullptr) {
+        return cannotRead(path, "it cannot be opened", ErrorCode::File);
+    }
+    LineReader reader(*file, path);
+    reader.file_ = std::move(file);
     return reader;
 }
 
-LineReader LineReader::over(std::istream& stream) {
-    LineReader reader;
-    reader.stream_ = &stream;
-    return reader;
+LineReader LineReader::over(std::istream& stream, std::filesystem::path name) {
+    return {*stream.rdbuf(), std::move(name)};
 }
 
-std::optional<std::string_view> LineReader::next() {
-    if (!std::getline(*stream_, line_)) {
-        return std::nullopt;
+LineReader::LineReader(std::streambuf& buffer, std::filesystem::path name) : buffer_(&buffer), name_(std::move(name)) {}
+
+// std::getline() takes whatever stops it, a lack of memory too, for the end of the stream.
+bool LineReader::read() {
+    using Traits = std::streambuf::traits_type;
+    line_.clear();
+    auto c = buffer_->sbumpc();
+    if (Traits::eq_int_type(c, Traits::eof())) {
+        return false;
+    }
+    for (; !Traits::eq_int_type(c, Traits::eof()) && Traits::to_char_type(c) != '\n'; c = buffer_->sbumpc()) {
+        line_.push_back(Traits::to_char_type(c));
+    }
+    return true;
+}
+
+Result<std::optional<std::string_view>> LineReader::next() {
+    if (std::exchange(stopped_, true)) {
+        return readingStopped(name_);
+    }
+    try {
+        const bool some = read();
+        stopped_ = false;
+        if (!some) {
+            return std::optional<std::string_view>();
+        }
+    } catch (const std::ios_base::failure& failure) {
+        return cannotRead(name_, failure.code().message(), ErrorCode::File);
     }
     ++number_;
     std::string_view line = line_;
     if (number_ == 1 && line.starts_with(kByteOrderMark)) {
         line.remove_prefix(kByteOrderMark.size());
     }
-    return trimmed(line.substr(0, line.find('#')));
+    return std::optional(trimmed(line.substr(0, line.find('#'))));
+}
+
+Result<void> forWords(const std::filesystem::path& path, const TakeWords& take) {
+    Result<LineReader> lines = LineReader::open(path);
+    VOXTACT_TRY(lines);
+    std::vector<std::string_view> words;
+    while (true) {
+        const Result<std::optional<std::string_view>> line = lines->next();
+        VOXTACT_TRY(line);
+        if (!line->has_value()) {
+            return {};
+        }
+        splitTokens(**line, words);
+        if (!words.empty()) {
+            VOXTACT_TRY(take(words, lines->lineNumber()));
+        }
+    }
 }
 
 void splitTokens(std::string_view line, std::vector<std::string_view>& tokens) {

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <streambuf>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,20 +20,32 @@ namespace voxtact::io {
 class LineReader {
   public:
     [[nodiscard]] static Result<LineReader> open(const std::filesystem::path& path);
-    /// The stream must outlive the reader.
-    [[nodiscard]] static LineReader over(std::istream& stream);
+    /// The stream must outlive the reader. Its state stays as it is: the reader uses its buffer alone.
+    [[nodiscard]] static LineReader over(std::istream& stream, std::filesystem::path name);
 
     /// The next line without its comment (`#`), line end and a leading byte order mark; none at the end of the file.
-    /// Valid until the next call.
-    [[nodiscard]] std::optional<std::string_view> next();
+    /// Valid until the next call. Where reading fails (File), there is no line any more.
+    [[nodiscard]] Result<std::optional<std::string_view>> next();
     [[nodiscard]] std::uint64_t lineNumber() const noexcept { return number_; }
+    /// For messages.
+    [[nodiscard]] const std::filesystem::path& name() const noexcept { return name_; }
 
   private:
-    std::unique_ptr<std::istream> file_;
-    std::istream* stream_ = nullptr;
+    LineReader(std::streambuf& buffer, std::filesystem::path name);
+    bool read();
+
+    std::unique_ptr<std::filebuf> file_;
+    std::streambuf* buffer_;
+    std::filesystem::path name_;
     std::string line_;
     std::uint64_t number_ = 0;
+    bool stopped_ = false; ///< in the middle of a line
 };
+
+/// Takes a line's words, which are valid until it returns, and the line's number.
+using TakeWords = std::function<Result<void>(const std::vector<std::string_view>& words, std::uint64_t line)>;
+/// Calls `take` for each line of a file that has words, until one is refused.
+[[nodiscard]] Result<void> forWords(const std::filesystem::path& path, const TakeWords& take);
 
 /// What is between blanks and tabs.
 void splitTokens(std::string_view line, std::vector<std::string_view>& tokens);

@@ -40,32 +40,26 @@ std::optional<std::string> addPoint(Points& points, double value, double opacity
 }
 
 Result<Points> readText(const std::filesystem::path& path) {
-    Result<LineReader> lines = LineReader::open(path);
-    VOXTACT_TRY(lines);
     Points points;
-    std::vector<std::string_view> tokens;
-    while (const auto line = lines->next()) {
-        splitTokens(*line, tokens);
-        if (tokens.empty()) {
-            continue;
-        }
+    VOXTACT_TRY(forWords(path, [&](const auto& words, std::uint64_t line) -> Result<void> {
         std::array<double, 2> numbers{};
-        for (std::size_t i = 0; i < tokens.size(); ++i) {
+        for (std::size_t i = 0; i < words.size(); ++i) {
             double value = 0;
-            if (const auto reason = parseNumber(tokens[i], value)) {
-                return badLine(path, lines->lineNumber(), *reason);
+            if (const auto reason = parseNumber(words[i], value)) {
+                return badLine(path, line, *reason);
             }
             numbers[i % 2] = value;
         }
-        if (tokens.size() != 2) {
-            return badLine(path, lines->lineNumber(),
-                           std::to_string(tokens.size()) + (tokens.size() == 1 ? " number" : " numbers") +
+        if (words.size() != 2) {
+            return badLine(path, line,
+                           std::to_string(words.size()) + (words.size() == 1 ? " number" : " numbers") +
                                ", a point has 2 (value opacity)");
         }
         if (const auto reason = addPoint(points, numbers[0], numbers[1])) {
-            return badLine(path, lines->lineNumber(), *reason);
+            return badLine(path, line, *reason);
         }
-    }
+        return {};
+    }));
     if (points.empty()) {
         return cannotRead(path, "it holds no point; a point is a line 'value opacity'");
     }
@@ -88,11 +82,12 @@ std::optional<ControlPoint> pointOf(const Json& item) {
 }
 
 Result<Json> parseJson(const std::filesystem::path& path) {
+    const Result<std::string> text = readWholeFile(path);
+    VOXTACT_TRY(text);
     try {
-        std::ifstream file(path, std::ios::binary);
         TwiceSaid<Json> twice;
         Json root = Json::parse(
-            file, [&twice](int, Json::parse_event_t event, const Json& parsed) { return twice(event, parsed); });
+            *text, [&twice](int, Json::parse_event_t event, const Json& parsed) { return twice(event, parsed); });
         return twice.found() ? Result<Json>(cannotRead(path, "it says " + inQuotes(*twice.found()) + " twice"))
                              : Result<Json>(std::move(root));
     } catch (const Json::exception& problem) {
@@ -124,12 +119,16 @@ Result<Points> readJson(const std::filesystem::path& path) {
 Result<bool> isJson(const std::filesystem::path& path) {
     Result<LineReader> lines = LineReader::open(path);
     VOXTACT_TRY(lines);
-    while (const auto line = lines->next()) {
-        if (!line->empty()) {
-            return line->front() == '{' || line->front() == '[';
+    while (true) {
+        const Result<std::optional<std::string_view>> line = lines->next();
+        VOXTACT_TRY(line);
+        if (!line->has_value()) {
+            return false;
+        }
+        if (!(*line)->empty()) {
+            return (*line)->front() == '{' || (*line)->front() == '[';
         }
     }
-    return false;
 }
 
 /// The reason why the colour cannot follow those before it, if any.

@@ -131,28 +131,28 @@ std::string_view DicomDataSet::text(DicomTag tag) const {
     return value == nullptr ? std::string_view() : std::string_view(*value);
 }
 
-Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path) {
-    Result<DicomStream> stream = DicomStream::open(path);
-    VOXTACT_TRY(stream);
+namespace {
+
+Result<std::optional<DicomFile>> dicomFileIn(const std::filesystem::path& path, DicomStream& stream) {
     DicomFile file;
     file.path = path;
-    file.bytes = stream->mostLeft();
-    const Beginning beginning = beginningOf(*stream);
+    file.bytes = stream.mostLeft();
+    const Beginning beginning = beginningOf(stream);
     if (beginning == Beginning::Other) {
         return std::optional<DicomFile>();
     }
-    DicomWalker meta(*stream, *kTyped);
-    if ((beginning == Beginning::Magic && !stream->skip(kMagicAt + kMagic.size())) || !meta.meta(file.set)) {
+    DicomWalker meta(stream, *kTyped);
+    if ((beginning == Beginning::Magic && !stream.skip(kMagicAt + kMagic.size())) || !meta.meta(file.set)) {
         return cannotRead(path, meta.problem());
     }
-    const Result<const DicomSyntax*> syntax = syntaxOf(file, *stream);
+    const Result<const DicomSyntax*> syntax = syntaxOf(file, stream);
     VOXTACT_TRY(syntax);
     file.syntax = *syntax;
-    file.dataSetAt = stream->position();
+    file.dataSetAt = stream.position();
     if (file.syntax->deflated) {
-        VOXTACT_TRY(stream->inflateFromHere());
+        VOXTACT_TRY(stream.inflateFromHere());
     }
-    DicomWalker data(*stream, *file.syntax);
+    DicomWalker data(stream, *file.syntax);
     if (!data.dataSet(file.set)) {
         // What only looked like DICOM is left alone.
         constexpr std::size_t kSure = 3;
@@ -163,6 +163,16 @@ Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path
     }
     file.pixels = data.pixels();
     return std::optional(std::move(file));
+}
+
+} // namespace
+
+Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path) {
+    Result<DicomStream> stream = DicomStream::open(path);
+    VOXTACT_TRY(stream);
+    Result<std::optional<DicomFile>> file = dicomFileIn(path, *stream);
+    // Whatever was made of what came before, which may not even look like DICOM.
+    return stream->failed() ? readingStopped(path) : std::move(file);
 }
 
 } // namespace voxtact::io

@@ -44,7 +44,6 @@ struct Survey {
     std::vector<DicomFile> images;
     std::size_t others = 0; ///< DICOM files that hold no image
     bool hasDirectory = false;
-    std::optional<Error> unreadable; ///< the first, in the order of the names
 };
 
 /// Regular files, and links to them, by name.
@@ -71,13 +70,8 @@ Result<Survey> survey(const fs::path& folder) {
     Survey found;
     for (const fs::path& path : *paths) {
         Result<std::optional<DicomFile>> file = readDicomFile(path);
-        if (!file.ok()) {
-            // Without a DICOM file in the folder it does not matter.
-            found.unreadable = found.unreadable ? found.unreadable : std::optional(file.error());
-            if (file.error().code != ErrorCode::File) {
-                return file.error();
-            }
-        } else if (*file && holdsNoImage(**file)) {
+        VOXTACT_TRY(file); // of one that cannot be read, nobody knows whether it is a slice
+        if (*file && holdsNoImage(**file)) {
             ++found.others;
             found.hasDirectory = found.hasDirectory || (*file)->set.text(dicom::kMediaStorage) == kDirectoryClass;
         } else if (*file && !(*file)->pixels) {
@@ -92,9 +86,6 @@ Result<Survey> survey(const fs::path& folder) {
                                       ? "the folder holds a DICOMDIR and no images beside it; give the folder below it "
                                         "that holds the slices"
                                       : "the folder holds no DICOM series");
-    }
-    if (found.unreadable) {
-        return *found.unreadable;
     }
     return found;
 }

@@ -94,6 +94,9 @@ class FrameSource {
 
   private:
     [[nodiscard]] Error cut() const {
+        if (stream_.failed()) {
+            return readingStopped(file_.path);
+        }
         return cannotRead(file_.path, "it is truncated or damaged: the file ends before its pixels do; get the file "
                                       "again");
     }

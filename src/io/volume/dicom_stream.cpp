@@ -40,6 +40,14 @@ void DicomStream::drop(std::size_t count) {
     position_ += count;
 }
 
+std::size_t DicomStream::take(char* to, std::size_t count) {
+    file_.read(to, static_cast<std::streamsize>(count));
+    const auto got = static_cast<std::size_t>(file_.gcount());
+    fileLeft_ -= got;
+    failed_ = failed_ || got < count;
+    return got;
+}
+
 bool DicomStream::fill() {
     window_.erase(0, windowAt_);
     windowAt_ = 0;
@@ -52,10 +60,8 @@ bool DicomStream::fill() {
     const std::size_t before = window_.size();
     const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, fileLeft_));
     window_.resize(before + wanted);
-    file_.read(window_.data() + before, static_cast<std::streamsize>(wanted));
-    const auto got = static_cast<std::size_t>(file_.gcount());
+    const std::size_t got = take(window_.data() + before, wanted);
     window_.resize(before + got);
-    fileLeft_ -= got;
     ended_ = got == 0;
     return !ended_;
 }
@@ -69,9 +75,7 @@ bool DicomStream::fillInflated() {
     while (inflate_->avail_out == kChunk && state == Z_OK) {
         if (inflate_->avail_in == 0) {
             compressed_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, fileLeft_)));
-            file_.read(compressed_.data(), static_cast<std::streamsize>(compressed_.size()));
-            const auto got = static_cast<std::size_t>(file_.gcount());
-            fileLeft_ -= got;
+            const std::size_t got = take(compressed_.data(), compressed_.size());
             inflate_->next_in = reinterpret_cast<Bytef*>(compressed_.data());
             inflate_->avail_in = static_cast<uInt>(got);
         }

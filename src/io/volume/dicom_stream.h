@@ -31,6 +31,9 @@ class DicomStream {
     [[nodiscard]] bool read(void* to, std::size_t count);
     [[nodiscard]] bool skip(std::uint64_t count);
 
+    /// Whether the file could not be read although it says that it has more: what there is of it looks like its end.
+    [[nodiscard]] bool failed() const noexcept { return failed_; }
+
     /// Bytes taken so far, counted after inflation.
     [[nodiscard]] std::uint64_t position() const noexcept { return position_; }
     /// How many bytes may follow at most: exact for a plain file, a bound for a deflated one.
@@ -41,6 +44,8 @@ class DicomStream {
 
   private:
     DicomStream(std::ifstream file, std::uint64_t size);
+    /// Of the file's bytes.
+    std::size_t take(char* to, std::size_t count);
     /// Appends to the window; false at the end of the file, or where its compressed data is damaged.
     bool fill();
     bool fillInflated();
@@ -58,6 +63,7 @@ class DicomStream {
     std::string compressed_;
     std::unique_ptr<z_stream_s, InflateEnd> inflate_;
     bool ended_ = false;
+    bool failed_ = false;
 };
 
 } // namespace voxtact::io

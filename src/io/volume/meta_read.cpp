@@ -43,7 +43,9 @@ Result<MetaHeader> readHeader(ByteReader& reader) {
     constexpr std::size_t kLongest = 1 << 20;
     std::size_t length = 0;
     while (length < kLongest) {
-        const std::optional<std::string> line = reader.line(kLongest - length);
+        const Result<std::optional<std::string>> read = reader.line(kLongest - length);
+        VOXTACT_TRY(read);
+        const std::optional<std::string>& line = *read;
         if (!line) {
             break;
         }

@@ -16,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sheared by more than this is not rounding.
-constexpr double kMostShear = 0.1;
-
 std::string rounded(double value) {
     return number(std::round(value * 1000) / 1000);
 }

@@ -51,7 +51,9 @@ Result<NrrdHeader> readNrrdHeader(ByteReader& reader) {
     std::size_t length = 0;
     NrrdHeader header;
     for (bool first = true; !header.complete && length < kLongest; first = false) {
-        const std::optional<std::string> line = reader.line(kLongest - length);
+        const Result<std::optional<std::string>> read = reader.line(kLongest - length);
+        VOXTACT_TRY(read);
+        const std::optional<std::string>& line = *read;
         if (first && (!line || !line->starts_with("NRRD000"))) {
             return cannotRead(reader.path(), "it is not a NRRD file (it does not begin with NRRD000)");
         }

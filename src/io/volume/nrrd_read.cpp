@@ -72,7 +72,9 @@ Result<void> skipBefore(ByteReader& reader, std::int64_t lines, std::int64_t byt
     for (std::int64_t i = 0; i < lines && reader.stored() > 0; ++i) {
         do {
             constexpr std::size_t kPiece = 1 << 16;
-            if (!reader.line(kPiece)) {
+            const Result<std::optional<std::string>> line = reader.line(kPiece);
+            VOXTACT_TRY(line);
+            if (!line->has_value()) {
                 break;
             }
         } while (!reader.lineEnded());

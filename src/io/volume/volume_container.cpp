@@ -189,7 +189,7 @@ double cornersApart(const Grid& a, const Grid& b) {
     return most;
 }
 
-double shearDegrees(const Grid& grid) {
+double shearDegrees(const Grid& grid) noexcept {
     double most = 0;
     for (std::size_t a = 0; a < 3; ++a) {
         const std::size_t b = (a + 1) % 3;
@@ -202,11 +202,17 @@ double shearDegrees(const Grid& grid) {
     return most * 180 / std::numbers::pi;
 }
 
-void noteShear(const Grid& grid, std::vector<std::string>& notes) {
+std::string shearNote(const Grid& grid) {
     constexpr double kRounding = 0.01;
-    if (const double shear = shearDegrees(grid); shear > kRounding) {
-        notes.push_back("the image's axes are not at right angles: it is sheared by " +
-                        number(std::round(shear * 1000) / 1000) + " degrees, and taken so");
+    const double shear = shearDegrees(grid);
+    return shear > kRounding ? "the image's axes are not at right angles: it is sheared by " +
+                                   number(std::round(shear * 1000) / 1000) + " degrees, and taken so"
+                             : std::string();
+}
+
+void noteShear(const Grid& grid, std::vector<std::string>& notes) {
+    if (std::string note = shearNote(grid); !note.empty()) {
+        notes.push_back(std::move(note));
     }
 }
 

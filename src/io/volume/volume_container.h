@@ -75,9 +75,6 @@ struct AffineSteps {
 /// one plane. `grid.size` stays as it is.
 [[nodiscard]] Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesystem::path& path);
 
-/// How far the axes are from standing at right angles to each other, in degrees.
-[[nodiscard]] double shearDegrees(const Grid& grid);
-
 /// What is assumed where a header does not say it.
 inline constexpr const char* kNoSpacing = "the file does not say its spacing; 1 mm is taken";
 inline constexpr const char* kNoOrigin = "the file does not say where its first voxel is; 0 0 0 is taken";

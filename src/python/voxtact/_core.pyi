@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 __version__: str
 DEFAULT_THRESHOLD: float
+MOST_SHEAR: float
 DEFAULT_TOLERANCE: float
 DEFAULT_TABLE_SIZE: int
 DEFAULT_MOST_STEPS: int
@@ -42,6 +43,8 @@ class Volume:
     def origin(self) -> npt.NDArray[np.float64]: ...
     @property
     def direction(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def shear(self) -> float: ...
     @property
     def world_from_index(self) -> npt.NDArray[np.float64]: ...
     @property

@@ -235,7 +235,11 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
         affine[:3] *= factor
         notes.append(f"lengths converted from {units} to mm")
     name = image.get_filename() if hasattr(image, "get_filename") else None
-    return _volume_of_array(array, affine, "ras", "xyz", os.path.basename(name or "nibabel image"), notes)
+    volume = _volume_of_array(array, affine, "ras", "xyz", os.path.basename(name or "nibabel image"), notes)
+    if volume._core.shear > core.MOST_SHEAR:  # as of the file
+        raise InvalidArgumentError(f"the image's affine shears it by {volume._core.shear:.3g} degrees (its axes are not at "
+                                   "right angles); resample it to an upright grid, or hand over its array with affine=")
+    return volume
 
 
 def _of_itk(image: Any) -> Volume:

@@ -290,9 +290,16 @@ TEST_F(RenderRefusalTest, Objects) {
     const Volume volume = upload(volume_);
     EXPECT_THAT(RenderBricks::create(renderer(), volume).error().text, HasSubstr("no bricks"));
     EXPECT_THAT(MeshNormals::create(renderer(), {}).error().text, HasSubstr("no triangle"));
-    const Result<Renderer> none = Renderer::create(context(), {VK_FORMAT_UNDEFINED});
-    ASSERT_FALSE(none.ok());
-    EXPECT_EQ(none.error().code, ErrorCode::Unsupported);
+    for (const VkFormat format : {VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT, VK_FORMAT_R8_UINT, VK_FORMAT_R8G8B8A8_SINT,
+                                  VK_FORMAT_R32_UINT, VK_FORMAT_A2B10G10R10_UINT_PACK32}) {
+        const Result<Renderer> none = Renderer::create(context(), {format});
+        ASSERT_FALSE(none.ok()) << format;
+        EXPECT_EQ(none.error().code, ErrorCode::Unsupported);
+    }
+    for (const VkFormat format :
+         {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
+        EXPECT_TRUE(Renderer::create(context(), {format}).ok()) << format;
+    }
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "view/model/files/session_file.h"
 
 #include "core/base/try.h"
+#include "io/text/small_file.h"
 #include "io/text/twice_said.h"
 #include "view/model/files/session_reader.h"
 #include "view/model/files/session_shown.h"
@@ -10,8 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace voxtact::view {
@@ -360,20 +359,9 @@ std::string sessionText(const Document& document) {
 namespace {
 
 Result<std::string> textOf(const std::filesystem::path& path, const std::string& what) {
-    std::error_code failed;
-    const auto refuse = [&path, &what](const std::string& why) {
-        return Error{ErrorCode::File, 0, "cannot read " + what + " '" + path.string() + "': " + why};
-    };
-    if (!std::filesystem::is_regular_file(path, failed)) {
-        return refuse(failed ? failed.message() : "it is not a file");
-    }
-    if (std::filesystem::file_size(path, failed) > kMostBytes || failed) {
-        return refuse(failed ? failed.message() : "it is longer than 64 MiB");
-    }
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && !file.eof()) {
-        return refuse("reading failed");
+    Result<std::string> text = io::readSmallFile(path, kMostBytes);
+    if (!text.ok()) {
+        return Error{ErrorCode::File, 0, "cannot read " + what + " '" + path.string() + "': " + text.error().text};
     }
     return text;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/files/state_folder.h"
 
+#include "io/text/small_file.h"
 #include "voxtact/io.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 namespace voxtact::view {
 
@@ -35,12 +35,11 @@ fs::path stateFolder() {
 }
 
 RecentFiles::RecentFiles(fs::path file) : file_(std::move(file)) {
-    std::error_code failed;
-    if (!fs::is_regular_file(file_, failed) || fs::file_size(file_, failed) > kMostStateBytes || failed) {
+    const Result<std::string> text = io::readSmallFile(file_, kMostStateBytes);
+    if (!text.ok()) {
         return;
     }
-    std::ifstream stream(file_, std::ios::binary);
-    const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+    const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
     if (!json.is_array()) {
         return;
     }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace voxtact::test {
+
+/// While it is there, a read of this process from a file in a folder fails (EIO), as on a disk that is damaged or on
+/// the other side of a network. One at a time.
+class FailingReads {
+  public:
+    /// The one with that number, counted from 0, and `forGood`, all that follow.
+    FailingReads(std::filesystem::path folder, std::int64_t number, bool forGood);
+    FailingReads(const FailingReads&) = delete;
+    FailingReads& operator=(const FailingReads&) = delete;
+    ~FailingReads();
+
+    /// How many did.
+    [[nodiscard]] std::int64_t failures() const;
+};
+
+} // namespace voxtact::test
