@@ -202,6 +202,10 @@ class OutputFile {
     [[nodiscard]] VOXTACT_API Result<void> close();
     /// close(), if that was not done, and the rename.
     [[nodiscard]] VOXTACT_API Result<void> commit();
+    /// commit() of several: all of them are put in their places, or none, and where one cannot be, what was in the
+    /// places of the others is there again. (A file system that has neither links nor a rename to another name cannot
+    /// do that.)
+    [[nodiscard]] VOXTACT_API static Result<void> commitAll(std::span<OutputFile* const> files);
 
     struct State;
 

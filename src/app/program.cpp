@@ -127,7 +127,7 @@ int runProgram(std::vector<std::string> arguments) {
     try {
         return run(std::move(arguments));
     } catch (const std::bad_alloc&) {
-        printError("", "out of memory");
+        printOutOfMemory();
     } catch (const std::exception& exception) {
         printError("", exception.what());
     }

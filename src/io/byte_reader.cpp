@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/byte_reader.h"
 
+#include "core/base/guard.h"
 #include "core/base/try.h"
 #include "io/errors.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 
@@ -110,7 +112,11 @@ Result<ByteReader> ByteReader::ofFile(const std::filesystem::path& path, ReadPro
     const Result<std::uint64_t> size = readableFile(path);
     VOXTACT_TRY(size);
     auto stored = std::make_unique<Stored>();
+    errno = 0;
     stored->file.open(path, std::ios::binary);
+    if (!stored->file) {
+        return cannotOpen(path, errno);
+    }
     stored->all = stored->behind = *size;
     stored->progress = std::move(progress);
     return ByteReader(path, std::move(stored));
@@ -165,6 +171,8 @@ Result<std::size_t> ByteReader::inflate(std::byte* to, std::size_t length) {
             stored_->fill(2);
             inflater.ended = inflater.packing == Packing::ZlibOrGzip || !beginsAsGzip(stored_->ready) ||
                              inflateReset(&stream) != Z_OK;
+        } else if (state == Z_MEM_ERROR) {
+            return noHostMemory();
         } else if (state != Z_OK || (taken == 0 && given == 0)) {
             return cannotRead(path_, kDamaged);
         }

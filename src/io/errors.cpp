@@ -36,6 +36,11 @@ Error cannotRead(const std::filesystem::path& path, std::string_view reason, Err
     return Error{code, 0, "cannot read '" + path.string() + "': " + std::string(reason)};
 }
 
+Error cannotOpen(const std::filesystem::path& path, int reason) {
+    return cannotRead(path, reason != 0 ? std::generic_category().message(reason) : "it cannot be opened",
+                      ErrorCode::File);
+}
+
 Error readingStopped(const std::filesystem::path& path) {
     return cannotRead(path, "reading stopped before its end", ErrorCode::File);
 }
@@ -84,6 +89,9 @@ std::string jsonReason(std::string_view text) {
 Result<std::uint64_t> readableFile(const std::filesystem::path& path) {
     std::error_code problem;
     const std::filesystem::file_status status = std::filesystem::status(path, problem);
+    if (status.type() == std::filesystem::file_type::none) {
+        return cannotRead(path, problem.message(), ErrorCode::File);
+    }
     if (status.type() == std::filesystem::file_type::not_found) {
         return cannotRead(path, "there is no such file", ErrorCode::File);
     }
@@ -94,18 +102,21 @@ Result<std::uint64_t> readableFile(const std::filesystem::path& path) {
     errno = 0;
     const std::ifstream file(path, std::ios::binary);
     if (!file) {
-        return cannotRead(path, errno != 0 ? std::generic_category().message(errno) : "it cannot be opened",
-                          ErrorCode::File);
+        return cannotOpen(path, errno);
     }
     const std::uint64_t size = std::filesystem::file_size(path, problem);
-    return problem ? 0 : size;
+    return problem ? cannotRead(path, problem.message(), ErrorCode::File) : Result<std::uint64_t>(size);
 }
 
 Result<std::string> readWholeFile(const std::filesystem::path& path) {
     const Result<std::uint64_t> size = readableFile(path);
     VOXTACT_TRY(size);
     std::string content(*size, '\0');
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        return cannotOpen(path, errno);
+    }
     if (!file.read(content.data(), static_cast<std::streamsize>(content.size()))) {
         return readingStopped(path);
     }

@@ -13,6 +13,8 @@ namespace voxtact::io {
 /// "cannot read 'PATH': REASON"
 [[nodiscard]] Error cannotRead(const std::filesystem::path& path, std::string_view reason,
                                ErrorCode code = ErrorCode::Format);
+/// Of a file that was not opened, with the system's reason (File); `reason`: errno, 0 where there is none.
+[[nodiscard]] Error cannotOpen(const std::filesystem::path& path, int reason);
 /// Of a file that says it has more than can be read (File).
 [[nodiscard]] Error readingStopped(const std::filesystem::path& path);
 /// "cannot write 'PATH': REASON"

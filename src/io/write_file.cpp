@@ -6,12 +6,16 @@
 #include "io/file_buffer.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
 #include <atomic>
+#include <deque>
 #include <locale>
 #include <optional>
 #include <ostream>
 #include <random>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
 #include <unistd.h>
 
@@ -60,6 +64,41 @@ class TemporaryFile {
     }
 
     fs::path path_;
+};
+
+/// What is put in a file's place, and can be taken away again: then what was there before is back.
+class Replacement {
+  public:
+    explicit Replacement(fs::path target) : target_(std::move(target)), old_(target_) {}
+
+    [[nodiscard]] Result<void> by(TemporaryFile& file) {
+        std::error_code problem;
+        const bool existed = fs::is_regular_file(fs::symlink_status(target_, problem));
+        if (existed) {
+            fs::create_hard_link(target_, old_.path(), problem);
+            if (problem) { // not every file system has links
+                fs::rename(target_, old_.path(), problem);
+            }
+            isKept_ = !problem;
+        }
+        Result<void> renamed = file.renameTo(target_);
+        isNew_ = renamed.ok() && !existed;
+        return renamed;
+    }
+    void undo() const {
+        std::error_code ignored;
+        if (isKept_) {
+            fs::rename(old_.path(), target_, ignored);
+        } else if (isNew_) {
+            fs::remove(target_, ignored);
+        }
+    }
+
+  private:
+    fs::path target_;
+    TemporaryFile old_; ///< what was there, until nobody can ask for it any more
+    bool isKept_ = false;
+    bool isNew_ = false;
 };
 
 /// Where to rename to (symbolic links are followed); refuses folders, and folders that do not exist.
@@ -153,6 +192,30 @@ Result<void> OutputFile::commit() {
             VOXTACT_TRY(close());
         }
         return state_->temporary ? state_->temporary->renameTo(*state_->target) : Result<void>();
+    });
+}
+
+Result<void> OutputFile::commitAll(std::span<OutputFile* const> files) {
+    return guard([&]() -> Result<void> {
+        for (OutputFile* const file : files) {
+            if (!file->state_->closed) {
+                VOXTACT_TRY(file->close());
+            }
+        }
+        std::deque<std::pair<TemporaryFile*, Replacement>> all;
+        for (OutputFile* const file : files) {
+            if (file->state_->temporary) {
+                all.emplace_back(std::piecewise_construct, std::forward_as_tuple(&*file->state_->temporary),
+                                 std::forward_as_tuple(*file->state_->target));
+            }
+        }
+        for (auto& [file, place] : all) {
+            if (Result<void> done = place.by(*file); !done.ok()) {
+                std::for_each(all.rbegin(), all.rend(), [](const auto& one) { one.second.undo(); });
+                return done;
+            }
+        }
+        return {};
     });
 }
 

@@ -123,6 +123,18 @@ TEST_F(OutputPathsTest, FilesThatAHeaderNames) {
                   "--mesh");
 }
 
+/// Whether it is an input that would be overwritten, nobody can tell.
+TEST_F(OutputPathsTest, WhatCannotBeLookedAt) {
+    const std::string loop = path("loop.csv");
+    fs::create_symlink(loop, loop);
+    EXPECT_THAT(refused(1, detect({"--output", loop})), AllOf(HasSubstr("loop.csv"), HasSubstr("symbolic links")));
+    writeText(path("m.gltf"), R"({"buffers": [{"uri": "loop.csv", "byteLength": 4}]})");
+    writeText(path("old.csv"), "as it was");
+    EXPECT_THAT(refused(1, {"detect", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("old.csv")}),
+                AllOf(HasSubstr("cannot look at"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
+    EXPECT_EQ(readText(path("old.csv")), "as it was");
+}
+
 TEST_F(OutputPathsTest, TwoNamesOfOneFile) {
     writeText(path("old.csv"), "as it was");
     fs::create_hard_link(path("old.csv"), path("hard.csv"));

@@ -68,6 +68,17 @@ TEST_F(DicomRefusal, NumbersThatAreNone) {
     expectRefused(with(0x00281053, "two\n"), "its RescaleSlope (0028,1053) is 'two\\x0a', not 1 number", slice(1));
 }
 
+/// As those leave who keep large files elsewhere; the last slice would be missed by nobody.
+TEST_F(DicomRefusal, LinksToNothing) {
+    writeCt(folder_, 5);
+    std::filesystem::remove(slice(4));
+    std::filesystem::create_symlink(folder_ / "elsewhere" / "s4.dcm", slice(4));
+    expectRefused(io::readVolume(folder_.path()), "it is a link to a file that is not there", slice(4));
+    std::filesystem::remove(slice(4));
+    std::filesystem::create_symlink(slice(4), slice(4)); // to itself: nobody can look at it
+    expectRefused(io::readVolume(folder_.path()), std::generic_category().message(ELOOP), slice(4));
+}
+
 TEST_F(DicomRefusal, Gaps) {
     writeCt(folder_, 9);
     std::filesystem::remove(slice(4));

@@ -85,7 +85,7 @@ TEST(Dicom, OtherFilesBesideTheSlices) {
     report.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.88.22").text(0x0020000E, "UI", "9.9");
     folder.write("report.dcm", report.file());
     std::filesystem::create_directory(folder / "below");
-    std::filesystem::create_symlink("nowhere", folder / "link");
+    std::filesystem::create_symlink("below", folder / "link");
     const auto volume = io::readVolume(folder.path());
     expectCt(volume, 3);
     EXPECT_THAT(volume->notes, testing::Contains("2 DICOM files without images left out"));

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
+#include <vector>
 
 namespace voxtact::test {
 namespace {
@@ -98,6 +100,65 @@ TEST(OutputFile, IsThereOnceItIsCommitted) {
     ASSERT_TRUE(isOk(file->commit()));
     EXPECT_EQ(contentOf(path), "new 0.5");
     EXPECT_EQ(folder.entries(), 1U);
+}
+
+/// Of a folder: "a" and "b" with what is said, and "c" new.
+class SeveralFiles : public testing::Test {
+  protected:
+    void make() {
+        for (const char* const name : {"a", "b", "c"}) {
+            files_.push_back(take(io::OutputFile::create(folder_ / name)));
+            files_.back().stream() << "new " << name;
+        }
+    }
+    Result<void> commitAll() {
+        std::vector<io::OutputFile*> all;
+        for (io::OutputFile& file : files_) {
+            all.push_back(&file);
+        }
+        Result<void> done = io::OutputFile::commitAll(all);
+        files_.clear();
+        return done;
+    }
+    static io::OutputFile take(Result<io::OutputFile> file) {
+        EXPECT_TRUE(isOk(file));
+        return std::move(*file);
+    }
+
+    TemporaryFolder folder_;
+    fs::path a_ = folder_.write("a", "old a");
+    fs::path b_ = folder_.write("b", "old b");
+    std::vector<io::OutputFile> files_;
+};
+
+TEST_F(SeveralFiles, AllGetTheirNames) {
+    make();
+    ASSERT_TRUE(isOk(commitAll()));
+    EXPECT_EQ(contentOf(a_), "new a");
+    EXPECT_EQ(contentOf(b_), "new b");
+    EXPECT_EQ(contentOf(folder_ / "c"), "new c");
+    EXPECT_EQ(folder_.entries(), 3U);
+}
+
+TEST_F(SeveralFiles, OrNone) {
+    // Whichever cannot be put in its place: a folder is there by now.
+    for (const char* const blocked : {"a", "b", "c"}) {
+        make();
+        const fs::path place = folder_ / blocked;
+        fs::remove(place);
+        fs::create_directory(place);
+        expectRefused(commitAll(), std::generic_category().message(EISDIR), place);
+        fs::remove(place);
+        for (const char* const name : {"a", "b"}) {
+            if (std::string(name) != blocked) {
+                EXPECT_EQ(contentOf(folder_ / name), std::string("old ") + name);
+            }
+        }
+        EXPECT_FALSE(fs::exists(folder_ / "c"));
+        EXPECT_EQ(folder_.entries(), std::string(blocked) == "c" ? 2U : 1U);
+        static_cast<void>(folder_.write("a", "old a"));
+        static_cast<void>(folder_.write("b", "old b"));
+    }
 }
 
 TEST(OutputFile, SaysTheFirstReason) {

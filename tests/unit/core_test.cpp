@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Spaces, grids, transfer functions, opaque ranges and the checks of host data.
+#include "core/base/text_stream.h"
 #include "core/geometry/pair_transform.h"
 #include "core/transfer/opaque_ranges.h"
 #include "core/volume/boundary.h"
@@ -19,6 +20,13 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+TEST(TextStream, ThrowsWhereAStreamWouldGoOn) {
+    TextStream text;
+    text << "a" << 1.5;
+    EXPECT_EQ(text.str(), "a1.5");
+    EXPECT_THROW(text.setstate(std::ios::badbit), std::ios::failure); // what a lack of memory sets
+}
 
 TEST(Spaces, ProductsReadFromRightToLeft) {
     Mat4 scale = identity();

@@ -36,7 +36,8 @@ class Sink {
     /// Whether all went well so far.
     [[nodiscard]] Result<void> state() { return file_ && !file_->stream() ? file_->close() : failure_; }
     [[nodiscard]] Result<void> close() { return file_ ? file_->close() : failure_; }
-    [[nodiscard]] Result<void> commit() { return file_ ? file_->commit() : Result<void>(); }
+    /// Null: standard output.
+    [[nodiscard]] io::OutputFile* file() noexcept { return file_ ? &*file_ : nullptr; }
 
   private:
     Sink() = default;
@@ -84,7 +85,7 @@ Result<void> checkChunks(const RunFolder& folder) {
     };
     return Error{
         ErrorCode::File, 0,
-        "cannot merge " + folderText(folder.path()) + ": " + (damaged.empty() ? "" : text(damaged, "damaged")) +
+        "cannot merge " + folderText(folder.path()) + ": " + (damaged.empty() ? "" : text(damaged, "damaged or cannot be read")) +
             (damaged.empty() || missing.empty() ? "" : ", and ") + (missing.empty() ? "" : text(missing, "missing")) +
             "; run the same commands again with --resume, they do only these"};
 }
@@ -92,7 +93,7 @@ Result<void> checkChunks(const RunFolder& folder) {
 Error changed(const RunFolder& folder, std::uint64_t chunk) {
     return {ErrorCode::File, 0,
             "cannot merge " + folderText(folder.path()) + ": chunk " + std::to_string(chunk) +
-                " changed while it was read"};
+                " changed while it was read, or can be read no more"};
 }
 
 /// Hands out what an output has of a chunk.
@@ -178,10 +179,13 @@ Result<void> mergeRun(const RunFolder& folder, const MergePaths& paths) {
             }
         }
     }
+    std::vector<io::OutputFile*> all;
     for (auto sink = files.rbegin(); sink != files.rend(); ++sink) {
-        VOXTACT_TRY(sink->commit());
+        if (sink->file() != nullptr) {
+            all.push_back(sink->file());
+        }
     }
-    return {};
+    return io::OutputFile::commitAll(all);
 }
 
 } // namespace voxtact::app

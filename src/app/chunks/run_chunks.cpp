@@ -4,6 +4,7 @@
 #include "app/output/interrupt.h"
 #include "app/output/progress.h"
 #include "app/version.h"
+#include "core/base/text_stream.h"
 #include "core/base/try.h"
 #include "core/base/whole_path.h"
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <sstream>
 
 namespace voxtact::app {
 
@@ -207,8 +207,8 @@ RunFacts runFacts(const CLI::App& parser, const ChunkOptions& options, const Out
 }
 
 RunOutput tableOutput(io::Format format, const io::Table& empty) {
-    std::ostringstream head;
-    std::ostringstream tail;
+    TextStream head;
+    TextStream tail;
     io::TableWriter(head, format).add(empty);
     io::TableWriter(tail, format).end();
     return {"--output", "", head.str(), format == io::Format::Json ? "," : "", tail.str()};

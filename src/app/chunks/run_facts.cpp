@@ -2,6 +2,7 @@
 #include "app/chunks/run_facts.h"
 
 #include "app/chunks/content_hash.h"
+#include "app/options/file_identity.h"
 #include "app/output/text_for_messages.h"
 #include "core/base/try.h"
 
@@ -43,27 +44,45 @@ Result<std::string> factOf(const fs::path& path) {
     return std::to_string(hash.length()) + " bytes, " + hash.hex();
 }
 
-/// The files that reading `input` may read, in an order that does not depend on the machine.
-std::vector<fs::path> filesOf(const fs::path& input) {
-    std::error_code problem;
+/// Adds those that are files.
+Result<void> addFiles(const std::vector<fs::path>& paths, std::set<fs::path>& files) {
+    for (const fs::path& path : paths) {
+        const Result<bool> file = isFile(path);
+        VOXTACT_TRY(file);
+        if (*file) {
+            files.insert(path);
+        }
+    }
+    return {};
+}
+
+/// The files that reading `input` may read, in an order that does not depend on the machine; none where it is not
+/// there.
+Result<std::vector<fs::path>> filesOf(const fs::path& input) {
+    const Result<std::optional<struct stat>> status = statusOf(input);
+    VOXTACT_TRY(status);
+    if (!*status) {
+        return std::vector<fs::path>();
+    }
     std::set<fs::path> files;
-    if (fs::is_directory(input, problem)) {
+    if (S_ISDIR((*status)->st_mode)) {
+        std::error_code problem;
+        std::vector<fs::path> entries;
         for (fs::recursive_directory_iterator entry(input, problem), end; !problem && entry != end;
              entry.increment(problem)) {
-            if (entry->is_regular_file(problem)) {
-                files.insert(entry->path());
-            }
+            entries.push_back(entry->path());
         }
-        return {files.begin(), files.end()};
-    }
-    std::vector<fs::path> all{input};
-    for (const std::string& name : namesIn(input)) {
-        const fs::path other = input.parent_path() / name;
-        if (!name.empty() && name.find('\0') == std::string::npos && fs::is_regular_file(other, problem)) {
-            files.insert(other);
+        if (problem) {
+            return cannotLookAt(input, problem);
         }
+        VOXTACT_TRY(addFiles(entries, files));
+        return std::vector<fs::path>(files.begin(), files.end());
     }
+    const Result<std::vector<fs::path>> others = filesNamedIn(input);
+    VOXTACT_TRY(others);
+    VOXTACT_TRY(addFiles(*others, files));
     files.erase(input);
+    std::vector<fs::path> all{input};
     all.insert(all.end(), files.begin(), files.end());
     return all;
 }
@@ -88,10 +107,11 @@ void addOptionFacts(RunFacts& facts, const CLI::App& parser, const std::vector<s
 Result<void> addInputFacts(RunFacts& facts, const std::vector<NamedPath>& inputs) {
     std::set<fs::path> told;
     for (const NamedPath& input : inputs) {
-        for (const fs::path& file : filesOf(input.path)) {
-            std::error_code problem;
-            if (!fs::exists(file, problem) || !told.insert(file).second) {
-                continue; // names of labels need not be there
+        const Result<std::vector<fs::path>> files = filesOf(input.path);
+        VOXTACT_TRY(files);
+        for (const fs::path& file : *files) {
+            if (!told.insert(file).second) {
+                continue;
             }
             const Result<std::string> fact = factOf(file);
             VOXTACT_TRY(fact);

@@ -2,6 +2,7 @@
 #include "app/chunks/run_folder.h"
 
 #include "app/chunks/content_hash.h"
+#include "app/options/file_identity.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "io/text/small_file.h"
@@ -318,8 +319,9 @@ Result<RunFolder> RunFolder::open(const fs::path& path, const RunManifest& manif
 }
 
 Result<RunFolder> RunFolder::read(const fs::path& path) {
-    std::error_code problem;
-    if (!fs::is_regular_file(path / kManifestName, problem)) {
+    const Result<bool> there = isFile(path / kManifestName);
+    VOXTACT_TRY(there);
+    if (!*there) {
         return Error{ErrorCode::File, 0,
                      "cannot merge " + folderText(path) + ": it is no folder of a run, as detect --resume makes it"};
     }

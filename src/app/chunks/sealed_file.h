@@ -30,6 +30,8 @@ class ResultFile {
     [[nodiscard]] std::ostream& stream() noexcept;
     [[nodiscard]] Result<void> close();
     [[nodiscard]] Result<void> commit();
+    /// For OutputFile::commitAll(), after close(); null: standard output.
+    [[nodiscard]] io::OutputFile* file() noexcept { return file_ ? &*file_ : nullptr; }
 
   private:
     class Sealing;

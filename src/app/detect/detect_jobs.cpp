@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_jobs.h"
 
+#include "app/options/file_identity.h"
 #include "app/output/text_for_messages.h"
 #include "core/base/try.h"
 
@@ -109,10 +110,10 @@ Result<PairJobs> readJobs(const std::filesystem::path& path) {
     const auto cannotRead = [&path](const std::string& why) {
         return Error{ErrorCode::File, 0, "cannot read '" + path.string() + "': " + why};
     };
-    std::error_code problem;
-    if (const auto type = std::filesystem::status(path, problem).type(); type != std::filesystem::file_type::regular) {
-        return cannotRead(type == std::filesystem::file_type::not_found ? "there is no such file"
-                                                                        : "it is not an ordinary file");
+    const Result<std::optional<struct stat>> there = statusOf(path);
+    VOXTACT_TRY(there);
+    if (!*there || !S_ISREG((*there)->st_mode)) {
+        return cannotRead(*there ? "it is not an ordinary file" : "there is no such file");
     }
     errno = 0;
     std::ifstream file(path, std::ios::binary);

@@ -5,13 +5,13 @@
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_table.h"
 #include "app/output/standard_streams.h"
+#include "core/base/text_stream.h"
 #include "core/base/try.h"
 #include "io/text/table.h"
 #include "voxtact/io.h"
 
 #include <array>
 #include <chrono>
-#include <sstream>
 
 namespace voxtact::app {
 
@@ -48,7 +48,7 @@ struct DetectOutput::State {
     io::Format format;
     DetectColumns columns;
     bool held;
-    std::ostringstream text{}; ///< on its way to standard output
+    TextStream text{}; ///< on its way to standard output
     std::optional<ResultFile> table{};
     std::optional<ResultFile> triangles{};
     std::optional<ResultFile> contactsFile{};
@@ -166,7 +166,7 @@ std::vector<RunOutput> runOutputs(const DetectOptions& options, const DetectInpu
         if (path.empty()) {
             continue;
         }
-        std::ostringstream sideHead;
+        TextStream sideHead;
         if (option == "--triangles") {
             writeTriangleHeader(sideHead, options);
         } else if (option == "--closest") {
@@ -269,11 +269,14 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     }
     state.held = false;
     VOXTACT_TRY(state.table ? Result<void>() : state.pass());
+    std::vector<io::OutputFile*> all;
     for (std::optional<ResultFile>* file :
          {&state.labelFile, &state.closestFile, &state.contactsFile, &state.triangles, &state.table}) {
-        VOXTACT_TRY(*file ? (*file)->commit() : Result<void>());
+        if (*file && (*file)->file() != nullptr) {
+            all.push_back((*file)->file());
+        }
     }
-    return {};
+    return io::OutputFile::commitAll(all);
 }
 
 Result<void> DetectOutput::fail() {

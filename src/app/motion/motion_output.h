@@ -2,13 +2,13 @@
 #pragma once
 
 #include "app/motion/motion_run.h"
+#include "core/base/text_stream.h"
 #include "io/text/table.h"
 #include "voxtact/io.h"
 
 #include <memory>
 #include <optional>
 #include <span>
-#include <sstream>
 
 namespace voxtact::app {
 
@@ -39,7 +39,7 @@ class MotionOutput {
     const MotionOptions& options_;
     const MotionInputs& inputs_;
     std::optional<io::OutputFile> file_;
-    std::ostringstream text_; ///< on its way to standard output
+    TextStream text_; ///< on its way to standard output
     io::TableWriter writer_;
     std::uint64_t rows_ = 0;
     MotionEnds ends_;

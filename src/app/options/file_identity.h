@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/try.h"
+#include "voxtact/error.h"
+
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <compare>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 
 namespace voxtact::app {
 
@@ -17,13 +22,37 @@ struct FileIdentity {
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// Nothing where there is no such file.
-[[nodiscard]] inline std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
+/// "cannot look at 'PATH': REASON"
+[[nodiscard]] inline Error cannotLookAt(const std::filesystem::path& path, const std::error_code& why) {
+    return {ErrorCode::File, 0, "cannot look at '" + path.string() + "': " + why.message()};
+}
+
+/// What is there, behind links. Nothing where nothing is; an error where that cannot be told: who took it for nothing
+/// might leave out, or overwrite, what is read.
+[[nodiscard]] inline Result<std::optional<struct stat>> statusOf(const std::filesystem::path& path) {
     struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) {
-        return std::nullopt;
+    if (::stat(path.c_str(), &status) == 0) {
+        return std::optional(status);
     }
-    return FileIdentity{status.st_dev, status.st_ino};
+    const int why = errno;
+    if (why == ENOENT || why == ENOTDIR || why == ENAMETOOLONG) {
+        return std::optional<struct stat>();
+    }
+    return cannotLookAt(path, {why, std::generic_category()});
+}
+
+/// Nothing where there is no such file.
+[[nodiscard]] inline Result<std::optional<FileIdentity>> identityOf(const std::filesystem::path& path) {
+    const Result<std::optional<struct stat>> status = statusOf(path);
+    VOXTACT_TRY(status);
+    return *status ? std::optional(FileIdentity{(*status)->st_dev, (*status)->st_ino}) : std::optional<FileIdentity>();
+}
+
+/// Whether there is an ordinary file.
+[[nodiscard]] inline Result<bool> isFile(const std::filesystem::path& path) {
+    const Result<std::optional<struct stat>> status = statusOf(path);
+    VOXTACT_TRY(status);
+    return *status && S_ISREG((*status)->st_mode);
 }
 
 } // namespace voxtact::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/inputs.h"
 
+#include "app/options/file_identity.h"
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
 #include "app/output/text_for_messages.h"
@@ -29,6 +30,12 @@ Error fileFault(Error error) {
         error.code = ErrorCode::Format;
     }
     return error;
+}
+
+/// Of a builtin, whose name is an argument, or of a file.
+Error sourceFault(const char* option, const std::string& source, const Error& error) {
+    const bool isName = source.starts_with(kBuiltin) && error.code != ErrorCode::OutOfMemory;
+    return isName ? badArgument(std::string(option) + " " + source + ": " + error.text) : fileFault(error);
 }
 
 void printNotes(const std::string& source, const std::vector<std::string>& notes) {
@@ -68,7 +75,7 @@ Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress&
     Result<VolumeData> volume =
         builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source, progress);
     if (!volume.ok()) {
-        return builtin ? badArgument("--volume " + source + ": " + volume.error().text) : fileFault(volume.error());
+        return sourceFault("--volume", source, volume.error());
     }
     printNotes(source, volume->notes);
     return volume;
@@ -76,8 +83,12 @@ Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress&
 
 Result<void> checkVolumesAreThere(const std::vector<std::string>& sources) {
     for (const std::string& source : sources) {
-        std::error_code ignored;
-        if (!source.starts_with("builtin:") && !std::filesystem::exists(namedImage(source).path, ignored)) {
+        if (source.starts_with("builtin:")) {
+            continue;
+        }
+        const Result<std::optional<struct stat>> there = statusOf(namedImage(source).path);
+        VOXTACT_TRY(there);
+        if (!*there) {
             return Error{ErrorCode::File, 0,
                          "cannot read " + forMessage(namedImage(source).path.string()) +
                              ": there is no such file or folder"};
@@ -92,7 +103,7 @@ Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options)
     Result<MeshData> mesh =
         builtin ? makeBuiltinMesh(std::string_view(source).substr(kBuiltin.size())) : io::readMesh(source, reading);
     if (!mesh.ok()) {
-        return builtin ? badArgument("--mesh " + source + ": " + mesh.error().text) : fileFault(mesh.error());
+        return sourceFault("--mesh", source, mesh.error());
     }
     const Result<MeshFacts> facts = checkMesh(mesh->view());
     if (!facts.ok()) {

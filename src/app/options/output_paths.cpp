@@ -5,10 +5,12 @@
 #include "core/base/try.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 namespace voxtact::app {
 
@@ -73,30 +75,41 @@ std::string loweredEnding(const fs::path& path) {
 }
 
 /// Whether the existing file `output` is read together with the file `input`.
-bool isNamedBy(const FileIdentity& output, const fs::path& input) {
-    const std::vector<std::string> names = namesIn(input);
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        return !name.empty() && name.find('\0') == std::string::npos &&
-               identityOf(input.parent_path() / name) == output;
-    });
+Result<bool> isNamedBy(const FileIdentity& output, const fs::path& input) {
+    const Result<std::vector<fs::path>> others = filesNamedIn(input);
+    VOXTACT_TRY(others);
+    for (const fs::path& other : *others) {
+        const Result<std::optional<FileIdentity>> identity = identityOf(other);
+        VOXTACT_TRY(identity);
+        if (*identity == output) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// Whether `output` is a file of the folder `input`, or would become one.
-bool isMember(const fs::path& output, const fs::path& input) {
+Result<bool> isMember(const fs::path& output, const fs::path& input) {
     const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
-    const std::optional<FileIdentity> identity = identityOf(output);
-    const std::optional<FileIdentity> place = identityOf(folder);
-    if (place && place == identityOf(input)) {
+    const Result<std::optional<FileIdentity>> identity = identityOf(output);
+    VOXTACT_TRY(identity);
+    const Result<std::optional<FileIdentity>> place = identityOf(folder);
+    VOXTACT_TRY(place);
+    const Result<std::optional<FileIdentity>> inputs = identityOf(input);
+    VOXTACT_TRY(inputs);
+    if (place->has_value() && *place == *inputs) {
         return true;
     }
     std::error_code problem;
     for (fs::directory_iterator entry(input, problem); !problem && entry != fs::directory_iterator();
          entry.increment(problem)) {
-        if (identity && identityOf(entry->path()) == identity) {
+        const Result<std::optional<FileIdentity>> member = identityOf(entry->path());
+        VOXTACT_TRY(member);
+        if (identity->has_value() && *member == *identity) {
             return true;
         }
     }
-    return false;
+    return problem ? cannotLookAt(input, problem) : Result<bool>(false);
 }
 
 Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
@@ -105,18 +118,25 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
     const std::string reads = "that " + input.option + " reads";
     const std::string end = ", and is not overwritten; choose another path";
     if (fs::is_directory(input.path, ignored)) {
-        return isMember(output.path, input.path)
-                   ? badArgument(what + "in the folder '" + input.path.string() + "' " + reads + end)
-                   : Result<void>();
+        const Result<bool> member = isMember(output.path, input.path);
+        VOXTACT_TRY(member);
+        return *member ? badArgument(what + "in the folder '" + input.path.string() + "' " + reads + end)
+                       : Result<void>();
     }
-    const std::optional<FileIdentity> identity = identityOf(output.path);
-    if (identity && identity == identityOf(input.path)) {
+    const Result<std::optional<FileIdentity>> identity = identityOf(output.path);
+    VOXTACT_TRY(identity);
+    const Result<std::optional<FileIdentity>> read = identityOf(input.path);
+    VOXTACT_TRY(read);
+    if (!identity->has_value() || !read->has_value()) {
+        return {}; // there is nothing to overwrite, or nothing to read
+    }
+    if (**identity == **read) {
         return badArgument(what + "the file " + reads + end);
     }
-    if (identity && isNamedBy(*identity, input.path)) {
-        return badArgument(what + "a file that '" + input.path.string() + "' consists of, " + reads + end);
-    }
-    return {};
+    const Result<bool> named = isNamedBy(**identity, input.path);
+    VOXTACT_TRY(named);
+    return *named ? badArgument(what + "a file that '" + input.path.string() + "' consists of, " + reads + end)
+                  : Result<void>();
 }
 
 /// What is written while it is found would be mixed.
@@ -137,7 +157,9 @@ Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
 
 } // namespace
 
-std::vector<std::string> namesIn(const fs::path& header) {
+namespace {
+
+Result<std::vector<std::string>> namesIn(const fs::path& header) {
     const std::string ending = loweredEnding(header);
     if (ending == ".gz") {
         const fs::path inner = header.stem();
@@ -151,13 +173,34 @@ std::vector<std::string> namesIn(const fs::path& header) {
     std::vector<std::string> names;
     if (ending == ".nhdr" || ending == ".mhd" || ending == ".gltf") {
         constexpr std::size_t kMost = std::size_t{1} << 22U;
+        errno = 0;
         std::ifstream file(header, std::ios::binary);
+        if (!file) {
+            return cannotLookAt(header, {errno, std::generic_category()});
+        }
         std::string line;
         for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
             addNames(line, names);
         }
+        if (file.bad()) { // which getline() takes for the end
+            return cannotLookAt(header, std::make_error_code(std::errc::io_error));
+        }
     }
     return names;
+}
+
+} // namespace
+
+Result<std::vector<fs::path>> filesNamedIn(const fs::path& header) {
+    const Result<std::vector<std::string>> names = namesIn(header);
+    VOXTACT_TRY(names);
+    std::vector<fs::path> files;
+    for (const std::string& name : *names) {
+        if (!name.empty() && name.find('\0') == std::string::npos) {
+            files.push_back(header.parent_path() / name);
+        }
+    }
+    return files;
 }
 
 NamedImage namedImage(const std::string& source) {

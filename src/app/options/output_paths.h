@@ -32,8 +32,9 @@ void addInput(std::vector<NamedPath>& inputs, const char* option, const std::fil
                                                 const TransferFunctionOptions& transferFunction,
                                                 const ViewOptions& view);
 
-/// Names that a header (.hdr, .nhdr, .mhd, .gltf) may mean beside itself, in its folder; no format is read strictly.
-[[nodiscard]] std::vector<std::string> namesIn(const std::filesystem::path& header);
+/// Files that a header (.hdr, .nhdr, .mhd, .gltf) may mean beside itself, in its folder, and that need not be there; no
+/// format is read strictly.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> filesNamedIn(const std::filesystem::path& header);
 
 /// Refuses outputs that cannot be written, two that are one file or standard output ("-"), and one that is an input by
 /// whatever name: a link, another spelling, a file of a DICOM folder, the file of voxels or buffers that a header

@@ -4,6 +4,7 @@
 #include "app/options/file_identity.h"
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
+#include "core/base/text_stream.h"
 #include "core/base/try.h"
 #include "core/base/whole_path.h"
 #include "voxtact/io.h"
@@ -12,7 +13,6 @@
 #include <cerrno>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -56,7 +56,11 @@ Result<void> checkOutput(const fs::path& path) {
         return fileError(path, "it is a folder");
     }
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored)) {
+    const Result<std::optional<struct stat>> there = statusOf(folder);
+    if (!there.ok()) {
+        return fileError(path, there.error().text);
+    }
+    if (!*there || !S_ISDIR((*there)->st_mode)) {
         return fileError(path, "the folder '" + folder.string() + "' does not exist: make it first");
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) {
@@ -74,8 +78,10 @@ Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& 
             continue;
         }
         std::size_t first = places.emplace(realPath(path), number).first->second;
-        if (const auto identity = identityOf(path)) {
-            first = std::min(first, identities.emplace(*identity, number).first->second);
+        const Result<std::optional<FileIdentity>> identity = identityOf(path);
+        VOXTACT_TRY(identity);
+        if (identity->has_value()) {
+            first = std::min(first, identities.emplace(**identity, number).first->second);
         }
         if (first != number) {
             return badArgument(paths[first].first + " and " + option + ": both are '" + path.string() +
@@ -87,7 +93,7 @@ Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& 
 
 Result<void> deliver(const fs::path& path, const std::function<Result<void>(std::ostream&)>& write) {
     if (isStandardOutput(path)) {
-        std::ostringstream text;
+        TextStream text;
         VOXTACT_TRY(write(text));
         return writeStandardOutput(text.str());
     }
@@ -100,7 +106,7 @@ Result<void> deliverAll(std::vector<Delivery> deliveries) {
     for (Delivery& delivery : deliveries) {
         const auto write = std::exchange(delivery.write, {}); // what it holds goes with it
         if (isStandardOutput(delivery.path)) {
-            std::ostringstream out;
+            TextStream out;
             VOXTACT_TRY(write(out));
             text += out.str();
             continue;
@@ -115,10 +121,9 @@ Result<void> deliverAll(std::vector<Delivery> deliveries) {
     if (!text.empty()) {
         VOXTACT_TRY(writeStandardOutput(text));
     }
-    for (auto file = files.rbegin(); file != files.rend(); ++file) {
-        VOXTACT_TRY(file->commit());
-    }
-    return {};
+    std::vector<io::OutputFile*> all;
+    std::transform(files.rbegin(), files.rend(), std::back_inserter(all), [](io::OutputFile& file) { return &file; });
+    return io::OutputFile::commitAll(all);
 }
 
 } // namespace voxtact::app

@@ -83,6 +83,10 @@ void printError(std::string_view command, std::string_view text) {
     printLine("voxtact" + std::string(command.empty() ? "" : " ") + std::string(command) + ": " + std::string(text));
 }
 
+void printOutOfMemory() noexcept {
+    static_cast<void>(writeAll(STDERR_FILENO, "voxtact: out of memory\n"));
+}
+
 std::string oneLine(std::string_view text) {
     std::string line;
     for (const char c : text) {

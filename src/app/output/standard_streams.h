@@ -22,6 +22,8 @@ void claimStandardStreams() noexcept;
 void printNote(std::string_view text);
 /// "voxtact detect: text"; `command` may be empty.
 void printError(std::string_view command, std::string_view text);
+/// The same of a lack of memory, without any.
+void printOutOfMemory() noexcept;
 
 /// `text` with runs of white space and control characters as one space: what fits in a one-line message.
 [[nodiscard]] std::string oneLine(std::string_view text);

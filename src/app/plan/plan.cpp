@@ -8,6 +8,7 @@
 #include "app/output/text_for_messages.h"
 #include "app/plan/plan_picture.h"
 #include "app/plan/plan_run.h"
+#include "core/base/text_stream.h"
 #include "core/base/try.h"
 #include "voxtact/io.h"
 
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <sstream>
 
 namespace voxtact::app {
 
@@ -147,7 +147,7 @@ class PictureDevice {
                                             std::span<const TargetPlan> plans) const {
         const Result<Picture> picture = planPicture(options, inputs, plans, *session_);
         VOXTACT_TRY(picture);
-        std::ostringstream png;
+        TextStream png;
         VOXTACT_TRY(io::writePng(png, picture->width, picture->height, picture->rgba,
                                  [](std::uint32_t /*done*/, std::uint32_t /*rows*/) { return !interrupted(); }));
         return png.str();

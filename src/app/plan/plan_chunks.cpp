@@ -4,10 +4,10 @@
 #include "app/output/interrupt.h"
 #include "app/output/standard_streams.h"
 #include "app/plan/plan_run.h"
+#include "core/base/text_stream.h"
 #include "core/base/try.h"
 
 #include <optional>
-#include <sstream>
 
 namespace voxtact::app {
 
@@ -39,7 +39,7 @@ class ChunkParts {
                 part.writer->add(part.table(inputs_, {&plan, 1}));
                 continue;
             }
-            std::ostringstream text;
+            TextStream text;
             VOXTACT_TRY(part.write(text, plan));
             part.file.stream() << frameHead(text.view().size()) << text.view();
         }
@@ -94,7 +94,7 @@ void addTables(const PlanOptions& options, const PlanInputs& inputs, std::vector
     if (format != io::Format::Json) {
         return;
     }
-    std::ostringstream head;
+    TextStream head;
     io::TableWriter(head, format).beginArray(kByTarget);
     RunOutput& rows = outputs.back();
     RunOutput targets = rows;

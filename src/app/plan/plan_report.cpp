@@ -4,6 +4,7 @@
 #include "app/version.h"
 #include "core/base/escaped.h"
 #include "core/base/text.h"
+#include "core/base/text_stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include <iterator>
 #include <numeric>
 #include <ostream>
-#include <sstream>
 
 namespace voxtact::app {
 
@@ -27,13 +27,13 @@ using Rounding = double (*)(double);
 /// `round`: std::floor and std::ceil keep what is certain of a bound.
 std::string fixed(double value, int digits, Rounding round = std::round) {
     const double scale = std::pow(10.0, digits);
-    std::ostringstream out;
+    TextStream out;
     out << std::fixed << std::setprecision(digits) << round(value * scale) / scale + 0.0; // 0, not -0
     return out.str();
 }
 
 std::string colourText(const Rgb& colour) {
-    std::ostringstream out;
+    TextStream out;
     out << "#" << std::hex << std::setfill('0');
     for (const std::uint8_t component : colour) {
         out << std::setw(2) << static_cast<unsigned>(component);

@@ -5,6 +5,7 @@
 #include "core/base/try.h"
 #include "io/errors.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <ios>
@@ -27,8 +28,9 @@ std::string inQuotes(std::string_view token) {
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
     VOXTACT_TRY(readableFile(path));
     auto file = std::make_unique<std::filebuf>();
+    errno = 0;
     if (file->open(path, std::ios::in | std::ios::binary) == nullptr) {
-        return cannotRead(path, "it cannot be opened", ErrorCode::File);
+        return cannotOpen(path, errno);
     }
     LineReader reader(*file, path);
     reader.file_ = std::move(file);

@@ -46,13 +46,21 @@ struct Survey {
     bool hasDirectory = false;
 };
 
-/// Regular files, and links to them, by name.
+/// Regular files, and links to them, by name. A link to nothing, and what cannot be looked at, is refused: it may be a
+/// slice.
 Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
     std::error_code problem;
     std::vector<fs::path> paths;
     for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
-        std::error_code ignored;
-        if (entry->is_regular_file(ignored)) {
+        std::error_code unknown;
+        const fs::file_type type = entry->status(unknown).type();
+        if (type == fs::file_type::not_found) {
+            return cannotRead(entry->path(), "it is a link to a file that is not there", ErrorCode::File);
+        }
+        if (type == fs::file_type::none || type == fs::file_type::unknown) {
+            return cannotRead(entry->path(), unknown ? unknown.message() : "nobody knows what it is", ErrorCode::File);
+        }
+        if (type == fs::file_type::regular) {
             paths.push_back(entry->path());
         }
     }

@@ -5,6 +5,7 @@
 #include "io/errors.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 
 #include <zlib.h>
@@ -32,7 +33,12 @@ DicomStream::~DicomStream() = default;
 Result<DicomStream> DicomStream::open(const std::filesystem::path& path) {
     const Result<std::uint64_t> size = readableFile(path);
     VOXTACT_TRY(size);
-    return DicomStream(std::ifstream(path, std::ios::binary), *size);
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        return cannotOpen(path, errno);
+    }
+    return DicomStream(std::move(file), *size);
 }
 
 void DicomStream::drop(std::size_t count) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/text_stream.h"
 #include "lab/bench/bench.h"
 #include "lab/measure/columns.h"
 
 #include <algorithm>
 #include <iomanip>
-#include <sstream>
 
 namespace voxtact::lab {
 
@@ -94,7 +94,7 @@ Row rowOf(const ModeOutput& mode, const BenchRow& row) {
 }
 
 std::string shortText(double value) {
-    std::ostringstream text;
+    TextStream text;
     text << std::setprecision(3) << value;
     return text.str();
 }

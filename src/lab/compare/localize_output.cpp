@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/text_stream.h"
 #include "lab/compare/localize.h"
 #include "lab/compare/output.h"
 
 #include <iomanip>
-#include <sstream>
 
 namespace voxtact::lab {
 
@@ -40,7 +40,7 @@ std::vector<std::string> sentences(const LocalizeResult& result) {
     out.push_back(verdict.rule + (verdict.failed() ? ": NO, on pose " + std::to_string(verdict.first->pose) + ": " +
                                                          verdict.first->text
                                                    : ": the same triangles with the same counts on every pose"));
-    std::ostringstream missed;
+    TextStream missed;
     missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles, "
            << grouped(result.ways.back().triangles) << " certainly touch: " << std::fixed << std::setprecision(1)
            << percentMissed(result.ways.front(), result) << " % are missed";
