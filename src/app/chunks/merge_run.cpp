@@ -83,11 +83,12 @@ Result<void> checkChunks(const RunFolder& folder) {
         return std::to_string(which.size()) + " of " + std::to_string(folder.manifest().chunks) + " chunks are " +
                what + (shards.empty() ? ", the first is number " + std::to_string(which.front()) : " (" + shards + ")");
     };
-    return Error{
-        ErrorCode::File, 0,
-        "cannot merge " + folderText(folder.path()) + ": " + (damaged.empty() ? "" : text(damaged, "damaged or cannot be read")) +
-            (damaged.empty() || missing.empty() ? "" : ", and ") + (missing.empty() ? "" : text(missing, "missing")) +
-            "; run the same commands again with --resume, they do only these"};
+    return Error{ErrorCode::File, 0,
+                 "cannot merge " + folderText(folder.path()) + ": " +
+                     (damaged.empty() ? "" : text(damaged, "damaged or cannot be read")) +
+                     (damaged.empty() || missing.empty() ? "" : ", and ") +
+                     (missing.empty() ? "" : text(missing, "missing")) +
+                     "; run the same commands again with --resume, they do only these"};
 }
 
 Error changed(const RunFolder& folder, std::uint64_t chunk) {

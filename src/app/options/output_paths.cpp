@@ -113,11 +113,12 @@ Result<bool> isMember(const fs::path& output, const fs::path& input) {
 }
 
 Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
-    std::error_code ignored;
     const std::string what = output.option + ": '" + output.path.string() + "' is ";
     const std::string reads = "that " + input.option + " reads";
     const std::string end = ", and is not overwritten; choose another path";
-    if (fs::is_directory(input.path, ignored)) {
+    const Result<std::optional<struct stat>> source = statusOf(input.path);
+    VOXTACT_TRY(source);
+    if (*source && S_ISDIR((*source)->st_mode)) {
         const Result<bool> member = isMember(output.path, input.path);
         VOXTACT_TRY(member);
         return *member ? badArgument(what + "in the folder '" + input.path.string() + "' " + reads + end)
