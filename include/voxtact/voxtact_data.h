@@ -154,6 +154,18 @@ VXT_CHECKED vxt_result vxt_check_affine(const double b_from_a[16]);
 /// The table of a transfer function, `table_size` entries: `room` is that of `table`. Refuses what
 /// voxtact::sampleTable() refuses, and too little room.
 VXT_CHECKED vxt_result vxt_sample_table(const vxt_transfer_function_desc* desc, float* table, size_t room);
+/// What a threshold makes of a transfer function and of the values of a volume: voxtact::OpacityFacts. Where nothing is
+/// opaque nothing touches, which is a true answer to what was hardly meant.
+typedef struct vxt_opacity_facts {
+    double spacing;   ///< of the table's entries, in the image's units
+    size_t lost;      ///< how many ranges of values the points make opaque and the table does not
+    uint32_t reaches; ///< whether some values are opaque by the control points
+    uint32_t any;     ///< whether some value of the data is, by the table
+} vxt_opacity_facts;
+/// voxtact::checkOpacity(): `data` is the least and the largest value, as vxt_check_volume() gives them. `lost`
+/// receives the first `room` of the ranges; it may be null where `room` is 0.
+VXT_CHECKED vxt_result vxt_check_opacity(const vxt_transfer_function_desc* desc, const vxt_range* data,
+                                         double threshold, vxt_range* lost, size_t room, vxt_opacity_facts* facts);
 /// From index space to the world. Refuses what voxtact::checkGrid() refuses.
 VXT_CHECKED vxt_result vxt_world_from_index(const vxt_grid* grid, double world_from_index[16]);
 /// From texture space, [0,1]^3 over the whole image, to the world.

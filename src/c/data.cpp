@@ -54,6 +54,19 @@ vxt_result vxt_sample_table(const vxt_transfer_function_desc* desc, float* table
     });
 }
 
+vxt_result vxt_check_opacity(const vxt_transfer_function_desc* desc, const vxt_range* data, double threshold,
+                             vxt_range* lost, size_t room, vxt_opacity_facts* facts) {
+    return call([&] {
+        const vxt_range& values = need(data, "data");
+        vxt_opacity_facts& out = need(facts, "facts");
+        const OpacityFacts found = take(checkOpacity(TransferFunctionOf(desc).desc(), toRange(values), threshold));
+        for (std::size_t i = 0; i < std::min(room, found.lost.size()); ++i) {
+            (&need(lost, "lost"))[i] = fromRange(found.lost[i]);
+        }
+        out = {found.spacing, found.lost.size(), found.reaches ? 1U : 0U, found.any ? 1U : 0U};
+    });
+}
+
 vxt_result vxt_world_from_index(const vxt_grid* grid, double world_from_index[16]) {
     return call([&] { writeMat4(world_from_index, worldFromIndex(checkedGrid(grid)), "world_from_index"); });
 }

@@ -96,6 +96,40 @@ TEST(CValues, ATable) {
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("room for 31 entries, there are 32"));
 }
 
+TEST(CValues, WhatIsOpaque) {
+    // Entries 132 apart, which pass over two of three peaks.
+    const std::vector<ControlPoint> points{{0, 0},    {150, 0},  {160, 1},  {170, 0},  {1000, 0},
+                                           {1010, 1}, {1020, 0}, {2000, 0}, {20000, 1}};
+    const std::vector<vxt_control_point> given = cPoints(points);
+    const ValueRange all{-1000, 32767};
+    const vxt_transfer_function_desc desc = cFunction(given, all, 256);
+    const OpacityFacts expected = take(checkOpacity({points, all, 256}, all, 0.1));
+    ASSERT_EQ(expected.lost.size(), 2U);
+    const vxt_range data{all.lo, all.hi};
+    vxt_range lost[] = {{}, {}, {-7, -7}};
+    vxt_opacity_facts facts{};
+    need(vxt_check_opacity(&desc, &data, 0.1, lost, 3, &facts));
+    EXPECT_EQ(facts.spacing, expected.spacing);
+    EXPECT_EQ(facts.lost, 2U);
+    EXPECT_EQ(facts.reaches, 1U);
+    EXPECT_EQ(facts.any, 1U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(lost[i].lo, expected.lost[i].lo);
+        EXPECT_EQ(lost[i].hi, expected.lost[i].hi);
+    }
+    EXPECT_EQ(lost[2].lo, -7);
+    lost[1] = lost[2];
+    need(vxt_check_opacity(&desc, &data, 0.1, lost, 1, &facts));
+    EXPECT_EQ(facts.lost, 2U);
+    EXPECT_EQ(lost[1].lo, -7);
+    const vxt_range below{-1000, -500};
+    need(vxt_check_opacity(&desc, &below, 0.1, nullptr, 0, &facts));
+    EXPECT_EQ(facts.reaches, 1U);
+    EXPECT_EQ(facts.any, 0U);
+    EXPECT_EQ(vxt_check_opacity(&desc, &data, 2, nullptr, 0, &facts), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_check_opacity(&desc, &data, 0.1, nullptr, 2, &facts), VXT_ERROR_INVALID_ARGUMENT);
+}
+
 TEST(CValues, GridsOfLabelsAndVolumes) {
     const Grid grid = obliqueGrid();
     const VolumeData image = makeBytes(grid, [](auto x, auto, auto) { return static_cast<double>(x); });
@@ -152,6 +186,7 @@ TEST(CValues, NullIsRefused) {
                                     vxt_check_grid(nullptr),
                                     vxt_check_affine(nullptr),
                                     vxt_sample_table(nullptr, nullptr, 0),
+                                    vxt_check_opacity(&desc, nullptr, 0.5, nullptr, 0, nullptr),
                                     vxt_sample_table(&desc, nullptr, 2),
                                     vxt_ball_voxels(&grid, nullptr, 1, nullptr),
                                     vxt_ball_voxels(&grid, matrix.data(), 1, nullptr),

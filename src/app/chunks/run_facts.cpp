@@ -68,7 +68,9 @@ Result<std::vector<fs::path>> filesOf(const fs::path& input) {
     if (S_ISDIR((*status)->st_mode)) {
         std::error_code problem;
         std::vector<fs::path> entries;
-        for (fs::recursive_directory_iterator entry(input, problem), end; !problem && entry != end;
+        // What is in a folder that may not be opened is not read either.
+        constexpr fs::directory_options kOpened = fs::directory_options::skip_permission_denied;
+        for (fs::recursive_directory_iterator entry(input, kOpened, problem), end; !problem && entry != end;
              entry.increment(problem)) {
             entries.push_back(entry->path());
         }
