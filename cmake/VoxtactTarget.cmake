@@ -30,7 +30,7 @@ function(voxtact_target target)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "SHARED_LIBRARY" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
     # Another library of ours lies beside it, and a program that does not use that one itself need not know where.
-    set_target_properties(${target} PROPERTIES INSTALL_RPATH "\$ORIGIN")
+    set_property(TARGET ${target} APPEND PROPERTY INSTALL_RPATH "\$ORIGIN")
     target_link_options(${target} PRIVATE "LINKER:--version-script=${VOXTACT_EXPORT_MAP}")
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${VOXTACT_EXPORT_MAP}")
   endif()

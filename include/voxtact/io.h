@@ -113,7 +113,8 @@ class PoseReader {
   public:
     /// Refuses a file that cannot be opened.
     [[nodiscard]] VOXTACT_API static Result<PoseReader> open(const std::filesystem::path& path);
-    /// `name` is what errors call the stream, which must outlive the reader.
+    /// `name` is what errors call the stream, which must outlive the reader. Its buffer is read; its state, which must
+    /// not be bad, stays as it is.
     [[nodiscard]] VOXTACT_API static Result<PoseReader> over(std::istream& stream, const std::string& name);
     VOXTACT_API PoseReader(PoseReader&&) noexcept;
     VOXTACT_API PoseReader& operator=(PoseReader&&) noexcept;
@@ -202,9 +203,9 @@ class OutputFile {
     [[nodiscard]] VOXTACT_API Result<void> close();
     /// close(), if that was not done, and the rename.
     [[nodiscard]] VOXTACT_API Result<void> commit();
-    /// commit() of several: all of them are put in their places, or none, and where one cannot be, what was in the
-    /// places of the others is there again. (A file system that has neither links nor a rename to another name cannot
-    /// do that.)
+    /// commit() of several: all of them are put in their places, or none: where one cannot be, what was in the places
+    /// of the others is there again, or the error says under which name it is. What went to a device or a pipe cannot
+    /// be taken back.
     [[nodiscard]] VOXTACT_API static Result<void> commitAll(std::span<OutputFile* const> files);
 
     struct State;

@@ -184,7 +184,8 @@ struct Target {
 /// Makes pictures in one colour format.
 class Renderer {
   public:
-    /// Unsupported where the device cannot render to the format, or lacks another that the renderer needs.
+    /// Unsupported where the device cannot render to the format, its pixels are integers, or the device lacks another
+    /// format that the renderer needs.
     [[nodiscard]] VOXTACT_API static Result<Renderer> create(const Context& context, const RendererDesc& desc = {});
     VOXTACT_API Renderer(Renderer&&) noexcept;
     VOXTACT_API Renderer& operator=(Renderer&&) noexcept;

@@ -49,7 +49,7 @@ VXT_CHECKED vxt_result vxt_split_at_creases(const vxt_mesh_view* mesh, double de
 
 /// Makes pictures in one colour format: voxtact::Renderer.
 typedef struct vxt_renderer vxt_renderer;
-/// UNSUPPORTED where the device cannot render to the format (R8G8B8A8_UNORM is a good one).
+/// UNSUPPORTED where the device cannot render to the format, or its pixels are integers (R8G8B8A8_UNORM is a good one).
 VXT_CHECKED vxt_result vxt_renderer_create(const vxt_context* context, VkFormat color_format, vxt_renderer** renderer);
 /// Ends it. What was made with it lives on. That of a vxt_blocking_renderer is its own, and refused by doing nothing.
 VXT_API void vxt_renderer_destroy(vxt_renderer* renderer);

@@ -14,7 +14,6 @@
 #include <ostream>
 #include <random>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include <unistd.h>
@@ -33,14 +32,17 @@ class TemporaryFile {
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile() {
         std::error_code ignored;
-        fs::remove(path_, ignored);
+        if (!isReleased_) {
+            fs::remove(path_, ignored);
+        }
     }
+    void release() noexcept { isReleased_ = true; }
 
     [[nodiscard]] const fs::path& path() const noexcept { return path_; }
 
-    [[nodiscard]] Result<void> renameTo(const fs::path& target) {
+    /// `old`: what was there before, whose permissions it has from then on.
+    [[nodiscard]] Result<void> renameTo(const fs::path& target, const fs::file_status& old) {
         std::error_code problem;
-        const fs::file_status old = fs::status(target, problem);
         if (fs::is_regular_file(old)) {
             fs::permissions(path_, old.permissions(), problem);
         }
@@ -64,41 +66,63 @@ class TemporaryFile {
     }
 
     fs::path path_;
+    bool isReleased_ = false;
 };
 
-/// What is put in a file's place, and can be taken away again: then what was there before is back.
+/// Puts a file in its place, and takes it away again where that is not settled: then what was there before is back.
 class Replacement {
   public:
-    explicit Replacement(fs::path target) : target_(std::move(target)), old_(target_) {}
+    Replacement(TemporaryFile& file, fs::path target) : file_(file), target_(std::move(target)), old_(target_) {}
+    Replacement(const Replacement&) = delete;
+    Replacement& operator=(const Replacement&) = delete;
+    ~Replacement() {
+        if (!isSettled_) {
+            static_cast<void>(undo());
+        }
+    }
 
-    [[nodiscard]] Result<void> by(TemporaryFile& file) {
+    /// `isLast`: whatever comes of it, nothing has to be taken away again.
+    [[nodiscard]] Result<void> make(bool isLast) {
         std::error_code problem;
-        const bool existed = fs::is_regular_file(fs::symlink_status(target_, problem));
-        if (existed) {
+        const fs::file_status old = fs::status(target_, problem);
+        if (fs::is_regular_file(old) && !isLast) {
             fs::create_hard_link(target_, old_.path(), problem);
-            if (problem) { // not every file system has links
+            if (problem) { // not every file system has links, nor may everybody make them
                 fs::rename(target_, old_.path(), problem);
             }
             isKept_ = !problem;
         }
-        Result<void> renamed = file.renameTo(target_);
-        isNew_ = renamed.ok() && !existed;
+        Result<void> renamed = file_.renameTo(target_, old);
+        isNew_ = renamed.ok() && !fs::exists(old);
         return renamed;
     }
-    void undo() const {
-        std::error_code ignored;
+    void settle() noexcept { isSettled_ = true; }
+    /// Whether what was there is back. If not, it stays under the name of keptAs().
+    [[nodiscard]] bool undo() noexcept {
+        isSettled_ = true;
+        std::error_code problem;
         if (isKept_) {
-            fs::rename(old_.path(), target_, ignored);
+            fs::rename(old_.path(), target_, problem);
+            if (problem) {
+                old_.release();
+            }
         } else if (isNew_) {
-            fs::remove(target_, ignored);
+            fs::remove(target_, problem);
         }
+        return !problem;
+    }
+    [[nodiscard]] std::string keptAs() const {
+        return "'" + target_.string() + "'" +
+               (isKept_ ? " as it was is now '" + old_.path().string() + "'" : " is new");
     }
 
   private:
+    TemporaryFile& file_;
     fs::path target_;
-    TemporaryFile old_; ///< what was there, until nobody can ask for it any more
+    TemporaryFile old_; ///< what was there
     bool isKept_ = false;
     bool isNew_ = false;
+    bool isSettled_ = false;
 };
 
 /// Where to rename to (symbolic links are followed); refuses folders, and folders that do not exist.
@@ -191,7 +215,11 @@ Result<void> OutputFile::commit() {
         if (!state_->closed) {
             VOXTACT_TRY(close());
         }
-        return state_->temporary ? state_->temporary->renameTo(*state_->target) : Result<void>();
+        if (!state_->temporary) {
+            return {};
+        }
+        std::error_code ignored;
+        return state_->temporary->renameTo(*state_->target, fs::status(*state_->target, ignored));
     });
 }
 
@@ -202,19 +230,23 @@ Result<void> OutputFile::commitAll(std::span<OutputFile* const> files) {
                 VOXTACT_TRY(file->close());
             }
         }
-        std::deque<std::pair<TemporaryFile*, Replacement>> all;
+        std::deque<Replacement> all;
         for (OutputFile* const file : files) {
             if (file->state_->temporary) {
-                all.emplace_back(std::piecewise_construct, std::forward_as_tuple(&*file->state_->temporary),
-                                 std::forward_as_tuple(*file->state_->target));
+                all.emplace_back(*file->state_->temporary, *file->state_->target);
             }
         }
-        for (auto& [file, place] : all) {
-            if (Result<void> done = place.by(*file); !done.ok()) {
-                std::for_each(all.rbegin(), all.rend(), [](const auto& one) { one.second.undo(); });
-                return done;
+        for (Replacement& one : all) {
+            const Result<void> done = one.make(&one == &all.back());
+            if (!done.ok()) {
+                Error error = done.error();
+                for (auto made = all.rbegin(); made != all.rend(); ++made) {
+                    error.text += made->undo() ? "" : "; " + made->keptAs();
+                }
+                return error;
             }
         }
+        std::for_each(all.begin(), all.end(), [](Replacement& one) { one.settle(); });
         return {};
     });
 }

@@ -21,14 +21,55 @@ static_assert(VOXTACT_SET_VOLUME == 0 && PICTURE_SET_BRICKS + 1 == kBoundSets);
 static_assert(VOXTACT_SET_TRANSFER_FUNCTION == VOXTACT_SET_VOLUME + 1 && PICTURE_SET_PAINT + 1 == kBoundSets);
 static_assert(PICTURE_SET_TARGETS == VOXTACT_SET_TRANSFER_FUNCTION + 1);
 
-/// Whether a format takes the floats that a fragment shader gives. Formats of integers do not; that they cannot be
-/// blended either tells them apart from all but the floats of 32 bits, which some devices do not blend.
-bool takesFloats(const ContextImpl& context, VkFormat format) {
-    VkFormatProperties properties{};
-    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
-    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0 ||
-           format == VK_FORMAT_R32_SFLOAT || format == VK_FORMAT_R32G32_SFLOAT ||
-           format == VK_FORMAT_R32G32B32_SFLOAT || format == VK_FORMAT_R32G32B32A32_SFLOAT;
+/// Whether a format's pixels are integers, to which the floats that a fragment shader gives cannot be written.
+bool isOfIntegers(VkFormat format) {
+    switch (format) {
+    case VK_FORMAT_R8_UINT:
+    case VK_FORMAT_R8_SINT:
+    case VK_FORMAT_R8G8_UINT:
+    case VK_FORMAT_R8G8_SINT:
+    case VK_FORMAT_R8G8B8_UINT:
+    case VK_FORMAT_R8G8B8_SINT:
+    case VK_FORMAT_B8G8R8_UINT:
+    case VK_FORMAT_B8G8R8_SINT:
+    case VK_FORMAT_R8G8B8A8_UINT:
+    case VK_FORMAT_R8G8B8A8_SINT:
+    case VK_FORMAT_B8G8R8A8_UINT:
+    case VK_FORMAT_B8G8R8A8_SINT:
+    case VK_FORMAT_A8B8G8R8_UINT_PACK32:
+    case VK_FORMAT_A8B8G8R8_SINT_PACK32:
+    case VK_FORMAT_A2R10G10B10_UINT_PACK32:
+    case VK_FORMAT_A2R10G10B10_SINT_PACK32:
+    case VK_FORMAT_A2B10G10R10_UINT_PACK32:
+    case VK_FORMAT_A2B10G10R10_SINT_PACK32:
+    case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16_SINT:
+    case VK_FORMAT_R16G16_UINT:
+    case VK_FORMAT_R16G16_SINT:
+    case VK_FORMAT_R16G16B16_UINT:
+    case VK_FORMAT_R16G16B16_SINT:
+    case VK_FORMAT_R16G16B16A16_UINT:
+    case VK_FORMAT_R16G16B16A16_SINT:
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R32_SINT:
+    case VK_FORMAT_R32G32_UINT:
+    case VK_FORMAT_R32G32_SINT:
+    case VK_FORMAT_R32G32B32_UINT:
+    case VK_FORMAT_R32G32B32_SINT:
+    case VK_FORMAT_R32G32B32A32_UINT:
+    case VK_FORMAT_R32G32B32A32_SINT:
+    case VK_FORMAT_R64_UINT:
+    case VK_FORMAT_R64_SINT:
+    case VK_FORMAT_R64G64_UINT:
+    case VK_FORMAT_R64G64_SINT:
+    case VK_FORMAT_R64G64B64_UINT:
+    case VK_FORMAT_R64G64B64_SINT:
+    case VK_FORMAT_R64G64B64A64_UINT:
+    case VK_FORMAT_R64G64B64A64_SINT:
+        return true;
+    default:
+        return false;
+    }
 }
 
 Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
@@ -59,7 +100,7 @@ Result<void> checkFormats(const ContextImpl& context, VkFormat colour) {
                  "the pre-integrated table"}}) {
         VOXTACT_TRY(checkFormat(context, needed.format, needed.features, needed.use));
     }
-    if (!takesFloats(context, colour)) {
+    if (isOfIntegers(colour)) {
         return Error{ErrorCode::Unsupported, 0,
                      "RendererDesc::colorFormat is VkFormat " + std::to_string(colour) +
                          ", whose pixels are integers; a picture's are floats, or fractions as those of "

@@ -86,6 +86,7 @@ TEST(Dicom, OtherFilesBesideTheSlices) {
     folder.write("report.dcm", report.file());
     std::filesystem::create_directory(folder / "below");
     std::filesystem::create_symlink("below", folder / "link");
+    std::filesystem::create_symlink("somebody@somewhere.1234", folder / ".#README.txt");
     const auto volume = io::readVolume(folder.path());
     expectCt(volume, 3);
     EXPECT_THAT(volume->notes, testing::Contains("2 DICOM files without images left out"));

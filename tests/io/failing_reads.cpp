@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+// With it, <unistd.h> has a body for read().
+#undef _FORTIFY_SOURCE
 #include "failing_reads.h"
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <fcntl.h>
 #include <string>
 #include <string_view>
 #include <sys/syscall.h>
@@ -20,6 +23,7 @@ struct Failing {
 };
 
 std::atomic<Failing*> failing = nullptr;
+std::atomic<bool> noLinks = false;
 
 bool isIn(int file, std::string_view folder) {
     std::array<char, 4096> target{};
@@ -46,7 +50,23 @@ std::int64_t FailingReads::failures() const {
     return failing.load()->failures;
 }
 
+FailingLinks::FailingLinks() {
+    noLinks = true;
+}
+
+FailingLinks::~FailingLinks() {
+    noLinks = false;
+}
+
 } // namespace voxtact::test
+
+extern "C" __attribute__((visibility("default"))) int link(const char* from, const char* to) noexcept {
+    if (voxtact::test::noLinks) {
+        errno = EPERM;
+        return -1;
+    }
+    return static_cast<int>(::syscall(SYS_linkat, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
 
 /// Stands in for that of the C library, which the streams of the standard library call.
 extern "C" __attribute__((visibility("default"))) ssize_t read(int file, void* to, std::size_t bytes) {

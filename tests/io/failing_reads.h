@@ -20,4 +20,13 @@ class FailingReads {
     [[nodiscard]] std::int64_t failures() const;
 };
 
+/// While it is there, this process can make no hard links, as on a file system that has none. One at a time.
+class FailingLinks {
+  public:
+    FailingLinks();
+    FailingLinks(const FailingLinks&) = delete;
+    FailingLinks& operator=(const FailingLinks&) = delete;
+    ~FailingLinks();
+};
+
 } // namespace voxtact::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "failing_reads.h"
 #include "io_test_support.h"
 
 #include <cerrno>
@@ -137,6 +138,30 @@ TEST_F(SeveralFiles, AllGetTheirNames) {
     EXPECT_EQ(contentOf(a_), "new a");
     EXPECT_EQ(contentOf(b_), "new b");
     EXPECT_EQ(contentOf(folder_ / "c"), "new c");
+    EXPECT_EQ(folder_.entries(), 3U);
+}
+
+TEST_F(SeveralFiles, KeepPermissionsWhereThereAreNoLinks) {
+    const FailingLinks links;
+    for (const fs::path& path : {a_, b_}) {
+        fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+    }
+    make();
+    ASSERT_TRUE(isOk(commitAll()));
+    for (const fs::path& path : {a_, b_}) {
+        EXPECT_EQ(contentOf(path), "new " + path.filename().string());
+        EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    }
+    EXPECT_EQ(folder_.entries(), 3U);
+}
+
+TEST_F(SeveralFiles, OrNoneWhereThereAreNoLinks) {
+    const FailingLinks links;
+    make();
+    fs::create_directory(folder_ / "c");
+    expectRefused(commitAll(), std::generic_category().message(EISDIR), folder_ / "c");
+    EXPECT_EQ(contentOf(a_), "old a");
+    EXPECT_EQ(contentOf(b_), "old b");
     EXPECT_EQ(folder_.entries(), 3U);
 }
 

@@ -45,9 +45,9 @@ Result<std::string> factOf(const fs::path& path) {
 }
 
 /// Adds those that are files.
-Result<void> addFiles(const std::vector<fs::path>& paths, std::set<fs::path>& files) {
+Result<void> addFiles(const std::vector<fs::path>& paths, NoAccess noAccess, std::set<fs::path>& files) {
     for (const fs::path& path : paths) {
-        const Result<bool> file = isFile(path);
+        const Result<bool> file = isFile(path, noAccess);
         VOXTACT_TRY(file);
         if (*file) {
             files.insert(path);
@@ -77,12 +77,12 @@ Result<std::vector<fs::path>> filesOf(const fs::path& input) {
         if (problem) {
             return cannotLookAt(input, problem);
         }
-        VOXTACT_TRY(addFiles(entries, files));
+        VOXTACT_TRY(addFiles(entries, NoAccess::IsAnError, files));
         return std::vector<fs::path>(files.begin(), files.end());
     }
     const Result<std::vector<fs::path>> others = filesNamedIn(input);
     VOXTACT_TRY(others);
-    VOXTACT_TRY(addFiles(*others, files));
+    VOXTACT_TRY(addFiles(*others, NoAccess::IsNothing, files));
     files.erase(input);
     std::vector<fs::path> all{input};
     all.insert(all.end(), files.begin(), files.end());

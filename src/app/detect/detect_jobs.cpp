@@ -122,8 +122,21 @@ Result<PairJobs> readJobs(const std::filesystem::path& path) {
     }
     PairJobs all;
     all.fromFile = true;
+    file.exceptions(std::ios::badbit); // which getline() takes for the end
     std::string line;
-    for (std::uint64_t number = 1; std::getline(file, line); ++number) {
+    const auto next = [&]() -> Result<bool> {
+        try {
+            return static_cast<bool>(std::getline(file, line));
+        } catch (const std::ios::failure& failure) {
+            return cannotRead(failure.code().message());
+        }
+    };
+    for (std::uint64_t number = 1;; ++number) {
+        const Result<bool> some = next();
+        VOXTACT_TRY(some);
+        if (!*some) {
+            break;
+        }
         if (number == 1 && line.starts_with("\xEF\xBB\xBF")) {
             line.erase(0, 3);
         }
@@ -134,9 +147,6 @@ Result<PairJobs> readJobs(const std::filesystem::path& path) {
             continue;
         }
         VOXTACT_TRY(addJob({path, number}, line, all));
-    }
-    if (file.bad()) { // which getline() takes for the end
-        return cannotRead("reading stopped before its end");
     }
     if (all.jobs.empty()) {
         return Error{ErrorCode::Format, 0,

@@ -27,30 +27,36 @@ struct FileIdentity {
     return {ErrorCode::File, 0, "cannot look at '" + path.string() + "': " + why.message()};
 }
 
+/// Where nobody may look: an error; or nothing, of what may be the name of a file that somebody reads, which nobody can
+/// then.
+enum class NoAccess { IsAnError, IsNothing };
+
 /// What is there, behind links. Nothing where nothing is; an error where that cannot be told: who took it for nothing
 /// might leave out, or overwrite, what is read.
-[[nodiscard]] inline Result<std::optional<struct stat>> statusOf(const std::filesystem::path& path) {
+[[nodiscard]] inline Result<std::optional<struct stat>> statusOf(const std::filesystem::path& path,
+                                                                 NoAccess noAccess = NoAccess::IsAnError) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) {
         return std::optional(status);
     }
     const int why = errno;
-    if (why == ENOENT || why == ENOTDIR || why == ENAMETOOLONG) {
+    if (why == ENOENT || why == ENOTDIR || why == ENAMETOOLONG || (why == EACCES && noAccess == NoAccess::IsNothing)) {
         return std::optional<struct stat>();
     }
     return cannotLookAt(path, {why, std::generic_category()});
 }
 
 /// Nothing where there is no such file.
-[[nodiscard]] inline Result<std::optional<FileIdentity>> identityOf(const std::filesystem::path& path) {
-    const Result<std::optional<struct stat>> status = statusOf(path);
+[[nodiscard]] inline Result<std::optional<FileIdentity>> identityOf(const std::filesystem::path& path,
+                                                                    NoAccess noAccess = NoAccess::IsAnError) {
+    const Result<std::optional<struct stat>> status = statusOf(path, noAccess);
     VOXTACT_TRY(status);
     return *status ? std::optional(FileIdentity{(*status)->st_dev, (*status)->st_ino}) : std::optional<FileIdentity>();
 }
 
 /// Whether there is an ordinary file.
-[[nodiscard]] inline Result<bool> isFile(const std::filesystem::path& path) {
-    const Result<std::optional<struct stat>> status = statusOf(path);
+[[nodiscard]] inline Result<bool> isFile(const std::filesystem::path& path, NoAccess noAccess = NoAccess::IsAnError) {
+    const Result<std::optional<struct stat>> status = statusOf(path, noAccess);
     VOXTACT_TRY(status);
     return *status && S_ISREG((*status)->st_mode);
 }

@@ -79,7 +79,7 @@ Result<bool> isNamedBy(const FileIdentity& output, const fs::path& input) {
     const Result<std::vector<fs::path>> others = filesNamedIn(input);
     VOXTACT_TRY(others);
     for (const fs::path& other : *others) {
-        const Result<std::optional<FileIdentity>> identity = identityOf(other);
+        const Result<std::optional<FileIdentity>> identity = identityOf(other, NoAccess::IsNothing);
         VOXTACT_TRY(identity);
         if (*identity == output) {
             return true;
@@ -100,12 +100,15 @@ Result<bool> isMember(const fs::path& output, const fs::path& input) {
     if (place->has_value() && *place == *inputs) {
         return true;
     }
+    if (!identity->has_value()) {
+        return false;
+    }
     std::error_code problem;
     for (fs::directory_iterator entry(input, problem); !problem && entry != fs::directory_iterator();
          entry.increment(problem)) {
-        const Result<std::optional<FileIdentity>> member = identityOf(entry->path());
+        const Result<std::optional<FileIdentity>> member = identityOf(entry->path(), NoAccess::IsNothing);
         VOXTACT_TRY(member);
-        if (identity->has_value() && *member == *identity) {
+        if (*member == *identity) {
             return true;
         }
     }
@@ -156,10 +159,6 @@ Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
     return {};
 }
 
-} // namespace
-
-namespace {
-
 Result<std::vector<std::string>> namesIn(const fs::path& header) {
     const std::string ending = loweredEnding(header);
     if (ending == ".gz") {
@@ -177,14 +176,16 @@ Result<std::vector<std::string>> namesIn(const fs::path& header) {
         errno = 0;
         std::ifstream file(header, std::ios::binary);
         if (!file) {
-            return cannotLookAt(header, {errno, std::generic_category()});
+            return cannotLookAt(header, {errno != 0 ? errno : EIO, std::generic_category()});
         }
-        std::string line;
-        for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
-            addNames(line, names);
-        }
-        if (file.bad()) { // which getline() takes for the end
-            return cannotLookAt(header, std::make_error_code(std::errc::io_error));
+        file.exceptions(std::ios::badbit); // which getline() takes for the end
+        try {
+            std::string line;
+            for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
+                addNames(line, names);
+            }
+        } catch (const std::ios::failure& failure) {
+            return cannotLookAt(header, failure.code());
         }
     }
     return names;

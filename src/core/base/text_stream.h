@@ -6,8 +6,8 @@
 
 namespace voxtact {
 
-/// A text that is written piece by piece. Where there is no memory for a piece, std::bad_alloc is thrown; a
-/// std::ostringstream leaves it out and goes on.
+/// A text that is written piece by piece. Throws where there is no memory for a piece; a std::ostringstream leaves it
+/// out and goes on.
 class TextStream : public std::ostringstream {
   public:
     TextStream() { exceptions(std::ios::badbit); }

@@ -33,8 +33,16 @@ Result<void> checkPicture(std::uint32_t width, std::uint32_t height, Bytes rgba)
 }
 
 void putBytes(png_structp png, png_bytep bytes, std::size_t size) {
-    static_cast<std::ostream*>(png_get_io_ptr(png))
-        ->write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+    bool thrown = false; // which is not for libpng, written in C
+    try {
+        static_cast<std::ostream*>(png_get_io_ptr(png))
+            ->write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+    } catch (...) {
+        thrown = true;
+    }
+    if (thrown) {
+        png_longjmp(png, 1);
+    }
 }
 
 /// The stream's owner flushes it.

@@ -91,6 +91,9 @@ Result<PoseReader> PoseReader::open(const std::filesystem::path& path) {
 
 Result<PoseReader> PoseReader::over(std::istream& stream, const std::string& name) {
     return guard([&]() -> Result<PoseReader> {
+        if (stream.bad() || stream.rdbuf() == nullptr) {
+            return readingStopped(name);
+        }
         return PoseReader(std::make_unique<State>(State{LineReader::over(stream, name)}));
     });
 }

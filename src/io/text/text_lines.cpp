@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <ios>
+#include <system_error>
 #include <utility>
 
 namespace voxtact::io {
@@ -26,13 +27,15 @@ std::string inQuotes(std::string_view token) {
 }
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
-    VOXTACT_TRY(readableFile(path));
+    const Result<std::uint64_t> size = readableFile(path);
+    VOXTACT_TRY(size);
     auto file = std::make_unique<std::filebuf>();
     errno = 0;
     if (file->open(path, std::ios::in | std::ios::binary) == nullptr) {
         return cannotOpen(path, errno);
     }
     LineReader reader(*file, path);
+    reader.left_ = *size;
     reader.file_ = std::move(file);
     return reader;
 }
@@ -43,15 +46,28 @@ LineReader LineReader::over(std::istream& stream, std::filesystem::path name) {
 
 LineReader::LineReader(std::streambuf& buffer, std::filesystem::path name) : buffer_(&buffer), name_(std::move(name)) {}
 
+std::streambuf::int_type LineReader::get() {
+    const auto c = buffer_->sbumpc();
+    if (std::streambuf::traits_type::eq_int_type(c, std::streambuf::traits_type::eof())) {
+        // Not every standard library throws where a file cannot be read.
+        if (left_ > 0) {
+            throw std::ios_base::failure("", std::make_error_code(std::errc::io_error));
+        }
+        return c;
+    }
+    left_ -= left_ > 0 ? 1 : 0;
+    return c;
+}
+
 // std::getline() takes whatever stops it, a lack of memory too, for the end of the stream.
 bool LineReader::read() {
     using Traits = std::streambuf::traits_type;
     line_.clear();
-    auto c = buffer_->sbumpc();
+    auto c = get();
     if (Traits::eq_int_type(c, Traits::eof())) {
         return false;
     }
-    for (; !Traits::eq_int_type(c, Traits::eof()) && Traits::to_char_type(c) != '\n'; c = buffer_->sbumpc()) {
+    for (; !Traits::eq_int_type(c, Traits::eof()) && Traits::to_char_type(c) != '\n'; c = get()) {
         line_.push_back(Traits::to_char_type(c));
     }
     return true;

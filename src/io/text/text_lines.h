@@ -32,6 +32,8 @@ class LineReader {
 
   private:
     LineReader(std::streambuf& buffer, std::filesystem::path name);
+    /// The next character; the end is one too.
+    std::streambuf::int_type get();
     bool read();
 
     std::unique_ptr<std::filebuf> file_;
@@ -39,7 +41,8 @@ class LineReader {
     std::filesystem::path name_;
     std::string line_;
     std::uint64_t number_ = 0;
-    bool stopped_ = false; ///< in the middle of a line
+    std::uint64_t left_ = 0; ///< bytes that a file says it still has
+    bool stopped_ = false;   ///< in the middle of a line
 };
 
 /// Takes a line's words, which are valid until it returns, and the line's number.

@@ -55,7 +55,11 @@ Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
         std::error_code unknown;
         const fs::file_type type = entry->status(unknown).type();
         if (type == fs::file_type::not_found) {
-            return cannotRead(entry->path(), "it is a link to a file that is not there", ErrorCode::File);
+            // Else it has gone meanwhile; hidden links are locks of editors.
+            if (entry->is_symlink(unknown) && !entry->path().filename().string().starts_with('.')) {
+                return cannotRead(entry->path(), "it is a link to a file that is not there", ErrorCode::File);
+            }
+            continue;
         }
         if (type == fs::file_type::none || type == fs::file_type::unknown) {
             return cannotRead(entry->path(), unknown ? unknown.message() : "nobody knows what it is", ErrorCode::File);

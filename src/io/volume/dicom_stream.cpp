@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <new>
 
 #include <zlib.h>
 
@@ -86,6 +87,9 @@ bool DicomStream::fillInflated() {
             inflate_->avail_in = static_cast<uInt>(got);
         }
         state = inflate(inflate_.get(), Z_NO_FLUSH);
+        if (state == Z_MEM_ERROR) {
+            throw std::bad_alloc();
+        }
     }
     window_.resize(before + kChunk - inflate_->avail_out);
     ended_ = state != Z_OK;
