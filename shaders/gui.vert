@@ -5,6 +5,8 @@
 layout(push_constant) uniform Placement {
     vec2 scale; // to clip space, from points of the window
     vec2 offset;
+    vec2 used; // of the texture, from its upper left corner
+    vec2 most; // what is sampled is not beyond it
 };
 
 layout(location = 0) in vec2 position;
@@ -13,9 +15,11 @@ layout(location = 2) in vec4 colour;
 
 layout(location = 0) out vec2 outCoordinate;
 layout(location = 1) out vec4 outColour;
+layout(location = 2) flat out vec2 outMost;
 
 void main() {
     gl_Position = vec4(position * scale + offset, 0.0, 1.0);
-    outCoordinate = coordinate;
+    outCoordinate = coordinate * used;
+    outMost = most;
     outColour = colour;
 }

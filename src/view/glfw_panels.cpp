@@ -8,6 +8,7 @@
 #include <backends/imgui_impl_glfw.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace voxtact::view {
 
@@ -16,12 +17,38 @@ namespace {
 void onKey(GLFWwindow* window, int key, int, int action, int modifiers) {
     if (action != GLFW_RELEASE) {
         static_cast<State*>(glfwGetWindowUserPointer(window))
-            ->keys.push_back({key, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+            ->keys.push_back(
+                {key, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+    }
+}
+
+void onMove(GLFWwindow* window, double x, double y) {
+    static_cast<State*>(glfwGetWindowUserPointer(window))->pointer.moveTo({x, y});
+}
+
+void onButton(GLFWwindow* window, int button, int action, int) {
+    Pointer& pointer = static_cast<State*>(glfwGetWindowUserPointer(window))->pointer;
+    if (action == GLFW_RELEASE) {
+        pointer.release(static_cast<std::size_t>(button));
+    } else {
+        pointer.press(static_cast<std::size_t>(button), glfwGetTime(),
+                      static_cast<double>(ImGui::GetIO().MouseDoubleClickMaxDist));
     }
 }
 
 void onDrop(GLFWwindow* window, int count, const char** paths) {
     static_cast<State*>(glfwGetWindowUserPointer(window))->drop(count, paths);
+}
+
+/// Dear ImGui counts them by when frames come.
+void countClicks(const Pointer::Seen& seen) {
+    ImGuiIO& io = ImGui::GetIO();
+    for (std::size_t button = 0; button < Pointer::kButtons; ++button) {
+        if (const int clicks = seen.clicks[button]; clicks > 0 && io.MouseClicked[button]) {
+            io.MouseClickedCount[button] = io.MouseClickedLastCount[button] = static_cast<ImU16>(clicks);
+            io.MouseDoubleClicked[button] = clicks == 2;
+        }
+    }
 }
 
 } // namespace
@@ -37,6 +64,9 @@ Panels::Panels(GLFWwindow* window, std::span<const unsigned char> font) {
     // those that came and went.
     glfwSetKeyCallback(window, onKey);
     glfwSetDropCallback(window, onDrop);
+    // For the same reason.
+    glfwSetCursorPosCallback(window, onMove);
+    glfwSetMouseButtonCallback(window, onButton);
     ImGui_ImplGlfw_InitForVulkan(window, true);
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
 }
@@ -48,7 +78,17 @@ Panels::~Panels() {
 
 const ImDrawData& drawAllPanels(State& state) {
     ImGui_ImplGlfw_NewFrame();
+    const Pointer::Seen seen = state.pointer.next(glfwGetTime());
+    if (state.pointer.behind()) {
+        glfwPostEmptyEvent(); // the next frame is soon
+    }
+    ImGuiIO& io = ImGui::GetIO();
+    std::ranges::copy(seen.down, std::begin(io.MouseDown));
+    if (seen.at) {
+        io.MousePos = {static_cast<float>((*seen.at)[0]), static_cast<float>((*seen.at)[1])};
+    }
     ImGui::NewFrame();
+    countClicks(seen);
     drawPanels(state);
     state.update();
     ImGui::Render();

@@ -13,6 +13,7 @@ namespace voxtact::view {
 namespace {
 
 constexpr auto kRest = std::chrono::milliseconds(200);
+constexpr auto kFollows = std::chrono::seconds(1);
 
 auto parts(const Camera& camera) {
     return std::tuple(camera.target, camera.direction.azimuth, camera.direction.elevation, camera.halfHeight);
@@ -75,6 +76,15 @@ void State::command(const std::function<void(Edit&)>& change, const std::string&
     const Edit before = document.edit;
     change(document.edit);
     history.add(before, document.edit, merge);
+}
+
+void State::step(const std::function<void(Edit&)>& change, const std::string& merge, bool held) {
+    const Clock::time_point now = Clock::now();
+    if (!held && now - stepped_ > kFollows) {
+        history.end();
+    }
+    stepped_ = now;
+    command(change, merge);
 }
 
 /// The volume becomes that of the edit.
@@ -187,6 +197,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
     next.frame = frame;
     next.frameTimes = frameTimes;
     next.keys = std::move(keys);
+    next.pointer = std::move(pointer);
     next.dropped = std::move(dropped);
     next.picture.extent = picture.extent;
     next.picture.corner = picture.corner;
@@ -287,12 +298,12 @@ const PairClearance* State::chosenClearance() const {
     return clearance ? clearance->of(document.edit.instrument().mesh) : nullptr;
 }
 
-void State::takePose(std::size_t number) {
+void State::takePose(std::size_t number, bool held) {
     if (number >= document.poses.size()) {
         return;
     }
     document.pose = number;
-    command([&](Edit& edit) { edit.pose() = document.poses[number]; }, "poses");
+    step([&](Edit& edit) { edit.pose() = document.poses[number]; }, "poses", playing || held);
 }
 
 double State::seconds() const {

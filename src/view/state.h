@@ -12,6 +12,7 @@
 #include "view/model/files/loading.h"
 #include "view/model/shown/gizmo.h"
 #include "view/model/shown/histogram.h"
+#include "view/model/shown/pointer.h"
 #include "view/model/shown/slice.h"
 #include "view/model/shown/view_cube.h"
 
@@ -55,7 +56,6 @@ struct Pane {
     void* texture = nullptr; ///< of the picture that is there
     Point2 corner{0, 0};     ///< upper left, points of the window
     Point2 size{0, 0};       ///< points of the window
-    Point2 used{1, 1};       ///< the part of the texture that it takes up
 };
 
 /// A picture that is to be made for a file.
@@ -81,6 +81,7 @@ struct KeyPress {
     int key = 0;
     bool shift = false;
     bool control = false;
+    bool held = false; ///< it repeats
 };
 
 /// Refuses an output that is one of these files, by whatever name.
@@ -113,12 +114,15 @@ struct State {
     void update();
     /// A command that undo takes back: `change` gets the edit. `merge`: see History.
     void command(const std::function<void(Edit&)>& change, const std::string& merge = {});
+    /// A command of a key or a button that moves by steps: those of one `merge` that follow closely, or while it is
+    /// `held`, are one.
+    void step(const std::function<void(Edit&)>& change, const std::string& merge, bool held = false);
     void undo();
     void redo();
     /// Drills a hole of drillRadius, with the image's smallest value. A command; what cannot be is complained of.
     void drill(const Vec3& centre);
-    /// Takes a pose of the list for the chosen instrument.
-    void takePose(std::size_t number);
+    /// Takes a pose of the list for the chosen instrument. `held`: see step().
+    void takePose(std::size_t number, bool held = false);
     /// Chooses an instrument; nothing where there is none of that number. No command, but what is moved after it is a
     /// command of its own.
     void choose(std::size_t number);
@@ -197,6 +201,9 @@ struct State {
 
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame
+    Pointer pointer;            ///< what frames have not seen of it
+    bool entered = false;       ///< Enter was pressed since the last frame
+    bool escaped = false;       ///< Escape, too
     Maximised maximised = Maximised::None;
     Theme theme = Theme::Dark;
     std::optional<Theme> themeSet; ///< that the panels have; nothing: not known
@@ -251,6 +258,7 @@ struct State {
     Seen seen_;
     Clock::time_point changed_ = Clock::now();
     Clock::time_point begun_ = Clock::now();
+    Clock::time_point stepped_; ///< the last step()
 };
 
 } // namespace voxtact::view

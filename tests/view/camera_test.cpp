@@ -8,6 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace voxtact::test {
 
 using namespace voxtact::view;
@@ -163,6 +166,22 @@ TEST(ViewSlice, TheOutlineOfAnEllipsoidIsAnEllipse) {
         EXPECT_NEAR(std::hypot(x, y), 1, 0.02); // half axes 20 and 30
     }
     EXPECT_TRUE(outline(mesh->view(), translation({5, 25, 90}), 2, 40, place).empty());
+}
+
+TEST(ViewPace, OnlyWhatWasDrawnIsSampled) {
+    const Extent texture{900, 400};
+    for (const Extent& picture : {Extent{1, 1}, Extent{75, 33}, Extent{451, 199}, texture}) {
+        const SampledPart part = sampledPart(picture, texture);
+        // A linear sample reads the texels whose middles lie round it.
+        const auto last = [](float at, float size) { return std::ceil(at * size - 0.5F - 1e-3F); };
+        for (const float share : {0.25F, 0.99F, 1.0F}) {
+            const float x = std::min(share * part.used[0], part.most[0]);
+            const float y = std::min(share * part.used[1], part.most[1]);
+            EXPECT_LT(last(x, 900), static_cast<float>(picture.width) - 0.01F) << picture.width << ' ' << share;
+            EXPECT_LT(last(y, 400), static_cast<float>(picture.height) - 0.01F) << picture.height << ' ' << share;
+        }
+        EXPECT_NEAR(part.used[0] * 900, picture.width, 1e-3) << "it is as large as it was drawn";
+    }
 }
 
 } // namespace voxtact::test

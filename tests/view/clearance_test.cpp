@@ -43,9 +43,21 @@ nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
 TEST(ViewClearance, IsSaidInWords) {
     EXPECT_EQ(clearanceText(clearance(12.341, 12.349)), "12.34 to 12.35 mm away");
     EXPECT_EQ(clearanceText(clearance(0, 0)), "touches");
-    EXPECT_EQ(clearanceText(clearance(0, 0.004)), "0.00 to 0.00 mm away");
+    EXPECT_EQ(clearanceText(clearance(0, 0.004)), "0.00 to 0.0040 mm away");
     EXPECT_EQ(clearanceText(clearance(kInfinity, kInfinity)), "nothing is opaque");
-    EXPECT_EQ(clearanceText(clearance(5, kInfinity)), "at least 5 mm away");
+    EXPECT_EQ(clearanceText(clearance(5, kInfinity)), "at least 5.00 mm away");
+}
+
+TEST(ViewClearance, BoundsAreRoundedOutward) {
+    EXPECT_EQ(clearanceText(clearance(18.3569, 18.3649)), "18.35 to 18.37 mm away");
+    EXPECT_EQ(clearanceText(clearance(18.3534, 18.36345)), "18.35 to 18.37 mm away");
+    EXPECT_EQ(clearanceText(clearance(123.456789, kInfinity)), "at least 123.45 mm away");
+    EXPECT_EQ(lowerText(0.029999), "0.029");
+    EXPECT_EQ(upperText(0.00120001), "0.0013");
+    EXPECT_EQ(upperText(1e-12), "0.000001");
+    EXPECT_EQ(lowerText(1e-12), "0.000000");
+    EXPECT_EQ(lowerText(0.25), "0.25") << "what is exact stays so";
+    EXPECT_EQ(upperText(0.25), "0.25");
 }
 
 TEST(ViewClearance, HasASegmentOnlyWhereThereIsAGap) {

@@ -5,6 +5,7 @@
   pointer.py PROGRAM cube     the picture is turned by the cube of the patient's sides
   pointer.py PROGRAM cancel   pictures that take long are cancelled, by a key and by leaving
   pointer.py PROGRAM turning  how long frames take while a head is turned; with a number behind it, for so many seconds
+  pointer.py PROGRAM click    a click turns nothing by the way to it, and a double click is one
   pointer.py PROGRAM chart    the curve's chart is zoomed, and a point is dragged there
 
 Exit status: 0 passed, 1 failed.
@@ -94,6 +95,36 @@ def chart(program, folder):
         window.end()
 
 
+def click(program, folder):
+    with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
+                                                             poses(folder, 60)]) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        window.press("Next")
+        x, y, width, height = (round(length) for length in state["picture"])
+        seen = state["azimuth"], state["elevation"]
+        at = x + 40, y + height - 40
+        for way in (30, 60, 90):
+            window.tool("mousemove", str(at[0] + way), str(at[1] - way))
+            time.sleep(0.3)
+            window.tool("mousemove", str(at[0]), str(at[1]), "mousedown", "1")
+            time.sleep(0.3)
+            window.tool("mouseup", "1")
+            time.sleep(0.5)  # no double click with the next one
+            state = window.until("rest", lambda s: s["settled"])
+            assert (state["azimuth"], state["elevation"]) == seen and state["picture"][2] == width, (way, seen, state)
+        # The drag is played at once: whatever a frame sees of it, all of it turns the picture.
+        window.tool("mousemove", str(at[0]), str(at[1]), "mousedown", "1", "mousemove", str(at[0] + 50), str(at[1]),
+                    "mouseup", "1")
+        window.until("a picture that is turned", lambda s: s["azimuth"] != seen[0] and s["settled"])
+        time.sleep(0.5)
+        window.tool("mousemove", str(at[0] + 90), str(at[1] - 90))
+        time.sleep(0.3)
+        window.tool("mousemove", str(at[0]), str(at[1]), "click", "1", "click", "1")
+        window.until("a larger picture", lambda s: s["picture"][3] > height and s["settled"])
+        window.press("ctrl+q")
+        window.end()
+
+
 def save_picture(window, folder, name, width):
     """Asks for a picture that is so large that it takes long; the state when it is being made."""
     for _ in range(3):  # a key that comes and goes within a frame is lost: then a size is taken for the name
@@ -178,4 +209,5 @@ def turning(program, folder, seconds=3):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:], {"cube": cube, "chart": chart, "cancel": cancel, "turning": turning}, __doc__, "turning"))
+    CHECKS = {"cube": cube, "chart": chart, "click": click, "cancel": cancel, "turning": turning}
+    sys.exit(main(sys.argv[1:], CHECKS, __doc__, "turning"))

@@ -83,6 +83,11 @@ void ShownPanels::click(double x, double y) {
     release();
 }
 
+void ShownPanels::pressAt(double x, double y, int button) {
+    ImGui::GetIO().MousePos = {static_cast<float>(x), static_cast<float>(y)};
+    press(button);
+}
+
 void ShownPanels::drag(double x, double y, double right, double down, int button) {
     constexpr int kSteps = 4;
     moveTo(x, y);

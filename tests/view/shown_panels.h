@@ -26,6 +26,8 @@ class ShownPanels {
     void press(int button = 0);
     void release(int button = 0);
     void click(double x, double y);
+    /// The pointer comes and a button goes down between one frame and the next.
+    void pressAt(double x, double y, int button = 0);
     /// Pressed, moved by so many points in some frames, released.
     void drag(double x, double y, double right, double down, int button = 0);
     void turnWheel(double x, double y, float notches);

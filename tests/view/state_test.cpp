@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "view/state.h"
 
+#include "view/model/document/pose.h"
 #include "view/model/shown/histogram.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <numeric>
+#include <thread>
 
 namespace voxtact::test {
 
@@ -42,6 +45,26 @@ TEST(ViewState, ACommandIsANewQuestionAndUndoAnother) {
     state.redo();
     state.update();
     EXPECT_EQ(state.document.edit.threshold, 0.5);
+}
+
+TEST(ViewState, StepsThatFollowCloselyAreOneForUndo) {
+    State state = makeState();
+    const auto step = [&state](const Vec3& by, bool held = false) {
+        state.step([&by](Edit& edit) { edit.pose() = moved(edit.pose(), by, Axes::World); }, "nudge", held);
+    };
+    const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1050)); };
+    step({1, 0, 0});
+    step({1, 0, 0});
+    wait();
+    step({0, 3, 0});
+    wait();
+    step({0, 3, 0}, true); // a key that is held, by frames that are slow
+    EXPECT_EQ(originOf(state.document.edit.pose()), (Vec3{2, 6, 0}));
+    state.undo();
+    EXPECT_EQ(originOf(state.document.edit.pose()), (Vec3{2, 0, 0}));
+    state.undo();
+    EXPECT_EQ(originOf(state.document.edit.pose()), (Vec3{0, 0, 0}));
+    EXPECT_FALSE(state.history.canUndo());
 }
 
 TEST(ViewState, ColoursAreOfACommandToo) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 
+#include "core/base/outward.h"
 #include "core/base/text.h"
 #include "io/text/table.h"
 
@@ -81,7 +82,7 @@ void writeClosestRows(std::ostream& out, const DetectOptions& options, const Det
 }
 
 ClearanceBounds roundedOutward(const ClearanceBounds& bounds) {
-    return {std::floor(bounds.lo * kParts) / kParts, std::ceil(bounds.hi * kParts) / kParts};
+    return {lowerRounded(bounds.lo, kParts), upperRounded(bounds.hi, kParts)};
 }
 
 void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options) {

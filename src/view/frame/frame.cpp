@@ -363,7 +363,13 @@ Result<void> Frames::record(State& state, const ImDrawData& panels, std::uint32_
                   {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_NONE}, draw);
     beginRendering(session_->device, commands, swapchain_->view(image), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                    swapchain_->extent());
-    const Result<void> drawn = gui_->record(commands, panels, slot_);
+    ShownTexture picture{coarse_, coarse_, {}};
+    if (stage_ && state.fineShare >= 1) {
+        picture.drawn = fine_;
+    } else if (stage_) {
+        picture.part = stage_->pictures->coarsePart();
+    }
+    const Result<void> drawn = gui_->record(commands, panels, slot_, picture);
     table.vkCmdEndRendering(commands);
     VOXTACT_TRY(drawn);
     layoutBarrier(session_->device, commands,
@@ -418,13 +424,7 @@ Result<void> Frames::show(State& state, const ImDrawData& panels, VkExtent2D win
     slot().submitted = State::Clock::now();
     slot_ = (slot_ + 1) % kFramesInFlight;
     if (stage_) {
-        const bool fine = state.fineShare >= 1;
-        const Extent full = state.picture.extent;
-        const Extent coarse = stage_->pictures->coarseExtent();
-        state.picture.texture = fine ? fine_ : coarse_;
-        state.picture.used = fine ? Point2{1, 1}
-                                  : Point2{static_cast<double>(coarse.width) / full.width,
-                                           static_cast<double>(coarse.height) / full.height};
+        state.picture.texture = coarse_;
     }
     const auto lock = session_->device.lockQueue();
     return swapchain_->present(session_->device.queueAccess().queue, image);

@@ -20,6 +20,8 @@ constexpr std::uint32_t kMostTextures = 9; // the font's among them
 struct Placement {
     float scale[2];
     float offset[2];
+    std::array<float, 2> used;
+    std::array<float, 2> most;
 };
 
 /// At least so many bytes; half as many more, so that it seldom grows.
@@ -101,7 +103,18 @@ Result<void> Gui::uploadFont(const device::Session& session) {
     return {};
 }
 
-Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot) {
+void Gui::place(VkCommandBuffer commands, const ImDrawData& data, const SampledPart& part) const {
+    const Placement placement{
+        {2 / data.DisplaySize.x, 2 / data.DisplaySize.y},
+        {-1 - 2 * data.DisplayPos.x / data.DisplaySize.x, -1 - 2 * data.DisplayPos.y / data.DisplaySize.y},
+        part.used,
+        part.most};
+    device_->table().vkCmdPushConstants(commands, drawing_.pipeline.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0,
+                                        sizeof placement, &placement);
+}
+
+Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot,
+                         const ShownTexture& picture) {
     const auto vertexBytes = static_cast<std::size_t>(data.TotalVtxCount) * sizeof(ImDrawVert);
     const auto indexBytes = static_cast<std::size_t>(data.TotalIdxCount) * sizeof(ImDrawIdx);
     VOXTACT_TRY(grow(*device_, vertices_[slot], vertexBytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT));
@@ -113,11 +126,6 @@ Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::
     table.vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &none);
     table.vkCmdBindIndexBuffer(commands, indices_[slot].handle(), 0,
                                sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
-    const Placement placement{
-        {2 / data.DisplaySize.x, 2 / data.DisplaySize.y},
-        {-1 - 2 * data.DisplayPos.x / data.DisplaySize.x, -1 - 2 * data.DisplayPos.y / data.DisplaySize.y}};
-    table.vkCmdPushConstants(commands, drawing_.pipeline.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof placement,
-                             &placement);
     std::size_t firstVertex = 0;
     std::size_t firstIndex = 0;
     for (int list = 0; list < data.CmdListsCount; ++list) {
@@ -131,7 +139,10 @@ Result<void> Gui::record(VkCommandBuffer commands, const ImDrawData& data, std::
             if (draw.ElemCount == 0 || scissor.extent.width == 0 || scissor.extent.height == 0) {
                 continue;
             }
-            auto* const texture = static_cast<VkDescriptorSet>(draw.GetTexID());
+            auto* texture = static_cast<VkDescriptorSet>(draw.GetTexID());
+            const bool isPicture = texture == picture.panels;
+            texture = isPicture ? picture.drawn : texture;
+            place(commands, data, isPicture ? picture.part : SampledPart{});
             table.vkCmdSetScissor(commands, 0, 1, &scissor);
             table.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, drawing_.pipeline.layout(), 0, 1,
                                           &texture, 0, nullptr);

@@ -2,12 +2,20 @@
 #pragma once
 
 #include "view/frame/resources.h"
+#include "view/model/shown/pace.h"
 
 #include <array>
 
 struct ImDrawData;
 
 namespace voxtact::view {
+
+/// What is drawn where panels show one of the textures.
+struct ShownTexture {
+    VkDescriptorSet panels = VK_NULL_HANDLE; ///< what they name
+    VkDescriptorSet drawn = VK_NULL_HANDLE;
+    SampledPart part;
+};
 
 /// Draws what Dear ImGui's panels made, by a pipeline of our own: dynamic rendering, no linked loader.
 class Gui {
@@ -21,12 +29,15 @@ class Gui {
     void setTexture(VkDescriptorSet texture, VkImageView view, VkImageLayout layout) const {
         drawing_.textures.set(texture, view, layout);
     }
-    /// Inside a rendering of the window's image. `slot`: of the frame; its last use is done.
-    [[nodiscard]] Result<void> record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot);
+    /// Inside a rendering of the window's image. `slot`: of the frame; its last use is done. `picture`: which of the
+    /// pictures there is in this frame is not known before the panels are drawn.
+    [[nodiscard]] Result<void> record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot,
+                                      const ShownTexture& picture);
 
   private:
     explicit Gui(const device::VulkanDevice& device) : device_(&device) {}
     [[nodiscard]] Result<void> uploadFont(const device::Session& session);
+    void place(VkCommandBuffer commands, const ImDrawData& data, const SampledPart& part) const;
 
     const device::VulkanDevice* device_;
     Drawing drawing_;

@@ -27,8 +27,8 @@ class Pictures {
 
     [[nodiscard]] VkImageView coarse() const { return coarse_.view(); }
     [[nodiscard]] VkImageView fine() const { return fine_.view(); }
-    /// The part of coarse() that is used.
-    [[nodiscard]] Extent coarseExtent() const { return shown_; }
+    /// The part of coarse() that was drawn last.
+    [[nodiscard]] SampledPart coarsePart() const { return sampledPart(shown_, full_); }
 
   private:
     explicit Pictures(const device::Session& session) : session_(&session) {}

@@ -122,18 +122,8 @@ void drawAnswer(State& state) {
     ImGui::SetWindowFontScale(1);
     ImGui::SameLine();
     ImGui::BeginGroup();
-    const char* kind = answer.pair.projection == Projection::Conservative ? "certified cells" : "fragments";
-    const char* exact = answer.pair.exactness == Exactness::Exact ? "" : "at least ";
-    ImGui::Text("%s%llu %s", exact, static_cast<unsigned long long>(answer.pair.count), kind);
-    if (answer.contacts.empty()) {
-        ImGui::TextColored(quietColour(), "%d triangles", static_cast<int>(answer.triangles.size()));
-    } else {
-        const double deepest = answer.contacts.front().depth;
-        // It is not followed any farther.
-        const char* more = deepest >= kDefaultMaxDepth ? " or more" : "";
-        ImGui::TextColored(quietColour(), "%d triangles, deepest %.4g mm%s", static_cast<int>(answer.triangles.size()),
-                           deepest, more);
-    }
+    ImGui::TextUnformatted(countText(answer.pair).c_str());
+    ImGui::TextColored(quietColour(), "%s", trianglesText(answer).c_str());
     ImGui::EndGroup();
     drawClearance(state);
     drawLabels(state);

@@ -140,7 +140,7 @@ void takeZoom(State& state, const Chart& chart) {
                        chart.axis.valueAt(static_cast<double>(io.MousePos.x)));
     }
     if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
-        const double right = static_cast<double>(io.MouseDelta.x);
+        const double right = static_cast<double>(draggedBy().x);
         shown = panned(shown, chart.domain, -right * (shown.hi - shown.lo) / chart.axis.width);
     }
     state.zoomedRange = isWhole(shown, chart.domain) ? std::nullopt : std::optional(shown);
@@ -157,7 +157,7 @@ void takeMouse(State& state, const Chart& chart) {
             state.command([&](Edit& edit) { state.curvePoint = addPoint(edit.curve, under); }, "curve");
         }
     } else if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left) && state.curvePoint &&
-               (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+               (draggedBy().x != 0 || draggedBy().y != 0)) {
         state.command([&](Edit& edit) { movePoint(edit.curve, *state.curvePoint, under, chart.domain); }, "curve");
     }
     if (ImGui::IsItemDeactivated()) {

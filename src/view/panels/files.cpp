@@ -87,24 +87,28 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         return;
     }
     if (dialog.title == kOpen) {
-        ImGui::TextColored(quietColour(), "a volume, a mesh, poses (.txt), a transfer function or a session (.json)");
+        ImGui::PushStyleColor(ImGuiCol_Text, quietColour());
+        ImGui::TextWrapped("a volume, a mesh, poses (.txt), a transfer function or a session (.json)");
+        ImGui::PopStyleColor();
     }
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) {
         if (dialog.title == kOpen) {
             dialog.path.clear();
         }
+        state.entered = state.escaped = false; // they were pressed before it was there
         ImGui::SetKeyboardFocusHere();
     }
-    bool done = ImGui::InputText("##path", &dialog.path,
-                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    // By the window's keys: of those Dear ImGui knows only what is down at a frame.
+    bool done = state.entered;
+    done |= ImGui::InputText("##path", &dialog.path,
+                             ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (dialog.title == kPicture) {
         drawPictureSize(state);
-        done |= ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
     }
     done |= ImGui::Button(dialog.button);
     ImGui::SameLine();
-    if (ImGui::Button("cancel")) {
+    if (ImGui::Button("cancel") || state.escaped) {
         ImGui::CloseCurrentPopup();
     } else if (done && !dialog.path.empty()) {
         ImGui::CloseCurrentPopup();

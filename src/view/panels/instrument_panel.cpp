@@ -10,11 +10,11 @@ namespace voxtact::view {
 namespace {
 
 void move(State& state, const Vec3& mm, Axes axes) {
-    state.command([&](Edit& edit) { edit.pose() = moved(edit.pose(), mm, axes); }, "nudge");
+    state.step([&](Edit& edit) { edit.pose() = moved(edit.pose(), mm, axes); }, "nudge");
 }
 
 void turn(State& state, std::size_t axis, double degrees, Axes axes) {
-    state.command([&](Edit& edit) { edit.pose() = turned(edit.pose(), axis, degrees, axes); }, "nudge");
+    state.step([&](Edit& edit) { edit.pose() = turned(edit.pose(), axis, degrees, axes); }, "nudge");
 }
 
 /// The tip in numbers: dragged or typed.
@@ -126,7 +126,8 @@ void drawPoses(State& state) {
     ImGui::SetNextItemWidth(-1);
     const std::string format = "pose %d of " + std::to_string(count);
     if (ImGui::SliderInt("##poses", &number, 0, static_cast<int>(count) - 1, format.c_str())) {
-        state.takePose(static_cast<std::size_t>(std::clamp(number, 0, static_cast<int>(count) - 1)));
+        // The slider is held until its history ends.
+        state.takePose(static_cast<std::size_t>(std::clamp(number, 0, static_cast<int>(count) - 1)), true);
     }
     if (ImGui::IsItemDeactivated()) {
         state.history.end();

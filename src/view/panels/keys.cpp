@@ -54,7 +54,7 @@ constexpr std::array<Direction, 6> kDirections{{{GLFW_KEY_1, "1", "front"},
 
 void nudge(State& state, const Nudge& how, const KeyPress& press) {
     const double factor = press.shift ? 10 : press.control ? 0.1 : 1;
-    state.command(
+    state.step(
         [&](Edit& edit) {
             Vec3 mm = how.mm;
             for (double& one : mm) {
@@ -67,7 +67,7 @@ void nudge(State& state, const Nudge& how, const KeyPress& press) {
                 }
             }
         },
-        "nudge");
+        "nudge", press.held);
 }
 
 void takeControlKey(State& state, const KeyPress& press) {
@@ -139,10 +139,10 @@ void takePlainKey(State& state, const KeyPress& press) {
         state.playing = !state.playing && poses > 0;
         break;
     case GLFW_KEY_LEFT_BRACKET:
-        state.takePose(state.document.pose == 0 ? 0 : state.document.pose - 1);
+        state.takePose(state.document.pose == 0 ? 0 : state.document.pose - 1, press.held);
         break;
     case GLFW_KEY_RIGHT_BRACKET:
-        state.takePose(poses == 0 ? 0 : std::min(state.document.pose + 1, poses - 1));
+        state.takePose(poses == 0 ? 0 : std::min(state.document.pose + 1, poses - 1), press.held);
         break;
     default:
         break;
@@ -208,10 +208,12 @@ void row(const char* key, const char* does) {
 
 void takeKeys(State& state) {
     const std::vector<KeyPress> keys = std::exchange(state.keys, {});
+    const auto pressed = [&keys](int key) { return std::ranges::find(keys, key, &KeyPress::key) != keys.end(); };
+    state.entered = pressed(GLFW_KEY_ENTER) || pressed(GLFW_KEY_KP_ENTER);
+    state.escaped = pressed(GLFW_KEY_ESCAPE);
     if (!state.error.empty()) {
-        const bool read = std::ranges::any_of(
-            keys, [](const KeyPress& press) { return press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_ESCAPE; });
-        state.error = read ? std::string() : state.error;
+        state.error = state.entered || state.escaped ? std::string() : state.error;
+        state.entered = state.escaped = false;
         return;
     }
     if (state.question) {

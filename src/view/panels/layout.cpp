@@ -133,12 +133,18 @@ void drawColumn(State& state) {
 }
 
 void drawStatus(const State& state) {
-    ImGui::TextColored(quietColour(), "%s", state.status.empty() ? "F1: keys" : state.status.c_str());
     char text[160];
     const char* fine = state.fineShare >= 1 ? "fine" : "coarse";
     std::snprintf(text, sizeof text, "%s   %.0f ms a frame   %s", fine, state.frameTimes.percentile(0.5),
                   state.deviceName.c_str());
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - scaled(12));
+    const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - scaled(12);
+    const std::string status = state.status.empty() ? "F1: keys" : state.status;
+    const std::string said = shortened(status, right - ImGui::GetCursorPosX() - 2 * ImGui::GetFontSize());
+    ImGui::TextColored(quietColour(), "%s", said.c_str());
+    if (said != status && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", status.c_str());
+    }
+    ImGui::SameLine(right);
     ImGui::TextColored(quietColour(), "%s", text);
 }
 

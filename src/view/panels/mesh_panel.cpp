@@ -18,12 +18,10 @@ std::string nameOf(const MeshSource& source) {
 
 std::string nearness(const PairClearance& clearance) {
     const auto& [lo, hi] = clearance.bounds;
-    char text[32];
     if (std::isinf(lo)) {
         return "-";
     }
-    std::snprintf(text, sizeof text, std::isinf(hi) ? "> %.4g mm" : "%.2f mm", lo);
-    return text;
+    return (std::isinf(hi) ? "> " : "") + lowerText(lo) + " mm";
 }
 
 /// Verdict, count and clearance, pale where they are of the question before.

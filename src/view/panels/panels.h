@@ -77,10 +77,14 @@ void drawHelp(State& state);
 
 /// A title with a line.
 void heading(const char* text);
+/// As much of a line as a width has room for, with dots for what is missing.
+[[nodiscard]] std::string shortened(const std::string& text, float width);
 /// Clipboard and status line.
 void copyCommand(State& state);
 /// As copyAsCommand() for what is shown.
 [[nodiscard]] std::string commandOf(const State& state);
+/// How far the mouse was dragged since the frame before: the way to where a button is pressed is no part of it.
+[[nodiscard]] ImVec2 draggedBy();
 /// Where the mouse is in an item, 0..1 from its upper left corner.
 [[nodiscard]] Point2 mouseIn(const ImVec2& corner, const ImVec2& size);
 

@@ -16,8 +16,9 @@ void takeMouse(State& state, const ImVec2& corner) {
     const Extent& extent = state.picture.extent;
     const ImVec2 scale = io.DisplayFramebufferScale;
     if (ImGui::IsItemActive()) {
-        const double right = static_cast<double>(io.MouseDelta.x * scale.x);
-        const double down = static_cast<double>(io.MouseDelta.y * scale.y);
+        const ImVec2 by = draggedBy();
+        const double right = static_cast<double>(by.x * scale.x);
+        const double down = static_cast<double>(by.y * scale.y);
         const bool panning = ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle);
         if (right != 0 || down != 0) {
             panning ? pan(state.camera, right, down, extent) : orbit(state.camera, right, down, extent);
@@ -68,11 +69,10 @@ void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
     list.AddLine(from, to, colour, scaled(2));
     list.AddCircleFilled(from, scaled(3.5F), colour);
     list.AddCircleFilled(to, scaled(3.5F), colour);
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f mm", clearance->bounds.hi);
+    const std::string text = upperText(clearance->bounds.hi) + " mm";
     const ImVec2 at{(from.x + to.x) / 2 + scaled(8), (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
-    list.AddText({at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text);
-    list.AddText(at, colour, text);
+    list.AddText({at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text.c_str());
+    list.AddText(at, colour, text.c_str());
 }
 
 void drawBar(const State& state, const Onto& onto, ImDrawList& list) {
@@ -140,8 +140,7 @@ void drawPicture(State& state) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end{corner.x + size.x, corner.y + size.y};
     if (state.picture.texture != nullptr) {
-        list.AddImage(state.picture.texture, corner, end, {0, 0},
-                      {static_cast<float>(state.picture.used[0]), static_cast<float>(state.picture.used[1])});
+        list.AddImage(state.picture.texture, corner, end);
     }
     list.PushClipRect(corner, end, true);
     // Depth does not matter here.

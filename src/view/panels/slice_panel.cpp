@@ -20,11 +20,12 @@ void takeMouse(State& state, std::size_t slice, const SlicePlace& place, const P
     } else if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
         // To the right more contrast, down brighter: a value is shown as lighter the lower the window lies.
         constexpr double kShare = 1.0 / 300;
+        const ImVec2 by = draggedBy();
         const double width = state.window.hi - state.window.lo;
         const double least = (state.values.hi - state.values.lo) / 1e4;
-        const double wider = std::max(width * (1 - kShare * static_cast<double>(io.MouseDelta.x)), least);
+        const double wider = std::max(width * (1 - kShare * static_cast<double>(by.x)), least);
         const double level = (state.window.lo + state.window.hi) / 2 -
-                             kShare * static_cast<double>(io.MouseDelta.y) * (state.values.hi - state.values.lo);
+                             kShare * static_cast<double>(by.y) * (state.values.hi - state.values.lo);
         state.window = {level - wider / 2, level + wider / 2};
     }
     if (ImGui::IsItemHovered() && io.MouseWheel != 0) {

@@ -3,6 +3,7 @@
 
 #include "voxtact/render.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -125,6 +126,23 @@ void heading(const char* text) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyle().Colors[ImGuiCol_SliderGrab]);
     ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
+}
+
+std::string shortened(const std::string& text, float width) {
+    if (ImGui::CalcTextSize(text.c_str()).x <= width) {
+        return text;
+    }
+    constexpr const char* kDots = "...";
+    const float room = std::max(width - ImGui::CalcTextSize(kDots).x, 0.0F);
+    const char* end = nullptr;
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, text.data(), text.data() + text.size(), &end);
+    return std::string(text.data(), end) + kDots;
+}
+
+ImVec2 draggedBy() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool pressed = std::ranges::any_of(io.MouseClicked, [](bool one) { return one; });
+    return pressed ? ImVec2{0, 0} : io.MouseDelta;
 }
 
 Point2 mouseIn(const ImVec2& corner, const ImVec2& size) {

@@ -5,11 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 
 namespace voxtact::view {
 
 namespace {
+
+/// "1 triangle", "2 triangles".
+std::string counted(unsigned long long count, const std::string& one) {
+    return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
+}
 
 /// How many contacts a pair has, of which the batch lists `listed`.
 std::uint64_t contactsOf(const BatchAnswer& batch, const PairAnswer& pair, std::size_t listed) {
@@ -66,6 +72,23 @@ LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, std::span<const
 
 const char* verdict(const PairAnswer& answer) noexcept {
     return answer.hit ? "yes" : answer.possible ? "possible" : "no";
+}
+
+std::string countText(const PairAnswer& answer) {
+    const std::string one = answer.projection == Projection::Conservative ? "certified cell" : "fragment";
+    return (answer.exactness == Exactness::Exact ? "" : "at least ") + counted(answer.count, one);
+}
+
+std::string trianglesText(const MeshAnswer& answer) {
+    const std::string triangles = counted(answer.triangles.size(), "triangle");
+    if (answer.contacts.empty()) {
+        return triangles;
+    }
+    const double deepest = answer.contacts.front().depth;
+    char text[64];
+    // It is not followed any farther.
+    std::snprintf(text, sizeof text, ", deepest %.4g mm%s", deepest, deepest >= kDefaultMaxDepth ? " or more" : "");
+    return triangles + text;
 }
 
 int hitNumber(const PairAnswer& answer) noexcept {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <string>
 #include <vector>
 
 /// What the window says of the pairs that it shows: of each mesh and the volume.
@@ -50,6 +51,10 @@ struct LiveAnswer {
 
 /// "yes", "no" or "possible".
 [[nodiscard]] const char* verdict(const PairAnswer& answer) noexcept;
+/// "at least 3 certified cells", "1 fragment".
+[[nodiscard]] std::string countText(const PairAnswer& answer);
+/// "12 triangles, deepest 3.2 mm".
+[[nodiscard]] std::string trianglesText(const MeshAnswer& answer);
 /// As `voxtact detect` writes it: 0, 1, or 2 for possible.
 [[nodiscard]] int hitNumber(const PairAnswer& answer) noexcept;
 

@@ -1,15 +1,44 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/answers/live_clearance.h"
 
+#include "core/base/outward.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 namespace voxtact::view {
 
+namespace {
+
+/// Hundredths of a millimetre; of what is short so many that two digits are left.
+int decimalsOf(double mm) {
+    constexpr int kLeast = 2;
+    constexpr int kMost = 6; // a nanometre
+    return mm > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(mm))), kLeast, kMost) : kLeast;
+}
+
+std::string written(double mm, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, mm);
+    return text;
+}
+
+} // namespace
+
 const PairClearance* LiveClearance::of(std::size_t mesh) const noexcept {
     const auto at = std::ranges::find_if(meshes, [mesh](const MeshClearance& one) { return one.mesh == mesh; });
     return at == meshes.end() ? nullptr : &at->pair;
+}
+
+std::string lowerText(double mm) {
+    const int decimals = decimalsOf(mm);
+    return written(lowerRounded(mm, std::pow(10, decimals)), decimals);
+}
+
+std::string upperText(double mm) {
+    const int decimals = decimalsOf(mm);
+    return written(upperRounded(mm, std::pow(10, decimals)), decimals);
 }
 
 std::string clearanceText(const PairClearance& clearance) {
@@ -20,13 +49,7 @@ std::string clearanceText(const PairClearance& clearance) {
     if (hi == 0) {
         return "touches";
     }
-    char text[64];
-    if (std::isinf(hi)) {
-        std::snprintf(text, sizeof text, "at least %.4g mm away", lo);
-    } else {
-        std::snprintf(text, sizeof text, "%.2f to %.2f mm away", lo, hi);
-    }
-    return text;
+    return (std::isinf(hi) ? "at least " + lowerText(lo) : lowerText(lo) + " to " + upperText(hi)) + " mm away";
 }
 
 std::optional<std::array<Vec3, 2>> closestSegment(const PairClearance& clearance) noexcept {

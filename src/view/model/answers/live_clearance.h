@@ -26,6 +26,10 @@ struct LiveClearance {
     [[nodiscard]] const PairClearance* of(std::size_t mesh) const noexcept;
 };
 
+/// Bounds of a length, so many mm, rounded down and up: they hold as they are read.
+[[nodiscard]] std::string lowerText(double mm);
+[[nodiscard]] std::string upperText(double mm);
+
 /// "12.34 to 12.35 mm away", "touches", "nothing is opaque".
 [[nodiscard]] std::string clearanceText(const PairClearance& clearance);
 

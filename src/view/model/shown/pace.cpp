@@ -48,4 +48,13 @@ std::uint32_t Pace::rows(const Extent& full) const {
     return static_cast<std::uint32_t>(std::clamp(rows, 1.0, static_cast<double>(full.height)));
 }
 
+SampledPart sampledPart(const Extent& picture, const Extent& texture) {
+    const auto width = static_cast<float>(texture.width);
+    const auto height = static_cast<float>(texture.height);
+    const auto right = static_cast<float>(picture.width);
+    const auto bottom = static_cast<float>(picture.height);
+    constexpr float kHalf = 0.5F; // from the middle of a texel to its edge
+    return {{right / width, bottom / height}, {(right - kHalf) / width, (bottom - kHalf) / height}};
+}
+
 } // namespace voxtact::view

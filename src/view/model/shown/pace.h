@@ -3,6 +3,8 @@
 
 #include "view/model/shown/camera.h"
 
+#include <array>
+
 namespace voxtact::view {
 
 /// How much of a picture a frame may make, from how long the ones before it took.
@@ -27,5 +29,13 @@ class Pace {
     double coarseCost_ = 1e-3;
     double fineCost_ = 2e-3;
 };
+
+/// Of a picture that takes up the upper left part of a texture: how large that is, and how far a sample may go so that
+/// none of the texels round it lies beyond. Shares of the texture's sides.
+struct SampledPart {
+    std::array<float, 2> used{1, 1};
+    std::array<float, 2> most{1, 1};
+};
+[[nodiscard]] SampledPart sampledPart(const Extent& picture, const Extent& texture);
 
 } // namespace voxtact::view

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "shown_panels.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+
+TEST(ViewWords, OneIsOne) {
+    MeshAnswer answer;
+    answer.pair.projection = Projection::Conservative;
+    answer.pair.exactness = Exactness::Exact;
+    answer.pair.count = 1;
+    answer.triangles = {3};
+    EXPECT_EQ(countText(answer.pair), "1 certified cell");
+    EXPECT_EQ(trianglesText(answer), "1 triangle");
+    answer.pair.projection = Projection::View;
+    answer.pair.exactness = Exactness::LowerBound;
+    answer.pair.count = 2;
+    answer.triangles = {3, 5};
+    answer.contacts.resize(1);
+    answer.contacts[0].depth = 1.25;
+    EXPECT_EQ(countText(answer.pair), "at least 2 fragments");
+    EXPECT_EQ(trianglesText(answer), "2 triangles, deepest 1.25 mm");
+    answer.triangles.clear();
+    answer.contacts.clear();
+    EXPECT_EQ(trianglesText(answer), "0 triangles");
+}
+
+TEST(ViewWords, ALineThatIsTooLongIsCut) {
+    State state = smallState();
+    const ShownPanels panels(state);
+    ImGui::NewFrame();
+    EXPECT_EQ(shortened("the picture is in a.png", 1000), "the picture is in a.png");
+    for (const float width : {40.0F, 100.0F, 300.0F}) {
+        const std::string line = shortened("the picture is in /" + std::string(300, 'w') + ".png", width);
+        EXPECT_TRUE(line.ends_with("...")) << line;
+        EXPECT_LE(ImGui::CalcTextSize(line.c_str()).x, width);
+        EXPECT_GT(ImGui::CalcTextSize(line.c_str()).x, width - 2 * ImGui::GetFontSize());
+    }
+    EXPECT_EQ(shortened("wide", 0), "...");
+    ImGui::EndFrame();
+}
+
+TEST(ViewDialogs, EscapeClosesThoseThatAskForAPath) {
+    State state = smallState();
+    ShownPanels panels(state);
+    const auto press = [&](int key, bool control) {
+        state.keys.push_back({key, false, control});
+        for (int frame = 0; frame < 3; ++frame) {
+            panels.frame();
+        }
+        return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    for (const int key : std::array{GLFW_KEY_S, GLFW_KEY_P, GLFW_KEY_O}) {
+        EXPECT_TRUE(press(key, true)) << key;
+        EXPECT_FALSE(press(GLFW_KEY_ESCAPE, false)) << key;
+        EXPECT_FALSE(state.quit);
+        EXPECT_FALSE(state.shot);
+        EXPECT_TRUE(state.error.empty()) << state.error;
+    }
+}
+
+} // namespace voxtact::test
